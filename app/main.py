@@ -5,16 +5,17 @@ import logging
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 
+from cachetools import LRUCache
 from fastapi import FastAPI
 from starlette.exceptions import HTTPException
 from starlette.middleware.gzip import DEFAULT_EXCLUDED_CONTENT_TYPES, GZipMiddleware
 from starlette.staticfiles import StaticFiles
 
 from app import log
+from app.errors import PROBLEMS
 from app.http import problems
 from app.http.middleware import Protection
 from app.http.routes import calculations, pages, rexs, service, studies, study_pages
-from app.pages.cases import Answers
 from app.schema.model import MODEL_VERSION
 from app.settings import MEBIBYTE, settings, unknown_variables
 from app.studies.admission import StudyAdmission
@@ -45,7 +46,7 @@ def create_app() -> FastAPI:
         app.state.start_up = StartUp(pool)
         app.state.settings = limits
         app.state.studies = StudyAdmission(limits, pool)
-        app.state.answers = Answers(limits.answers_mb * MEBIBYTE)
+        app.state.answers = LRUCache(limits.answers_mb * MEBIBYTE, getsizeof=len)
         with log.running(limits.log_level):
             for line in unknown_variables():
                 logger.warning(line)
@@ -82,7 +83,9 @@ def create_app() -> FastAPI:
     app.include_router(rexs.pages)
     app.mount(service.DOCS_ASSETS, StaticFiles(packages=[("fastapi_offline", "static")]))
     problems.install(app)
-    app.add_exception_handler(HTTPException, pages.no_page)
+    app.add_exception_handler(HTTPException, pages.failed)
+    for kind in PROBLEMS:
+        app.add_exception_handler(kind, pages.failed)
     app.add_middleware(
         GZipMiddleware, minimum_size=COMPRESSED_FROM, compresslevel=4, exclude_content_types=NOT_COMPRESSED
     )

@@ -1,5 +1,57 @@
 """The theory manual: chapters in Markdown beside this file.
 
-`chapters` reads them, `equations` finds their numbered equations and the functions that implement them;
-`app.pages.manual` makes pages of them.
+`equations` finds their numbered equations and the functions that implement them; `app.pages.manual` makes pages of
+them.
 """
+
+import re
+from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
+
+NAMES = (
+    "coupling",
+    "pumping",
+    "load-distribution",
+    "line-contact",
+    "scuffing",
+    "drive-train",
+    "practice",
+    "spectrum",
+    "service",
+)
+"""The chapters, in the order in which they are read."""
+
+
+@dataclass(frozen=True, slots=True)
+class Chapter:
+    """A chapter: its name in addresses and file names, and its text in Markdown."""
+
+    name: str
+    text: str
+
+    @property
+    def title(self) -> str:
+        """The first heading."""
+        return self.text.partition("\n")[0].removeprefix("# ")
+
+    @property
+    def lead(self) -> str:
+        """The first paragraph, in one line."""
+        return " ".join(self.text.split("\n\n")[1].split())
+
+    @property
+    def answers(self) -> list[str]:
+        """Which questions it answers."""
+        return re.findall(r"^\* (.*)$", self.section("What it answers"), re.MULTILINE)
+
+    def section(self, heading: str) -> str:
+        """The text below a heading, without it."""
+        return self.text.partition(f"\n## {heading}\n")[2].partition("\n## ")[0].strip()
+
+
+@cache
+def chapters() -> dict[str, Chapter]:
+    """Every chapter by name."""
+    folder = files("app.manual")
+    return {name: Chapter(name, folder.joinpath(f"{name}.md").read_text("utf-8")) for name in NAMES}

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
 
-from app.manual.chapters import chapters
+from app.manual import chapters
 
 _EQUATION = re.compile(r"^\$\$\n(.*?)\n?\\tag\{([^}]+)\}\n\$\$(?=\n\n(.*?)(?:\n\n|\Z))", re.MULTILINE | re.DOTALL)
 _FUNCTION = re.compile(r"\[`(solvers[\w.]+)`\]\(")

@@ -7,8 +7,6 @@ from dataclasses import dataclass
 from hashlib import sha256
 from typing import Any, NamedTuple
 
-from cachetools import LRUCache
-
 from app.calculations import Calculation
 from app.errors import InvalidBody, Unprocessable
 from app.evaluate import response_to, solve
@@ -19,18 +17,6 @@ from app.schema.reading import validated
 
 NAME = r"[a-z]\w*(?:[._]\w+)+"  # of a field: words joined by points and underscores
 COMPRESSION = 1  # the fastest level of zlib
-
-
-class Answers(LRUCache[str, bytes]):
-    """The most recent answers that fit into a number of bytes."""
-
-    def __init__(self, most_bytes: int) -> None:
-        super().__init__(most_bytes, getsizeof=len)
-
-    def keep(self, key: str, answer: bytes) -> None:
-        """Keep an answer in place of the oldest ones, unless it is too large for that."""
-        if len(answer) <= self.maxsize:
-            self[key] = answer
 
 
 def key_of(path: str, pairs: Pairs) -> str:
@@ -75,13 +61,12 @@ def faults_of(error: Exception, calculation: Calculation) -> list[Fault]:
     """What a case was refused for; the messages name fields by their titles."""
     match error:
         case InvalidBody():
-            dotted = (each.pointer.removeprefix("/").replace("/", ".") for each in error.faults)
-            paths = (path.replace("~1", "/").replace("~0", "~") for path in dotted)
-            found = [Fault(path, each.message) for path, each in zip(paths, error.faults, strict=True)]
+            dotted = ((each.pointer.removeprefix("/").replace("/", "."), each.message) for each in error.faults)
+            found = [(path.replace("~1", "/").replace("~0", "~"), message) for path, message in dotted]
         case Unprocessable():
-            found = [Fault(error.path or "", error.message)]
+            found = [(error.path or "", error.message)]
         case _:
-            found = [Fault("", str(error))]
+            found = [("", str(error))]
     return [Fault(path, _titled(message, path, calculation)) for path, message in found]
 
 

@@ -2,8 +2,8 @@
 
 import base64
 import json
-from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, field
 from itertools import zip_longest
 from typing import Any
 
@@ -27,8 +27,9 @@ class Chart:
     """A figure on a page.
 
     `image` is the address of its image, `dark` that of the one for dark pages if there are two. Its values are either
-    at the address `values` or in `content`, as JSON; `study` is JSON too: the points of a sweep, each of which opens
-    its case. Width and height are in pixels, the height None where it is not known before the figure is drawn.
+    at the address `values`, or in `content`, as JSON, and in `table`; `study` is JSON too: the points of a sweep, each
+    of which opens its case. `size` is width and height in pixels, None where they are not known before the figure is
+    drawn.
     """
 
     name: str
@@ -36,23 +37,11 @@ class Chart:
     subtitle: str
     image: str
     dark: str = ""
-    width: int | None = None
-    height: int | None = None
+    size: tuple[int, int] | None = None
     values: str = ""
     content: str = ""
-    header: tuple[str, ...] = ()
-    lines: tuple[tuple[str, ...], ...] = ()
-    more: int = 0
+    table: dict[str, Any] = field(default_factory=dict)
     study: str = ""
-
-
-@dataclass(frozen=True, slots=True)
-class Missing:
-    """A figure that the case does not have, why, and the field that decides it."""
-
-    title: str
-    reason: str
-    field: str | None
 
 
 def figure_of(declaration: Declaration, case: Case, variant: Case | None) -> Figure:
@@ -67,25 +56,21 @@ def figure_of(declaration: Declaration, case: Case, variant: Case | None) -> Fig
     return compared(figure, other, VARIANT)
 
 
-def charts(
-    declarations: Iterable[Declaration],
-    case: Case,
-    variant: Case | None,
-    chart: Callable[[Declaration, Figure | None], Chart],
-    *,
-    compute: bool = False,
-) -> tuple[list[Chart], list[Missing]]:
-    """Figures of a case made a `chart` of each, and those that it lacks.
+def figures_of(
+    case: Case, variant: Case | None, *, compute: bool = False
+) -> tuple[list[tuple[Declaration, Figure | None]], list[tuple[str, NoFigure]]]:
+    """The figures that the page of a case shows, and the titles of those that it lacks with the reasons.
 
     The data of figures that need more than the answer are None unless `compute` asks for them.
     """
     found, missing = [], []
-    for declaration in declarations:
-        known = compute or declaration.compute is None
-        try:
-            found.append(chart(declaration, figure_of(declaration, case, variant) if known else None))
-        except NoFigure as reason:
-            missing.append(Missing(declaration.title, reason.message, reason.path))
+    for declaration in case.calculation.figures:
+        if not declaration.shown_at:
+            known = compute or declaration.compute is None
+            try:
+                found.append((declaration, figure_of(declaration, case, variant) if known else None))
+            except NoFigure as reason:
+                missing.append((declaration.title, reason))
     return found, missing
 
 
@@ -93,32 +78,28 @@ def linked(
     declaration: Declaration, figure: Figure | None, address: Callable[..., str], theme: ThemeName | None
 ) -> Chart:
     """A figure whose image and values are at addresses of their own, dark on dark pages unless the page has a theme."""
-    width, height = _pixels(figure) if figure else (None, None)
     return Chart(
         name=declaration.name,
         title=figure.title if figure else declaration.title,
         subtitle=figure.subtitle if figure else declaration.source,
         image=address(declaration.name, "svg"),
         dark="" if theme else address(declaration.name, "svg", theme="dark"),
-        width=width,
-        height=height,
+        size=_pixels(figure) if figure else None,
         values=address(declaration.name, "json"),
     )
 
 
 def embedded(name: str, figure: Figure, theme: ThemeName | None) -> Chart:
     """A figure that is a part of the page with its values; dark on dark pages unless the page has a theme."""
-    width, height = _pixels(figure)
     return Chart(
         name=name,
         title=figure.title,
         subtitle=figure.subtitle,
-        image=data_address(written(figure, "svg", theme or "light")),
-        dark="" if theme else data_address(written(figure, "svg", "dark")),
-        width=width,
-        height=height,
+        image=data_address(figure, theme or "light"),
+        dark="" if theme else data_address(figure, "dark"),
+        size=_pixels(figure),
         content=json.dumps({"panels": _panels(figure)}),
-        **_table(figure),
+        table=_table(figure),
     )
 
 
@@ -129,9 +110,9 @@ def _pixels(figure: Figure) -> tuple[int, int]:
     return round(PIXELS * width), round(PIXELS * height)
 
 
-def data_address(image: bytes) -> str:
-    """An image as an address that holds it."""
-    return "data:image/svg+xml;base64," + base64.b64encode(image).decode()
+def data_address(figure: Figure, theme: ThemeName = "light") -> str:
+    """An address that holds the image of a figure."""
+    return "data:image/svg+xml;base64," + base64.b64encode(written(figure, "svg", theme)).decode()
 
 
 def values_of(figure: Figure) -> bytes:

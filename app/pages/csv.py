@@ -6,6 +6,7 @@ Results have six significant digits; JSON has all of them.
 from itertools import product, zip_longest
 from typing import Any
 
+from app.errors import Unprocessable
 from app.pages.cases import Case
 from app.pages.query import text_of
 from app.pages.results import entries, flattened
@@ -15,7 +16,6 @@ from app.spreadsheet import csv_of
 from app.studies.fields import value_at
 
 DIGITS = 6  # more than any solver's tolerance leaves
-COLUMNS = ("path", "title", "value", "unit", "symbol")
 
 
 def values(case: Case, title: str) -> bytes:
@@ -39,11 +39,21 @@ def values(case: Case, title: str) -> bytes:
         (path, leaf.title, value, leaf.unit or "", leaf.declared.symbol or "")
         for leaf, path, value in [*inputs, *results]
     ]
-    return csv_of([COLUMNS, *named, *lines], DIGITS)
+    return csv_of([("path", "title", "value", "unit", "symbol"), *named, *lines], DIGITS)
 
 
-def curve(response: Response, path: str) -> bytes | None:
-    """One curve or map, or all curves of a group, with their axes; None where there is nothing of this name.
+def curves(response: Response) -> list[str]:
+    """The curves, or the groups of them, that an answer has."""
+    found = (
+        each.path
+        for each in entries(response)
+        if each.leaf.dimensions == 1 and each.value is not None and each.leaf.kind in {"number", "integer"}
+    )
+    return [*dict.fromkeys(path.rpartition(".")[0] or path for path in found)]
+
+
+def curve(response: Response, path: str) -> bytes:
+    """One curve or map, or all curves of a group, with their axes; raises Unprocessable where nothing has this name.
 
     Curves stand in columns; a map has a line for each of its points.
     """
@@ -52,7 +62,7 @@ def curve(response: Response, path: str) -> bytes | None:
     known = {leaf.path: found for leaf in wanted if (found := value_at(response, leaf.path))}
     shape = max((leaf.dimensions for leaf in wanted if leaf.path in known), default=0)
     if shape == 0:
-        return None
+        raise Unprocessable("unknown_curve", f"Available curves: {', '.join(curves(response))}", "curve")
     chosen = [leaf for leaf in wanted if leaf.path in known and leaf.dimensions == shape]
     names = dict.fromkeys(name for leaf in chosen for name in leaf.axes)
     axes = [axis for name in names if (axis := leaf_at(model, name))]

@@ -4,54 +4,50 @@ from collections.abc import Iterable, Iterator, Mapping
 from collections.abc import Set as AbstractSet
 from dataclasses import dataclass, field, replace
 from itertools import groupby, product
-from typing import Any, Literal
+from typing import Any
 
 from app.pages.query import MATRIX, PICK, PRESENT, SIDE, excluded, text_of
 from app.pages.typesetting import cited, symbol, words
-from app.schema.fields import ITEM, Branch, Leaf, tree
+from app.schema.fields import Branch, Leaf, tree
 from app.schema.model import Request
 from app.schema.model import Section as Fields
 from app.schema.quantities import split_unit
 
+REQUIRED, IF_USED = "required", "required if used"
 BESIDE = 10  # letters of an option that fit beside the label
 DETAIL = "detail"
 """Not asked for: each view takes the level of detail that it needs."""
-Widget = Literal["number", "text", "list", "select", "table"]
 
 
 @dataclass(frozen=True, slots=True)
 class State:
     """What is known of a case beside the schema, by path: texts typed, faults, and what an answer resolved.
 
-    `assumed` are the fields whose default is ours. `unused` is whether the part of the form at hand is an optional
-    section of which nothing is given.
+    `assumed` are the fields whose default is ours. `required` is what stands beside a field that must be given: always,
+    or if the optional section that it is in is used.
     """
 
     texts: Mapping[str, str] = field(default_factory=dict)
     faults: Mapping[str, str] = field(default_factory=dict)
     resolved: Mapping[str, Any] = field(default_factory=dict)
     assumed: AbstractSet[str] = frozenset()
-    unused: bool = False
-
-    @property
-    def required(self) -> str:
-        """What stands beside a field that must be given: always, or if its section is."""
-        return "required if used" if self.unused else "required"
+    required: str = REQUIRED
 
 
 @dataclass(frozen=True, slots=True)
 class FieldView:
-    """What the template shows of a field.
+    """What the template shows of a field; its `widget` is number, text, list, select or table.
 
     `empty` says in a line what a field without a value stands for; `column` names the field where several stand side
-    by side; `excludes` are the fields and sections that must be empty where this one is given.
+    by side; `excludes` are the fields and sections that must be empty where this one is given. A matrix has `elements`,
+    row by row.
     """
 
     name: str
     label: str
     symbol: str = ""
     unit: str = ""
-    widget: Widget = "number"
+    widget: str = "number"
     text: str = ""
     placeholder: str = ""
     options: tuple[tuple[str, str], ...] = ()
@@ -62,6 +58,7 @@ class FieldView:
     column: str = ""
     excludes: tuple[str, ...] = ()
     empty: str = ""
+    elements: tuple["FieldView", ...] = ()
     kind: str = "field"
 
     @property
@@ -76,15 +73,6 @@ class FieldView:
 
 
 @dataclass(frozen=True, slots=True)
-class Matrix:
-    """A matrix with a field for each of its elements, row by row."""
-
-    whole: FieldView
-    elements: tuple[FieldView, ...]
-    kind: str = "matrix"
-
-
-@dataclass(frozen=True, slots=True)
 class Choice:
     """Fields of which one is given; `picked` is the one that counts."""
 
@@ -96,18 +84,13 @@ class Choice:
 
 
 @dataclass(frozen=True, slots=True)
-class Twins:
-    """Sections of one kind side by side, a line for each field; `columns` are the titles of the sections by path."""
-
-    columns: dict[str, str]
-    rows: tuple[tuple[FieldView, ...], ...]
-    faults: tuple[str, ...]
-    kind: str = "twins"
-
-
-@dataclass(frozen=True, slots=True)
 class Section:
-    """A part of the form; `switch` is the field that says that an optional section is there."""
+    """A part of the form.
+
+    Its `kind` is a section; rows, a list of sections, the last one empty to be filled; or twins, sections of one kind
+    side by side, a line for each field, whose titles are in `columns` by path. `switch` is the field that says that an
+    optional section is there.
+    """
 
     path: str
     title: str
@@ -121,22 +104,11 @@ class Section:
     switch: FieldView | None = None
     needed: bool = False
     advanced: bool = False
+    columns: dict[str, str] = field(default_factory=dict)
     kind: str = "section"
 
 
-@dataclass(frozen=True, slots=True)
-class Rows:
-    """A list of sections; the last one is empty, to be filled."""
-
-    path: str
-    title: str
-    description: str
-    fault: str | None
-    items: tuple[Section, ...]
-    kind: str = "rows"
-
-
-Block = FieldView | Matrix | Choice | Twins | Section | Rows
+Block = FieldView | Choice | Section | tuple[FieldView, ...]
 
 
 def anchor(path: str) -> str:
@@ -149,18 +121,12 @@ def form(request: type[Request], state: State) -> tuple[Section, ...]:
     root, loose = tree(request), list[Block]()
     sections = []
     for block in _blocks(root, "", state):
-        if isinstance(block, Section):
-            sections.append(block)
-        elif isinstance(block, Twins):
-            path, *_ = paths = [*block.columns]
-            needed = any(each.required for fields in block.rows for each in fields)
-            title = " and ".join(block.columns.values())
-            sections.append(_section(path, title, paths, [block], state, id=f"{anchor(path)}-", needed=needed))
-        elif isinstance(block, Rows):
-            around = _section(block.path, block.title, [block.path], [block], state, id=f"{anchor(block.path)}-")
-            sections.append(replace(around, description=block.description, given=len(block.items) - 1))
-        else:
+        if not isinstance(block, Section):
             loose.append(block)
+        elif block.kind == "section":
+            sections.append(block)
+        else:  # stands in a section of its own
+            sections.append(replace(block, blocks=(block,), kind="section", id=f"{anchor(block.path)}-", fault=None))
     if loose:
         names = [leaf.path for leaf in root.leaves if leaf.path != DETAIL]
         general = _section("general", "general", names, loose, state)
@@ -178,9 +144,8 @@ def _section(path: str, title: str, below: list[str], blocks: Iterable[Block], s
         title=title,
         blocks=tuple(blocks),
         open=known.get("needed", False) or given > 0 or faulty > 0,
-        given=given,
         assumed=assumed,
-        **{"id": anchor(path), **known},
+        **{"id": anchor(path), "given": given, **known},
     )
 
 
@@ -202,12 +167,12 @@ def _branch(branch: Branch, path: str, state: State, item: int | None = None) ->
             options=(("", "no"), (PRESENT, "yes")),
             help=(branch.description,),
         )
-    inside = replace(state, unused=(branch.optional or branch.repeated or state.unused) and not given)
+    unused = (branch.optional or branch.repeated or state.required == IF_USED) and not given
     return _section(
         path,
         branch.title if item is None else f"{branch.title} {item + 1}",
         [path],
-        _blocks(branch, f"{path}.", inside),
+        _blocks(branch, f"{path}.", replace(state, required=IF_USED if unused else REQUIRED)),
         state,
         description=branch.description if item is None else "",
         fault=state.faults.get(path),
@@ -217,24 +182,43 @@ def _branch(branch: Branch, path: str, state: State, item: int | None = None) ->
     )
 
 
-def _rows(branch: Branch, path: str, state: State) -> Rows:
+def _rows(branch: Branch, path: str, state: State) -> Section:
     below = (name.removeprefix(f"{path}.") for name in state.texts if name.startswith(f"{path}."))
     indices = (name.partition(".")[0] for name in below)
     count = 1 + max((int(index) for index in indices if index.isdecimal() and index.isascii()), default=-1)
-    items = tuple(_branch(branch, f"{path}.{index}", state, item=index) for index in range(count + 1))
-    return Rows(path, branch.title, branch.description, state.faults.get(path), items)
+    return _section(
+        path,
+        branch.title,
+        [path],
+        [_branch(branch, f"{path}.{index}", state, item=index) for index in range(count + 1)],
+        state,
+        given=count,
+        description=branch.description,
+        fault=state.faults.get(path),
+        kind="rows",
+    )
 
 
-def _twins(group: tuple[Branch, ...], prefix: str, state: State) -> Twins:
+def _twins(group: tuple[Branch, ...], prefix: str, state: State) -> Section:
     columns = {prefix + _last(branch.path): branch.title for branch in group}
-    rows = tuple(
+    lines = [
         tuple(
             replace(field_view(leaf, f"{path}.{_last(leaf.path)}", state), column=title)
             for leaf, (path, title) in zip(line, columns.items(), strict=True)
         )
         for line in zip(*(branch.leaves for branch in group), strict=True)
+    ]
+    return _section(
+        next(iter(columns)),
+        " and ".join(columns.values()),
+        [*columns],
+        lines,
+        state,
+        fault="; ".join(state.faults[path] for path in columns if path in state.faults) or None,
+        needed=any(each.required for line in lines for each in line),
+        columns=columns,
+        kind="twins",
     )
-    return Twins(columns, rows, tuple(state.faults[path] for path in columns if path in state.faults))
 
 
 def _blocks(branch: Branch, prefix: str, state: State) -> Iterator[Block]:
@@ -280,12 +264,12 @@ def _choice(group: tuple[Leaf, ...], prefix: str, state: State, required: str) -
     return Choice(PICK + first, views, [*given, *known, first][0], required)
 
 
-def _own(leaf: Leaf, name: str, state: State) -> FieldView | Matrix:
+def _own(leaf: Leaf, name: str, state: State) -> FieldView:
     """A field on a line of its own, or a matrix with a field for each element."""
     whole, resolved = field_view(leaf, name, state), state.resolved.get(name)
     if leaf.dimensions < MATRIX:
         return whole
-    elements = (
+    elements = tuple(
         replace(
             whole,
             name=f"{name}.{row}.{column}",
@@ -298,14 +282,14 @@ def _own(leaf: Leaf, name: str, state: State) -> FieldView | Matrix:
         )
         for row, column in product(range(SIDE), repeat=2)
     )
-    return Matrix(whole, tuple(elements))
+    return replace(whole, elements=elements, kind="matrix")
 
 
 def field_view(leaf: Leaf, name: str, state: State) -> FieldView:
     """A field under its name with indices."""
     text, value = state.texts.get(name, ""), state.resolved.get(name, leaf.default)
     options = _options(leaf, text)
-    widget: Widget = "text" if leaf.kind in {"text", "other"} else "number"
+    widget = "text" if leaf.kind in {"text", "other"} else "number"
     rule = "" if value not in (None, []) or leaf.options else leaf.declared.default_text or ""
     return FieldView(
         name=name,
@@ -365,4 +349,4 @@ def _help(leaf: Leaf, *, assumed: bool) -> tuple[str, ...]:
 
 
 def _last(path: str) -> str:
-    return path.removesuffix(f".{ITEM}").rpartition(".")[2]
+    return path.rpartition(".")[2]

@@ -20,7 +20,7 @@ from mdit_py_plugins.dollarmath import dollarmath_plugin
 
 from app.calculations import BY_PATH, Calculation
 from app.examples import examples
-from app.manual.chapters import NAMES, Chapter, chapters
+from app.manual import NAMES, Chapter, chapters
 from app.manual.equations import anchor, equations, functions
 from app.pages.query import Pairs, link, pairs_of
 from app.pages.templating import example_link, model_of, page_path, rendered

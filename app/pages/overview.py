@@ -1,11 +1,11 @@
-"""Pages that belong to no case: the start, the models, a gear unit that was read from a file, and what went wrong."""
+"""Pages that belong to no case: the start, the models, and a gear unit that was read from a file."""
 
 from functools import lru_cache
 from math import pi
 from typing import Any
 
 from app.calculations import BY_PATH, Calculation
-from app.manual.chapters import chapters
+from app.manual import chapters
 from app.pages.query import link, pairs_of
 from app.pages.studies.spectrum import address_of
 from app.pages.study_links import studies_of
@@ -44,11 +44,6 @@ def _entry(calculations: list[Calculation]) -> dict[str, Any]:
         ],
         "studies": [study for each in calculations for study in studies_of(each)[:1]],
     }
-
-
-def problem_page(root: str, status: int, title: str, detail: str) -> str:
-    """Something that is no page."""
-    return rendered("problem.html", root, status=status, title=title, detail=detail)
 
 
 def unit_page(root: str, unit: dict[str, Any]) -> str:

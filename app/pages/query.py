@@ -1,8 +1,7 @@
 """From a query string to a request body and back: dotted names, list indices, numbers as people type them."""
 
 import re
-from collections import defaultdict
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from typing import Any
 from urllib.parse import parse_qsl, urlencode
 
@@ -24,15 +23,15 @@ STUDY_NAMES = frozenset(
     | {f"t{place}{part}" for place in range(SCATTERING) for part in ("", ".law", ".by", ".about")}
     | {"show", "best", TRIALS, "cases", "hours", "machines", "limit", "limit.by", "limit.side"}
 )
-REPORT_NAMES = frozenset({"title", "paper", "project", "part", "author", "checker", "notes"})
-VIEW_NAMES = STUDY_NAMES | REPORT_NAMES | {"ref", "theme", "sources", "curve"}
+REPORT_NAMES = {"title": 200, "project": 200, "part": 200, "author": 200, "checker": 200, "notes": 2000}
+"""What a report says of its occasion, and how many characters of it at most."""
+VIEW_NAMES = STUDY_NAMES | REPORT_NAMES.keys() | {"paper", "ref", "theme", "sources", "curve"}
 PICK = "pick:"
 """Before the name of a choice between fields that exclude each other; its value is the field that counts."""
 MOST_FIELDS = 1000  # chosen: far beyond the longest form
 DEEPEST = 12  # parts of a name; no field lies as deep
 LONGEST_QUERY = 6000  # characters: common proxies refuse a request line beyond 8 KiB
 LONGEST_NAME = 100  # characters of a name; no field's has as many
-LONGEST_INDEX = 10  # digits; a list is far shorter
 MATRIX = 2  # dimensions
 SIDE = 2  # of a matrix: the two directions across a shaft
 PRESENT = "on"
@@ -67,40 +66,22 @@ def normalised(model: type[Documented], pairs: Pairs) -> Pairs:
         text = spaced.strip()
         if not text or name.startswith(PICK):
             continue
-        leaf, matrix = leaf_at(model, name), leaf_at(model, name.rpartition(".")[0])
-        if leaf is not None and not picked.isdisjoint(excluded(name, leaf)):
-            continue
-        if matrix is not None and matrix.dimensions == MATRIX:  # a row of it: each element has a field of the form
-            kept += [(f"{name}.{column}", text_of(item)) for column, item in enumerate(_listed(matrix, text))]
-        else:
+        leaf = leaf_at(model, name)
+        if leaf is None or picked.isdisjoint(excluded(name, leaf)):
             kept.append((name, text))
-    return _renumbered(model, kept)
+    for path in (path for path, branch in branches(model).items() if branch.repeated):
+        kept = _renumbered(path, kept)
+    return kept
 
 
-def _renumbered(model: type[Documented], pairs: Pairs) -> Pairs:
-    """Items of lists of sections counted from 0 without gaps, whichever rows of the form were left empty."""
-    found: dict[str, set[int]] = defaultdict(set)
-    for name, _ in pairs:
-        for _, path, index in _indices(model, name):
-            found[path].add(index)
-    indices = {path: sorted(each) for path, each in found.items()}
-    renumbered = []
-    for name, text in pairs:
-        parts = name.split(".")
-        for place, path, index in _indices(model, name):
-            parts[place] = str(indices[path].index(index))
-        renumbered.append((".".join(parts), text))
-    return renumbered
-
-
-def _indices(model: type[Documented], name: str) -> Iterator[tuple[int, str, int]]:
-    """Every list of sections on the way to a field: the place of the index among the parts, the list, the index."""
-    parts = name.split(".")
-    for place, part in enumerate(parts):
-        if place and part.isdecimal() and part.isascii() and len(part) < LONGEST_INDEX:
-            path = ".".join(parts[:place])
-            if leaf_at(model, path) is None and leaf_at(model, path.rpartition(".")[0]) is None:  # no list of numbers
-                yield place, path, int(part)
+def _renumbered(path: str, pairs: Pairs) -> Pairs:
+    """Items of a list of sections counted from 0 without gaps, whichever rows of the form were left empty."""
+    items = [re.fullmatch(rf"{re.escape(path)}\.([0-9]{{1,9}})(|\..*)", name, re.DOTALL) for name, _ in pairs]
+    indices = sorted({int(item[1]) for item in items if item})
+    return [
+        (f"{path}.{indices.index(int(item[1]))}{item[2]}" if item else name, text)
+        for (name, text), item in zip(pairs, items, strict=True)
+    ]
 
 
 def excluded(name: str, leaf: Leaf) -> tuple[str, ...]:
@@ -152,7 +133,7 @@ def pairs_of(content: Any, name: str = "") -> Pairs:
     return [pair for key, value in inner for pair in pairs_of(value, f"{name}.{key}" if name else str(key))]
 
 
-def link(path: str, pairs: Pairs, **views: str) -> str:
+def link(path: str, pairs: Pairs, **views: str | None) -> str:
     """The address of a case under `path`."""
     query = urlencode([*pairs, *((name, text) for name, text in views.items() if text)], safe=",:", errors="replace")
     return f"{path}?{query}" if query else path
@@ -167,15 +148,6 @@ def _value(model: type[Documented], name: str, text: str) -> Any:
         return number_of(text) if leaf_at(model, name.rpartition(".")[0].rpartition(".")[0]) else text
     if leaf.dimensions == 1:
         return _listed(leaf, text)
-    if leaf.dimensions == MATRIX:
-        alone = _number(text.strip().replace(",", ".", 1))
-        if not isinstance(alone, str):  # a number may stand for a matrix
-            return alone
-        return [_listed(leaf, line) for line in text.splitlines() if line.strip()]
-    return _scalar(leaf, text)
-
-
-def _scalar(leaf: Leaf, text: str) -> Any:
     if leaf.options:
         return next((option for option in leaf.options if option in (text, number_of(text))), text)
     if leaf.kind == "boolean":
@@ -234,16 +206,13 @@ def _matrix(elements: dict[str, Any]) -> Any:
 
     What is missing is None, for the validator to name.
     """
-    if elements.keys() == {"0"} and isinstance(elements["0"], dict) and elements["0"].keys() == {"0"}:
-        return elements["0"]["0"]
     places = [str(place) for place in range(SIDE)]
-    if not elements.keys() <= set(places):
-        return elements
     rows = [elements.get(place, {}) for place in places]
-    return [
-        [row.get(place) for place in places] if isinstance(row, dict) and row.keys() <= set(places) else row
-        for row in rows
-    ]
+    if not all(isinstance(part, dict) and part.keys() <= {*places} for part in (elements, *rows)):
+        return elements
+    matrix = [[row.get(place) for place in places] for row in rows]
+    alone = matrix[0][0]
+    return alone if elements == {"0": {"0": alone}} else matrix
 
 
 def text_of(value: Any) -> str:

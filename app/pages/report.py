@@ -9,21 +9,16 @@ from textwrap import indent
 from typing import Any, NamedTuple
 from unicodedata import category
 
-from markupsafe import Markup
-
 from app.errors import Unprocessable
 from app.pages.cases import Case
 from app.pages.manual import method_of
-from app.pages.query import Pairs
-from app.pages.results import flattened, resolved
-from app.pages.typesetting import cited, shown, symbol
-from app.schema.fields import leaf_at
+from app.pages.query import REPORT_NAMES, Pairs
+from app.pages.results import flattened, resolved, texts_of
+from app.pages.typesetting import cited
+from app.schema.fields import Leaf, leaf_at
 
-NAMES = {"title": 200, "project": 200, "part": 200, "author": 200, "checker": 200, "notes": 2000}
-"""What a report says of its occasion, and how many characters of it at most."""
 LONGEST_LINK = 240  # as text; what it leads to is the whole
 _element = re.compile(r"(\.\d+){1,2}$")  # of a list or a matrix of numbers
-PAPERS = {"a4": "A4", "letter": "letter"}
 
 
 class Cell(NamedTuple):
@@ -33,23 +28,15 @@ class Cell(NamedTuple):
     origin: str
 
 
-class Row(NamedTuple):
-    """An input; of items of a list that stand side by side, the same input of each by its index."""
-
-    label: str
-    symbol: Markup
-    cells: dict[int, Cell]
-
-
 def context(case: Case, pairs: Pairs, views: dict[str, str], *, address: str, link: str) -> dict[str, Any]:
     """What the template needs beside the result; `address` is that of the service, `link` that of the case.
 
     Raises Unprocessable for a name or note that is too long.
     """
     return {
-        "longest": NAMES,
-        "names": {name: _said(name, views.get(name, ""), longest) for name, longest in NAMES.items()},
-        "paper": PAPERS.get(views.get("paper", ""), "A4"),
+        "longest": REPORT_NAMES,
+        "names": {name: _said(name, views.get(name, ""), longest) for name, longest in REPORT_NAMES.items()},
+        "paper": "letter" if views.get("paper") == "letter" else "A4",
         "date": datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC"),
         "inputs": _inputs(case, pairs),
         "command": for_shell(address, case),
@@ -90,34 +77,31 @@ def _given(case: Case) -> dict[str, Any]:
     return case.request.model_dump(exclude_unset=True, exclude={"detail"})
 
 
-def _inputs(case: Case, pairs: Pairs) -> list[tuple[str, list[int], list[Row]]]:
-    """Every input with the value used and where it comes from: title, indices of the items and rows of each section."""
+def _inputs(case: Case, pairs: Pairs) -> list[tuple[str, list[int], list[tuple[Leaf, dict[int, Cell]]]]]:
+    """Every input with the value used and where it comes from, by section: title, indices of its items, and rows.
+
+    A row has the same input of each item by its index.
+    """
     typed = {_element.sub("", name) for name, _ in pairs}
     assumed = {each.field: each.value for each in case.response.assumptions}
     used = resolved(case.response) | assumed
-    sections: dict[str, dict[str, Row]] = {}
+    sections: dict[str, dict[str, tuple[Leaf, dict[int, Cell]]]] = {}
     for path, stated in flattened(case.response.inputs).items():
         leaf, value = leaf_at(type(case.request), path), used[path]
         if leaf is None or (value is None and (leaf.exclusive or not leaf.declared.default_text)):
             continue
-        *section, name = path.split(".")
-        index = int(section.pop()) if section and section[-1].isdecimal() else 0
-        title = " · ".join(part.replace("_", " ") for part in section) or "general"
-        row = Row(leaf.title.partition(",")[0], symbol(leaf.declared.symbol), {})
         if value is None:
             cell = Cell(cited(leaf.declared.default_text or ""), "not given")
         else:
             origin = "assumed" if path in assumed else "derived" if stated is None else "default"
-            cell = Cell(f"{_text(value)} {leaf.unit or ''}".rstrip(), "given" if path in typed else origin)
-        sections.setdefault(title, {}).setdefault(name, row).cells[index] = cell
+            text = f"{', '.join(texts_of(value, 6, 6))} {leaf.unit or ''}".rstrip()
+            cell = Cell(text, "given" if path in typed else origin)
+        *section, name = path.split(".")
+        index = int(section.pop()) if section and section[-1].isdecimal() else 0
+        title = " · ".join(part.replace("_", " ") for part in section) or "general"
+        _, cells = sections.setdefault(title, {}).setdefault(name, (leaf, {}))
+        cells[index] = cell
     return [
-        (title, sorted({index for row in rows.values() for index in row.cells}), [*rows.values()])
+        (title, sorted({index for _, cells in rows.values() for index in cells}), [*rows.values()])
         for title, rows in sections.items()
     ]
-
-
-def _text(value: Any) -> str:
-    """A number, a word, or a list of them; a matrix by its rows."""
-    if not isinstance(value, list):
-        return shown(value, 6)
-    return ", ".join(f"({_text(item)})" if isinstance(item, list) else _text(item) for item in value)

@@ -5,9 +5,7 @@ from dataclasses import dataclass, replace
 from itertools import groupby
 from typing import Any, NamedTuple
 
-from markupsafe import Markup
-
-from app.pages.typesetting import cited, shown, symbol, words
+from app.pages.typesetting import shown, words
 from app.schema.fields import Branch, Leaf, headlines, leaf_at, tree
 from app.schema.model import Documented, Response
 
@@ -30,36 +28,26 @@ class Entry(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """A line of a table: the value, or the items of a list; `before` is that of the variant, `change` lies between."""
+    """A line of a table: the value, or the items of a list; `before` is that of the variant, `change` lies between.
 
+    `remark` is the reason of an assumption, or the verdict on a number that decides, whose `level` is good, near, bad
+    or plain.
+    """
+
+    leaf: Leaf
     label: str
-    symbol: Markup
+    path: str
     items: tuple[str, ...]
     unit: str
-    path: str
-    description: str
-    before: tuple[str, ...] = ()
-    change: str = ""
+    before: tuple[str, ...]
+    change: str
+    remark: str = ""
+    level: str = ""
 
     @property
     def value(self) -> str:
         """All of it as a text."""
         return ", ".join(self.items)
-
-
-@dataclass(frozen=True, slots=True)
-class Card:
-    """A number that decides; `level` is good, near, bad or plain, and `verdict` says so in words."""
-
-    title: str
-    symbol: Markup
-    value: str
-    unit: str
-    level: str
-    verdict: str
-    needs: str | None
-    before: str
-    change: str
 
 
 def entries(response: Documented) -> Iterator[Entry]:
@@ -95,7 +83,8 @@ def groups(response: Documented, before: Documented | None = None) -> dict[str, 
     tables: dict[str, list[Row]] = {}
     for group, leaf, path, value in entries(response):
         if leaf.is_scalar or (leaf.declared.index and not leaf.axes and leaf.dimensions == 1):
-            tables.setdefault(group or "result", []).append(_row(leaf, path, value, old.get(path)))
+            row = _row(leaf, path, value, old.get(path), label=leaf.declared.title)
+            tables.setdefault(group or "result", []).append(row)
     return tables
 
 
@@ -104,44 +93,36 @@ def differences(request: type[Documented], response: Response, before: Response)
     here, there = flattened(response.inputs), flattened(before.inputs)
     now, old = resolved(response), resolved(before)
     return [
-        replace(_row(leaf, path, now.get(path), old.get(path)), label=leaf.title)
+        _row(leaf, path, now.get(path), old.get(path), label=leaf.title)
         for path in here | there
         if here.get(path) != there.get(path) and (leaf := leaf_at(request, path))
     ]
 
 
 def assumptions(request: type[Documented], response: Response) -> list[Row]:
-    """The defaults that the answer used and that are ours; the description of each says why."""
-    rows = []
-    for path, value, reason in ((each.field, each.value, cited(each.reason)) for each in response.assumptions):
-        leaf = leaf_at(request, path)
-        title, sign, unit = (leaf.title, leaf.declared.symbol, leaf.unit or "") if leaf else (path, None, "")
-        known_unit = unit if isinstance(value, int | float | list) else ""
-        rows.append(Row(title, symbol(sign), _items(value), known_unit, path, reason))
-    return rows
+    """The defaults that the answer used and that are ours, each with the reason."""
+    return [
+        replace(_row(leaf, each.field, each.value, label=leaf.title), remark=each.reason)
+        for each in response.assumptions
+        if (leaf := leaf_at(request, each.field))
+    ]
 
 
-def _row(leaf: Leaf, path: str, now: Any, before: Any) -> Row:
+def _row(leaf: Leaf, path: str, now: Any, before: Any = None, *, label: str, digits: int = 5) -> Row:
     unit = leaf.unit or ""
     if leaf.view.percent:
         now, before, unit = (None if now is None else 100.0 * now, None if before is None else 100.0 * before, "%")
-    return Row(
-        leaf.declared.title,
-        symbol(leaf.declared.symbol),
-        _items(now),
-        unit if now is not None or before is not None else "",
-        path,
-        cited(leaf.description),
-        _items(before),
-        _change(now, before),
-    )
+    known_unit = unit if now is not None or before is not None else ""
+    return Row(leaf, label, path, texts_of(now, digits), known_unit, texts_of(before, digits), _change(now, before))
 
 
-def _items(value: Any) -> tuple[str, ...]:
-    """A value, or the items of a list; of a matrix its rows."""
+def texts_of(value: Any, digits: int, of_items: int = 4) -> tuple[str, ...]:
+    """A value, or the items of a list, with so many digits; of a matrix its rows."""
     if not isinstance(value, list):
-        return (shown(value),)
-    return tuple(f"({', '.join(_items(item))})" if isinstance(item, list) else shown(item, 4) for item in value)
+        return (shown(value, digits),)
+    if value and isinstance(value[0], list):
+        return tuple(f"({', '.join(texts_of(row, of_items, of_items))})" for row in value)
+    return tuple(shown(item, of_items) for item in value)
 
 
 def _change(now: Any, before: Any) -> str:
@@ -178,7 +159,7 @@ def resolved(response: Response) -> dict[str, Any]:
     }
 
 
-def cards(response: Documented, inputs: dict[str, Any], before: Documented | None = None) -> tuple[Card, ...]:
+def cards(response: Documented, inputs: dict[str, Any], before: Documented | None = None) -> list[Row]:
     """The headline numbers; of several numbers of the same rank only the largest is shown.
 
     Where a warning makes the answer doubtful, no verdict is good.
@@ -188,23 +169,13 @@ def cards(response: Documented, inputs: dict[str, Any], before: Documented | Non
     found = []
     for _, alike in groupby(headlines(type(response)), key=lambda leaf: leaf.view.headline):
         leaf = max(alike, key=lambda leaf: _size(known.get(leaf.path)))
-        value, previous = known.get(leaf.path), old.get(leaf.path)
         level, verdict = _verdict(response, leaf, inputs | known)
         if level == "good" and doubtful:
             level, verdict = "near", f"{verdict}; see the warnings"
-        card = Card(
-            title=leaf.title,
-            symbol=symbol(leaf.declared.symbol),
-            value=shown(value, DIGITS),
-            unit=(leaf.unit or "") if value is not None else "",
-            level=level,
-            verdict=verdict,
-            needs=leaf.view.needs if value is None else None,
-            before=shown(previous, DIGITS),
-            change=_change(value, previous),
-        )
-        found.append(card)
-    return tuple(found)
+        value = known.get(leaf.path)
+        row = _row(leaf, leaf.path, value, old.get(leaf.path), label=leaf.title, digits=DIGITS)
+        found.append(replace(row, unit="" if value is None else row.unit, level=level, remark=verdict))
+    return found
 
 
 def _size(value: Any) -> float:
@@ -226,22 +197,21 @@ def _verdict(response: Documented, leaf: Leaf, known: dict[str, Any]) -> tuple[s
     limit = known.get(view.limit) if isinstance(view.limit, str) else view.limit
     if view.bound is None or limit is None or isinstance(value, bool):
         return "plain", ""
-    level, standing = _at_least(value, limit) if view.greatest_is_best else _at_most(abs(value), limit)
+    level, standing = _standing(value, limit, greatest_is_best=view.greatest_is_best)
     name = f"{shown(limit, 4)} {leaf.unit or ''}".strip()
     return level, f"{judge.title}: {words(said)}" if judge and said is not None else standing.format(name)
 
 
-def _at_least(value: float, limit: float) -> tuple[str, str]:
-    if value < limit:
-        return "bad", "below the limit {}"
-    if value < WELL_ABOVE * limit:
-        return "near", "above the limit {}, with little margin"
-    return "good", "well above the limit {}"
-
-
-def _at_most(value: float, limit: float) -> tuple[str, str]:
-    if value > limit:
+def _standing(value: float, limit: float, *, greatest_is_best: bool) -> tuple[str, str]:
+    """Level of a value, and how it compares with its limit, which stands for the braces."""
+    if greatest_is_best:
+        if value < limit:
+            return "bad", "below the limit {}"
+        if value < WELL_ABOVE * limit:
+            return "near", "above the limit {}, with little margin"
+        return "good", "well above the limit {}"
+    if abs(value) > limit:
         return "bad", "beyond the limit {}"
-    if value > NEAR * limit:
+    if abs(value) > NEAR * limit:
         return "near", "close to the limit {}"
     return "good", "within the limit {}"

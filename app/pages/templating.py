@@ -9,20 +9,14 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from app.calculations import CALCULATIONS, Calculation
 from app.examples import Example, examples
+from app.pages.charts import data_address
 from app.pages.form import anchor
 from app.pages.query import link, pairs_of
-from app.pages.typesetting import shown, symbol, typeset, words
+from app.pages.typesetting import cited, shown, symbol, typeset, words
 from app.schema.model import MODEL_VERSION
 
-ASSETS = {
-    "style.css": "text/css; charset=utf-8",
-    "docs.css": "text/css; charset=utf-8",
-    "docs.js": "text/javascript; charset=utf-8",
-    "page.js": "text/javascript; charset=utf-8",
-    "charts.js": "text/javascript; charset=utf-8",
-    "study.js": "text/javascript; charset=utf-8",
-    "icon.svg": "image/svg+xml",
-}
+ASSETS = {each.name: each.read_bytes() for each in files("app.pages").joinpath("static").iterdir()}
+"""The files that pages refer to."""
 
 
 def rendered(template: str, root: str, **context: Any) -> str:
@@ -59,12 +53,6 @@ def by_model() -> dict[str, list[Calculation]]:
     return models
 
 
-@cache
-def asset(name: str) -> bytes:
-    """A file that pages refer to."""
-    return files("app.pages").joinpath("static", name).read_bytes()
-
-
 @lru_cache(maxsize=4)
 def _environment(root: str) -> Environment:
     """Templates, in which the filter `url` makes an address of the service one that a browser can follow."""
@@ -74,7 +62,7 @@ def _environment(root: str) -> Environment:
 
     def asset_address(name: str) -> str:
         """The address of a file, which changes with its content."""
-        return url(f"/static/{name}?{sha256(asset(name)).hexdigest()[:12]}")
+        return url(f"/static/{name}?{sha256(ASSETS[name]).hexdigest()[:12]}")
 
     environment = Environment(
         loader=PackageLoader("app.pages"),
@@ -89,5 +77,6 @@ def _environment(root: str) -> Environment:
         "asset": asset_address,
         "anchor": anchor,
     }
-    environment.filters |= {"shown": shown, "symbol": symbol, "url": url, "typeset": typeset, "words": words}
+    environment.filters |= {"cited": cited, "shown": shown, "symbol": symbol, "typeset": typeset, "words": words}
+    environment.filters |= {"image": data_address, "url": url}
     return environment

@@ -1,21 +1,19 @@
 """One view of one case, from its fields to bytes; runs in a worker."""
 
-import json
 from dataclasses import dataclass, field, replace
-from pathlib import PurePath
-from typing import Any, Literal, NamedTuple, get_args
+from itertools import accumulate
+from typing import Any, Literal, get_args
 
 from app.calculations import BY_PATH, CALCULATIONS, Calculation
 from app.errors import InvalidBody, Unprocessable, Unreadable
 from app.evaluate import content_of
 from app.evaluate import written as json_written
-from app.figures.data import Figure, ThemeName
-from app.figures.declaration import Declaration
+from app.figures.data import ThemeName
 from app.figures.rendering import MEDIA_TYPES, Format, written
 from app.pages import csv
 from app.pages import report as reports
 from app.pages.cases import Case, Fault, faults_of, key_of, solved
-from app.pages.charts import Chart, charts, data_address, figure_of, linked, values_of
+from app.pages.charts import figure_of, figures_of, linked, values_of
 from app.pages.form import State, anchor, form
 from app.pages.manual import chapter_of
 from app.pages.query import (
@@ -29,7 +27,7 @@ from app.pages.query import (
     pairs_of_query,
     split_views,
 )
-from app.pages.results import assumptions, cards, differences, entries, groups, resolved
+from app.pages.results import assumptions, cards, differences, groups, resolved
 from app.pages.study_links import studies_of_case, study_links
 from app.pages.templating import example_link, examples_of, page_path, rendered
 from app.pages.typesetting import NO_VALUE
@@ -94,14 +92,14 @@ class Asked:
         return self.views.get("ref", "")
 
     @property
+    def ref_pairs(self) -> Pairs:
+        """The fields of the variant to compare with."""
+        return split_views(normalised(self.calculation.request, pairs_of_query(self.ref)))[0]
+
+    @property
     def outdated(self) -> list[str]:
         """What has changed since the link was made, as far as it names the solvers' sources."""
         return changes_since(self.views.get("sources", ""))
-
-    @property
-    def figures(self) -> list[Declaration]:
-        """The figures that page and report show; those of other pages are a link."""
-        return [each for each in self.calculation.figures if not each.shown_at]
 
     @property
     def query(self) -> str:
@@ -120,10 +118,9 @@ class Asked:
 
     def beside(self, ref: str) -> str:
         """The page of the case, compared with the case of another query unless that is empty."""
-        theme = self.views.get("theme", "")
-        return link(self.path, self.pairs, ref=ref, theme=theme, title=self.title, sources=SHORT_SOURCES)
+        return link(self.path, self.pairs, ref=ref, theme=self.theme, title=self.title, sources=SHORT_SOURCES)
 
-    def view(self, name: str, **views: str) -> str:
+    def view(self, name: str, **views: str | None) -> str:
         """One view."""
         return link(f"{self.path}/{name}", self.pairs, **views)
 
@@ -134,27 +131,15 @@ class Asked:
 
     def study(self, name: str) -> str:
         """A study of the case that has a page of its own."""
-        return self.view(name, theme=self.views.get("theme", ""), title=self.title)
+        return self.view(name, theme=self.theme, title=self.title)
 
-    def image(self, figure: str, image_format: str, theme: str = "") -> str:
+    def image(self, figure: str, image_format: str, theme: ThemeName | None = None) -> str:
         """One figure as a file."""
-        name, theme = f"figures/{figure}.{image_format}", theme or self.views.get("theme", "")
+        name, theme = f"figures/{figure}.{image_format}", theme or self.theme
         if self.too_long:
             case, ref_case = self.answered
             return link(f"{self.path}/{name}", [], case=case, ref_case=ref_case, theme=theme)
         return self.view(name, ref=self.ref, theme=theme)
-
-    @property
-    def saved(self) -> bytes:
-        """The case as it was typed, complete or not, as a JSON file: title, endpoint and request, like an example."""
-        content = {"title": self.title, "endpoint": self.calculation.path, "request": self.body}
-        return json.dumps(content, indent=1, ensure_ascii=False).encode()
-
-    @property
-    def file_name(self) -> str:
-        """What the file is called: the letters, digits, blanks and hyphens of the title."""
-        kept = "".join(each for each in self.title if each.isalnum() or each in " -").strip()
-        return f"{kept or PurePath(self.path).name}.json"
 
 
 def opened(content: bytes, root: str) -> Asked:
@@ -179,52 +164,36 @@ class Shown:
     keep: dict[str, bytes] = field(default_factory=dict)
 
 
-def ref_pairs(calculation: Calculation, views: dict[str, str]) -> Pairs:
-    """The fields of the variant to compare with."""
-    return split_views(normalised(calculation.request, pairs_of_query(views.get("ref", ""))))[0]
-
-
 def page(asked: Asked) -> Shown:
     """The page of a case: form and result, or the form and what is wrong with it."""
-    texts = dict(asked.pairs)
     if not asked.pairs:
         return form_page(asked)
+    texts = dict(asked.pairs)
     try:
-        case = solved(asked.calculation, asked.pairs, asked.kept)
+        case, variant, trouble = _both(asked)
     except REFUSED as error:
         faults = [
             Fault(path, ambiguity(texts.get(path, "")) or message)
             for path, message in faults_of(error, asked.calculation)
         ]
-        said: dict[str, str] = {}
-        for path, message in faults:
-            said[path] = f"{said[path]}; {message}" if path in said else message
-        said.pop("", None)
+        said = {path: "; ".join(each.message for each in faults if each.path == path) for path, _ in faults}
         return _page(asked, State(texts, said), 400 if isinstance(error, Unreadable) else 422, faults=faults)
-    variant, trouble = _variant(asked)
     response = case.response
     asked = replace(asked, answered=(response.case, variant.response.case if variant else ""))
-    figures, missing = charts(
-        asked.figures, case, variant, lambda declaration, data: linked(declaration, data, asked.image, asked.theme)
-    )
-    shown = _page(
+    found = _answered(asked, case, variant, trouble)
+    return _page(
         asked,
         State(texts, {}, resolved(response), {each.field for each in response.assumptions}),
-        **_answered(asked, case, variant),
-        trouble=trouble,
-        charts=figures,
-        missing=missing,
+        keep=_keep(asked, case, variant),
+        **found,
+        charts=[linked(each, figure, asked.image, asked.theme) for each, figure in found["figures"]],
         ready=studies_of_case(asked.calculation, asked.pairs, response.inputs),
-        curves=_curves(case),
+        curves=csv.curves(response),
         code={
             "Python": reports.for_python(LOCAL + asked.root, case),
             "curl": reports.for_shell(LOCAL + asked.root, case),
         },
     )
-    keep = _keep(asked, case, variant)
-    if asked.too_long:
-        keep |= {case_key(asked.path, each.response.case): each.kept for each in (case, variant) if each}
-    return replace(shown, keep=keep)
 
 
 def form_page(asked: Asked) -> Shown:
@@ -240,63 +209,37 @@ def result(asked: Asked, media: Literal["json", "csv"]) -> Shown:
     elif (path := asked.views.get("curve")) is None:
         content = csv.values(case, asked.title)
     else:
-        found = csv.curve(case.response, path)
-        if found is None:
-            raise Unprocessable("unknown_curve", f"Available curves: {', '.join(_curves(case))}", "curve")
-        content = found
+        content = csv.curve(case.response, path)
     return Shown(content, keep=_keep(asked, case))
 
 
 def figure(asked: Asked, name: str, image_format: Format | Literal["json"]) -> Shown:
     """One figure as a file; as JSON what the script of the pages needs of it."""
-    case = solved(asked.calculation, asked.pairs, asked.kept)
-    variant, _ = _variant(asked)
+    case, variant, _ = _both(asked)
     declaration = next(each for each in asked.calculation.figures if each.name == name)
     data = figure_of(declaration, case, variant)
     content = values_of(data) if image_format == "json" else written(data, image_format, asked.theme or "light")
     return Shown(content, keep=_keep(asked, case, variant))
 
 
-class StudySection(NamedTuple):
-    """What a report says of a study: figures by their names, tables as the study's page has them, the link to it."""
+def report(asked: Asked, host: str, study: dict[str, Any] | None = None) -> Shown:
+    """The report of a case, with a section about a study: its `title`, the `link` to it, and what was `found`.
 
-    title: str
-    progress: str
-    remarks: tuple[str, ...]
-    figures: dict[str, Figure]
-    tables: tuple[Any, ...]
-    link: str
-
-    @property
-    def charts(self) -> list[Chart]:
-        """The figures as they are printed."""
-        return [_printed(name, figure) for name, figure in self.figures.items()]
-
-
-def report(asked: Asked, host: str, study: StudySection | None = None) -> Shown:
-    """The report of a case, with a section about a study; an input that cannot be computed is shown on its page.
-
-    `host` is what addresses on it begin with; without one the link is relative, and the command asks this machine.
+    `host` is what addresses on it begin with; without one the link is relative, and the command asks this machine. An
+    input that cannot be computed is shown on its page.
     """
     try:
-        case = solved(asked.calculation, asked.pairs, asked.kept)
+        case, variant, trouble = _both(asked)
     except REFUSED:
         return page(asked)
-    variant, trouble = _variant(asked)
-    figures, missing = charts(
-        asked.figures, case, variant, lambda declaration, data: _printed(declaration.name, data), compute=True
-    )
     content = rendered(
         "report.html",
         asked.root,
         asked=asked,
         calculation=asked.calculation,
-        **_answered(asked, case, variant),
-        trouble=trouble,
-        charts=figures,
-        missing=missing,
-        study=study,
+        **_answered(asked, case, variant, trouble, compute=True),
         host=host,
+        study=study,
         **reports.context(
             case,
             asked.pairs,
@@ -308,26 +251,23 @@ def report(asked: Asked, host: str, study: StudySection | None = None) -> Shown:
     return Shown(content.encode(), keep=_keep(asked, case, variant))
 
 
-def _printed(name: str, figure: Figure | None) -> Chart:
-    """A figure as a part of the report."""
-    assert figure is not None
-    return Chart(name, figure.title, figure.subtitle, data_address(written(figure, "svg", "light")))
-
-
 def case_key(path: str, case: str) -> str:
     """What an answer of a page's calculation is kept under that is asked for by its hash."""
     return key_of(path, [("case", case)])
 
 
 def _keep(asked: Asked, case: Case, variant: Case | None = None) -> dict[str, bytes]:
-    """Answers that were not kept yet, by the keys of their fields."""
-    keep = {key_of(asked.path, asked.pairs): case.kept} if asked.kept is None else {}
-    if variant is not None and asked.kept_ref is None:
-        keep[key_of(asked.path, ref_pairs(asked.calculation, asked.views))] = variant.kept
+    """Answers that were not kept yet, by the keys of their fields; those of a long case also by their hashes."""
+    keep = {}
+    for pairs, kept, each in (asked.pairs, asked.kept, case), (asked.ref_pairs, asked.kept_ref, variant):
+        if each is not None and kept is None:
+            keep[key_of(asked.path, pairs)] = each.kept
+        if each is not None and asked.too_long:
+            keep[case_key(asked.path, each.response.case)] = each.kept
     return keep
 
 
-def _page(asked: Asked, state: State, status: int = 200, **found: Any) -> Shown:
+def _page(asked: Asked, state: State, status: int = 200, keep: dict[str, bytes] | None = None, **found: Any) -> Shown:
     calculation = asked.calculation
     context = {"faults": [], "response": None, "compared": False, "cards": (), "trouble": "", **found}
     content = rendered(
@@ -338,7 +278,7 @@ def _page(asked: Asked, state: State, status: int = 200, **found: Any) -> Shown:
         chapter=chapter_of(calculation).name,
         sections=form(calculation.request, state),
         outdated=asked.outdated,
-        theme=asked.views.get("theme", ""),
+        theme=asked.theme,
         examples=[(example, example_link(calculation, example)) for example in examples_of(calculation)],
         formats=MEDIA_TYPES,
         studies=study_links(calculation),
@@ -347,11 +287,12 @@ def _page(asked: Asked, state: State, status: int = 200, **found: Any) -> Shown:
         field_title=lambda path: title_of(calculation, path),
         **context,
     )
-    return Shown(content.encode(), status)
+    return Shown(content.encode(), status, keep or {})
 
 
-def _answered(asked: Asked, case: Case, variant: Case | None) -> dict[str, Any]:
-    """What page and report show of an answer, beside that of the variant."""
+def _answered(asked: Asked, case: Case, variant: Case | None, trouble: str, *, compute: bool = False) -> dict[str, Any]:
+    """What page and report show of an answer, beside that of the variant, or the `trouble` with that."""
+    figures, missing = figures_of(case, variant, compute=compute)
     request, response, before = type(case.request), case.response, variant.response if variant else None
     derived = groups(response.derived) if response.derived else {}
     return {
@@ -362,6 +303,9 @@ def _answered(asked: Asked, case: Case, variant: Case | None) -> dict[str, Any]:
         "derived": [row for rows in derived.values() for row in rows if row.value != NO_VALUE],
         "elsewhere": _elsewhere(asked),
         "compared": variant is not None,
+        "trouble": trouble,
+        "figures": figures,
+        "missing": missing,
         "differences": differences(request, response, before) if before else [],
     }
 
@@ -372,29 +316,20 @@ def _elsewhere(asked: Asked) -> list[tuple[str, str, list[str]]]:
     for path in dict.fromkeys(each.shown_at for each in figures if each.shown_at):
         other = BY_PATH[path]
         pairs = [(name, text) for name, text in asked.pairs if leaf_at(other.request, name)]
-        address = link(page_path(other), pairs, theme=asked.views.get("theme", ""))
+        address = link(page_path(other), pairs, theme=asked.theme)
         found.append((other.title, address, [each.title for each in figures if each.shown_at == path]))
     return found
 
 
-def _variant(asked: Asked) -> tuple[Case | None, str]:
-    """The case to compare with, or why it cannot be computed."""
+def _both(asked: Asked) -> tuple[Case, Case | None, str]:
+    """The case, and the one to compare it with or why that cannot be computed."""
+    case = solved(asked.calculation, asked.pairs, asked.kept)
     if not asked.ref and asked.kept_ref is None:
-        return None, ""
+        return case, None, ""
     try:
-        return solved(asked.calculation, ref_pairs(asked.calculation, asked.views), asked.kept_ref), ""
+        return case, solved(asked.calculation, asked.ref_pairs, asked.kept_ref), ""
     except REFUSED as error:
-        return None, faults_of(error, asked.calculation)[0].message
-
-
-def _curves(case: Case) -> list[str]:
-    """What `curve=` can name."""
-    curves = (
-        each.path
-        for each in entries(case.response)
-        if each.leaf.dimensions == 1 and each.value is not None and each.leaf.kind in {"number", "integer"}
-    )
-    return [*dict.fromkeys(path.rpartition(".")[0] or path for path in curves)]
+        return case, None, faults_of(error, asked.calculation)[0].message
 
 
 def _place(calculation: Calculation, path: str) -> str:
@@ -410,6 +345,5 @@ def title_of(calculation: Calculation, path: str) -> str:
     leaf = leaf_at(calculation.request, path)
     if leaf is not None:
         return leaf.title
-    parts, known = path.split("."), branches(calculation.request)
-    around = [".".join(parts[: end + 1]) for end in range(len(parts))]
+    known, around = branches(calculation.request), accumulate(path.split("."), "{}.{}".format)
     return ", ".join(known[each].title for each in around if each in known) or path

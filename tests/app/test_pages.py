@@ -557,6 +557,23 @@ def test_a_browser_gets_a_page_where_nothing_is(client: httpx.Client, address: s
         assert request.headers["content-type"] == "application/problem+json"
 
 
+@pytest.mark.parametrize(
+    ("address", "media_type"),
+    [
+        ("/coupling", "text/html; charset=utf-8"),
+        ("/coupling/report", "text/html; charset=utf-8"),
+        ("/coupling/vary", "text/html; charset=utf-8"),
+        ("/coupling/result.json", "application/problem+json"),
+        ("/coupling/figures/losses.svg", "application/problem+json"),
+        ("/coupling/vary.csv", "application/problem+json"),
+    ],
+)
+def test_a_page_of_an_error_answers_where_pages_do(client: httpx.Client, address: str, media_type: str) -> None:
+    answer = client.get(f"{address}?{'&'.join(f'x{place}=1' for place in range(1001))}")
+    assert (answer.status_code, answer.headers["content-type"]) == (400, media_type)
+    assert "More than 1000 fields" in answer.text
+
+
 def test_long_answers_are_compressed(client: httpx.Client) -> None:
     address = "/coupling" + link("", pairs_of(examples()["pahl-axial-displacement"].request))
     plain = client.get(address, headers={"Accept-Encoding": "identity"})

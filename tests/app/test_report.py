@@ -7,7 +7,7 @@ from html import unescape
 import pytest
 
 from app.examples import examples
-from app.manual.chapters import NAMES
+from app.manual import NAMES
 from app.pages import views
 from app.pages.manual import chapter_page, contents_page, functions_page
 from app.pages.query import pairs_of

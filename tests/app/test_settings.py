@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from pydantic import ValidationError
 
-from app.manual.chapters import chapters
+from app.manual import chapters
 from app.settings import Settings
 
 ROOT = Path(__file__).parents[2]

@@ -2,7 +2,7 @@
 
 import re
 
-from app.manual.chapters import Chapter
+from app.manual import Chapter
 
 
 def figures_of(chapter: Chapter) -> list[tuple[str, str]]:

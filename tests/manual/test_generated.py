@@ -16,7 +16,7 @@ from app.calculations import CALCULATIONS
 from app.evaluate import drawn
 from app.examples import examples
 from app.main import app
-from app.manual.chapters import NAMES, chapters
+from app.manual import NAMES, chapters
 from app.manual.equations import anchor
 from app.pages.manual import shown_studies
 from app.pages.studies import PAGES

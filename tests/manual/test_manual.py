@@ -11,7 +11,7 @@ import pytest
 
 from app.calculations import CALCULATIONS, Calculation
 from app.examples import examples
-from app.manual.chapters import NAMES, chapters
+from app.manual import NAMES, chapters
 from app.manual.equations import anchor, equations, functions, module_of
 from app.pages.manual import method_of, shown_studies
 from tests.manual.citations import cited, declared

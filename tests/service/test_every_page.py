@@ -7,7 +7,7 @@ from playwright.sync_api import Page
 
 from app.calculations import CALCULATIONS, Calculation
 from app.examples import examples
-from app.manual.chapters import NAMES
+from app.manual import NAMES
 from app.pages.study_links import DESIGN, studies_of, study_links
 from app.pages.templating import example_link, examples_of, page_path
 from tests.rexs.units import three_stages, turbo_unit

@@ -1,27 +1,32 @@
 """Start page, manual, and the pages of cases with the other views of a case under the same query."""
 
+import json
 from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import replace
 from http import HTTPStatus
+from mimetypes import guess_type
+from pathlib import PurePath
 from typing import Any
 from urllib.parse import quote
 
 from fastapi import APIRouter, Request, Response
-from fastapi.responses import RedirectResponse
+from fastapi.responses import HTMLResponse, RedirectResponse
 from starlette._utils import get_route_path
 from starlette.exceptions import HTTPException
 
 from app.calculations import BY_PATH, CALCULATIONS, Calculation
-from app.errors import PROBLEMS, Unreadable, kind_of
+from app.errors import Unreadable, kind_of
 from app.examples import examples
 from app.figures.rendering import MEDIA_TYPES
 from app.http.problems import answer
-from app.manual.chapters import NAMES
+from app.manual import NAMES
 from app.pages import views
-from app.pages.cases import Answers, key_of
+from app.pages.cases import key_of
 from app.pages.manual import chapter_page, contents_page, functions_page
-from app.pages.overview import problem_page, start_page
+from app.pages.overview import start_page
 from app.pages.query import link, normalised, pairs_of_query, split_views
-from app.pages.templating import ASSETS, asset, example_link, page_path
+from app.pages.templating import ASSETS, example_link, page_path, rendered
 from app.settings import Settings
 from app.sources import SHORT_SOURCES
 
@@ -33,7 +38,6 @@ JSON = "application/json"
 FORM = "application/x-www-form-urlencoded"
 FOREVER = "public, max-age=31536000, immutable"
 METHODS = ["GET", "POST"]
-KNOWN_ERRORS: tuple[type[Exception], ...] = tuple(PROBLEMS)
 
 router = APIRouter(include_in_schema=False)
 
@@ -49,26 +53,23 @@ async def static(name: str) -> Response:
     """Style, script and icon of the pages."""
     if name not in ASSETS:
         raise HTTPException(404, f"Available: {', '.join(ASSETS)}")
-    return Response(asset(name), media_type=ASSETS[name], headers={"Cache-Control": FOREVER})
+    return Response(ASSETS[name], media_type=guess_type(name)[0], headers={"Cache-Control": FOREVER})
 
 
-@router.post("/case")
+@router.post("/case", response_class=HTMLResponse)
 async def open_case(http: Request) -> Response:
     """The page of a case that was saved as a file; one too long for a link is answered at once."""
-    try:
-        if not http.headers.get("content-type", "").startswith("multipart/form-data"):
-            raise HTTPException(415, "Send the file of a case as multipart/form-data")
-        async with http.form(max_files=1, max_fields=0) as form:
-            sent = form.get("file")
-            if sent is None or isinstance(sent, str):
-                raise Unreadable("The form needs a part named file")
-            asked = views.opened(await sent.read(), root_of(http))
-        if not asked.too_long:
-            return redirected(asked.path, asked)
-        http.app.state.start_up.require(asked.calculation.path)
-        shown = await _shown(http, asked, views.page)
-    except KNOWN_ERRORS as error:
-        return error_page(http, error)
+    if not http.headers.get("content-type", "").startswith("multipart/form-data"):
+        raise HTTPException(415, "Send the file of a case as multipart/form-data")
+    async with http.form(max_files=1, max_fields=0) as form:
+        sent = form.get("file")
+        if sent is None or isinstance(sent, str):
+            raise Unreadable("The form needs a part named file")
+        asked = views.opened(await sent.read(), root_of(http))
+    if not asked.too_long:
+        return redirected(asked.path, asked)
+    http.app.state.start_up.require(asked.calculation.path)
+    shown = await _shown(http, asked, views.page)
     return html(shown.content, shown.status)
 
 
@@ -108,24 +109,32 @@ def _add(calculation: Calculation) -> None:
     path = page_path(calculation)
     names = [figure.name for figure in calculation.figures]
 
+    @router.api_route(path, methods=METHODS, response_class=HTMLResponse)
     async def page(http: Request) -> Response:
         return await _answer(http, calculation, HTML, views.page)
 
+    @router.api_route(f"{path}/report", methods=METHODS, response_class=HTMLResponse)
     async def report(http: Request) -> Response:
         return await _answer(http, calculation, HTML, views.report, printed_host(http))
 
+    @router.api_route(f"{path}/result.{{media}}", methods=METHODS)
     async def result(http: Request, media: str) -> Response:
         types = {"json": JSON, "csv": MEDIA_TYPES["csv"]}
         if media not in types:
             raise HTTPException(404, "Available: result.json, result.csv")
         return await _answer(http, calculation, types[media], views.result, media)
 
+    @router.api_route(f"{path}/case.json", methods=METHODS)
     async def saved(http: Request) -> Response:
+        """The case as it was typed, complete or not, as a JSON file of title, endpoint and request, like an example."""
         asked, _ = await asked_of(http, calculation)
-        disposition = f"attachment; filename*=UTF-8''{quote(asked.file_name)}"
+        content = {"title": asked.title, "endpoint": calculation.path, "request": asked.body}
+        name = "".join(each for each in asked.title if each.isalnum() or each in " -").strip() or PurePath(path).name
+        disposition = f"attachment; filename*=UTF-8''{quote(name)}.json"
         headers = {"Content-Security-Policy": DOCUMENT_POLICY, "Content-Disposition": disposition}
-        return Response(asked.saved, media_type=JSON, headers=headers)
+        return Response(json.dumps(content, indent=1, ensure_ascii=False), media_type=JSON, headers=headers)
 
+    @router.api_route(f"{path}/figures/{{name}}.{{image_format}}", methods=METHODS)
     async def figure(http: Request, name: str, image_format: str) -> Response:
         kinds = MEDIA_TYPES | {"json": JSON}
         if name not in names or image_format not in kinds:
@@ -136,28 +145,17 @@ def _add(calculation: Calculation) -> None:
             return Response(shown.content, media_type=media, headers={"Content-Security-Policy": DOCUMENT_POLICY})
         return await _answer(http, calculation, media, views.figure, name, image_format)
 
-    router.add_api_route(path, page, methods=METHODS)
-    router.add_api_route(f"{path}/report", report, methods=METHODS)
-    router.add_api_route(f"{path}/result.{{media}}", result, methods=METHODS)
-    router.add_api_route(f"{path}/case.json", saved, methods=METHODS)
-    router.add_api_route(f"{path}/figures/{{name}}.{{image_format}}", figure, methods=METHODS)
-
 
 async def _answer(
     http: Request, calculation: Calculation, media: str, view: Callable[..., views.Shown], *arguments: Any
 ) -> Response:
     """One view of the case in the query or the form; a query with empty fields is redirected to one without."""
-    try:
-        asked, clean = await asked_of(http, calculation)
-        if not clean and http.scope["method"] == "GET":
-            return redirected(get_route_path(http.scope), asked)
-        if asked.pairs:
-            http.app.state.start_up.require(calculation.path)
-        shown = await _shown(http, asked, view, *arguments)
-    except KNOWN_ERRORS as error:
-        if media == HTML:
-            return error_page(http, error)
-        raise
+    asked, clean = await asked_of(http, calculation)
+    if not clean and http.scope["method"] == "GET":
+        return redirected(get_route_path(http.scope), asked)
+    if asked.pairs:
+        http.app.state.start_up.require(calculation.path)
+    shown = await _shown(http, asked, view, *arguments)
     policy = PAGE_POLICY if view is views.page else DOCUMENT_POLICY
     return Response(shown.content, shown.status, media_type=media, headers={"Content-Security-Policy": policy})
 
@@ -183,19 +181,16 @@ async def asked_of(http: Request, calculation: Calculation) -> tuple[views.Asked
         sent = pairs_of_query(example_link(calculation, example).partition("?")[2])
         return views.Asked(page_path(calculation), sent, given, root=root_of(http)), False
     pairs = normalised(calculation.request, sent)
-    path = page_path(calculation)
-    variant = views.ref_pairs(calculation, given) if "ref" in given else []
-    kept = _answers(http).get(key_of(path, pairs))
-    kept_ref = _answers(http).get(key_of(path, variant)) if variant else None
-    asked = views.Asked(path, pairs, given, kept, kept_ref, root_of(http))
-    return asked, pairs == sent and given == looks
+    asked = views.Asked(page_path(calculation), pairs, given, root=root_of(http))
+    kept, kept_ref = (http.app.state.answers.get(key_of(asked.path, each)) for each in (pairs, asked.ref_pairs))
+    return replace(asked, kept=kept, kept_ref=kept_ref), pairs == sent and given == looks
 
 
 def _kept(http: Request, path: str) -> views.Asked:
     """The case whose hash is asked for, and its variant; 410 where an answer is not kept any more."""
     query = http.query_params
     kept, kept_ref = (
-        _answers(http).get(views.case_key(path, query[name])) if query.get(name) else None
+        http.app.state.answers.get(views.case_key(path, query[name])) if query.get(name) else None
         for name in ("case", "ref_case")
     )
     if kept is None or (query.get("ref_case") and kept_ref is None):
@@ -207,31 +202,30 @@ async def _shown(http: Request, asked: views.Asked, view: Callable[..., views.Sh
     """A view of a case, made in a worker; the answers that it needed are kept for other views of the case."""
     shown: views.Shown = await http.app.state.pool.calculate(http, view, asked, *arguments)
     for key, content in shown.keep.items():
-        _answers(http).keep(key, content)
+        with suppress(ValueError):  # larger than all that may be kept
+            http.app.state.answers[key] = content
     return shown
 
 
-def _answers(http: Request) -> Answers:
-    answers: Answers = http.app.state.answers
-    return answers
-
-
-def no_page(http: Request, error: Exception) -> Response:
-    """A browser that asks for something that is not there gets a page; everything else gets the problem document."""
-    assert isinstance(error, HTTPException)
-    if "text/html" not in http.headers.get("accept", "") or get_route_path(http.scope).startswith("/v1/"):
+def failed(http: Request, error: Exception) -> Response:
+    """A page about an error where a page was asked for, or where a browser finds nothing; else the problem document."""
+    if isinstance(error, HTTPException):
+        if "text/html" not in http.headers.get("accept", "") or get_route_path(http.scope).startswith("/v1/"):
+            return answer(http, error)
+        title = HTTPStatus(error.status_code).phrase
+        detail = "There is nothing at this address." if error.detail == title else error.detail
+        return problem_page(http, error.status_code, title, detail, dict(error.headers or {}))
+    if getattr(http.scope.get("route"), "response_class", None) is not HTMLResponse:
         return answer(http, error)
-    title = HTTPStatus(error.status_code).phrase
-    detail = "There is nothing at this address." if error.detail == title else error.detail
-    content = problem_page(root_of(http), error.status_code, title, detail)
-    return html(content, error.status_code, dict(error.headers or {}))
-
-
-def error_page(http: Request, error: Exception) -> Response:
-    """The page about an error."""
     kind = kind_of(error)
-    detail = getattr(error, "detail", "")
-    return html(problem_page(root_of(http), kind.status, kind.title, detail), kind.status, kind.headers)
+    return problem_page(http, kind.status, kind.title, getattr(error, "detail", ""), kind.headers)
+
+
+def problem_page(
+    http: Request, status: int, title: str, detail: str, headers: dict[str, str] | None = None
+) -> Response:
+    """Something that is no page."""
+    return html(rendered("problem.html", root_of(http), title=title, detail=detail), status, headers)
 
 
 def root_of(http: Request) -> str:

@@ -3,12 +3,11 @@
 from typing import Annotated, Any
 
 from fastapi import APIRouter, HTTPException, Query, Request, Response
-from fastapi.responses import RedirectResponse
+from fastapi.responses import HTMLResponse, RedirectResponse
 
 from app.errors import Unprocessable
 from app.http.problems import documented
-from app.http.routes.pages import KNOWN_ERRORS, error_page, html, root_of
-from app.pages.overview import problem_page
+from app.http.routes.pages import html, problem_page, root_of
 from app.rexs import answer
 from app.rexs.document import File
 from app.settings import MEBIBYTE, Settings
@@ -75,16 +74,14 @@ async def ask_for_unit(http: Request) -> Response:
     return RedirectResponse(f"{root_of(http)}/#rexs-file", 303)
 
 
-@pages.post("/rexs")
+@pages.post("/rexs", response_class=HTMLResponse)
 async def show_unit(http: Request) -> Response:
     """The unit as a page: stages, findings, and a link to every calculation."""
     try:
         content, _ = await _upload(http)
         return html(await _pool(http).calculate(http, answer.unit_html, root_of(http), content, _most_bytes(http)))
     except Unprocessable as error:
-        return html(problem_page(root_of(http), 422, "The file cannot be read", error.message), 422)
-    except KNOWN_ERRORS as error:
-        return error_page(http, error)
+        return problem_page(http, 422, "The file cannot be read", error.message)
 
 
 async def _upload(http: Request) -> tuple[bytes, bytes | None]:

@@ -8,6 +8,7 @@ from functools import partial
 from typing import Any
 
 from fastapi import APIRouter, Depends, HTTPException, Request, Response
+from fastapi.responses import HTMLResponse
 
 from app.calculations import CALCULATIONS, Calculation
 from app.errors import ClientGone, DeadlineExceeded, StudyEnded, WorkerLost
@@ -53,10 +54,7 @@ def _add(calculation: Calculation, own: type[StudyPage]) -> None:
     policy = {"Content-Security-Policy": pages.DOCUMENT_POLICY}
 
     async def page(http: Request) -> Response:
-        try:
-            return await _page(http, calculation, own, path)
-        except pages.KNOWN_ERRORS as error:
-            return pages.error_page(http, error)
+        return await _page(http, calculation, own, path)
 
     async def lines(http: Request, media: str) -> Response:
         if media not in own.files:
@@ -72,10 +70,7 @@ def _add(calculation: Calculation, own: type[StudyPage]) -> None:
         return Response(drawn, media_type=IMAGE_TYPES[image_format], headers=policy)
 
     async def report(http: Request) -> Response:
-        try:
-            content = await _made(http, await checked(http), study_page.report, pages.printed_host(http))
-        except pages.KNOWN_ERRORS as error:
-            return pages.error_page(http, error)
+        content = await _made(http, await checked(http), study_page.report, pages.printed_host(http))
         return Response(content, media_type=pages.HTML, headers=policy)
 
     async def checked(http: Request) -> StudyPage:
@@ -83,9 +78,9 @@ def _add(calculation: Calculation, own: type[StudyPage]) -> None:
         found: StudyPage = await _planned(http, own, asked, study_page.checked)
         return found
 
-    router.add_api_route(path, page, methods=pages.METHODS)
+    router.add_api_route(path, page, methods=pages.METHODS, response_class=HTMLResponse)
     router.add_api_route(f"{path}.{{media}}", lines, methods=pages.METHODS)
-    router.add_api_route(f"{path}/report", report, methods=pages.METHODS)
+    router.add_api_route(f"{path}/report", report, methods=pages.METHODS, response_class=HTMLResponse)
     router.add_api_route(f"{path}/figures/{{name}}.{{image_format}}", figure, methods=pages.METHODS)
 
 

@@ -18,7 +18,7 @@ from app.pages.query import LONGEST_QUERY, STUDY_NAMES, link, number_of, pairs_o
 from app.pages.results import NOT_RESULTS
 from app.pages.study_links import Starter, StudyExample, StudyLink
 from app.pages.templating import examples_of, rendered
-from app.pages.views import REFUSED, Asked, StudySection, title_of
+from app.pages.views import REFUSED, Asked, title_of
 from app.pages.views import report as case_report
 from app.schema.fields import ITEM, Leaf, headlines, leaf_at, leaves, tree
 from app.sources import SHORT_SOURCES
@@ -361,6 +361,9 @@ def file(page: StudyPage, lines: list[Line], name: str, image_format: Format) ->
 
 def report(page: StudyPage, lines: list[Line], host: str) -> bytes:
     """The report of the case, with a section about the study."""
-    found, address = page.result(lines), "" if page.too_long else page.view("")
-    section = StudySection(page.link.label, found.progress, found.remarks, found.figures, found.tables, address)
+    section = {
+        "title": page.link.label,
+        "link": "" if page.too_long else page.view(""),
+        "found": page.result(lines),
+    }
     return case_report(page.asked, host, section).content
