@@ -15,7 +15,7 @@ from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.text import Text
 
 from app.figures.data import Figure, Panel, ThemeName
-from app.figures.drawing.panels import ROW_NAME_LENGTH, draw_panel, place_texts
+from app.figures.drawing.panels import draw_panel, place_texts
 from app.figures.drawing.style import DPI, TEXT, TITLE, WIDTH, themed
 from app.figures.wording import subscripts
 
@@ -24,7 +24,7 @@ TITLE_LINE, FINDING_LINE = 1.3 * TITLE / 72.0, 1.3 * TEXT / 72.0  # inches: 1.3 
 TITLE_LENGTH, FINDING_LENGTH = 58, 84  # characters of a line
 HEIGHTS = {1: 2.6, 2: 1.65, 3: 1.3}  # inches, of panels above each other
 PLANE_HEIGHT = 3.3  # inches, of a field over two axes
-ROW_HEIGHT, WRAPPED_ROW_HEIGHT = 0.26, 0.34  # inches, of a row of bars with a name of one or two lines
+ROW_HEIGHT = 0.3  # inches, of a row of bars with a name of up to two lines
 ABSCISSA_LENGTH = 30  # characters of a line below axes that stand beside others
 ABSCISSA = 0.45  # inches, ticks and name
 CANVASES = {"svg": FigureCanvasSVG, "png": FigureCanvasAgg, "pdf": FigureCanvasPdf}
@@ -90,9 +90,7 @@ def _head(figure: Figure) -> tuple[str, str, float, float]:
 def _height(panel: Panel, figure: Figure) -> float:
     """Height of a panel without what stands below it, in inches."""
     if panel.rows:
-        names = {row.name for row in panel.rows}
-        height = WRAPPED_ROW_HEIGHT if any(len(name) > ROW_NAME_LENGTH for name in names) else ROW_HEIGHT
-        return height * (len(names) + (1 if panel.levels or panel.title else 0.3))
+        return ROW_HEIGHT * (len({row.name for row in panel.rows}) + (1 if panel.levels or panel.title else 0.3))
     if panel.equal or panel.areas:
         return PLANE_HEIGHT / 1.5 if figure.beside else PLANE_HEIGHT
     return HEIGHTS[1 if figure.beside else min(len(figure.panels), max(HEIGHTS))]

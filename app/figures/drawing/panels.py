@@ -14,7 +14,7 @@ from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullLocato
 from matplotlib.transforms import Bbox, BboxBase
 
 from app.figures.data import Line, Map, Panel, Role, Row, Scale
-from app.figures.drawing.style import DASHES, LETTER, LIMIT, LIMIT_DASHES, REFERENCE_DASHES, TEXT, patch, written
+from app.figures.drawing.style import DASHES, LETTER, LIMIT, TEXT, patch, written
 from app.figures.wording import number
 
 FARTHEST_LEVEL = 4.0  # a limit beyond so many times the values is named at the edge instead of flattening them
@@ -27,7 +27,7 @@ COLOURS = {Scale.MAGNITUDE: "cividis", Scale.RATIO: "RdBu_r", Scale.SIGNED: "RdB
 # Of a ratio on a logarithmic axis; up to the next number its ticks are evenly spaced.
 RATIO_TICKS, LINEAR_RATIO = (0.1, 0.2, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 5.0, 10.0, 20.0, 50.0, 100.0), 1.3
 CROWDED = 0.05  # of the colour bar: a tick nearer to a critical value gives way
-BESIDE_DOTS, BESIDE_BARS = 0.5, 0.3  # of the reach of rows, for texts at the ends of dots, of bounds and of parts
+BESIDE_ROWS = 0.4  # of the reach of rows, for texts at their ends
 WIDE = 0.15  # of the longest bar: bounds farther apart have their values at their ends
 NOISE = 1e-9  # of the values: what varies by less is rounding error
 STEPS = (1, 2, 2.5, 5, 10)  # of ticks, times powers of ten
@@ -70,7 +70,8 @@ def draw_panel(axes: Axes, panel: Panel, height: float) -> None:
     for span in panel.spans:
         shade: Style = {"facecolor": rcParams["grid.color"], "edgecolor": "none", "zorder": 2 if panel.map else 0}
         axes.axvspan(span.start, span.stop, **shade)
-        _name_on_top(axes, panel, span.name, (span.start + span.stop) / 2, rcParams["axes.labelcolor"])
+        top = (span.start + span.stop) / 2, 1.0
+        _name(axes, span.name, top, axes.get_xaxis_transform(), gid="below", color=rcParams["axes.labelcolor"])
     known = {str(each.get_label()): each for each in axes.get_legend_handles_labels()[0]}  # a name may be of several
     if known:
         axes.legend(known.values(), known, bbox_to_anchor=(1.02, 1.0))
@@ -84,8 +85,7 @@ def _end(axes: Axes, panel: Panel) -> None:
         if panel.y.limits:
             axes.set_ylim(panel.y.limits)
     elif panel.rows:
-        dots, texts = any(row.dots for row in panel.rows), any(row.bounds or row.parts for row in panel.rows)
-        axes.margins(x=BESIDE_DOTS if dots else BESIDE_BARS if texts else 0.04)
+        axes.margins(x=BESIDE_ROWS)
     else:
         axes.margins(y=0.0 if panel.map else 0.16 if panel.marks else 0.08)
         low, high = panel.y.limits or axes.get_ylim()
@@ -149,12 +149,10 @@ def _draw_rows(axes: Axes, panel: Panel) -> None:
     if not any(row.dots for row in own):
         axes.axvline(0.0, color=rcParams["axes.edgecolor"], linewidth=0.9)
     for row in panel.rows:
-        if row.dots:
-            _draw_dots(axes, places[row.name], row)
-        else:
-            _draw_row(axes, places[row.name], row)
-            if row.role is not Role.VARIANT:
-                _write_value(axes, places[row.name], row, panel)
+        place = places[row.name]
+        (_draw_dots if row.dots else _draw_row)(axes, place, row)
+        if not row.dots and row.role is not Role.VARIANT:
+            _write_value(axes, place, row, panel)
     axes.set_yticks(range(len(own)), [fill(row.name, ROW_NAME_LENGTH) for row in own])
     axes.set_ylim(len(own) - 0.5, -1.2 if panel.levels else -0.5)
     for text, row in zip(axes.get_yticklabels(), own, strict=True):
@@ -187,26 +185,23 @@ def _draw_row(axes: Axes, place: int, row: Row) -> None:
 def _write_value(axes: Axes, place: int, row: Row, panel: Panel) -> None:
     """The value of a row at its right, and those of its bounds at their ends; rounding errors are zero."""
     scale = max((abs(each.value) for each in panel.rows if np.isfinite(each.value)), default=0.0)
-    alike, unit = [each for each in panel.rows if each.name == row.name], panel.x.unit
-    text = "not calculated"
-    if np.isfinite(row.value):
-        text = number(0.0 if abs(row.value) <= NOISE * scale else row.value, unit)
-    strong: Style = {"fontsize": TEXT, "fontweight": "bold", "bbox": patch()}
+    value, unit = 0.0 if abs(row.value) <= NOISE * scale else row.value, panel.x.unit
+    text = number(value, unit) if np.isfinite(value) else "not calculated"
+    strong: Style = {"fontsize": TEXT, "fontweight": "bold"}
     if row.bounds is not None and row.bounds[1] - row.bounds[0] > WIDE * scale:
         low, high = row.bounds
-        muted: Style = {"color": rcParams["axes.labelcolor"], "bbox": patch()}
-        _write(axes, number(low, unit), (low, place), -5, **muted)
-        above = _write(axes, number(high, unit), (high, place), 5, **muted)
+        _write(axes, number(low, unit), (low, place), -5, color=rcParams["axes.labelcolor"])
+        above = _write(axes, number(high, unit), (high, place), 5, color=rcParams["axes.labelcolor"])
         _write(axes, text, (1, 0.5), 4, xycoords=above, **strong)
     else:
-        tip = np.nanmax([0.0, *(end for each in alike for end in (each.value, *(each.bounds or ())))])
-        _write(axes, text, (tip, place), 4, **strong)
+        drawn = [end for each in panel.rows if each.name == row.name for end in (each.value, *(each.bounds or ()))]
+        _write(axes, text, (np.nanmax([0.0, *drawn]), place), 4, **strong)
 
 
 def _write(axes: Axes, text: str, xy: tuple[float, float], offset: float, **style: Any) -> Text:
     """A text in the line of a point, so many typographic points to its right; to its left if negative."""
-    style = {"textcoords": "offset points", "va": "center_baseline", "ha": "left" if offset > 0.0 else "right", **style}
-    return axes.annotate(text, xy, (offset, 0), **style)
+    style |= {"textcoords": "offset points", "va": "center_baseline", "ha": "left" if offset > 0.0 else "right"}
+    return axes.annotate(text, xy, (offset, 0), bbox=patch(), **style)
 
 
 def _draw_map(axes: Axes, panel: Panel, chart: Map) -> None:
@@ -256,21 +251,24 @@ def _draw_levels(axes: Axes, panel: Panel) -> None:
         low, high = drawn.intervalx if level.vertical else drawn.intervaly
         quantity, reach = panel.x if level.vertical else panel.y, FARTHEST_LEVEL * (high - low)
         if quantity.log or quantity.limits or low - reach <= level.value <= high + reach:
-            style: Style = {"color": LIMIT, "linestyle": LIMIT_DASHES, "linewidth": 1.3}
-            if not level.limit:
-                style = {"color": rcParams["axes.labelcolor"], "linestyle": REFERENCE_DASHES, "linewidth": 1.0}
-            (axes.axvline if level.vertical else axes.axhline)(level.value, **style)
+            (axes.axvline if level.vertical else axes.axhline)(level.value, **_level_style(level.limit))
     _end(axes, panel)
-    for level in panel.levels:
+    for level in sorted(panel.levels, key=lambda each: not each.vertical):
         low, high = sorted(axes.get_xlim() if level.vertical else axes.get_ylim())
-        arrows = ("←", "→") if level.vertical else ("↓", "↑")
-        arrow = f" {arrows[0]}" if level.value < low else f" {arrows[1]}" if level.value > high else ""
-        at, text = float(np.clip(level.value, low, high)), level.name and f"{level.name}{arrow}"
-        color = LIMIT if level.limit else rcParams["axes.labelcolor"]
+        below, above = (" ←", " →") if level.vertical else (" ↓", " ↑")
+        text = level.name + (below if level.value < low else above if level.value > high else "") * bool(level.name)
+        at, color = float(np.clip(level.value, low, high)), _level_style(level.limit)["color"]
         if level.vertical:
-            _name_on_top(axes, panel, text, at, color)
+            _name(axes, text, (at, 1.0), axes.get_xaxis_transform(), gid="below", color=color)
         else:
             _name(axes, text, (1.0, at), axes.get_yaxis_transform(), gid="above", color=color)
+
+
+def _level_style(limit: bool) -> Style:
+    """Of a limit, or of a reference."""
+    if limit:
+        return {"color": LIMIT, "linestyle": (0, (5.0, 2.5)), "linewidth": 1.3}
+    return {"color": rcParams["axes.labelcolor"], "linestyle": (0, (1.0, 2.0)), "linewidth": 1.0}
 
 
 def _name(axes: Axes, text: str, xy: tuple[float, float], xycoords: Any = "data", **style: Any) -> None:
@@ -278,12 +276,6 @@ def _name(axes: Axes, text: str, xy: tuple[float, float], xycoords: Any = "data"
     style = {"textcoords": "offset points", "in_layout": False, "zorder": 6, "annotation_clip": False, **style}
     if text:
         axes.annotate(text, xy, (0, 0), xycoords, bbox=patch(), **style)
-
-
-def _name_on_top(axes: Axes, panel: Panel, text: str, x: float, color: str) -> None:
-    """A text at the top of the axes, over a map and bars but not over curves."""
-    style: Style = {"zorder": 6 if panel.map or panel.rows else 1.9, "color": color}  # 1.9: over the grid
-    _name(axes, text, (x, 1.0), axes.get_xaxis_transform(), gid="below", **style)
 
 
 def place_texts(axes: Axes, panel: Panel) -> None:

@@ -3,7 +3,6 @@
 from contextlib import AbstractContextManager
 from typing import Any
 
-import numpy as np
 from matplotlib import rcParams, style
 from matplotlib.colors import to_hex, to_rgb
 
@@ -14,7 +13,6 @@ DPI = {"svg": 100, "png": 180, "pdf": 180}  # of the maps inside the vector form
 TITLE, TEXT, SMALL = 11.0, 8.5, 8.0  # points; the texts of axes, as the style sheet has it, are small
 LETTER = 0.58 * SMALL / 72.0  # inches: mean width of a character
 DASHES: dict[Role, Any] = {Role.RESULT: "solid", Role.REFERENCE: (0, (1.2, 1.8)), Role.VARIANT: (0, (4.5, 2.2))}
-LIMIT_DASHES, REFERENCE_DASHES = (0, (5.0, 2.5)), (0, (1.0, 2.0))  # line widths on and off
 LIMIT = "C7"  # colour of limits
 
 
@@ -24,8 +22,10 @@ def themed(theme: ThemeName) -> AbstractContextManager[None]:
 
 
 def written(hue: Hue) -> str:
-    """The colour of a text in a hue, which itself is too light: between it and plain ink the contrast is at least 4.5."""
-    return to_hex(0.6 * np.array(to_rgb(hue)) + 0.4 * np.array(to_rgb(rcParams["text.color"])))
+    """The colour of a text in a hue: it goes so far towards plain ink that the contrast is at least 4.5."""
+    own, ink = to_rgb(hue), to_rgb(rcParams["text.color"])
+    red, green, blue = (0.6 * one + 0.4 * other for one, other in zip(own, ink, strict=True))
+    return to_hex((red, green, blue))
 
 
 def patch() -> dict[str, Any]:
