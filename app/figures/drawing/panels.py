@@ -15,7 +15,7 @@ from matplotlib.transforms import Bbox, BboxBase
 
 from app.figures.data import Line, Map, Panel, Role, Row, Scale
 from app.figures.drawing.style import DASHES, LETTER, LIMIT, TEXT, patch, written
-from app.figures.wording import number
+from app.figures.wording import NOISE, number, without_rounding
 
 FARTHEST_LEVEL = 4.0  # a limit beyond so many times the values is named at the edge instead of flattening them
 NAME_LENGTH, ROW_NAME_LENGTH = 17, 36  # characters of a line of a legend and of the name of a row
@@ -23,13 +23,11 @@ BAR_SHARE, TINT = 0.8, 0.2  # of the spacing; opacity of fills
 ROW = 0.52  # height of a row's bar
 RING = 5  # pixels
 SIDES = {"above": 1, "below": -1}  # of a point, on which its text is tried first; other texts stay where they are
-COLOURS = {Scale.MAGNITUDE: "cividis", Scale.RATIO: "RdBu_r", Scale.SIGNED: "RdBu_r"}
 # Of a ratio on a logarithmic axis; up to the next number its ticks are evenly spaced.
 RATIO_TICKS, LINEAR_RATIO = (0.1, 0.2, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 5.0, 10.0, 20.0, 50.0, 100.0), 1.3
 CROWDED = 0.05  # of the colour bar: a tick nearer to a critical value gives way
 BESIDE_ROWS = 0.4  # of the reach of rows, for texts at their ends
 WIDE = 0.15  # of the longest bar: bounds farther apart have their values at their ends
-NOISE = 1e-9  # of the values: what varies by less is rounding error
 STEPS = (1, 2, 2.5, 5, 10)  # of ticks, times powers of ten
 NUMBERS = FuncFormatter(lambda value, _: number(value, digits=6))
 
@@ -185,7 +183,7 @@ def _draw_row(axes: Axes, place: int, row: Row) -> None:
 def _write_value(axes: Axes, place: int, row: Row, panel: Panel) -> None:
     """The value of a row at its right, and those of its bounds at their ends; rounding errors are zero."""
     scale = max((abs(each.value) for each in panel.rows if np.isfinite(each.value)), default=0.0)
-    value, unit = 0.0 if abs(row.value) <= NOISE * scale else row.value, panel.x.unit
+    value, unit = without_rounding(row.value, scale), panel.x.unit
     text = number(value, unit) if np.isfinite(value) else "not calculated"
     strong: Style = {"fontsize": TEXT, "fontweight": "bold"}
     if row.bounds is not None and row.bounds[1] - row.bounds[0] > WIDE * scale:
@@ -208,19 +206,20 @@ def _draw_map(axes: Axes, panel: Panel, chart: Map) -> None:
     """Colours with their bar, thin contours at the bar's values, a dashed one at each critical value."""
     low, high = chart.ends
     norm = LogNorm(low, high) if chart.scale is Scale.RATIO else Normalize(low, high)
+    still = {Scale.RATIO: 1.0, Scale.SIGNED: 0.0}.get(chart.scale)  # beside it there is only noise
+    cmap = "cividis" if still is None else "RdBu_r"
     # A single value of a coordinate holds everywhere on its axis.
     x, y = (
         along if along.size > 1 else np.array(axis.limits or along[0] + (-0.5, 0.5))
         for along, axis in ((chart.x, panel.x), (chart.y, panel.y))
     )
     shown = np.ma.masked_invalid(np.broadcast_to(chart.values, (y.size, x.size)))
-    colors = axes.pcolormesh(x, y, shown, cmap=COLOURS[chart.scale], norm=norm, shading="gouraud", rasterized=True)
+    colors = axes.pcolormesh(x, y, shown, cmap=cmap, norm=norm, shading="gouraud", rasterized=True)
     axes.grid(visible=False)
     critical = {each.value: each.name for each in chart.critical if low <= each.value <= high}
     linear = chart.scale is not Scale.RATIO or high <= LINEAR_RATIO
     ticks = MaxNLocator(nbins=6, steps=STEPS).tick_values(low, high) if linear else RATIO_TICKS
     ticks = [tick for tick in ticks if low <= tick <= high]
-    still = {Scale.RATIO: 1.0, Scale.SIGNED: 0.0}.get(chart.scale)  # beside it there is only noise
     thin: Style = {"colors": "#FFFFFF" if still is None else "#1F2937", "linewidths": 0.6, "alpha": 0.55}
     strong: Style = {"colors": LIMIT if still is None else "#111827", "linewidths": 1.5, "linestyles": "dashed"}
     for levels, style in (({*ticks} - {*critical, still}, thin), ({*critical}, strong)):
@@ -298,7 +297,7 @@ def place_texts(axes: Axes, panel: Panel) -> None:
             continue
         text.set(ha="center", va="center")
         size, side = text.get_window_extent(), SIDES[str(text.get_gid())]
-        # The first of the places around the point where the text covers least of the curves.
+        # Of the places around the point that where the text covers least of texts and curves, and is not far away.
         costs = {}
         for reach in (7, 12, 20, 32, 48, 64):
             for across, up in ((0, side), (0, -side), (1, 0), (-1, 0), (1, 0.7), (-1, 0.7), (1, -0.7), (-1, -0.7)):
@@ -306,7 +305,7 @@ def place_texts(axes: Axes, panel: Panel) -> None:
                 box, room = size.translated(*place), axes.bbox
                 outside = max(room.x0 - box.x0, box.x1 - room.x1, 0.0) + max(room.y0 - box.y0, box.y1 - room.y1, 0.0)
                 crossed = sum(curve.intersects_bbox(box, filled=False) for curve in curves)
-                costs[place] = crossed + 10.0 * sum(box.overlaps(other) for other in taken) + outside
+                costs[place] = crossed + 10.0 * sum(box.overlaps(other) for other in taken) + outside + reach / 32.0
         best = min(costs, key=costs.__getitem__)
         text.set_position((best[0] / point, best[1] / point))
         taken.append(size.translated(*best))

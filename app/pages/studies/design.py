@@ -1,13 +1,12 @@
 """Design: the flank correction whose worst corner is best, as a sheet for the grinder, and how it was found."""
 
 from functools import partial
-from math import inf
 from typing import Any
 
 from app.figures.comparison import compared
 from app.figures.data import Figure, NoFigure, values
 from app.figures.models.drive_train import GAP
-from app.figures.studies import LeadTrace, Tried, lead_chart, search
+from app.figures.studies import Lead, lead_chart, search
 from app.figures.units import axis_of
 from app.pages import study_links
 from app.pages.cases import Case
@@ -76,9 +75,7 @@ def _result(study: PageStudy, lines: list[Line]) -> Result:
         return Result("")
     end, output = lines[-1], study.output
     greatest = output.view.greatest_is_best
-    reached = [line["objective"] for line in trials]
-    tried = [Tried(inf if each is None else each, each is not None) for each in reached]
-    figure = {"search": search(axis_of(output), tried, greatest=greatest)}
+    figure = {"search": search(axis_of(output), [line["objective"] for line in trials], greatest=greatest)}
     if end["type"] != "end":
         best = (max if greatest else min)(solved, key=lambda line: line["objective"])
         lead = Link("Open the unit ground so", study.address(best["at"]))
@@ -207,14 +204,10 @@ def _lead_chart(case: Case, at: Overrides) -> Figure:
     curves, inputs = case.response.misalignment.curves, case.response.inputs
     leaves = [scalar_at(case.calculation.request, path, "", "unknown_path") for path in (SLOPE, CROWNING)]
     position = values(curves.position_mm)
-    trace = LeadTrace(
-        values(curves.z_mm),
-        values(position / position[-1]),
-        *(float(at[leaf.path] or 0.0) for leaf in leaves),
-        *(leaf.declared.tolerance or 0.0 for leaf in leaves),
-    )
-    slope, crowning = (float(value_at(inputs, leaf.path) or 0.0) for leaf in leaves)
-    return lead_chart(trace, (slope, crowning), _ends(case))
+    wanted = Lead(*(float(at[leaf.path] or 0.0) for leaf in leaves))
+    before = Lead(*(float(value_at(inputs, leaf.path) or 0.0) for leaf in leaves))
+    tolerance = Lead(*(leaf.declared.tolerance or 0.0 for leaf in leaves))
+    return lead_chart(values(curves.z_mm), position / position[-1], wanted, before, tolerance, _ends(case))
 
 
 def _gap(ground: Case, case: Case) -> dict[str, Figure]:
