@@ -252,7 +252,8 @@ def _draw_levels(axes: Axes, panel: Panel) -> None:
         if quantity.log or quantity.limits or low - reach <= level.value <= high + reach:
             (axes.axvline if level.vertical else axes.axhline)(level.value, **_level_style(level.limit))
     _end(axes, panel)
-    for level in sorted(panel.levels, key=lambda each: not each.vertical):
+    # From the top down, so that of two levels close together the lower one is named below.
+    for level in sorted(panel.levels, key=lambda each: (not each.vertical, -each.value)):
         low, high = sorted(axes.get_xlim() if level.vertical else axes.get_ylim())
         below, above = (" ←", " →") if level.vertical else (" ↓", " ↑")
         text = level.name + (below if level.value < low else above if level.value > high else "") * bool(level.name)
