@@ -21,18 +21,18 @@ ThemeName = Literal["light", "dark"]
 
 
 class Hue(StrEnum):
-    """Colours of Okabe and Ito; a theme says which shade of each it draws and writes in."""
+    """Colours of Okabe and Ito in the order in which curves take them, as matplotlib names those of a style's cycle."""
 
-    BLUE = "blue"
-    VERMILLION = "vermillion"
-    GREEN = "green"
-    SKY = "sky"
-    ORANGE = "orange"
-    PURPLE = "purple"
-    GREY = "grey"
+    BLUE = "C0"
+    VERMILLION = "C1"
+    GREEN = "C2"
+    PURPLE = "C3"
+    ORANGE = "C4"
+    SKY = "C5"
+    GREY = "C6"
 
 
-ORDER = (Hue.BLUE, Hue.VERMILLION, Hue.GREEN, Hue.PURPLE, Hue.ORANGE, Hue.SKY, Hue.GREY)
+ORDER = tuple(Hue)
 
 
 class Role(StrEnum):

@@ -1,5 +1,6 @@
 """Figures of studies: sweeps as curves and maps, influences, worst corners, and the course of a search."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import groupby
 from typing import NamedTuple
@@ -7,7 +8,23 @@ from typing import NamedTuple
 import numpy as np
 
 from app.figures import parts
-from app.figures.data import ORDER, Axis, Figure, Hue, Level, Line, Map, Mark, Panel, Ribbon, Role, Row, Span, Values
+from app.figures.data import (
+    ORDER,
+    Axis,
+    Figure,
+    Hue,
+    Level,
+    Line,
+    Map,
+    Mark,
+    Panel,
+    Ribbon,
+    Role,
+    Row,
+    Span,
+    Values,
+    values,
+)
 from app.figures.wording import NO_BREAK, listed, number
 
 MOST_CURVES = 6  # beyond it two fields make a map
@@ -184,6 +201,13 @@ def _crossings(grid: Grid) -> list[float]:
     return places
 
 
+class Lead(NamedTuple):
+    """Slope and crowning of a helix [um], or what they may be off."""
+
+    slope: float
+    crowning: float
+
+
 @dataclass(frozen=True, slots=True)
 class Influence:
     """The change of an output by one step of an input, and whether the slopes below and above the value differ."""
@@ -236,54 +260,39 @@ def corners(output: Axis, found: list[Uncertain], nominal: float | None) -> Figu
     return Figure(finding, [panel], title="The worst that each uncertain input can lead to")
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class LeadTrace:
-    """A helix trace to grind over the axis of the unit: slope and crowning [um], and what they may be off."""
-
-    position: Values
-    face_fraction: Values
-    slope: float
-    crowning: float
-    slope_tolerance: float
-    crowning_tolerance: float
-
-    def depth(self, slope: float, crowning: float) -> Values:
-        """Material to remove below the plain helix at the middle of the face [um]."""
-        eta = self.face_fraction - 0.5
-        return slope * eta + 4.0 * crowning * eta**2
-
-
-def lead_chart(trace: LeadTrace, before: tuple[float, float], ends: tuple[str, str]) -> Figure:
+def lead_chart(
+    position: Values, face_fraction: Values, wanted: Lead, before: Lead, tolerance: Lead, ends: tuple[str, str]
+) -> Figure:
     """The helix trace to grind with its tolerances, as a lead chart shows it: removed material points downwards.
 
-    `before` are slope and crowning as described, `ends` what the ends of the face are called.
+    `position` is on the axis of the unit [mm], `before` the lead as described, `ends` what the ends of the face are
+    called.
     """
-    z, wanted = trace.position, -trace.depth(trace.slope, trace.crowning)
-    off = trace.depth(0.0, trace.crowning_tolerance) + np.abs(trace.depth(trace.slope_tolerance, 0.0))
+    eta = face_fraction - 0.5
+
+    def depth(slope: float, crowning: float) -> Values:
+        """Material to remove below the plain helix at the middle of the face [um]."""
+        return slope * eta + 4.0 * crowning * eta**2
+
+    ground = -depth(*wanted)
+    off = depth(0.0, tolerance.crowning) + np.abs(depth(tolerance.slope, 0.0))
     panel = Panel(
         x=Axis("position on the unit's axis Z", "mm", magnitude=False),
         y=Axis("flank, removed material downwards", "µm", magnitude=False),
         lines=[
-            Line("to grind", z, wanted),
-            Line("as described", z, -trace.depth(*before), Hue.GREY, Role.REFERENCE),
+            Line("to grind", position, ground),
+            Line("as described", position, -depth(*before), Hue.GREY, Role.REFERENCE),
         ],
-        ribbons=[Ribbon("tolerance", z, wanted - off, wanted + off)],
+        ribbons=[Ribbon("tolerance", position, ground - off, ground + off)],
     )
-    low, high = sorted(zip(z[[0, -1]], ends, strict=True))
+    low, high = sorted(zip(position[[0, -1]], ends, strict=True))
     finding = f"left {low[1]}, right {high[1]}; shaded: tolerances"
     return Figure(finding, [panel], title="Lead chart of the pinion's working flank")
 
 
-class Tried(NamedTuple):
-    """The objective of a correction at its worst corner, and whether that corner has a solution."""
-
-    reached: float
-    solved: bool
-
-
-def search(output: Axis, tried: list[Tried], *, greatest: bool) -> Figure:
-    """The corrections in the order in which they were tried."""
-    reached = np.array([each.reached if each.solved else np.nan for each in tried])
+def search(output: Axis, objectives: Sequence[float | None], *, greatest: bool) -> Figure:
+    """The objectives of the corrections at their worst corners in the order tried; None: a corner has no solution."""
+    reached = values(objectives)
     so_far = np.fmax.accumulate(reached) if greatest else np.fmin.accumulate(reached)
     order = np.arange(1, reached.size + 1, dtype=np.float64)
     lines = [Line("tried", order, reached, Hue.GREY, Role.REFERENCE), Line("best so far", order, so_far)]
@@ -292,5 +301,5 @@ def search(output: Axis, tried: list[Tried], *, greatest: bool) -> Figure:
     y = replace(output, title=f"{output.title} at the worst corner", magnitude=False)
     panel = Panel(x=x, y=y, lines=lines, marks=marks)
     finding = f"from {number(float(reached[0]), output.unit)} to {number(float(so_far[-1]), output.unit, digits=4)}"
-    unsolved = sum(not each.solved for each in tried)
-    return Figure(finding, [panel], title="What the search reached at the worst corner", unsolved=unsolved)
+    title = "What the search reached at the worst corner"
+    return Figure(finding, [panel], title=title, unsolved=list(objectives).count(None))

@@ -6,6 +6,7 @@ from collections.abc import Callable
 NO_BREAK = "\u00a0"  # a space
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 PLAIN = (1e-3, 1e6)  # magnitudes written without a power of ten
+NOISE = 1e-9  # of a whole: a smaller part is rounding error
 # A letter or two, an underscore, letters and digits with commas between them.
 _SUBSCRIPT = re.compile(r"(?<!\w)([^\W\d_²³]{1,2})_([^\W_²³]+(?:,[^\W_²³]+)*)")
 
@@ -31,9 +32,14 @@ def number(value: float, unit: str | None = None, digits: int = 3) -> str:
     return f"{text.replace('-', '−')}{glue}{unit or ''}"
 
 
+def without_rounding(value: float, whole: float) -> float:
+    """The value; zero where it is rounding error relative to the whole."""
+    return 0.0 if abs(value) < NOISE * abs(whole) else value
+
+
 def percent(fraction: float) -> str:
     """A fraction in per cent; a rounding error is none."""
-    return number(0.0 if abs(fraction) < 1e-9 else 100.0 * fraction, "%")
+    return number(100.0 * without_rounding(fraction, 1.0), "%")
 
 
 def ratio(value: float, unit: str | None = None) -> str:

@@ -10,7 +10,7 @@ from unittest.mock import patch
 
 import numpy as np
 import pytest
-from matplotlib import rc_context
+from matplotlib import rcParams
 from matplotlib.backend_bases import RendererBase
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.text import Text
@@ -21,7 +21,7 @@ from app.evaluate import evaluate
 from app.examples import Example, examples
 from app.figures.data import Axis, Figure, Hue, Level, Line, Map, Mark, NoFigure, Panel, Row, ThemeName, values
 from app.figures.drawing.image import draw, laid_out, places
-from app.figures.drawing.style import THEMES, WIDTH, settings
+from app.figures.drawing.style import WIDTH, themed, written
 from app.figures.studies import Influence, Uncertain, corners, influence
 
 X = np.linspace(0.0, 1.0, 41)
@@ -46,8 +46,8 @@ def boxes(figure: Figure) -> tuple[list[tuple[str, Bbox]], Bbox]:
         if text.get_visible() and text.get_text().strip():
             drawn.append(text)
 
-    with rc_context(settings("light")), patch.object(Text, "draw", draw_text):
-        sheet, _ = laid_out(figure, THEMES["light"])
+    with themed("light"), patch.object(Text, "draw", draw_text):
+        sheet, _ = laid_out(figure)
         renderer = FigureCanvasAgg(sheet).get_renderer()
         sheet.draw(renderer)
         inches = sheet.dpi_scale_trans.inverted()
@@ -85,8 +85,8 @@ def test_texts_of_a_printed_report_are_seven_points_high() -> None:
     width = re.search(r"figure img\{width:(\d+)mm", style)
     assert width
     scale = float(width[1]) / 25.4 / WIDTH
-    with rc_context(settings("light")):
-        sheet, _ = laid_out(Figure("a finding", (PANEL,), title="two peaks"), THEMES["light"])
+    with themed("light"):
+        sheet, _ = laid_out(Figure("a finding", (PANEL,), title="two peaks"))
         assert min(text.get_fontsize() for text in sheet.findobj(Text)) * scale >= 7.0
 
 
@@ -121,8 +121,9 @@ def texts(panel: Panel, theme: ThemeName = "light") -> dict[str, tuple[str, floa
 @pytest.mark.parametrize("theme", ["light", "dark"])
 def test_names_of_points_of_several_curves_have_their_hues(theme: ThemeName) -> None:
     found = texts(PANEL, theme)
-    for mark in PANEL.marks:
-        assert THEMES[theme].writing[mark.hue].lower() in found[mark.text][0]
+    with themed(theme):
+        for mark in PANEL.marks:
+            assert written(mark.hue) in found[mark.text][0]
 
 
 def test_the_name_of_the_higher_point_is_the_higher_one() -> None:
@@ -133,7 +134,8 @@ def test_the_name_of_the_higher_point_is_the_higher_one() -> None:
 def test_the_name_of_a_single_curves_point_is_plain_ink() -> None:
     marks = (PANEL.marks[0],)
     found = texts(Panel(x=PANEL.x, y=PANEL.y, lines=PANEL.lines[:1], marks=marks))
-    assert THEMES["light"].ink.lower() in found["2.00"][0]
+    with themed("light"):
+        assert rcParams["text.color"].lower() in found["2.00"][0]
 
 
 def test_maps_side_by_side_name_a_common_ordinate_once() -> None:

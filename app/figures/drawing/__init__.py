@@ -1,4 +1,4 @@
-"""Draws a figure's data with matplotlib: `style` has colours and fonts, `panels` fills axes, `image` writes files."""
+"""Draws figures with matplotlib: colours and fonts from `style` and its sheets, `panels` fills axes, `image` writes."""
 
 import os
 from importlib.util import find_spec

@@ -5,7 +5,7 @@ from itertools import pairwise
 from textwrap import fill
 from typing import Any, NamedTuple
 
-from matplotlib import rc_context
+from matplotlib import rcParams
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.backends.backend_pdf import FigureCanvasPdf
@@ -15,8 +15,8 @@ from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.text import Text
 
 from app.figures.data import Figure, Panel, ThemeName
-from app.figures.drawing.panels import ROW_NAME_LENGTH, draw_panel, place_texts
-from app.figures.drawing.style import DPI, TEXT, THEMES, TITLE, WIDTH, Theme, settings
+from app.figures.drawing.panels import draw_panel, place_texts
+from app.figures.drawing.style import DPI, TEXT, TITLE, WIDTH, themed
 from app.figures.wording import subscripts
 
 EDGE = 0.1  # inches around everything
@@ -24,7 +24,7 @@ TITLE_LINE, FINDING_LINE = 1.3 * TITLE / 72.0, 1.3 * TEXT / 72.0  # inches: 1.3 
 TITLE_LENGTH, FINDING_LENGTH = 58, 84  # characters of a line
 HEIGHTS = {1: 2.6, 2: 1.65, 3: 1.3}  # inches, of panels above each other
 PLANE_HEIGHT = 3.3  # inches, of a field over two axes
-ROW_HEIGHT, WRAPPED_ROW_HEIGHT = 0.26, 0.34  # inches, of a row of bars with a name of one or two lines
+ROW_HEIGHT = 0.3  # inches, of a row of bars with a name of up to two lines
 ABSCISSA_LENGTH = 30  # characters of a line below axes that stand beside others
 ABSCISSA = 0.45  # inches, ticks and name
 CANVASES = {"svg": FigureCanvasSVG, "png": FigureCanvasAgg, "pdf": FigureCanvasPdf}
@@ -36,10 +36,10 @@ METADATA: dict[str, dict[str, str | None]] = {
 }
 
 
-def draw(figure: Figure, image_format: str, theme_name: ThemeName = "light") -> bytes:
+def draw(figure: Figure, image_format: str, theme: ThemeName = "light") -> bytes:
     """The image as svg, png or pdf."""
-    with rc_context(settings(theme_name)):
-        sheet, _ = laid_out(figure, THEMES[theme_name])
+    with themed(theme):
+        sheet, _ = laid_out(figure)
         sheet.set_dpi(DPI[image_format])
         image, metadata = BytesIO(), METADATA[image_format] | {"Title": figure.title}
         canvas: Any = CANVASES[image_format](sheet)
@@ -62,8 +62,8 @@ class Place(NamedTuple):
 
 def places(figure: Figure) -> list[Place]:
     """Where the axes of each panel lie in the image."""
-    with rc_context(settings("light")):
-        _, axes = laid_out(figure, THEMES["light"])
+    with themed("light"):
+        _, axes = laid_out(figure)
     found = []
     for panel, each in zip(figure.panels, axes, strict=True):
         box = each.get_position()
@@ -90,26 +90,24 @@ def _head(figure: Figure) -> tuple[str, str, float, float]:
 def _height(panel: Panel, figure: Figure) -> float:
     """Height of a panel without what stands below it, in inches."""
     if panel.rows:
-        names = {row.name for row in panel.rows}
-        height = WRAPPED_ROW_HEIGHT if any(len(name) > ROW_NAME_LENGTH for name in names) else ROW_HEIGHT
-        return height * (len(names) + (1 if panel.levels or panel.title else 0.3))
+        return ROW_HEIGHT * (len({row.name for row in panel.rows}) + (1 if panel.levels or panel.title else 0.3))
     if panel.equal or panel.areas:
         return PLANE_HEIGHT / 1.5 if figure.beside else PLANE_HEIGHT
     return HEIGHTS[1 if figure.beside else min(len(figure.panels), max(HEIGHTS))]
 
 
-def laid_out(figure: Figure, theme: Theme) -> tuple[Sheet, list[Axes]]:
+def laid_out(figure: Figure) -> tuple[Sheet, list[Axes]]:
     """The sheet with everything on it at its place, and the axes of the panels; inside the theme's settings."""
     (title, finding, below, above), (width, height) = _head(figure), size(figure)
     engine = ConstrainedLayoutEngine(rect=(0, 0, 1, 1.0 - (above + EDGE) / height), w_pad=EDGE, h_pad=EDGE / 2)
     sheet = Sheet(figsize=(width, height), dpi=DPI["svg"], layout=engine)
-    canvas: Any = FigureCanvasAgg(sheet)
+    FigureCanvasAgg(sheet)  # measures texts
     style: dict[str, Any] = {"va": "top", "linespacing": 1.2}
     sheet.text(EDGE / width, 1.0 - EDGE / height, title, fontsize=TITLE, fontweight="bold", **style)
-    sheet.text(EDGE / width, 1.0 - below / height, finding, fontsize=TEXT, color=theme.muted, **style)
+    sheet.text(EDGE / width, 1.0 - below / height, finding, fontsize=TEXT, color=rcParams["axes.labelcolor"], **style)
     axes = _axes(sheet, figure) if figure.panels else []
     for each, panel in zip(axes, figure.panels, strict=True):
-        draw_panel(each, panel, theme, _height(panel, figure))
+        draw_panel(each, panel, _height(panel, figure))
         if figure.beside:
             each.set_xlabel(fill(panel.x.label, ABSCISSA_LENGTH))
     sheet.align_ylabels([each for each, panel in zip(axes, figure.panels, strict=True) if not panel.rows])
@@ -121,7 +119,7 @@ def laid_out(figure: Figure, theme: Theme) -> tuple[Sheet, list[Axes]]:
         engine.execute(sheet)
     sheet.set_layout_engine("none")
     for each, panel in zip(axes, figure.panels, strict=True):
-        place_texts(each, panel, theme, canvas.get_renderer())
+        place_texts(each, panel)
     return sheet, axes
 
 

@@ -1,44 +1,40 @@
 """Draws the contents of one pair of axes: curves, bars, rows, maps, polygons, limits, spans, marks and names."""
 
-from itertools import pairwise
+from dataclasses import replace
 from textwrap import fill
 from typing import Any
 
 import numpy as np
+from matplotlib import rcParams
 from matplotlib.axes import Axes
-from matplotlib.backend_bases import RendererBase
 from matplotlib.colors import LogNorm, Normalize, to_rgba
-from matplotlib.lines import Line2D
 from matplotlib.patches import Rectangle
 from matplotlib.text import Text
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullLocator
 from matplotlib.transforms import Bbox, BboxBase
 
 from app.figures.data import Line, Map, Panel, Role, Row, Scale
-from app.figures.drawing.style import DASHES, LETTER, LIMIT_DASHES, LINE_HEIGHT, REFERENCE_DASHES, TEXT, Theme
-from app.figures.wording import number
+from app.figures.drawing.style import DASHES, LETTER, LIMIT, TEXT, patch, written
+from app.figures.wording import NOISE, number, without_rounding
 
 FARTHEST_LEVEL = 4.0  # a limit beyond so many times the values is named at the edge instead of flattening them
-NAME_LENGTH, ROW_NAME_LENGTH = 17, 36  # characters of a line of a name at the right of the axes, and of a row's
+NAME_LENGTH, ROW_NAME_LENGTH = 17, 36  # characters of a line of a legend and of the name of a row
 BAR_SHARE, TINT = 0.8, 0.2  # of the spacing; opacity of fills
 ROW = 0.52  # height of a row's bar
 RING = 5  # pixels
-BEHIND = 1.9  # in the order of drawing: over the grid, under curves
 SIDES = {"above": 1, "below": -1}  # of a point, on which its text is tried first; other texts stay where they are
-COLOURS = {Scale.MAGNITUDE: "cividis", Scale.RATIO: "RdBu_r", Scale.SIGNED: "RdBu_r"}
 # Of a ratio on a logarithmic axis; up to the next number its ticks are evenly spaced.
 RATIO_TICKS, LINEAR_RATIO = (0.1, 0.2, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 5.0, 10.0, 20.0, 50.0, 100.0), 1.3
 CROWDED = 0.05  # of the colour bar: a tick nearer to a critical value gives way
-BESIDE_DOTS, BESIDE_BARS = 0.5, 0.3  # of the reach of rows, for texts at the ends of dots, of bounds and of parts
+BESIDE_ROWS = 0.4  # of the reach of rows, for texts at their ends
 WIDE = 0.15  # of the longest bar: bounds farther apart have their values at their ends
-NOISE = 1e-9  # of the values: what varies by less is rounding error
 STEPS = (1, 2, 2.5, 5, 10)  # of ticks, times powers of ten
 NUMBERS = FuncFormatter(lambda value, _: number(value, digits=6))
 
 Style = dict[str, Any]  # of matplotlib's artists
 
 
-def draw_panel(axes: Axes, panel: Panel, theme: Theme, height: float) -> None:
+def draw_panel(axes: Axes, panel: Panel, height: float) -> None:
     """Everything of a panel of a height in inches; the texts of points and areas stay for `place_texts`."""
     scales = ["log" if quantity.log else "linear" for quantity in (panel.x, panel.y)]
     axes.set(xscale=scales[0], yscale=scales[1], title=panel.title or "")
@@ -50,29 +46,33 @@ def draw_panel(axes: Axes, panel: Panel, theme: Theme, height: float) -> None:
         axis.set_major_formatter(NUMBERS)
     axes.set_xlabel(panel.x.label, loc="right" if panel.rows else "center")  # it may be wider than the axes of rows
     if panel.rows:
-        _draw_rows(axes, panel, theme)
+        _draw_rows(axes, panel)
     else:
         axes.set_ylabel(fill(panel.y.label, max(round(height / LETTER), 10)))
-    _draw_fills(axes, panel, theme)
+    _draw_fills(axes, panel)
     if panel.map is not None:
-        _draw_map(axes, panel, panel.map, theme)
+        _draw_map(axes, panel, panel.map)
     for bars in panel.bars:
-        _draw_bars(axes, bars, [each for each in panel.bars if each.role is bars.role], theme)
+        _draw_bars(axes, bars, [each for each in panel.bars if each.role is bars.role])
     for line in panel.lines:
-        _draw_line(axes, line, theme)
+        _draw_line(axes, line)
     several = len({mark.hue for mark in panel.marks}) > 1
     rising = sorted(panel.marks, key=lambda mark: mark.y)
     for mark in rising:
-        style: Style = {"markersize": 5.5, "color": theme.background, "mec": theme.drawing[mark.hue], "mew": 1.6}
+        style: Style = {"markersize": 5.5, "color": rcParams["figure.facecolor"], "mec": mark.hue, "mew": 1.6}
         axes.plot(mark.x, mark.y, "o", clip_on=False, zorder=5, **style)
-        color, side = theme.writing[mark.hue] if several else theme.ink, "above" if mark is rising[-1] else "below"
-        _name(axes, mark.text, (mark.x, mark.y), color, theme, gid=side, fontsize=TEXT, fontweight="bold")
-    _draw_levels(axes, panel, theme)
+        style = {"color": written(mark.hue) if several else rcParams["text.color"], "fontsize": TEXT}
+        side = "above" if mark is rising[-1] else "below"
+        _name(axes, mark.text, (mark.x, mark.y), gid=side, fontweight="bold", **style)
+    _draw_levels(axes, panel)
     for span in panel.spans:
-        axes.axvspan(span.start, span.stop, facecolor=theme.shade, edgecolor="none", zorder=2 if panel.map else 0)
-        _name_on_top(axes, panel, span.name, (span.start + span.stop) / 2, theme.muted, theme)
-    _end(axes, panel)
-    _name_beside(axes, panel, theme, height)
+        shade: Style = {"facecolor": rcParams["grid.color"], "edgecolor": "none", "zorder": 2 if panel.map else 0}
+        axes.axvspan(span.start, span.stop, **shade)
+        top = (span.start + span.stop) / 2, 1.0
+        _name(axes, span.name, top, axes.get_xaxis_transform(), gid="below", color=rcParams["axes.labelcolor"])
+    known = {str(each.get_label()): each for each in axes.get_legend_handles_labels()[0]}  # a name may be of several
+    if known:
+        axes.legend(known.values(), known, bbox_to_anchor=(1.02, 1.0))
 
 
 def _end(axes: Axes, panel: Panel) -> None:
@@ -83,8 +83,7 @@ def _end(axes: Axes, panel: Panel) -> None:
         if panel.y.limits:
             axes.set_ylim(panel.y.limits)
     elif panel.rows:
-        dots, texts = any(row.dots for row in panel.rows), any(row.bounds or row.parts for row in panel.rows)
-        axes.margins(x=BESIDE_DOTS if dots else BESIDE_BARS if texts else 0.04)
+        axes.margins(x=BESIDE_ROWS)
     else:
         axes.margins(y=0.0 if panel.map else 0.16 if panel.marks else 0.08)
         low, high = panel.y.limits or axes.get_ylim()
@@ -95,26 +94,25 @@ def _end(axes: Axes, panel: Panel) -> None:
         axes.set_xlim(panel.x.limits)
 
 
-def _draw_fills(axes: Axes, panel: Panel, theme: Theme) -> None:
+def _draw_fills(axes: Axes, panel: Panel) -> None:
     """Areas, bands between curves, and polygons."""
     for area in panel.areas:
         axes.grid(visible=False)
-        size, tint = (area.right - area.left, area.top - area.bottom), to_rgba(theme.drawing[area.hue], TINT)
-        axes.add_patch(Rectangle((area.left, area.bottom), *size, facecolor=tint, linewidth=0))
+        size = area.right - area.left, area.top - area.bottom
+        axes.add_patch(Rectangle((area.left, area.bottom), *size, facecolor=to_rgba(area.hue, TINT), linewidth=0))
     for ribbon in panel.ribbons:
-        color = theme.drawing[ribbon.hue]
-        axes.fill_between(ribbon.x, ribbon.low, ribbon.high, facecolor=color, alpha=TINT, linewidth=0)
-        axes.plot(ribbon.x, np.column_stack([ribbon.low, ribbon.high]), color=color, linewidth=0.8)
+        axes.fill_between(ribbon.x, ribbon.low, ribbon.high, facecolor=ribbon.hue, alpha=TINT, linewidth=0)
+        axes.plot(ribbon.x, np.column_stack([ribbon.low, ribbon.high]), color=ribbon.hue, linewidth=0.8)
     for shape in panel.shapes:
-        color, label = theme.drawing[shape.hue], fill(shape.title, NAME_LENGTH)
-        axes.fill(shape.x, shape.y, facecolor=to_rgba(color, TINT), edgecolor=color, linewidth=1.0, label=label)
+        style: Style = {"facecolor": to_rgba(shape.hue, TINT), "edgecolor": shape.hue, "linewidth": 1.0}
+        axes.fill(shape.x, shape.y, label=fill(shape.title, NAME_LENGTH), **style)
 
 
-def _draw_line(axes: Axes, line: Line, theme: Theme) -> None:
+def _draw_line(axes: Axes, line: Line) -> None:
     """A curve; a point whose neighbours have no value, which a line would not show, as a dot."""
     known = np.isfinite(line.y)
     alone = known & ~np.append(False, known[:-1]) & ~np.append(known[1:], False)
-    style: Style = {"color": theme.drawing[line.hue], "linestyle": DASHES[line.role]}
+    style: Style = {"color": line.hue, "linestyle": DASHES[line.role]}
     if line.named and known.any():
         style["label"] = fill(line.title, NAME_LENGTH)
     if alone.any():
@@ -129,100 +127,101 @@ def _bar_style(role: Role, color: str) -> Style:
     return {"facecolor": color}
 
 
-def _draw_bars(axes: Axes, bars: Line, beside: list[Line], theme: Theme) -> None:
+def _draw_bars(axes: Axes, bars: Line, beside: list[Line]) -> None:
     """Bars of one of the series that stand beside each other."""
     pitch = float(np.diff(bars.x).min()) if len(bars.x) > 1 else 1.0
     width = BAR_SHARE * pitch / len(beside)
     left = bars.x - BAR_SHARE * pitch / 2 + beside.index(bars) * width
-    style = _bar_style(bars.role, theme.drawing[bars.hue])
+    style = _bar_style(bars.role, bars.hue)
     if bars.role is not Role.VARIANT and len(beside) > 1:
         style["label"] = fill(bars.title, NAME_LENGTH)
     axes.bar(left, np.nan_to_num(bars.y), width, align="edge", **style)
 
 
-def _draw_rows(axes: Axes, panel: Panel, theme: Theme) -> None:
-    """Horizontal bars, of one part or several, or dots on a line; with names, values and bounds."""
+def _draw_rows(axes: Axes, panel: Panel) -> None:
+    """Horizontal bars below each other with their values at their right, or dots; a variant over its namesake."""
     own = [row for row in panel.rows if row.role is not Role.VARIANT]
     places = {row.name: place for place, row in enumerate(own)}
     axes.grid(visible=False, axis="y")
     axes.spines["left"].set_visible(False)
     if not any(row.dots for row in own):
-        axes.axvline(0.0, color=theme.frame, linewidth=0.9)
+        axes.axvline(0.0, color=rcParams["axes.edgecolor"], linewidth=0.9)
     for row in panel.rows:
-        left, place = 0.0, places[row.name]
-        whole = [] if row.dots else [Row("", float(np.nan_to_num(row.value)), row.hue)]
-        for part in row.parts or whole:
-            label = fill(part.name, NAME_LENGTH)
-            axes.barh(place, part.value, ROW, left=left, label=label, **_bar_style(row.role, theme.drawing[part.hue]))
-            left += part.value
-        if row.bounds is not None and row.bounds[0] < row.bounds[1]:
-            color = theme.ink if row.role is Role.RESULT else theme.drawing[row.hue]
-            style = {"color": color, "linestyle": DASHES[row.role], "linewidth": 1.2}
-            axes.plot(row.bounds, [place, place], marker="|", markersize=7, **style)
-    for place, row in enumerate(own):
-        if row.dots:
-            _draw_dots(axes, place, row, theme)
-        else:
-            _write_value(axes, place, row, panel, theme)
+        place = places[row.name]
+        (_draw_dots if row.dots else _draw_row)(axes, place, row)
+        if not row.dots and row.role is not Role.VARIANT:
+            _write_value(axes, place, row, panel)
     axes.set_yticks(range(len(own)), [fill(row.name, ROW_NAME_LENGTH) for row in own])
     axes.set_ylim(len(own) - 0.5, -1.2 if panel.levels else -0.5)
     for text, row in zip(axes.get_yticklabels(), own, strict=True):
-        text.set_color(theme.writing[row.hue])
+        text.set_color(written(row.hue))
 
 
-def _draw_dots(axes: Axes, place: int, row: Row, theme: Theme) -> None:
+def _draw_dots(axes: Axes, place: int, row: Row) -> None:
     """The values of a row on a line with names at its ends."""
     dots = sorted(row.dots, key=lambda dot: dot.value)
-    axes.plot([dot.value for dot in dots], [place] * len(dots), color=theme.frame, linewidth=3.0, zorder=1)
+    axes.plot([dot.value for dot in dots], [place] * len(dots), color=rcParams["axes.edgecolor"], lw=3.0, zorder=1)
     for dot in dots:
-        axes.plot(dot.value, place, "o", color=theme.drawing[dot.hue], markersize=7)
+        axes.plot(dot.value, place, "o", color=dot.hue, markersize=7)
     for dot, offset in ((dots[0], -7), (dots[-1], 7)):
-        _write(axes, dot.name, (dot.value, place), offset, color=theme.writing[dot.hue])
+        _write(axes, dot.name, (dot.value, place), offset, color=written(dot.hue))
 
 
-def _write_value(axes: Axes, place: int, row: Row, panel: Panel, theme: Theme) -> None:
+def _draw_row(axes: Axes, place: int, row: Row) -> None:
+    """A bar, or those of its parts behind each other, and a line between its bounds."""
+    left = 0.0
+    for part in row.parts or [replace(row, name="", value=float(np.nan_to_num(row.value)))]:
+        label = fill(part.name, NAME_LENGTH)
+        axes.barh(place, part.value, ROW, left=left, label=label, **_bar_style(row.role, part.hue))
+        left += part.value
+    if row.bounds is not None and row.bounds[0] < row.bounds[1]:
+        color = rcParams["text.color"] if row.role is Role.RESULT else row.hue
+        style: Style = {"color": color, "linestyle": DASHES[row.role], "linewidth": 1.2}
+        axes.plot(row.bounds, [place, place], marker="|", markersize=7, **style)
+
+
+def _write_value(axes: Axes, place: int, row: Row, panel: Panel) -> None:
     """The value of a row at its right, and those of its bounds at their ends; rounding errors are zero."""
     scale = max((abs(each.value) for each in panel.rows if np.isfinite(each.value)), default=0.0)
-    alike, unit = [each for each in panel.rows if each.name == row.name], panel.x.unit
-    text = "not calculated"
-    if np.isfinite(row.value):
-        text = number(0.0 if abs(row.value) <= NOISE * scale else row.value, unit)
-    strong: Style = {"fontsize": TEXT, "fontweight": "bold", "bbox": theme.patch}
+    value, unit = without_rounding(row.value, scale), panel.x.unit
+    text = number(value, unit) if np.isfinite(value) else "not calculated"
+    strong: Style = {"fontsize": TEXT, "fontweight": "bold"}
     if row.bounds is not None and row.bounds[1] - row.bounds[0] > WIDE * scale:
         low, high = row.bounds
-        _write(axes, number(low, unit), (low, place), -5, color=theme.muted, bbox=theme.patch)
-        above = _write(axes, number(high, unit), (high, place), 5, color=theme.muted, bbox=theme.patch)
+        _write(axes, number(low, unit), (low, place), -5, color=rcParams["axes.labelcolor"])
+        above = _write(axes, number(high, unit), (high, place), 5, color=rcParams["axes.labelcolor"])
         _write(axes, text, (1, 0.5), 4, xycoords=above, **strong)
     else:
-        tip = np.nanmax([0.0, *(end for each in alike for end in (each.value, *(each.bounds or ())))])
-        _write(axes, text, (tip, place), 4, **strong)
+        drawn = [end for each in panel.rows if each.name == row.name for end in (each.value, *(each.bounds or ()))]
+        _write(axes, text, (np.nanmax([0.0, *drawn]), place), 4, **strong)
 
 
 def _write(axes: Axes, text: str, xy: tuple[float, float], offset: float, **style: Any) -> Text:
     """A text in the line of a point, so many typographic points to its right; to its left if negative."""
-    style = {"textcoords": "offset points", "va": "center_baseline", "ha": "left" if offset > 0.0 else "right", **style}
-    return axes.annotate(text, xy, (offset, 0), **style)
+    style |= {"textcoords": "offset points", "va": "center_baseline", "ha": "left" if offset > 0.0 else "right"}
+    return axes.annotate(text, xy, (offset, 0), bbox=patch(), **style)
 
 
-def _draw_map(axes: Axes, panel: Panel, chart: Map, theme: Theme) -> None:
+def _draw_map(axes: Axes, panel: Panel, chart: Map) -> None:
     """Colours with their bar, thin contours at the bar's values, a dashed one at each critical value."""
     low, high = chart.ends
     norm = LogNorm(low, high) if chart.scale is Scale.RATIO else Normalize(low, high)
+    still = {Scale.RATIO: 1.0, Scale.SIGNED: 0.0}.get(chart.scale)  # beside it there is only noise
+    cmap = "cividis" if still is None else "RdBu_r"
     # A single value of a coordinate holds everywhere on its axis.
     x, y = (
         along if along.size > 1 else np.array(axis.limits or along[0] + (-0.5, 0.5))
         for along, axis in ((chart.x, panel.x), (chart.y, panel.y))
     )
     shown = np.ma.masked_invalid(np.broadcast_to(chart.values, (y.size, x.size)))
-    colors = axes.pcolormesh(x, y, shown, cmap=COLOURS[chart.scale], norm=norm, shading="gouraud", rasterized=True)
+    colors = axes.pcolormesh(x, y, shown, cmap=cmap, norm=norm, shading="gouraud", rasterized=True)
     axes.grid(visible=False)
     critical = {each.value: each.name for each in chart.critical if low <= each.value <= high}
     linear = chart.scale is not Scale.RATIO or high <= LINEAR_RATIO
     ticks = MaxNLocator(nbins=6, steps=STEPS).tick_values(low, high) if linear else RATIO_TICKS
     ticks = [tick for tick in ticks if low <= tick <= high]
-    still = {Scale.RATIO: 1.0, Scale.SIGNED: 0.0}.get(chart.scale)  # beside it there is only noise
     thin: Style = {"colors": "#FFFFFF" if still is None else "#1F2937", "linewidths": 0.6, "alpha": 0.55}
-    strong: Style = {"colors": theme.limit if still is None else "#111827", "linewidths": 1.5, "linestyles": "dashed"}
+    strong: Style = {"colors": LIMIT if still is None else "#111827", "linewidths": 1.5, "linestyles": "dashed"}
     for levels, style in (({*ticks} - {*critical, still}, thin), ({*critical}, strong)):
         inside = sorted(level for level in levels if shown.min() < level < shown.max())
         if inside:
@@ -234,90 +233,72 @@ def _draw_map(axes: Axes, panel: Panel, chart: Map, theme: Theme) -> None:
     bar.set_ticks([tick for tick in ticks if all(abs(norm(tick) - norm(each)) > CROWDED for each in critical)])
     bar.set_label(f"{chart.title}, {chart.unit}" if chart.unit else chart.title)
     bar.ax.yaxis.set_ticks(list(critical), list(critical.values()), minor=True)
-    bar.ax.tick_params(which="minor", labelcolor=theme.limit)
+    bar.ax.tick_params(which="minor", labelcolor=LIMIT)
     for value in critical:
-        bar.ax.axhline(value, color=theme.limit, linewidth=1.6, linestyle=(0, (2, 1)))
+        bar.ax.axhline(value, color=LIMIT, linewidth=1.6, linestyle=(0, (2, 1)))
 
 
-def _draw_levels(axes: Axes, panel: Panel, theme: Theme) -> None:
+def _draw_levels(axes: Axes, panel: Panel) -> None:
     """Limits dashed in red and references dotted in grey, an arrow in the name of a distant one; zero if crossed."""
     if panel.map is None and not panel.rows and not panel.y.log and panel.y.limits is None:
         low, high = axes.dataLim.intervaly
         if panel.y.magnitude or low < 0.0 < high:
-            axes.axhline(0.0, color=theme.frame, linewidth=0.8, zorder=1).sticky_edges.y.append(0.0)
+            line = axes.axhline(0.0, color=rcParams["axes.edgecolor"], linewidth=0.8, zorder=1)
+            line.sticky_edges.y.append(0.0)
     drawn = axes.dataLim.frozen()
     for level in panel.levels:
         low, high = drawn.intervalx if level.vertical else drawn.intervaly
-        reach = FARTHEST_LEVEL * (high - low)
-        near = (panel.x if level.vertical else panel.y).log or low - reach <= level.value <= high + reach
-        color, dashes = (theme.limit, LIMIT_DASHES) if level.limit else (theme.muted, REFERENCE_DASHES)
-        style: Style = {"color": color, "linestyle": dashes, "linewidth": 1.3 if level.limit else 1.0, "clip_on": True}
+        quantity, reach = panel.x if level.vertical else panel.y, FARTHEST_LEVEL * (high - low)
+        if quantity.log or quantity.limits or low - reach <= level.value <= high + reach:
+            (axes.axvline if level.vertical else axes.axhline)(level.value, **_level_style(level.limit))
+    _end(axes, panel)
+    # From the top down, so that of two levels close together the lower one is named below.
+    for level in sorted(panel.levels, key=lambda each: (not each.vertical, -each.value)):
+        low, high = sorted(axes.get_xlim() if level.vertical else axes.get_ylim())
+        below, above = (" ←", " →") if level.vertical else (" ↓", " ↑")
+        text = level.name + (below if level.value < low else above if level.value > high else "") * bool(level.name)
+        at, color = float(np.clip(level.value, low, high)), _level_style(level.limit)["color"]
         if level.vertical:
-            line = Line2D([level.value] * 2, [0.0, 1.0], transform=axes.get_xaxis_transform(), **style)
-            _name_on_top(axes, panel, level.name, level.value, color, theme)
+            _name(axes, text, (at, 1.0), axes.get_xaxis_transform(), gid="below", color=color)
         else:
-            style["label"] = fill(level.name, NAME_LENGTH) + ("" if near else " ↑" if level.value > high else " ↓")
-            line = Line2D([0.0, 1.0], [level.value] * 2, transform=axes.get_yaxis_transform(), **style)
-        (axes.add_line if near else axes.add_artist)(line)  # the second leaves the ends of the axes where they are
+            _name(axes, text, (1.0, at), axes.get_yaxis_transform(), gid="above", color=color)
 
 
-def _name(
-    axes: Axes, text: str, xy: tuple[float, float], color: str, theme: Theme, xycoords: Any = "data", **style: Any
-) -> None:
+def _level_style(limit: bool) -> Style:
+    """Of a limit, or of a reference."""
+    if limit:
+        return {"color": LIMIT, "linestyle": (0, (5.0, 2.5)), "linewidth": 1.3}
+    return {"color": rcParams["axes.labelcolor"], "linestyle": (0, (1.0, 2.0)), "linewidth": 1.0}
+
+
+def _name(axes: Axes, text: str, xy: tuple[float, float], xycoords: Any = "data", **style: Any) -> None:
     """A text for a point, on a patch of background; `place_texts` finds its place."""
-    style = {"gid": "below", "textcoords": "offset points", "in_layout": False, "zorder": 6, **style}
+    style = {"textcoords": "offset points", "in_layout": False, "zorder": 6, "annotation_clip": False, **style}
     if text:
-        axes.annotate(text, xy, (0, 0), xycoords, color=color, bbox=theme.patch, annotation_clip=False, **style)
+        axes.annotate(text, xy, (0, 0), xycoords, bbox=patch(), **style)
 
 
-def _name_on_top(axes: Axes, panel: Panel, text: str, x: float, color: str, theme: Theme) -> None:
-    """A text at the top of the axes, over a map and bars but not over curves."""
-    style: Style = {} if panel.map or panel.rows else {"zorder": BEHIND}
-    _name(axes, text, (x, 1.0), color, theme, axes.get_xaxis_transform(), **style)
-
-
-def _name_beside(axes: Axes, panel: Panel, theme: Theme, height: float) -> None:
-    """Names at the right of the axes: where lines and levels end if these ends are apart, else in a legend."""
-    handles = axes.get_legend_handles_labels()[0]
-    ends = list[tuple[float, float, Line2D]]()  # of each line: middle of its name, half the name's height
-    for line in (each for each in handles if isinstance(each, Line2D)):
-        y = np.asarray(line.get_ydata(), dtype=np.float64)
-        last = (axes.transData - axes.transAxes).transform((axes.get_xlim()[0], y[np.isfinite(y)][-1]))[1]
-        half = (1 + str(line.get_label()).count("\n")) * LINE_HEIGHT / 2.0 / height
-        ends.append((float(np.clip(last, half, 1.0 - half)), half, line))
-    if len(ends) == len(handles) and not panel.equal:
-        ends.sort(key=lambda each: -each[0])
-        handles = [line for _, _, line in ends]
-        if all(upper[0] - lower[0] >= upper[1] + lower[1] for upper, lower in pairwise(ends)):
-            for end, _, line in ends:
-                style = {"xycoords": "axes fraction", "va": "center", "color": theme.written(str(line.get_color()))}
-                _write(axes, str(line.get_label()), (1.0, end), 5, **style)
-            return
-    known = {str(each.get_label()): each for each in handles}  # what is filled may be drawn in several pieces
-    axes.legend(known.values(), known, bbox_to_anchor=(1.02, 1.0))
-
-
-def place_texts(axes: Axes, panel: Panel, theme: Theme, renderer: RendererBase) -> None:
+def place_texts(axes: Axes, panel: Panel) -> None:
     """Put the texts of areas into them, as many lines as fit, and those of points beside them, off other texts."""
     for area in panel.areas:
         room = Bbox([(area.left, area.bottom), (area.right, area.top)]).transformed(axes.transData)
         middle = (area.left * area.right) ** 0.5, (area.bottom * area.top) ** 0.5  # of logarithmic axes
-        text = axes.text(*middle, area.text, color=theme.muted, ha="center", va="center")
-        while (box := text.get_window_extent(renderer)).width > room.width or box.height > room.height:
+        text = axes.text(*middle, area.text, color=rcParams["axes.labelcolor"], ha="center", va="center")
+        while (box := text.get_window_extent()).width > room.width or box.height > room.height:
             text.set_text(text.get_text().rpartition("\n")[0])
-    taken: list[BboxBase] = [each.get_window_extent(renderer) for each in axes.texts if each.get_gid() not in SIDES]
+    taken: list[BboxBase] = [each.get_window_extent() for each in axes.texts if each.get_gid() not in SIDES]
     rings = (axes.transData.transform((mark.x, mark.y)) for mark in panel.marks)
     taken += [Bbox([ring - RING, ring + RING]) for ring in rings]
     shapes = [line for line in axes.lines if line.get_linestyle() != "None"]
     shapes += [bar for each in axes.containers for bar in each]
     curves = [shape.get_path().transformed(shape.get_transform()) for shape in shapes]
-    point = float(np.asarray(renderer.points_to_pixels(1.0)))
+    point = axes.figure.dpi / 72.0
     for text in axes.texts:
         if text.get_gid() not in SIDES:
             continue
         text.set(ha="center", va="center")
-        size, side = text.get_window_extent(renderer), SIDES[str(text.get_gid())]
-        # The first of the places around the point where the text covers least of the curves.
+        size, side = text.get_window_extent(), SIDES[str(text.get_gid())]
+        # Of the places around the point that where the text covers least of texts and curves, and is not far away.
         costs = {}
         for reach in (7, 12, 20, 32, 48, 64):
             for across, up in ((0, side), (0, -side), (1, 0), (-1, 0), (1, 0.7), (-1, 0.7), (1, -0.7), (-1, -0.7)):
@@ -325,7 +306,7 @@ def place_texts(axes: Axes, panel: Panel, theme: Theme, renderer: RendererBase) 
                 box, room = size.translated(*place), axes.bbox
                 outside = max(room.x0 - box.x0, box.x1 - room.x1, 0.0) + max(room.y0 - box.y0, box.y1 - room.y1, 0.0)
                 crossed = sum(curve.intersects_bbox(box, filled=False) for curve in curves)
-                costs[place] = crossed + 10.0 * sum(box.overlaps(other) for other in taken) + outside
+                costs[place] = crossed + 10.0 * sum(box.overlaps(other) for other in taken) + outside + reach / 32.0
         best = min(costs, key=costs.__getitem__)
         text.set_position((best[0] / point, best[1] / point))
         taken.append(size.translated(*best))

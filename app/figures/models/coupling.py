@@ -7,22 +7,7 @@ from math import degrees, exp, inf, log
 import numpy as np
 
 from app.figures import parts
-from app.figures.data import (
-    Area,
-    Axis,
-    Figure,
-    Hue,
-    Level,
-    Line,
-    Mark,
-    NoFigure,
-    Panel,
-    Ribbon,
-    Role,
-    Row,
-    Span,
-    values,
-)
+from app.figures.data import Area, Axis, Figure, Hue, Level, Line, Mark, NoFigure, Panel, Ribbon, Role, Row, Span
 from app.figures.declaration import Declaration, present
 from app.figures.units import UM, axis
 from app.figures.wording import number, percent
@@ -98,7 +83,9 @@ def _to_boundary(overlap: float, capacity: float, distance: float) -> Line:
     """From the point to the nearest boundary, along an axis."""
     ways = [(each, capacity) for each in OVERLAP_BOUNDARIES] + [(overlap, each) for each in CAPACITY_BOUNDARIES]
     x, y = min(ways, key=lambda way: abs(abs(log(way[0] / overlap)) + abs(log(way[1] / capacity)) - distance))
-    return Line("to the next area", values([overlap, x]), values([capacity, y]), Hue.GREY, Role.REFERENCE, named=False)
+    return Line(
+        "to the next area", np.array([overlap, x]), np.array([capacity, y]), Hue.GREY, Role.REFERENCE, named=False
+    )
 
 
 QUARTERS = tuple(45.0 * each for each in range(9))
@@ -173,10 +160,8 @@ def crowning_scan(inputs: RecommendationInputs, result: Recommendation) -> Figur
         least = present(result.min_load_capacity_coefficient)
         most = max(present(result.at_min).contact_overlap, present(result.at_max).contact_overlap)
         finding = f"ε = {number(best)}: least Tr = {number(least)} with Pu up to {number(most)}"
-        choice, marks = (
-            [Level(best, "", vertical=True)],
-            [Mark(best, least, f"ε = {number(best)}, Tr = {number(least)}")],
-        )
+        choice.append(Level(best, "", vertical=True))
+        marks.append(Mark(best, least, f"ε = {number(best)}, Tr = {number(least)}"))
         inside.append(best)
     window = [Span(min(inside), max(inside), "feasible")] if inside else []
     areas = [Level(each, f"Tr = {each:g}") for each in CAPACITY_BOUNDARIES]
@@ -205,18 +190,11 @@ def tooth_loads(inputs: CouplingInputs, result: CouplingResult) -> Figure:
     load, deviations = result.load_distribution, inputs.coupling.pitch_errors
     curves, mean = load.curves, load.mean_tangential_force
     bars = Line("tangential force", curves.angle, curves.tangential_force)
-    panels = [
-        Panel(
-            x=TOOTH,
-            y=axis(curves, "tangential_force", "tangential force"),
-            bars=[bars],
-            levels=[Level(mean, f"mean {number(mean, 'N')}")],
-            marks=parts.extreme([bars], "N"),
-        )
-    ]
+    y, level = axis(curves, "tangential_force", "tangential force"), Level(mean, f"mean {number(mean, 'N')}")
+    panels = [Panel(x=TOOTH, y=y, bars=[bars], levels=[level], marks=parts.extreme([bars], "N"))]
     if deviations is not None:
         y = axis(inputs.coupling, "pitch_errors", "pitch deviation (positive: carries more)", magnitude=False)
-        errors = Line("pitch deviation", curves.angle, values(np.array(deviations) / UM), Hue.VERMILLION)
+        errors = Line("pitch deviation", curves.angle, np.array(deviations) / UM, Hue.VERMILLION)
         panels.append(Panel(x=TOOTH, y=y, bars=[errors]))
     finding = f"{load.loaded_teeth} of {curves.angle.size} teeth carry"
     if load.load_concentration is not None:

@@ -12,7 +12,7 @@ from app.figures.declaration import Declaration
 from app.figures.models.load_distribution import face, over_flank, section
 from app.figures.sketches import shafts
 from app.figures.units import MM, axis
-from app.figures.wording import number, percent
+from app.figures.wording import number, percent, without_rounding
 from solvers.drive_train import solve
 from solvers.drive_train.inputs import DriveTrainInputs, Effects, JournalBearing, Shaft, Vector2
 from solvers.drive_train.results import DriveTrainResult, ShaftResult
@@ -22,7 +22,6 @@ OWN = "own derivation"
 ROUND = np.linspace(0.0, 2.0 * pi, 181)  # a circle in steps of 2°
 WALLS = -1.05, 1.05  # of the clearance, with some room
 NEWTONS = 1e3  # per kilonewton
-NOISE = 1e-9  # of a whole: a smaller part is rounding
 HUES = {
     "without coupling": Hue.ORANGE,
     "without heat": Hue.VERMILLION,
@@ -92,7 +91,7 @@ def _shaft(inputs: DriveTrainInputs, name: str, given: Shaft, state: ShaftResult
     for plane, line in enumerate(lines):
         for bearing, found in zip(given.bearings, state.bearings, strict=True):
             place = bearing.position / MM
-            reaction = _without_rounding(found.reaction[plane], hypot(*found.reaction)) / NEWTONS
+            reaction = without_rounding(found.reaction[plane], hypot(*found.reaction)) / NEWTONS
             marks.append(Mark(place, float(np.interp(place, line.x, line.y)), number(reaction, "kN"), line.hue))
     return Panel(
         x=along,
@@ -109,18 +108,13 @@ def face_width(inputs: DriveTrainInputs) -> float:
     return inputs.mesh.distribution.gears.face_width
 
 
-def _without_rounding(value: float, whole: float) -> float:
-    """The value; zero where it is rounding error relative to the whole."""
-    return 0.0 if abs(value) < NOISE * abs(whole) else value
-
-
 def gap(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
     """Gap over the face by shafts, heat and what is ground."""
     found, curves = result.misalignment, result.misalignment.curves
     gaps = {"shafts": curves.shaft, "heat": curves.thermal, "as ground": curves.modification, "total": curves.total}
     opened = axis(curves, "total", "gap, positive where the flanks part", magnitude=False)
-    tilt = number(_without_rounding(found.shaft_slope, found.shaft_range))
-    heat = number(_without_rounding(found.thermal_slope, found.thermal_range), "µm")
+    tilt = number(without_rounding(found.shaft_slope, found.shaft_range))
+    heat = number(without_rounding(found.thermal_slope, found.thermal_range), "µm")
     wanted = f"first estimate of the helix slope to grind {number(found.recommended_helix_slope, 'µm')}"
     panel = Panel(x=face(face_width(inputs)), y=opened, lines=parts.lines(curves.position, gaps))
     return Figure(f"shafts {tilt}, heat {heat} over the face; {wanted}", [panel])

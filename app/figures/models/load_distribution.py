@@ -9,22 +9,7 @@ import numpy as np
 from scipy.interpolate import RegularGridInterpolator
 
 from app.figures import parts
-from app.figures.data import (
-    ORDER,
-    Axis,
-    Figure,
-    Hue,
-    Level,
-    Line,
-    Map,
-    Mark,
-    NoFigure,
-    Panel,
-    Role,
-    Scale,
-    Values,
-    values,
-)
+from app.figures.data import ORDER, Axis, Figure, Hue, Level, Line, Map, Mark, NoFigure, Panel, Role, Scale, Values
 from app.figures.declaration import Declaration
 from app.figures.sketches import points_of_contact, transverse_section
 from app.figures.units import MM, axis
@@ -58,7 +43,7 @@ def over_flank(
     width: float, flank: Flank | FlankMaps, shown: Axis, grid: Values, largest: float | None, at: Place | None
 ) -> Panel:
     """A map of a quantity over the flank of a face width [m], its largest value marked at its place or in the map."""
-    y = values(flank.face_fraction * width / MM)
+    y = flank.face_fraction * width / MM
     ends = 0.0, max(float(np.nanmax(grid, initial=0.0)), largest or 0.0) or 1.0
     mapped = Map(shown.title, shown.unit, y, flank.profile_fraction, grid, range=ends)
     marks = []
@@ -96,7 +81,7 @@ def flank_pressure(inputs: LoadDistributionInputs, result: LoadDistribution) -> 
 def modification(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figure:
     """Gap between the unloaded flanks."""
     flank, width, gap = result.flank, inputs.gears.face_width, _modified(result.flank)
-    y = values(flank.face_fraction * width / MM)
+    y = flank.face_fraction * width / MM
     mapped = Map("gap between the unloaded flanks", "µm", y, flank.profile_fraction, gap, Scale.SIGNED)
     finding = f"from {number(float(gap.min()))} to {number(float(gap.max()), 'µm')}"
     return Figure(finding, [Panel(x=face(width), y=PROFILE, map=mapped)])
@@ -131,7 +116,7 @@ def traces(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figure:
         ]
         x = Axis(f"diameter of the {name}", "mm", magnitude=False, symbol="d_y")
         panels.append(parts.curve(x, depth, diameter, profile, hue, title=f"profile of the {name}", levels=points))
-    along = values(flank.face_fraction * width / MM)
+    along = flank.face_fraction * width / MM
     panels.append(parts.curve(face(width), depth, along, helix, title="helix of either"))
     ranges = [number(float(np.ptp(each)), "µm") for each in (profile, helix)]
     return Figure(f"profile over {ranges[0]}, helix over {ranges[1]}, each as if on one gear alone", panels)
@@ -146,7 +131,7 @@ def contact_line_load(inputs: LoadDistributionInputs, result: LoadDistribution) 
     load, flank, geometry, width = result.load, result.flank, result.geometry, inputs.gears.face_width
     if load.max_at is None:
         raise NoFigure("no_load", "Without load there is none along the face", "load")
-    y, start = values(flank.face_fraction * width / MM), load.max_at.face_fraction * width / MM
+    y, start = flank.face_fraction * width / MM, load.max_at.face_fraction * width / MM
     profile = load.max_at.profile_fraction
     if not geometry.base_helix_angle:  # lines lie along the rows of the map, between which the load may jump
         profile = flank.profile_fraction[int(np.argmax(flank.line_load.max(axis=1)))]
@@ -242,7 +227,7 @@ def pair_share(_: LoadDistributionInputs, result: LoadDistribution) -> Figure:
     if result.load.pair_share is None:
         raise NoFigure("no_load", "Without load no pair of teeth carries a share of it", "load")
     roll, lines = result.transmission_error.curves.roll_position, list[Line]()
-    for share in map(values, result.load.pair_share):
+    for share in result.load.pair_share:
         if share.any():
             place = len(lines)
             role = Role.RESULT if place < len(ORDER) else Role.REFERENCE

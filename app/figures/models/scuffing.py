@@ -1,13 +1,12 @@
 """Figures of the check against scuffing along the path of contact."""
 
-from collections.abc import Sequence
 from dataclasses import replace
 from itertools import groupby
 
 import numpy as np
 
 from app.figures import parts
-from app.figures.data import Axis, Figure, Hue, Level, Line, Mark, NoFigure, Panel, Role, Span
+from app.figures.data import Axis, Figure, Hue, Level, Line, NoFigure, Panel, Role, Span
 from app.figures.declaration import Build, Declaration, present
 from app.figures.models import load_distribution
 from app.figures.models.load_distribution import PATH, path_points
@@ -38,7 +37,7 @@ def contact_temperature(inputs: ScuffingInputs, result: Scuffing) -> Figure:
         finding = f"safety factor {', '.join(texts)}" if texts else finding
     y = Axis("contact temperature, bulk and flash", "°C", magnitude=False, symbol="θ_B")
     marks = parts.extreme(lines[:-1] or lines, y.unit)
-    return _along(inputs, result, y, lines, levels, marks, finding)
+    return _along(inputs, result, finding, Panel(x=PATH, y=y, lines=lines, levels=levels, marks=marks))
 
 
 def _flashes(result: Scuffing) -> list[Line]:
@@ -51,19 +50,10 @@ def _flashes(result: Scuffing) -> list[Line]:
     return [*lines, Line("Blok", path.psi, path.blok_flash, hue, role)]
 
 
-def _along(
-    inputs: ScuffingInputs,
-    result: Scuffing,
-    y: Axis,
-    lines: Sequence[Line],
-    levels: Sequence[Level],
-    marks: Sequence[Mark],
-    finding: str,
-) -> Figure:
-    """Lines along the path of contact with its points, and the range in which the check does not hold."""
-    known = [*levels, *_points(inputs, result)]
-    panel = Panel(x=PATH, y=y, lines=lines, levels=known, spans=_warned(result), marks=marks)
-    return Figure(finding, [panel], unsolved=_unsolved(result))
+def _along(inputs: ScuffingInputs, result: Scuffing, finding: str, panel: Panel) -> Figure:
+    """A panel along the path of contact with its points, and the range in which the check does not hold."""
+    known = replace(panel, levels=[*panel.levels, *_points(inputs, result)], spans=_warned(result))
+    return Figure(finding, [known], unsolved=_unsolved(result))
 
 
 def _with_oil(result: Scuffing) -> None:
@@ -98,7 +88,7 @@ def safety_along(inputs: ScuffingInputs, result: Scuffing) -> Figure:
     y = axis(Safety, "blok_factor", "safety factor against scuffing", limits=(0.0, top))
     limit = Level(1.0, "scuffing below 1", limit=True)
     finding = f"least {number(least.y)} by {method}, at Ψ = {number(least.x)}"
-    return _along(inputs, result, y, lines, [limit], marks, finding)
+    return _along(inputs, result, finding, Panel(x=PATH, y=y, lines=lines, levels=[limit], marks=marks))
 
 
 def film(inputs: ScuffingInputs, result: Scuffing) -> Figure:
@@ -118,7 +108,8 @@ def film(inputs: ScuffingInputs, result: Scuffing) -> Figure:
     roughness = float(np.hypot(pair.pinion_material.roughness, pair.wheel_material.roughness)) / UM  # Eq. 28
     limit = Level(roughness, "λ = 1, film as thick as the roughness", limit=True)
     y = Axis("film thickness", "µm", symbol="h")
-    return _along(inputs, result, y, lines, [limit], parts.extreme(lines[:1], y.unit, least=True), finding)
+    marks = parts.extreme(lines[:1], y.unit, least=True)
+    return _along(inputs, result, finding, Panel(x=PATH, y=y, lines=lines, levels=[limit], marks=marks))
 
 
 def friction(inputs: ScuffingInputs, result: Scuffing) -> Figure:

@@ -1,12 +1,11 @@
 """Design: the flank correction whose worst corner is best, as a sheet for the grinder, and how it was found."""
 
-from math import inf
 from typing import Any
 
 from app.figures.comparison import compared
 from app.figures.data import Figure, NoFigure, values
 from app.figures.models.drive_train import GAP, LOAD_ALONE
-from app.figures.studies import LeadTrace, Tried, lead_chart, search
+from app.figures.studies import Lead, lead_chart, search
 from app.figures.units import axis_of
 from app.pages import study_links
 from app.pages.cases import Case
@@ -90,9 +89,8 @@ class DesignPage(UnitPage):
         if not solved:
             return Result("")
         end, greatest = lines[-1], self.output.view.greatest_is_best
-        reached = [line["objective"] for line in trials]
-        tried = [Tried(inf if each is None else each, each is not None) for each in reached]
-        figure = {"search": search(axis_of(self.output), tried, greatest=greatest)}
+        objectives = [line["objective"] for line in trials]
+        figure = {"search": search(axis_of(self.output), objectives, greatest=greatest)}
         if end["type"] != "end":
             best = (max if greatest else min)(solved, key=lambda line: line["objective"])
             lead = Link("Open the unit ground so", self.address(best["at"]))
@@ -184,14 +182,10 @@ class DesignPage(UnitPage):
         """The trace of helix slope and crowning with its tolerances, dashed as described."""
         curves, inputs = case.response.misalignment.curves, case.response.inputs
         position = values(curves.position_mm)
-        trace = LeadTrace(
-            values(curves.z_mm),
-            values(position / position[-1]),
-            *(float(at[path] or 0.0) for path in (SLOPE, CROWNING)),
-            *(self.input(path).declared.tolerance or 0.0 for path in (SLOPE, CROWNING)),
-        )
-        slope, crowning = (float(value_at(inputs, path) or 0.0) for path in (SLOPE, CROWNING))
-        return lead_chart(trace, (slope, crowning), _ends(case))
+        wanted = Lead(*(float(at[path] or 0.0) for path in (SLOPE, CROWNING)))
+        before = Lead(*(float(value_at(inputs, path) or 0.0) for path in (SLOPE, CROWNING)))
+        tolerance = Lead(*(self.input(path).declared.tolerance or 0.0 for path in (SLOPE, CROWNING)))
+        return lead_chart(values(curves.z_mm), position / position[-1], wanted, before, tolerance, _ends(case))
 
 
 def _ends(case: Case) -> tuple[str, str]:
