@@ -17,7 +17,8 @@ from app.pages.studies.sensitivity import MOST_ROWS, SENSITIVITY
 from app.pages.studies.sweep import SWEEP
 from app.pages.typesetting import shown
 from app.pages.views import Asked
-from tests.support.pages import asked, lines_of
+from tests.support.pages import asked
+from tests.support.studies import lines_of
 
 MOST, DEADLINE_S = 2500, 30.0
 COUPLING = "pahl-axial-displacement"
@@ -26,7 +27,7 @@ COUPLING = "pahl-axial-displacement"
 def result_of(found: Asked) -> tuple[list[dict[str, Any]], str]:
     study = pages.opened(SENSITIVITY, found, MOST, DEADLINE_S).study
     assert study is not None
-    lines = lines_of(study)
+    lines = lines_of(study.study)
     return lines, unescape(pages.whole(study, lines).decode())
 
 
@@ -69,7 +70,7 @@ def test_the_figure_shows_the_most_influential_first() -> None:
 def test_a_case_without_the_output_says_so() -> None:
     study = pages.opened(SENSITIVITY, asked(COUPLING), MOST, DEADLINE_S).study
     assert study is not None
-    *lines, end = lines_of(study)
+    *lines, end = lines_of(study.study)
     nothing = [{**line, "change": None, "derivative": None} for line in lines]
     without = {**end, "outputs": [{**end["outputs"][0], "value": None}]}
     assert "The case has no thrust to be held" in pages.whole(study, [*nothing, without]).decode()

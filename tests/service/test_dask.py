@@ -1,13 +1,12 @@
 """Studies on a real Dask cluster of processes: the same lines in the same order, and what a loss costs."""
 
-import asyncio
 import json
 import shutil
 import signal
 import subprocess
 import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -16,17 +15,15 @@ import pytest
 
 from app.examples import examples
 from app.sources import sources_of
-from app.studies.engine import Clock, Study
 from app.studies.requests import EXAMPLES
 from app.studies.spectrum import spectrum_study
 from app.studies.sweep import sweep_study
 from tests.support.dask_cluster import DaskProcesses, running_cluster
-from tests.support.pools import InlinePool
 from tests.support.server import ROOT, free_port, running_server
+from tests.support.studies import Planner, lines_of, study_of, timeless
 
 pytestmark = pytest.mark.service
 
-LOADS = examples()["xue-pair-1-modified"]
 COUPLING = examples()["pahl-axial-displacement"]
 PREPARED_S = 400.0  # every worker loads every kernel before its first study
 SLOPE = "modifications.helix_slope_um"
@@ -45,19 +42,19 @@ def service(cluster: DaskProcesses) -> Iterator[Service]:
         yield cluster, address
 
 
+def of_loads(**parts: Any) -> dict[str, Any]:
+    return study_of("xue-pair-1-modified", outputs=["pressure.max_mpa"], **parts)
+
+
 def loads(count: int) -> dict[str, Any]:
-    axis = {"path": SLOPE, "start": -20, "stop": 20, "count": count}
-    return {"endpoint": LOADS.endpoint, "request": LOADS.request, "vary": [axis], "outputs": ["pressure.max_mpa"]}
+    return of_loads(vary=[{"path": SLOPE, "start": -20, "stop": 20, "count": count}])
 
 
+MISALIGNMENTS = [{"path": "operation.misalignment_deg", "min": 0.02, "max": 0.08}]
 SWEEPS: dict[str, dict[str, Any]] = {
     "grid": loads(50),
-    "cases": {**loads(1), "vary": None, "cases": [{SLOPE: 5}, {"gears.pinion.addendum": 3.0}, {}]},
-    "sample": {
-        "endpoint": COUPLING.endpoint,
-        "request": COUPLING.request,
-        "sample": {"count": 32, "ranges": [{"path": "operation.misalignment_deg", "min": 0.02, "max": 0.08}]},
-    },
+    "cases": of_loads(cases=[{SLOPE: 5}, {"gears.pinion.addendum": 3.0}, {}]),
+    "sample": study_of(COUPLING.name, sample={"count": 32, "ranges": MISALIGNMENTS}),
 }
 
 
@@ -65,20 +62,12 @@ SPECTRUM = {**EXAMPLES["/v1/spectrum"]["coupling"]["value"], "points": True}
 
 
 def lines(text: str) -> list[dict[str, Any]]:
-    """The lines but for those that tell the time."""
-    found = map(json.loads, text.splitlines())
-    return [{key: each[key] for key in each if key != "elapsed_s"} for each in found if each["type"] != "progress"]
+    return timeless(list(map(json.loads, text.splitlines())))
 
 
-def local(body: dict[str, Any], plan: Callable[..., Study] = sweep_study) -> list[dict[str, Any]]:
+def local(body: dict[str, Any], plan: Planner = sweep_study) -> list[dict[str, Any]]:
     """The lines of a study calculated in this process."""
-
-    async def run() -> list[Any]:
-        study = plan(body, 20_000, 30.0)
-        groups = [group async for group in study.lines(InlinePool(), Clock(study.total))]
-        return [line for group in groups for line in group]
-
-    return lines("\n".join(map(json.dumps, asyncio.run(run()))))
+    return timeless(lines_of(plan(body, 20_000, 30.0)))
 
 
 def sweep(address: str, body: dict[str, Any], path: str = "/v1/sweep") -> list[dict[str, Any]]:
@@ -118,7 +107,7 @@ def test_leaving_takes_back_what_has_not_begun(service: Service) -> None:
     with httpx.stream("POST", f"{address}/v1/sweep", json=loads(2500), timeout=PREPARED_S) as response:
         next(response.iter_lines())
     started = time.monotonic()
-    sweep(address, {**loads(1), "vary": None, "cases": [{}]})
+    sweep(address, of_loads(cases=[{}]))
     assert time.monotonic() - started < 20.0  # two chunks that ran, not two thousand points
 
 

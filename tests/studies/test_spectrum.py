@@ -21,6 +21,7 @@ from tests.support.pools import InlinePool
 from tests.support.requests import changed
 from tests.support.studies import fault_of, lines_of, study_of, timeless
 
+STAGE = examples()["starter-high-speed-scuffing"]
 MU = "friction.coefficient"
 SCUFFING = BY_PATH["/v1/scuffing"]
 COAXIAL = "axial_thrust.coaxial_limit_n"
@@ -258,7 +259,7 @@ def test_the_scuffing_temperature_is_the_limit_where_none_is_given() -> None:
     assert limit["deviation"] == pytest.approx(0.15 * limit["mean"])
     (assumption,) = [each for each in end["assumptions"] if each["field"] == "limits"]
     assert "AGMA 925-A03" in assumption["reason"]
-    own = evaluate(SCUFFING, SCUFFING.request.model_validate(examples()["starter-high-speed-scuffing"].request))
+    own = evaluate(SCUFFING, SCUFFING.request.model_validate({"detail": "summary", **STAGE.request}))
     assert limit["mean"] == pytest.approx(own.safety.scuffing_c)
     assert end["notes"] == []
 
@@ -398,15 +399,15 @@ def test_a_study_of_too_many_solutions_is_refused_with_an_estimate() -> None:
 
 def test_distributions_of_a_sample() -> None:
     """A sweep takes the distributions of a spectrum."""
-    sample = sampled(**friction())
+    sample = sampled(method="sobol", **friction())
     assert sample.mean() == pytest.approx(0.2, abs=1e-3)
     assert sample.std() == pytest.approx(0.02, abs=1e-3)
     ends = {"path": MU, "min": 0.1, "max": 0.3}
     assert np.array_equal(sampled(ranges=[ends]), sampled(inputs=[{**ends, "distribution": "uniform"}]))
 
 
-def sampled(**inputs: Any) -> FloatArray:
-    body = study_of("pahl-axial-displacement", sample={"count": 64, "method": "sobol", **inputs})
+def sampled(**parts: Any) -> FloatArray:
+    body = study_of("pahl-axial-displacement", sample={"count": 64, **parts})
     sample = sweep_study(body, 2500, 30.0).points.sample
     assert sample is not None
     return sample
