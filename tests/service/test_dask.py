@@ -3,10 +3,10 @@
 import json
 import shutil
 import signal
-import subprocess
 import threading
 import time
 from collections.abc import Iterator
+from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +19,7 @@ from app.studies.requests import EXAMPLES
 from app.studies.spectrum import spectrum_study
 from app.studies.sweep import sweep_study
 from tests.support.dask_cluster import DaskProcesses, running_cluster
-from tests.support.server import ROOT, free_port, running_server
+from tests.support.server import ROOT, Server, free_port, running_server
 from tests.support.studies import Planner, lines_of, study_of, timeless
 
 pytestmark = pytest.mark.service
@@ -30,16 +30,21 @@ SLOPE = "modifications.helix_slope_um"
 Service = tuple[DaskProcesses, str]
 
 
-@pytest.fixture(scope="module")
-def cluster() -> Iterator[DaskProcesses]:
-    with running_cluster() as cluster:
-        yield cluster
-
-
-@pytest.fixture(scope="module")
-def service(cluster: DaskProcesses) -> Iterator[Service]:
-    with running_server(workers=1, scheduler=cluster.address, log_level="error") as (_, address):
+@contextmanager
+def running_service(workers: int) -> Iterator[Service]:
+    """A service whose studies run on a cluster of so many workers."""
+    with running_cluster(workers) as cluster, served(cluster.address) as (_, address):
         yield cluster, address
+
+
+def served(scheduler: str) -> AbstractContextManager[Server]:
+    return running_server(workers=1, scheduler=scheduler, log_level="error")
+
+
+@pytest.fixture(scope="module")
+def service() -> Iterator[Service]:
+    with running_service(2) as found:
+        yield found
 
 
 def of_loads(**parts: Any) -> dict[str, Any]:
@@ -77,12 +82,12 @@ def sweep(address: str, body: dict[str, Any], path: str = "/v1/sweep") -> list[d
 
 
 @pytest.mark.parametrize("kind", SWEEPS)
-def test_same_lines_in_the_same_order(service: Service, kind: str) -> None:
-    assert sweep(service[1], SWEEPS[kind]) == local(SWEEPS[kind])
+def test_same_lines_in_the_same_order(address: str, kind: str) -> None:
+    assert sweep(address, SWEEPS[kind]) == local(SWEEPS[kind])
 
 
-def test_a_spectrum_has_the_same_numbers(service: Service) -> None:
-    found = sweep(service[1], SPECTRUM, "/v1/spectrum")
+def test_a_spectrum_has_the_same_numbers(address: str) -> None:
+    found = sweep(address, SPECTRUM, "/v1/spectrum")
     assert len(found) == 2 + 2048
     assert found == local(SPECTRUM, spectrum_study)
 
@@ -102,8 +107,7 @@ def test_a_killed_worker_costs_nothing_but_time(service: Service) -> None:
     assert sweep(address, SWEEPS["grid"]) == local(SWEEPS["grid"])
 
 
-def test_leaving_takes_back_what_has_not_begun(service: Service) -> None:
-    _, address = service
+def test_leaving_takes_back_what_has_not_begun(address: str) -> None:
     with httpx.stream("POST", f"{address}/v1/sweep", json=loads(2500), timeout=PREPARED_S) as response:
         next(response.iter_lines())
     started = time.monotonic()
@@ -112,24 +116,17 @@ def test_leaving_takes_back_what_has_not_begun(service: Service) -> None:
 
 
 def test_a_vanished_scheduler_ends_the_stream_with_an_error_line() -> None:
-    with (
-        running_cluster(1) as cluster,
-        running_server(workers=1, scheduler=cluster.address, log_level="error") as (_, address),
-    ):
+    with running_service(1) as (cluster, address):
         with httpx.stream("POST", f"{address}/v1/sweep", json=loads(2500), timeout=PREPARED_S) as response:
             found = response.iter_lines()
             received = [next(found) for _ in range(3)]
-            kill_later(cluster.scheduler)
+            threading.Timer(0.3, cluster.scheduler.kill).start()
             received += found
         last = json.loads(received[-1])
         assert (last["type"], last["code"]) == ("error", "scheduler_lost")
         assert last["done"] == sum('"point"' in line for line in received)
         assert httpx.post(f"{address}/v1/coupling", json=COUPLING.request, timeout=60).status_code == 200
         assert_unavailable(address)
-
-
-def kill_later(process: subprocess.Popen[bytes]) -> None:
-    threading.Timer(0.3, process.kill).start()
 
 
 def assert_unavailable(address: str) -> None:
@@ -153,10 +150,7 @@ def edited(tmp_path: Path) -> Path:
 
 def test_a_worker_with_other_sources_is_refused_before_the_study_and_during_it(edited: Path) -> None:
     theirs = sources_of(edited / "solvers")
-    with (
-        running_cluster(1) as cluster,
-        running_server(workers=1, scheduler=cluster.address, log_level="error") as (_, address),
-    ):
+    with running_service(1) as (cluster, address):
         with httpx.stream("POST", f"{address}/v1/sweep", json=loads(2500), timeout=PREPARED_S) as response:
             found = response.iter_lines()
             header = next(found)
@@ -173,10 +167,7 @@ def test_a_worker_with_other_sources_is_refused_before_the_study_and_during_it(e
 
 
 def test_a_frozen_scheduler_is_told_in_time_and_used_again_when_it_answers() -> None:
-    with (
-        running_cluster(1) as cluster,
-        running_server(workers=1, scheduler=cluster.address, log_level="error") as (_, address),
-    ):
+    with running_service(1) as (cluster, address):
         assert sweep(address, loads(2))[-1]["type"] == "end"
         cluster.scheduler.send_signal(signal.SIGSTOP)
         for _ in range(2):
@@ -188,6 +179,6 @@ def test_a_frozen_scheduler_is_told_in_time_and_used_again_when_it_answers() -> 
 
 
 def test_without_a_scheduler_studies_wait_and_single_requests_do_not() -> None:
-    with running_server(workers=1, scheduler=f"tcp://127.0.0.1:{free_port()}", log_level="error") as (_, address):
+    with served(f"tcp://127.0.0.1:{free_port()}") as (_, address):
         assert_unavailable(address)
         assert httpx.post(f"{address}/v1/coupling", json=COUPLING.request, timeout=60).status_code == 200

@@ -16,8 +16,8 @@ from app.examples import examples
 from app.settings import Settings
 from app.workers import start_up, template
 from app.workers.control import Worker
+from tests.support.server import ROOT
 
-ROOT = Path(__file__).parents[2]
 AROUND_EVERY_REQUEST = {"app/http/middleware.py", "app/log.py", "app/settings.py"}
 COUPLING = examples()["pahl-axial-displacement"]
 

@@ -289,8 +289,8 @@ def test_the_deadline_of_a_study_ends_it_with_a_line(short_of_time: tuple[str, P
 
 def curve(count: int) -> str:
     """The figure of a study of so many points."""
-    page = address_of("xue-pair-1-modified").replace("?", "/vary/figures/curve.svg?", 1)
-    return f"{page}&x={SLOPE}&x.count={count}&show=pressure.max_mpa"
+    figure = address_of("xue-pair-1-modified", "/vary/figures/curve.svg")
+    return f"{figure}&x={SLOPE}&x.count={count}&show=pressure.max_mpa"
 
 
 def test_a_figure_of_a_study_that_ends_at_its_deadline_is_a_503(short_of_time: tuple[str, Path]) -> None:
