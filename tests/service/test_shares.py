@@ -112,7 +112,7 @@ def test_a_worker_that_dies_before_its_call_began_is_no_loss(service: Server, nu
 
 
 def test_beside_80_long_calculations_of_another_client(address: str) -> None:
-    with asking(address, "/sleep/3", times=80) as statuses:
+    with asking(address, "/sleep/1", times=80) as statuses:
         wait_for_metric(address, "tribodrive_calculations_waiting", 64)
         waits = honest_waits(address, 60)
     assert waits[57] < FAIR_S
