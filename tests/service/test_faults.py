@@ -3,7 +3,6 @@
 import random
 import signal
 import subprocess
-import threading
 import time
 from collections import Counter
 from collections.abc import Iterator
@@ -23,6 +22,7 @@ from tests.support.server import (
     descriptors,
     faulty_server,
     is_alive,
+    meanwhile,
     memory_mb,
     metric,
     private_memory_mb,
@@ -73,28 +73,21 @@ def outcomes_while_killing(process: subprocess.Popen[str], address: str) -> Coun
         case.name: httpx.post(address + case.endpoint, json=case.request, timeout=30).content for case in cases
     }
     outcomes: Counter[str] = Counter()
-    done = threading.Event()
 
     def load() -> None:
-        with httpx.Client(base_url=address, timeout=60) as client:
-            while not done.is_set():
-                case = random.choice(cases)
-                response = client.post(case.endpoint, json=case.request)
-                if response.status_code == 200:
-                    outcomes["right" if response.content == references[case.name] else "wrong"] += 1
-                else:
-                    outcomes[response.json()["type"].rsplit(":", 1)[1]] += 1
+        case = random.choice(cases)
+        response = client.post(case.endpoint, json=case.request)
+        if response.status_code == 200:
+            outcomes["right" if response.content == references[case.name] else "wrong"] += 1
+        else:
+            outcomes[response.json()["type"].rsplit(":", 1)[1]] += 1
 
-    with ThreadPoolExecutor(3) as pool:
-        loads = [pool.submit(load) for _ in range(3)]
+    with httpx.Client(base_url=address, timeout=60) as client, meanwhile(load, load, load):
         for _ in range(KILLS):
             time.sleep(KILL_EVERY_S)
             alive = workers(process)
             if alive:
                 send_signal(random.choice(alive), signal.SIGKILL)
-        done.set()
-        for each in loads:
-            each.result()
     return outcomes
 
 
@@ -203,21 +196,16 @@ def test_a_storm_of_disconnects_leaves_nothing_behind(service: Server) -> None:
     process, address = service
     assert_recovers(address)
     before = len(descendants(process.pid)), descriptors(process.pid), memory_mb(process.pid)
-    done = threading.Event()
     answered = 0
 
     def leave() -> None:
-        while not done.is_set():
-            with pytest.raises(httpx.ReadTimeout):
-                httpx.post(f"{address}/sleep/5", timeout=httpx.Timeout(5, read=0.1))
+        with pytest.raises(httpx.ReadTimeout):
+            httpx.post(f"{address}/sleep/5", timeout=httpx.Timeout(5, read=0.1))
 
-    with ThreadPoolExecutor(1) as pool, httpx.Client(base_url=address, timeout=20) as client:
-        storm = pool.submit(leave)
+    with meanwhile(leave), httpx.Client(base_url=address, timeout=20) as client:
         end = time.monotonic() + 10
         while time.monotonic() < end:
             answered += client.post("/sleep/0.01").status_code == 200
-        done.set()
-        storm.result()
     assert answered > 50
     assert_recovers(address)
     wait_until(lambda: len(descendants(process.pid)) <= before[0])

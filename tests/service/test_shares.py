@@ -8,6 +8,7 @@ import time
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager, suppress
+from functools import partial
 from typing import Any
 
 import httpx
@@ -18,6 +19,7 @@ from tests.support.faulty_server import LONG
 from tests.support.server import (
     Server,
     faulty_server,
+    meanwhile,
     metric,
     send_signal,
     wait_for_metric,
@@ -44,29 +46,6 @@ def service() -> Iterator[Server]:
 def client(address: str, source: str) -> httpx.Client:
     """A client with an address of its own."""
     return httpx.Client(base_url=address, timeout=60, transport=httpx.HTTPTransport(local_address=source))
-
-
-@contextmanager
-def asking(address: str, path: str, *, times: int, source: str = GREEDY) -> Iterator[list[int]]:
-    """So many requests at once, asked again and again while the context is open; the statuses of the answers."""
-    statuses: list[int] = []
-    done = threading.Event()
-
-    def ask() -> None:
-        with client(address, source) as own:
-            while not done.is_set():
-                with suppress(httpx.TransportError):
-                    statuses.append(own.post(path).status_code)
-
-    threads = [threading.Thread(target=ask) for _ in range(times)]
-    for each in threads:
-        each.start()
-    try:
-        yield statuses
-    finally:
-        done.set()
-        for each in threads:
-            each.join()
 
 
 def honest_waits(address: str, count: int, pause_s: float = 0.05) -> list[float]:
@@ -112,7 +91,13 @@ def test_a_worker_that_dies_before_its_call_began_is_no_loss(service: Server, nu
 
 
 def test_beside_80_long_calculations_of_another_client(address: str) -> None:
-    with asking(address, "/sleep/1", times=80) as statuses:
+    statuses: list[int] = []
+
+    def ask() -> None:
+        with suppress(httpx.TransportError):
+            statuses.append(own.post("/sleep/1").status_code)
+
+    with client(address, GREEDY) as own, meanwhile(*[ask] * 80):
         wait_for_metric(address, "tribodrive_calculations_waiting", 64)
         waits = honest_waits(address, 60)
     assert waits[57] < FAIR_S
@@ -158,21 +143,12 @@ def test_beside_two_studies_of_long_points(address: str) -> None:
 
 
 def test_beside_clients_that_leave(address: str) -> None:
-    done = threading.Event()
-
     def leave(seconds: float) -> None:
-        with client(address, GREEDY) as own:
-            while not done.is_set():
-                with suppress(httpx.ReadTimeout):
-                    own.post("/sleep/20", timeout=httpx.Timeout(5, read=seconds))
+        with suppress(httpx.ReadTimeout):
+            own.post("/sleep/20", timeout=httpx.Timeout(5, read=seconds))
 
-    threads = [threading.Thread(target=leave, args=(seconds,)) for seconds in (0.1, 0.4, 1.0)]
-    for each in threads:
-        each.start()
-    waits = honest_waits(address, 60)
-    done.set()
-    for each in threads:
-        each.join()
+    with client(address, GREEDY) as own, meanwhile(*(partial(leave, seconds) for seconds in (0.1, 0.4, 1.0))):
+        waits = honest_waits(address, 60)
     assert waits[57] < FAIR_S
 
 

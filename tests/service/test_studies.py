@@ -5,7 +5,6 @@ import os
 import signal
 import socket
 import subprocess
-import threading
 import time
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
@@ -28,6 +27,7 @@ from tests.support.server import (
     descendants,
     descriptors,
     faulty_server,
+    meanwhile,
     memory_mb,
     metric,
     send_signal,
@@ -213,18 +213,13 @@ def test_memory_is_flat_over_many_points_and_a_slow_reader_slows_only_his_own(se
     lines_of(address, couplings(2000))
     before = memory_mb(process.pid)
     highest = []
-    done = threading.Event()
 
     def watch() -> None:
-        while not done.wait(0.1):
-            highest.append(memory_mb(process.pid))
+        highest.append(memory_mb(process.pid))
+        time.sleep(0.1)
 
-    with ThreadPoolExecutor(1) as pool:
-        watching = pool.submit(watch)
-        with httpx.stream("POST", address + SWEEP, json=couplings(25_000), timeout=60) as response:
-            count = sum('"point"' in line for line in response.iter_lines())
-        done.set()
-        watching.result()
+    with meanwhile(watch), httpx.stream("POST", address + SWEEP, json=couplings(25_000), timeout=60) as response:
+        count = sum('"point"' in line for line in response.iter_lines())
     assert count == 25_000
     assert max(highest) < before + 25
 

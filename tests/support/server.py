@@ -5,8 +5,10 @@ import signal
 import socket
 import subprocess
 import sys
+import threading
 import time
 from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import AbstractContextManager, contextmanager, suppress
 from pathlib import Path
 from typing import Any
@@ -84,6 +86,25 @@ def wait_until(condition: Callable[[], bool], seconds: float = PATIENCE_S) -> No
     while not condition():
         assert time.monotonic() < end
         time.sleep(0.02)
+
+
+@contextmanager
+def meanwhile(*works: Callable[[], object]) -> Iterator[None]:
+    """Each of these again and again, in a thread of its own, while the context is open."""
+    done = threading.Event()
+
+    def repeat(work: Callable[[], object]) -> None:
+        while not done.is_set():
+            work()
+
+    with ThreadPoolExecutor(len(works)) as pool:
+        flights = [pool.submit(repeat, work) for work in works]
+        try:
+            yield
+        finally:
+            done.set()
+        for flight in flights:
+            flight.result()
 
 
 def metric(address: str, name: str) -> float:
