@@ -166,16 +166,16 @@ def test_a_worker_with_other_sources_is_refused_before_the_study_and_during_it(e
         assert json.loads(header)["sources"] in refused.json()["detail"]
 
 
-def test_a_frozen_scheduler_is_told_in_time_and_used_again_when_it_answers(service: Service) -> None:
-    cluster, address = service
-    assert sweep(address, loads(2))[-1]["type"] == "end"
-    cluster.scheduler.send_signal(signal.SIGSTOP)
-    for _ in range(2):
-        started = time.monotonic()
-        assert_unavailable(address)
-        assert time.monotonic() - started < 50.0
-    cluster.scheduler.send_signal(signal.SIGCONT)
-    assert sweep(address, loads(2))[-1]["type"] == "end"
+def test_a_frozen_scheduler_is_told_in_time_and_used_again_when_it_answers() -> None:
+    with running_service(1) as (cluster, address):
+        assert sweep(address, loads(2))[-1]["type"] == "end"
+        cluster.scheduler.send_signal(signal.SIGSTOP)
+        for _ in range(2):
+            started = time.monotonic()
+            assert_unavailable(address)
+            assert time.monotonic() - started < 50.0
+        cluster.scheduler.send_signal(signal.SIGCONT)
+        assert sweep(address, loads(2))[-1]["type"] == "end"
 
 
 def test_without_a_scheduler_studies_wait_and_single_requests_do_not() -> None:

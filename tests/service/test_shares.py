@@ -7,7 +7,7 @@ import threading
 import time
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
 from functools import partial
 from typing import Any
 
@@ -93,11 +93,13 @@ def test_a_worker_that_dies_before_its_call_began_is_no_loss(service: Server, nu
 def test_beside_80_long_calculations_of_another_client(address: str) -> None:
     statuses: list[int] = []
 
-    def ask() -> None:
+    def ask(own: httpx.Client) -> None:
         with suppress(httpx.TransportError):
             statuses.append(own.post("/sleep/1").status_code)
 
-    with client(address, GREEDY) as own, meanwhile(*[ask] * 80):
+    with ExitStack() as stack:
+        many = [stack.enter_context(client(address, GREEDY)) for _ in range(80)]
+        stack.enter_context(meanwhile(*(partial(ask, own) for own in many)))
         wait_for_metric(address, "tribodrive_calculations_waiting", 64)
         waits = honest_waits(address, 60)
     assert waits[57] < FAIR_S
