@@ -17,7 +17,8 @@ from app.pages.studies.sensitivity import MOST_ROWS, SensitivityPage
 from app.pages.studies.sweep import SweepPage
 from app.pages.typesetting import shown
 from app.pages.views import Asked
-from tests.support.pages import asked, lines_of
+from tests.support.pages import asked
+from tests.support.studies import lines_of
 
 MOST, DEADLINE_S = 2500, 30.0
 COUPLING = "pahl-axial-displacement"
@@ -25,7 +26,7 @@ COUPLING = "pahl-axial-displacement"
 
 def result_of(found: Asked) -> tuple[list[dict[str, Any]], str]:
     study = pages.opened(SensitivityPage, found, MOST, DEADLINE_S).page
-    lines = lines_of(study)
+    lines = lines_of(study.study)
     return lines, unescape(pages.drawn(study, lines).decode())
 
 
@@ -67,7 +68,7 @@ def test_the_figure_shows_the_most_influential_first() -> None:
 
 def test_a_case_without_the_output_says_so() -> None:
     study = pages.opened(SensitivityPage, asked(COUPLING), MOST, DEADLINE_S).page
-    *lines, end = lines_of(study)
+    *lines, end = lines_of(study.study)
     nothing = [{**line, "change": None, "derivative": None} for line in lines]
     without = {**end, "outputs": [{**end["outputs"][0], "value": None}]}
     assert "The case has no thrust to be held" in pages.drawn(study, [*nothing, without]).decode()

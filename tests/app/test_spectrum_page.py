@@ -19,7 +19,7 @@ from app.pages.templating import page_path
 from app.pages.views import Asked
 from app.studies.requests import EXAMPLES
 from app.studies.spectrum import Spectrum
-from tests.support.pages import lines_of
+from tests.support.studies import lines_of
 
 SCUFFING = BY_PATH["/v1/scuffing"]
 MOST, DEADLINE_S = 20_000, 30.0
@@ -37,7 +37,7 @@ def checked(found: Asked) -> StudyPage:
 
 def shown(study: StudyPage) -> tuple[dict[str, Any], str]:
     """The last line of a study, and what its page shows."""
-    lines = [line for line in lines_of(study) if line["type"] != "progress"]
+    lines = [line for line in lines_of(study.study) if line["type"] != "progress"]
     return lines[-1], unescape(pages.drawn(study, lines).decode())
 
 
@@ -128,7 +128,7 @@ def test_the_page_shows_what_the_study_says() -> None:
 
 def test_no_name_of_a_case_is_a_formula_in_a_spreadsheet() -> None:
     study = checked(asked(**{**SAID, "cases": SAID["cases"].replace("low", "=1+1")}))
-    lines = [line for line in lines_of(study) if line["type"] != "progress"]
+    lines = [line for line in lines_of(study.study) if line["type"] != "progress"]
     table = pages.file(study, lines, "losses", "csv")
     assert isinstance(table, bytes)
     assert b"\n'=1+1," in table

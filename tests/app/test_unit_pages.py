@@ -20,7 +20,8 @@ from app.pages.studies.sensitivity import SensitivityPage
 from app.pages.study_links import study_links
 from app.pages.typesetting import shown
 from app.pages.views import Asked
-from tests.support.pages import asked, lines_of
+from tests.support.pages import asked
+from tests.support.studies import lines_of
 
 MOST, DEADLINE_S = 2500, 30.0
 UNIT = "starter-generator-gear-drive-train"
@@ -37,7 +38,7 @@ def small(**said: str) -> Asked:
 def studied(page: type[StudyPage]) -> tuple[StudyPage, list[dict[str, Any]], str]:
     found = small(trials="5") if page is DesignPage else asked(UNIT)
     study = pages.checked(page, found, MOST, DEADLINE_S)
-    lines = lines_of(study)
+    lines = lines_of(study.study)
     return study, lines, unescape(pages.drawn(study, lines).decode())
 
 
@@ -199,7 +200,7 @@ def test_a_unit_without_the_output_says_which_to_choose(page: type[StudyPage]) -
     bare = small()
     without = Asked(bare.path, [pair for pair in bare.pairs if not pair[0].startswith("temperatures.scuffing")])
     study = pages.checked(page, without, MOST, DEADLINE_S)
-    text = pages.drawn(study, lines_of(study)).decode()
+    text = pages.drawn(study, lines_of(study.study)).decode()
     assert "choose another output" in text or "has no answer at its worst corner" in text
 
 

@@ -1,9 +1,11 @@
-"""A browser that allows no other host and no complaint."""
+"""A browser that allows no other host and no complaint, and the address of a module's own service."""
 
 from collections.abc import Callable, Iterator
 
 import pytest
 from playwright.sync_api import Browser, BrowserContext, Page, expect, sync_playwright
+
+from tests.support.server import Server
 
 CHROMIUM = "/usr/bin/chromium"
 OPTIONS = ["--no-sandbox", "--disable-gpu", "--no-first-run", "--disable-background-networking", "--disable-sync"]
@@ -17,6 +19,12 @@ def browser() -> Iterator[Browser]:
         browser = playwright.chromium.launch(executable_path=CHROMIUM, args=OPTIONS)
         yield browser
         browser.close()
+
+
+@pytest.fixture(scope="module")
+def address(service: Server) -> str:
+    """Where a module's own `service` answers."""
+    return service[1]
 
 
 @pytest.fixture

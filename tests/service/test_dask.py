@@ -1,13 +1,12 @@
 """Studies on a real Dask cluster of processes: the same lines in the same order, and what a loss costs."""
 
-import asyncio
 import json
 import shutil
 import signal
-import subprocess
 import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
+from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -16,48 +15,51 @@ import pytest
 
 from app.examples import examples
 from app.sources import sources_of
-from app.studies.engine import Clock, Study
 from app.studies.requests import EXAMPLES
 from app.studies.spectrum import Spectrum
 from app.studies.sweep import Sweep
 from tests.support.dask_cluster import DaskProcesses, running_cluster
-from tests.support.pools import InlinePool
-from tests.support.server import ROOT, free_port, running_server
+from tests.support.server import ROOT, Server, free_port, running_server
+from tests.support.studies import Planner, lines_of, study_of, timeless
 
 pytestmark = pytest.mark.service
 
-LOADS = examples()["xue-pair-1-modified"]
 COUPLING = examples()["pahl-axial-displacement"]
 PREPARED_S = 400.0  # every worker loads every kernel before its first study
 SLOPE = "modifications.helix_slope_um"
 Service = tuple[DaskProcesses, str]
 
 
-@pytest.fixture(scope="module")
-def cluster() -> Iterator[DaskProcesses]:
-    with running_cluster() as cluster:
-        yield cluster
-
-
-@pytest.fixture(scope="module")
-def service(cluster: DaskProcesses) -> Iterator[Service]:
-    with running_server(workers=1, scheduler=cluster.address, log_level="error") as (_, address):
+@contextmanager
+def running_service(workers: int) -> Iterator[Service]:
+    """A service whose studies run on a cluster of so many workers."""
+    with running_cluster(workers) as cluster, served(cluster.address) as (_, address):
         yield cluster, address
 
 
+def served(scheduler: str) -> AbstractContextManager[Server]:
+    return running_server(workers=1, scheduler=scheduler, log_level="error")
+
+
+@pytest.fixture(scope="module")
+def service() -> Iterator[Service]:
+    with running_service(2) as found:
+        yield found
+
+
+def of_loads(**parts: Any) -> dict[str, Any]:
+    return study_of("xue-pair-1-modified", outputs=["pressure.max_mpa"], **parts)
+
+
 def loads(count: int) -> dict[str, Any]:
-    axis = {"path": SLOPE, "start": -20, "stop": 20, "count": count}
-    return {"endpoint": LOADS.endpoint, "request": LOADS.request, "vary": [axis], "outputs": ["pressure.max_mpa"]}
+    return of_loads(vary=[{"path": SLOPE, "start": -20, "stop": 20, "count": count}])
 
 
+MISALIGNMENTS = [{"path": "operation.misalignment_deg", "min": 0.02, "max": 0.08}]
 SWEEPS: dict[str, dict[str, Any]] = {
     "grid": loads(50),
-    "cases": {**loads(1), "vary": None, "cases": [{SLOPE: 5}, {"gears.pinion.addendum": 3.0}, {}]},
-    "sample": {
-        "endpoint": COUPLING.endpoint,
-        "request": COUPLING.request,
-        "sample": {"count": 32, "ranges": [{"path": "operation.misalignment_deg", "min": 0.02, "max": 0.08}]},
-    },
+    "cases": of_loads(cases=[{SLOPE: 5}, {"gears.pinion.addendum": 3.0}, {}]),
+    "sample": study_of(COUPLING.name, sample={"count": 32, "ranges": MISALIGNMENTS}),
 }
 
 
@@ -65,20 +67,12 @@ SPECTRUM = {**EXAMPLES["/v1/spectrum"]["coupling"]["value"], "points": True}
 
 
 def lines(text: str) -> list[dict[str, Any]]:
-    """The lines but for those that tell the time."""
-    found = map(json.loads, text.splitlines())
-    return [{key: each[key] for key in each if key != "elapsed_s"} for each in found if each["type"] != "progress"]
+    return timeless(list(map(json.loads, text.splitlines())))
 
 
-def local(body: dict[str, Any], plan: Callable[..., Study] = Sweep) -> list[dict[str, Any]]:
+def local(body: dict[str, Any], plan: Planner = Sweep) -> list[dict[str, Any]]:
     """The lines of a study calculated in this process."""
-
-    async def run() -> list[Any]:
-        study = plan(body, 20_000, 30.0)
-        groups = [group async for group in study.lines(InlinePool(), Clock(study.total))]
-        return [line for group in groups for line in group]
-
-    return lines("\n".join(map(json.dumps, asyncio.run(run()))))
+    return timeless(lines_of(plan(body, 20_000, 30.0)))
 
 
 def sweep(address: str, body: dict[str, Any], path: str = "/v1/sweep") -> list[dict[str, Any]]:
@@ -88,12 +82,12 @@ def sweep(address: str, body: dict[str, Any], path: str = "/v1/sweep") -> list[d
 
 
 @pytest.mark.parametrize("kind", SWEEPS)
-def test_same_lines_in_the_same_order(service: Service, kind: str) -> None:
-    assert sweep(service[1], SWEEPS[kind]) == local(SWEEPS[kind])
+def test_same_lines_in_the_same_order(address: str, kind: str) -> None:
+    assert sweep(address, SWEEPS[kind]) == local(SWEEPS[kind])
 
 
-def test_a_spectrum_has_the_same_numbers(service: Service) -> None:
-    found = sweep(service[1], SPECTRUM, "/v1/spectrum")
+def test_a_spectrum_has_the_same_numbers(address: str) -> None:
+    found = sweep(address, SPECTRUM, "/v1/spectrum")
     assert len(found) == 2 + 2048
     assert found == local(SPECTRUM, Spectrum)
 
@@ -113,34 +107,26 @@ def test_a_killed_worker_costs_nothing_but_time(service: Service) -> None:
     assert sweep(address, SWEEPS["grid"]) == local(SWEEPS["grid"])
 
 
-def test_leaving_takes_back_what_has_not_begun(service: Service) -> None:
-    _, address = service
+def test_leaving_takes_back_what_has_not_begun(address: str) -> None:
     with httpx.stream("POST", f"{address}/v1/sweep", json=loads(2500), timeout=PREPARED_S) as response:
         next(response.iter_lines())
     started = time.monotonic()
-    sweep(address, {**loads(1), "vary": None, "cases": [{}]})
+    sweep(address, of_loads(cases=[{}]))
     assert time.monotonic() - started < 20.0  # two chunks that ran, not two thousand points
 
 
 def test_a_vanished_scheduler_ends_the_stream_with_an_error_line() -> None:
-    with (
-        running_cluster(1) as cluster,
-        running_server(workers=1, scheduler=cluster.address, log_level="error") as (_, address),
-    ):
+    with running_service(1) as (cluster, address):
         with httpx.stream("POST", f"{address}/v1/sweep", json=loads(2500), timeout=PREPARED_S) as response:
             found = response.iter_lines()
             received = [next(found) for _ in range(3)]
-            kill_later(cluster.scheduler)
+            threading.Timer(0.3, cluster.scheduler.kill).start()
             received += found
         last = json.loads(received[-1])
         assert (last["type"], last["code"]) == ("error", "scheduler_lost")
         assert last["done"] == sum('"point"' in line for line in received)
         assert httpx.post(f"{address}/v1/coupling", json=COUPLING.request, timeout=60).status_code == 200
         assert_unavailable(address)
-
-
-def kill_later(process: subprocess.Popen[bytes]) -> None:
-    threading.Timer(0.3, process.kill).start()
 
 
 def assert_unavailable(address: str) -> None:
@@ -164,10 +150,7 @@ def edited(tmp_path: Path) -> Path:
 
 def test_a_worker_with_other_sources_is_refused_before_the_study_and_during_it(edited: Path) -> None:
     theirs = sources_of(edited / "solvers")
-    with (
-        running_cluster(1) as cluster,
-        running_server(workers=1, scheduler=cluster.address, log_level="error") as (_, address),
-    ):
+    with running_service(1) as (cluster, address):
         with httpx.stream("POST", f"{address}/v1/sweep", json=loads(2500), timeout=PREPARED_S) as response:
             found = response.iter_lines()
             header = next(found)
@@ -184,10 +167,7 @@ def test_a_worker_with_other_sources_is_refused_before_the_study_and_during_it(e
 
 
 def test_a_frozen_scheduler_is_told_in_time_and_used_again_when_it_answers() -> None:
-    with (
-        running_cluster(1) as cluster,
-        running_server(workers=1, scheduler=cluster.address, log_level="error") as (_, address),
-    ):
+    with running_service(1) as (cluster, address):
         assert sweep(address, loads(2))[-1]["type"] == "end"
         cluster.scheduler.send_signal(signal.SIGSTOP)
         for _ in range(2):
@@ -199,6 +179,6 @@ def test_a_frozen_scheduler_is_told_in_time_and_used_again_when_it_answers() -> 
 
 
 def test_without_a_scheduler_studies_wait_and_single_requests_do_not() -> None:
-    with running_server(workers=1, scheduler=f"tcp://127.0.0.1:{free_port()}", log_level="error") as (_, address):
+    with served(f"tcp://127.0.0.1:{free_port()}") as (_, address):
         assert_unavailable(address)
         assert httpx.post(f"{address}/v1/coupling", json=COUPLING.request, timeout=60).status_code == 200

@@ -2,15 +2,12 @@
 
 import random
 import signal
-import socket
 import subprocess
-import sys
-import threading
 import time
 from collections import Counter
 from collections.abc import Iterator
-from concurrent.futures import ThreadPoolExecutor
-from urllib.parse import urlsplit
+from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import contextmanager
 
 import httpx
 import pytest
@@ -18,9 +15,14 @@ import pytest
 from app.examples import examples
 from tests.support.server import (
     PATIENCE_S,
+    Server,
+    answer_to,
+    connected,
     descendants,
     descriptors,
+    faulty_server,
     is_alive,
+    meanwhile,
     memory_mb,
     metric,
     private_memory_mb,
@@ -35,17 +37,14 @@ from tests.support.server import (
 
 pytestmark = pytest.mark.service
 
-FAULTY = [sys.executable, "-m", "tests.support.faulty_server"]
 KILLS = 50
 KILL_EVERY_S = 0.5
 RUNNING = "tribodrive_calculations"
 
 
 @pytest.fixture(scope="module")
-def faulty() -> Iterator[tuple[subprocess.Popen[str], str]]:
-    with running_server(
-        FAULTY, workers=2, queue=2, deadline_s=6, body_deadline_s=1, worker_memory_mb=1024, log_level="error"
-    ) as server:
+def service() -> Iterator[Server]:
+    with faulty_server(workers=2, queue=2, deadline_s=6, body_deadline_s=1, worker_memory_mb=1024) as server:
         yield server
 
 
@@ -70,38 +69,30 @@ def test_killed_workers_cost_only_their_own_requests() -> None:
 
 def outcomes_while_killing(process: subprocess.Popen[str], address: str) -> Counter[str]:
     """What the answers were while workers died: right, wrong, or the code of the problem."""
-    cases = [examples()[name] for name in sorted(examples()) if examples()[name].endpoint.startswith("/v1/coupling")]
+    cases = [example for _, example in sorted(examples().items()) if example.endpoint.startswith("/v1/coupling")]
     references = {
         case.name: httpx.post(address + case.endpoint, json=case.request, timeout=30).content for case in cases
     }
     outcomes: Counter[str] = Counter()
-    done = threading.Event()
 
     def load() -> None:
-        with httpx.Client(base_url=address, timeout=60) as client:
-            while not done.is_set():
-                case = random.choice(cases)
-                response = client.post(case.endpoint, json=case.request)
-                if response.status_code == 200:
-                    outcomes["right" if response.content == references[case.name] else "wrong"] += 1
-                else:
-                    outcomes[response.json()["type"].rsplit(":", 1)[1]] += 1
+        case = random.choice(cases)
+        response = client.post(case.endpoint, json=case.request)
+        if response.status_code == 200:
+            outcomes["right" if response.content == references[case.name] else "wrong"] += 1
+        else:
+            outcomes[response.json()["type"].rsplit(":", 1)[1]] += 1
 
-    with ThreadPoolExecutor(3) as pool:
-        loads = [pool.submit(load) for _ in range(3)]
+    with httpx.Client(base_url=address, timeout=60) as client, meanwhile(load, load, load):
         for _ in range(KILLS):
             time.sleep(KILL_EVERY_S)
             alive = workers(process)
             if alive:
                 send_signal(random.choice(alive), signal.SIGKILL)
-        done.set()
-        for each in loads:
-            each.result()
     return outcomes
 
 
-def test_deadline(faulty: tuple[subprocess.Popen[str], str]) -> None:
-    _, address = faulty
+def test_deadline(address: str) -> None:
     started = time.monotonic()
     response = httpx.post(f"{address}/sleep/60", timeout=20)
     assert response.status_code == 504
@@ -109,37 +100,31 @@ def test_deadline(faulty: tuple[subprocess.Popen[str], str]) -> None:
     assert_recovers(address)
 
 
-def test_disconnect_ends_the_work(faulty: tuple[subprocess.Popen[str], str]) -> None:
-    _, address = faulty
+def test_disconnect_ends_the_work(address: str) -> None:
     with pytest.raises(httpx.ReadTimeout):
         httpx.post(f"{address}/sleep/5", timeout=0.5)
     wait_until(lambda: metric(address, RUNNING) == 0, 3.5)
     assert_recovers(address)
 
 
-def test_memory_bomb(faulty: tuple[subprocess.Popen[str], str]) -> None:
-    _, address = faulty
+def test_memory_bomb(address: str) -> None:
     response = httpx.post(f"{address}/allocate/4096", timeout=20)
     assert response.status_code == 503
     assert response.json()["type"].endswith("memory_limit")
     assert_recovers(address)
 
 
-def test_slow_body(faulty: tuple[subprocess.Popen[str], str]) -> None:
-    _, address = faulty
-    target = urlsplit(address)
+def test_slow_body(address: str) -> None:
     started = time.monotonic()
-    with socket.create_connection((target.hostname, target.port), timeout=30) as connection:
+    with connected(address) as connection:
         connection.sendall(
             b"POST /v1/coupling HTTP/1.1\r\nHost: x\r\nContent-Type: application/json\r\nContent-Length: 100\r\n\r\n{"
         )
-        answer = connection.recv(65536)
-    assert answer.startswith(b"HTTP/1.1 408")
+        assert answer_to(connection).startswith(b"HTTP/1.1 408")
     assert 0.9 < time.monotonic() - started < 8.0  # 10 s by default
 
 
-def test_full_queue_and_recovery(faulty: tuple[subprocess.Popen[str], str]) -> None:
-    _, address = faulty
+def test_full_queue_and_recovery(address: str) -> None:
     with ThreadPoolExecutor(8) as pool:
         responses = list(pool.map(lambda _: httpx.post(f"{address}/sleep/1.5", timeout=20), range(8)))
     refused = [response for response in responses if response.status_code == 503]
@@ -149,8 +134,7 @@ def test_full_queue_and_recovery(faulty: tuple[subprocess.Popen[str], str]) -> N
     assert_recovers(address)
 
 
-def test_health_while_all_workers_are_busy(faulty: tuple[subprocess.Popen[str], str]) -> None:
-    _, address = faulty
+def test_health_while_all_workers_are_busy(address: str) -> None:
     with ThreadPoolExecutor(2) as pool, httpx.Client(base_url=address) as client:
         busy = [pool.submit(httpx.post, f"{address}/sleep/3", timeout=20) for _ in range(2)]
         answered = 0
@@ -161,8 +145,8 @@ def test_health_while_all_workers_are_busy(faulty: tuple[subprocess.Popen[str], 
     assert_recovers(address)
 
 
-def test_killed_workers_are_replaced(faulty: tuple[subprocess.Popen[str], str]) -> None:
-    process, address = faulty
+def test_killed_workers_are_replaced(service: Server) -> None:
+    process, address = service
     before = set(workers(process))
     for worker in before:
         send_signal(worker, signal.SIGKILL)
@@ -171,16 +155,16 @@ def test_killed_workers_are_replaced(faulty: tuple[subprocess.Popen[str], str]) 
     assert_recovers(address)
 
 
-def test_a_worker_shares_the_memory_of_its_template(faulty: tuple[subprocess.Popen[str], str]) -> None:
-    process, address = faulty
+def test_a_worker_shares_the_memory_of_its_template(service: Server) -> None:
+    process, address = service
     worker = int(httpx.post(f"{address}/worker", timeout=20).text)
     assert worker in workers(process)
     assert private_memory_mb(worker) < 40
 
 
 @pytest.mark.parametrize("busy", [False, True])
-def test_a_stopped_worker_is_noticed_and_replaced(faulty: tuple[subprocess.Popen[str], str], busy: bool) -> None:
-    process, address = faulty
+def test_a_stopped_worker_is_noticed_and_replaced(service: Server, busy: bool) -> None:
+    process, address = service
     before = set(workers(process))
     with ThreadPoolExecutor(2) as pool:
         flights = [pool.submit(httpx.post, f"{address}/sleep/4", timeout=20) for _ in range(2 if busy else 0)]
@@ -193,8 +177,8 @@ def test_a_stopped_worker_is_noticed_and_replaced(faulty: tuple[subprocess.Popen
 
 
 @pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGSTOP])
-def test_a_lost_fork_server_is_started_again(faulty: tuple[subprocess.Popen[str], str], number: signal.Signals) -> None:
-    process, address = faulty
+def test_a_lost_fork_server_is_started_again(service: Server, number: signal.Signals) -> None:
+    process, address = service
     old = template(process)
     flight_worker = workers(process)
     with ThreadPoolExecutor(1) as pool:
@@ -209,25 +193,20 @@ def test_a_lost_fork_server_is_started_again(faulty: tuple[subprocess.Popen[str]
     assert template(process) != old
 
 
-def test_a_storm_of_disconnects_leaves_nothing_behind(faulty: tuple[subprocess.Popen[str], str]) -> None:
-    process, address = faulty
+def test_a_storm_of_disconnects_leaves_nothing_behind(service: Server) -> None:
+    process, address = service
     assert_recovers(address)
     before = len(descendants(process.pid)), descriptors(process.pid), memory_mb(process.pid)
-    done = threading.Event()
     answered = 0
 
     def leave() -> None:
-        while not done.is_set():
-            with pytest.raises(httpx.ReadTimeout):
-                httpx.post(f"{address}/sleep/5", timeout=httpx.Timeout(5, read=0.1))
+        with pytest.raises(httpx.ReadTimeout):
+            httpx.post(f"{address}/sleep/5", timeout=httpx.Timeout(5, read=0.1))
 
-    with ThreadPoolExecutor(1) as pool, httpx.Client(base_url=address, timeout=20) as client:
-        storm = pool.submit(leave)
+    with meanwhile(leave), httpx.Client(base_url=address, timeout=20) as client:
         end = time.monotonic() + 10
         while time.monotonic() < end:
             answered += client.post("/sleep/0.01").status_code == 200
-        done.set()
-        storm.result()
     assert answered > 50
     assert_recovers(address)
     wait_until(lambda: len(descendants(process.pid)) <= before[0])
@@ -235,10 +214,17 @@ def test_a_storm_of_disconnects_leaves_nothing_behind(faulty: tuple[subprocess.P
     assert memory_mb(process.pid) < before[2] + 20
 
 
-def test_death_of_the_service_takes_everything_along() -> None:
-    with running_server(FAULTY, workers=2, log_level="error") as (process, address), ThreadPoolExecutor(1) as pool:
-        flight = pool.submit(httpx.post, f"{address}/spin/60", timeout=60)
+@contextmanager
+def calculating(path: str, workers: int) -> Iterator[tuple[subprocess.Popen[str], Future[httpx.Response]]]:
+    """A service of one's own with one calculation under way, and its answer."""
+    with faulty_server(workers=workers) as (process, address), ThreadPoolExecutor(1) as pool:
+        flight = pool.submit(httpx.post, address + path, timeout=60)
         wait_for_metric(address, RUNNING, 1)
+        yield process, flight
+
+
+def test_death_of_the_service_takes_everything_along() -> None:
+    with calculating("/spin/60", workers=2) as (process, flight):
         family = descendants(process.pid)
         assert len(family) >= 3
         process.kill()
@@ -248,9 +234,7 @@ def test_death_of_the_service_takes_everything_along() -> None:
 
 
 def test_interrupt_does_not_wait_for_a_calculation() -> None:
-    with running_server(FAULTY, workers=2, log_level="error") as (process, address), ThreadPoolExecutor(1) as pool:
-        flight = pool.submit(httpx.post, f"{address}/spin/25", timeout=30)
-        wait_for_metric(address, RUNNING, 1)
+    with calculating("/spin/25", workers=2) as (process, flight):
         family = descendants(process.pid)
         process.send_signal(signal.SIGINT)
         process.wait(20)
@@ -260,9 +244,7 @@ def test_interrupt_does_not_wait_for_a_calculation() -> None:
 
 
 def test_shutdown_finishes_what_is_in_flight() -> None:
-    with running_server(FAULTY, workers=1, log_level="error") as (process, address), ThreadPoolExecutor(1) as pool:
-        flight = pool.submit(httpx.post, f"{address}/sleep/2", timeout=20)
-        wait_for_metric(address, RUNNING, 1)
+    with calculating("/sleep/2", workers=1) as (process, flight):
         process.send_signal(signal.SIGTERM)
         assert flight.result().status_code == 200
         assert process.wait(20) in {0, -signal.SIGTERM}

@@ -19,8 +19,8 @@ from app.examples import examples
 from app.settings import Settings
 from app.workers import processes, start_up
 from app.workers.processes import Worker
+from tests.support.server import ROOT
 
-ROOT = Path(__file__).parents[2]
 COUPLING = examples()["pahl-axial-displacement"]
 
 

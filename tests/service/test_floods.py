@@ -3,8 +3,6 @@
 import http.client
 import json
 import socket
-import subprocess
-import sys
 import threading
 import time
 from collections.abc import Iterator
@@ -16,9 +14,13 @@ import httpx
 import pytest
 
 from tests.support.server import (
+    FAULTY,
+    Server,
     answer_to,
     connected,
     descriptors,
+    faulty_server,
+    meanwhile,
     memory_mb,
     running_server,
     wait_for_metric,
@@ -29,18 +31,18 @@ pytestmark = pytest.mark.service
 
 FLOOD = 30 * 2**20
 PIECE = b"x" * 65536
-SMALL_LIMITS = {
-    "workers": 2,
-    "header_deadline_s": 1.5,
-    "body_deadline_s": 1.5,
-    "log_level": "error",
-}
+JSON = {"Content-Type": "application/json"}
 
 
 @pytest.fixture(scope="module")
-def small() -> Iterator[tuple[subprocess.Popen[str], str]]:
-    with running_server(**SMALL_LIMITS) as server:
+def service() -> Iterator[Server]:
+    with faulty_server(workers=2, header_deadline_s=1.5, body_deadline_s=1.5) as server:
         yield server
+
+
+def post_of(path: str, size: int = 0) -> bytes:
+    head = f"POST {path} HTTP/1.1\r\nHost: x\r\nContent-Type: application/json\r\nContent-Length: {size}\r\n\r\n"
+    return head.encode()
 
 
 def flood(address: str, opening: bytes, piece: bytes) -> tuple[int, bytes]:
@@ -62,31 +64,23 @@ OPENINGS = {
     "one header without end": (b"GET /healthz HTTP/1.1\r\nHost: x\r\nX-Padding: ", PIECE),
     "headers without end": (b"GET /healthz HTTP/1.1\r\nHost: x\r\n", b"X-Padding: 1234567890\r\n" * 3000),
     "an address without end": (b"GET /", PIECE),
-    "trailers without end": (
-        CHUNKED + b"2\r\n{}\r\n0\r\n",
-        b"X-Padding: 1234567890\r\n" * 3000,
-    ),
-    "a chunk size without end": (
-        CHUNKED + b"2;extension=",
-        PIECE,
-    ),
+    "trailers without end": (CHUNKED + b"2\r\n{}\r\n0\r\n", b"X-Padding: 1234567890\r\n" * 3000),
+    "a chunk size without end": (CHUNKED + b"2;extension=", PIECE),
 }
 
 
 @pytest.mark.parametrize("kind", OPENINGS)
-def test_flood_is_cut_off_before_it_costs_memory(small: tuple[subprocess.Popen[str], str], kind: str) -> None:
-    process, address = small
+def test_flood_is_cut_off_before_it_costs_memory(service: Server, kind: str) -> None:
+    process, address = service
     before = memory_mb(process.pid)
     sent, answer = flood(address, *OPENINGS[kind])
     assert sent < FLOOD
     assert memory_mb(process.pid) < before + 10
-    status = answer[:12]
-    assert status in {b"", b"HTTP/1.1 431", b"HTTP/1.1 400"}  # a reset can overtake the answer
+    assert answer[:12] in {b"", b"HTTP/1.1 431", b"HTTP/1.1 400"}  # a reset can overtake the answer
     assert httpx.get(f"{address}/healthz", timeout=2).status_code == 200
 
 
-def test_refusal_of_headers_is_a_problem_and_is_logged(small: tuple[subprocess.Popen[str], str]) -> None:
-    _, address = small
+def test_refusal_of_headers_is_a_problem_and_is_logged(address: str) -> None:
     with connected(address) as connection:
         connection.sendall(b"GET /healthz HTTP/1.1\r\nHost: x\r\nX-Padding: " + b"x" * 17_000 + b"\r\n\r\n")
         head, _, body = answer_to(connection).partition(b"\r\n\r\n")
@@ -96,8 +90,7 @@ def test_refusal_of_headers_is_a_problem_and_is_logged(small: tuple[subprocess.P
     assert 'endpoint="unparsed",status="431"' in httpx.get(f"{address}/metrics").text
 
 
-def test_half_sent_headers_time_out(small: tuple[subprocess.Popen[str], str]) -> None:
-    _, address = small
+def test_half_sent_headers_time_out(address: str) -> None:
     with connected(address) as silent, connected(address) as slow:
         slow.sendall(b"GET /healthz HTTP/1.1\r\nHost:")
         started = time.monotonic()
@@ -106,23 +99,25 @@ def test_half_sent_headers_time_out(small: tuple[subprocess.Popen[str], str]) ->
         assert 1.4 < time.monotonic() - started < 8.0  # 10 s by default
 
 
-def test_half_sent_second_request_times_out(small: tuple[subprocess.Popen[str], str]) -> None:
-    _, address = small
+def read_health(connection: socket.socket) -> None:
+    """The answer of /healthz, and no byte more."""
+    received = b""
+    while not received.endswith(b'{"status":"ok"}'):
+        received += connection.recv(65536)
+    assert received.startswith(b"HTTP/1.1 200")
+
+
+def test_half_sent_second_request_times_out(address: str) -> None:
     with connected(address) as connection:
         connection.sendall(b"GET /healthz HTTP/1.1\r\nHost: x\r\n\r\n")
-        first = b""
-        while not first.endswith(b'{"status":"ok"}'):
-            first += connection.recv(65536)
-        assert first.startswith(b"HTTP/1.1 200")
+        read_health(connection)
         connection.sendall(b"GET /heal")
         assert answer_to(connection).startswith(b"HTTP/1.1 408")
 
 
-def test_a_body_that_drips_times_out(small: tuple[subprocess.Popen[str], str]) -> None:
-    _, address = small
-    opening = b"POST /v1/coupling HTTP/1.1\r\nHost: x\r\nContent-Type: application/json\r\nContent-Length: 99\r\n\r\n"
+def test_a_body_that_drips_times_out(address: str) -> None:
     with connected(address) as connection:
-        connection.sendall(opening)
+        connection.sendall(post_of("/v1/coupling", 99))
         started = time.monotonic()
 
         def drip() -> None:
@@ -138,39 +133,24 @@ def test_a_body_that_drips_times_out(small: tuple[subprocess.Popen[str], str]) -
         dripping.join()
 
 
-def test_many_unknown_fields_do_not_hold_up_the_others(small: tuple[subprocess.Popen[str], str]) -> None:
-    _, address = small
+def test_many_unknown_fields_do_not_hold_up_the_others(address: str) -> None:
     body = json.dumps({f"k{number}": 0 for number in range(30_000)})
-    waits = []
-    done = threading.Event()
-    answers = []
+    waits, answers = [], []
 
     def load() -> None:
-        while not done.is_set():
-            answers.append(
-                httpx.post(
-                    f"{address}/v1/coupling", content=body, headers={"Content-Type": "application/json"}, timeout=30
-                )
-            )
+        answers.append(httpx.post(f"{address}/v1/coupling", content=body, headers=JSON, timeout=30))
 
-    loads = [threading.Thread(target=load) for _ in range(4)]
-    for each in loads:
-        each.start()
-    with httpx.Client(base_url=address) as client:
+    with meanwhile(load, load, load, load), httpx.Client(base_url=address) as client:
         for _ in range(100):
             started = time.monotonic()
             assert client.get("/healthz").status_code == 200
             waits.append(time.monotonic() - started)
-    done.set()
-    for each in loads:
-        each.join()
     assert {answer.status_code for answer in answers} == {422}
     assert answers[0].json()["errors"][0]["code"] == "too_many_fields"
     assert median(waits) < 0.5
 
 
-def test_bodies_in_pieces_of_a_byte_do_not_hold_up_the_others(small: tuple[subprocess.Popen[str], str]) -> None:
-    _, address = small
+def test_bodies_in_pieces_of_a_byte_do_not_hold_up_the_others(address: str) -> None:
     opening = CHUNKED.replace(b"/v1/coupling", b"/v1/rexs").replace(b"json", b"xml")
     answers, slowest = [], 0.0
 
@@ -193,8 +173,8 @@ def test_bodies_in_pieces_of_a_byte_do_not_hold_up_the_others(small: tuple[subpr
     assert slowest < 3.0  # 4 s on quiet cores if each piece is taken for itself
 
 
-def test_pipelined_requests_are_bounded(small: tuple[subprocess.Popen[str], str]) -> None:
-    process, address = small
+def test_pipelined_requests_are_bounded(service: Server) -> None:
+    process, address = service
     before = memory_mb(process.pid)
     with connected(address) as connection:
         with suppress(OSError):
@@ -204,10 +184,7 @@ def test_pipelined_requests_are_bounded(small: tuple[subprocess.Popen[str], str]
     assert httpx.get(f"{address}/healthz", timeout=2).status_code == 200
 
 
-def test_pipelined_documents_that_nobody_reads_do_not_hold_up_a_newcomer(
-    small: tuple[subprocess.Popen[str], str],
-) -> None:
-    _, address = small
+def test_pipelined_documents_that_nobody_reads_do_not_hold_up_a_newcomer(address: str) -> None:
     request = b"GET /openapi.json HTTP/1.1\r\nHost: x\r\nAccept-Encoding: gzip\r\n\r\n"
     httpx.get(f"{address}/openapi.json", timeout=20)  # the first one takes a second
     with ExitStack() as stack:
@@ -218,50 +195,34 @@ def test_pipelined_documents_that_nobody_reads_do_not_hold_up_a_newcomer(
         assert time.monotonic() - started < 8.0  # 10 s on quiet cores if each is written anew
 
 
-def post_of(path: str, size: int = 0) -> bytes:
-    head = f"POST {path} HTTP/1.1\r\nHost: x\r\nContent-Type: application/json\r\nContent-Length: {size}\r\n\r\n"
-    return head.encode()
-
-
-def test_bytes_behind_a_long_request_do_not_cost_its_answer() -> None:
-    faulty = [sys.executable, "-m", "tests.support.faulty_server"]
-    with (
-        running_server(faulty, workers=1, header_deadline_s=1, log_level="error") as (_, address),
-        connected(address) as connection,
-    ):
+def test_bytes_behind_a_long_request_do_not_cost_its_answer(address: str) -> None:
+    with connected(address) as connection:
         connection.sendall(post_of("/sleep/2.5"))
         wait_for_metric(address, "tribodrive_calculations", 1)
         connection.sendall(b"\r\n")
         assert connection.recv(65536).startswith(b"HTTP/1.1 200")
 
 
-def test_a_pipelined_request_whose_body_comes_late_is_answered(small: tuple[subprocess.Popen[str], str]) -> None:
-    _, address = small
+def test_a_pipelined_request_whose_body_comes_late_is_answered(address: str) -> None:
     first = b"GET /healthz HTTP/1.1\r\nHost: x\r\n\r\n"
     with connected(address) as connection:
         connection.sendall(first + post_of("/v1/coupling", 2) + b"{")
-        received = b""
-        while not received.endswith(b'{"status":"ok"}'):
-            received += connection.recv(65536)
+        read_health(connection)
         time.sleep(1.0)
         connection.sendall(b"}")
         assert connection.recv(65536).startswith(b"HTTP/1.1 422")
 
 
 @pytest.mark.parametrize("size", [2_000_000, 20_000_000])
-def test_a_refusal_reaches_a_client_that_sends_on_and_closes(
-    small: tuple[subprocess.Popen[str], str], size: int
-) -> None:
-    headers = {"Content-Type": "application/json", "Connection": "close"}
+def test_a_refusal_reaches_a_client_that_sends_on_and_closes(address: str, size: int) -> None:
     for body in (b" " * size, (b" " * 65536 for _ in range(size // 65536))):  # announced, and in chunks
-        connection = http.client.HTTPConnection(urlsplit(small[1]).netloc, timeout=10)
-        connection.request("POST", "/v1/coupling", body, headers)
+        connection = http.client.HTTPConnection(urlsplit(address).netloc, timeout=10)
+        connection.request("POST", "/v1/coupling", body, {**JSON, "Connection": "close"})
         assert connection.getresponse().status == 413
         connection.close()
 
 
-def test_two_hosts_are_refused(small: tuple[subprocess.Popen[str], str]) -> None:
-    _, address = small
+def test_two_hosts_are_refused(address: str) -> None:
     with connected(address) as connection:
         connection.sendall(b"GET /healthz HTTP/1.1\r\nHost: x\r\nHost: y\r\n\r\n")
         assert answer_to(connection).startswith(b"HTTP/1.1 400")
@@ -270,7 +231,7 @@ def test_two_hosts_are_refused(small: tuple[subprocess.Popen[str], str]) -> None
 def test_an_answer_that_nobody_reads_is_given_up() -> None:
     """The memory of it is free again after the deadline; who reads slowly gets the whole of it."""
     with (
-        running_server(workers=1, send_deadline_s=6, log_level="error") as (process, address),
+        faulty_server(workers=1, send_deadline_s=6) as (process, address),
         ExitStack() as stack,
     ):
         request = b"GET /openapi.json HTTP/1.1\r\nHost: x\r\n\r\n"
@@ -293,18 +254,19 @@ def test_an_answer_that_nobody_reads_is_given_up() -> None:
 
 def test_few_descriptors() -> None:
     """Idle connections beyond the limit are refused, and nothing breaks while they are there or afterwards."""
-    command = ["bash", "-c", f"ulimit -n 256; exec {sys.executable} -m app"]
+    command = ["bash", "-c", f"ulimit -n 256; exec {' '.join(FAULTY)}"]
     with (
-        running_server(command, workers=2, header_deadline_s=3, log_level="error") as (_, address),
+        running_server(command, workers=2, header_deadline_s=3, log_level="error") as (process, address),
         ExitStack() as stack,
     ):
+        idle = descriptors(process.pid)
         for _ in range(300):
             with suppress(OSError):
                 stack.enter_context(connected(address)).sendall(b"GET /")
         refused = httpx.get(f"{address}/healthz", timeout=5)
         assert refused.status_code == 503
         assert refused.json()["type"].endswith("service_unavailable")
-        time.sleep(4)
+        wait_until(lambda: descriptors(process.pid) <= idle + 2)
         for _ in range(20):
             assert httpx.get(f"{address}/readyz", timeout=5).status_code == 200
             assert httpx.post(f"{address}/v1/coupling", json={}, timeout=5).status_code == 422

@@ -24,20 +24,10 @@ def package(server: str, tmp_path_factory: pytest.TempPathFactory) -> ModuleType
     kinds = {"x-ndjson": "text/plain", "xml": "application/octet-stream", "zip": "application/octet-stream"}
     overrides = "".join(f"  application/{kind}: {known}\n" for kind, known in kinds.items())
     config.write_text(f"content_type_overrides:\n{overrides}")
-    command: list[str | Path] = [
-        generator,
-        "generate",
-        "--url",
-        f"{server}/openapi.json",
-        "--meta",
-        "none",
-        "--fail-on-warning",
-    ]
-    command += ["--config", config]
+    options = f"--url {server}/openapi.json --meta none --fail-on-warning --config {config}".split()
     path = f"{Path(sys.executable).parent}:{os.environ['PATH']}"  # the generator formats with ruff
-    subprocess.run(
-        [*command, "--output-path", folder / "tribodrive_client"], check=True, env={**os.environ, "PATH": path}
-    )
+    command = [generator, "generate", *options, "--output-path", folder / "tribodrive_client"]
+    subprocess.run(command, check=True, env={**os.environ, "PATH": path})
     sys.path.insert(0, str(folder))
     return importlib.import_module("tribodrive_client")
 

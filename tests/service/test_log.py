@@ -3,7 +3,8 @@
 import http.client
 import json
 import os
-import sys
+from collections.abc import Iterator
+from contextlib import ExitStack
 from pathlib import Path
 from urllib.parse import urlsplit
 
@@ -11,33 +12,46 @@ import httpx
 import pytest
 
 from tests.support.server import (
+    FAULTY,
     PATIENCE_S,
+    Server,
     answer_to,
     connected,
-    running_server,
+    faulty_server,
     started_server,
     wait_for_metric,
+    wait_until,
     wait_until_warm,
 )
 
 pytestmark = pytest.mark.service
 
-FAULTY = [sys.executable, "-m", "tests.support.faulty_server"]
-
 
 def lines_of(log: Path) -> list[dict[str, object]]:
-    lines = [json.loads(line) for line in log.read_text("utf-8").splitlines() if line.startswith("{")]
+    *whole, _ = log.read_text("utf-8").split("\n")
+    lines = [json.loads(line) for line in whole if line.startswith("{")]
     return [line for line in lines if line["endpoint"] != "/readyz"]
 
 
-def test_one_json_line_a_request(tmp_path: Path) -> None:
-    log = tmp_path / "log"
-    with running_server(log=log, workers=1) as (_, address):
-        httpx.get(f"{address}/healthz", headers={"X-Request-ID": "first"})
-        httpx.post(f"{address}/v1/coupling", json={"secret": 1}, headers={"X-Request-ID": "second"})
-        httpx.get(f"{address}/nothing?token=hidden", headers={"X-Request-ID": 'a"b'})
-        httpx.head(f"{address}/healthz")
-    mine = lines_of(log)
+@pytest.fixture(scope="module")
+def log(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("log") / "log"
+
+
+@pytest.fixture(scope="module")
+def service(log: Path) -> Iterator[Server]:
+    with faulty_server(workers=1, log=log) as server:
+        yield server
+
+
+def test_one_json_line_a_request(address: str, log: Path) -> None:
+    before = len(lines_of(log))
+    httpx.get(f"{address}/healthz", headers={"X-Request-ID": "first"})
+    httpx.post(f"{address}/v1/coupling", json={"secret": 1}, headers={"X-Request-ID": "second"})
+    httpx.get(f"{address}/nothing?token=hidden", headers={"X-Request-ID": 'a"b'})
+    httpx.head(f"{address}/healthz")
+    wait_until(lambda: len(lines_of(log)) >= before + 4)
+    mine = lines_of(log)[before:]
     assert [(line["method"], line["endpoint"], line["status"]) for line in mine] == [
         ("GET", "/healthz", 200),
         ("POST", "/v1/coupling", 422),
@@ -51,34 +65,42 @@ def test_one_json_line_a_request(tmp_path: Path) -> None:
     assert "hidden" not in log.read_text("utf-8")
 
 
+def test_the_log_has_the_cause_from_the_worker(address: str, log: Path) -> None:
+    assert httpx.post(f"{address}/fail").status_code == 500
+    wait_until(lambda: "ZeroDivisionError: deep inside" in log.read_text("utf-8"))
+    assert "in fail_deep_inside" in log.read_text("utf-8")
+
+
 def test_the_address_of_clients_may_be_left_out(tmp_path: Path) -> None:
     log = tmp_path / "log"
-    with running_server(log=log, workers=1, log_clients=False) as (_, address):
+    with faulty_server(log=log, workers=1, log_clients=False) as (_, address):
         httpx.get(f"{address}/healthz")
     assert [line["client"] for line in lines_of(log)] == [None]
     assert "127.0.0.1" not in log.read_text("utf-8").partition("/docs")[2]
 
 
-def test_internal_and_parser_errors_are_logged_and_counted(tmp_path: Path) -> None:
-    log = tmp_path / "log"
-    with running_server(FAULTY, log=log, workers=1) as (_, address):
-        bug = httpx.post(f"{address}/bug")
-        assert bug.status_code == 500
-        assert bug.headers["content-type"] == "application/problem+json"
-        assert bug.headers["x-content-type-options"] == "nosniff"
-        assert bug.json()["instance"] == bug.headers["x-request-id"]
-        with connected(address) as connection:
-            connection.sendall(b"NONSENSE\r\n\r\n")
-            head, _, body = answer_to(connection).partition(b"\r\n\r\n")
-        assert head.startswith(b"HTTP/1.1 400")
-        assert b"x-content-type-options: nosniff" in head
-        metrics = httpx.get(f"{address}/metrics").text
+def test_internal_and_parser_errors_are_logged_and_counted(address: str, log: Path) -> None:
+    bug = httpx.post(f"{address}/bug")
+    assert bug.status_code == 500
+    assert bug.headers["content-type"] == "application/problem+json"
+    assert bug.headers["x-content-type-options"] == "nosniff"
+    assert bug.json()["instance"] == bug.headers["x-request-id"]
+    with connected(address) as connection:
+        connection.sendall(b"NONSENSE\r\n\r\n")
+        head, _, body = answer_to(connection).partition(b"\r\n\r\n")
+    assert head.startswith(b"HTTP/1.1 400")
+    assert b"x-content-type-options: nosniff" in head
     identifiers = [bug.json()["instance"], json.loads(body)["instance"]]
-    mine = [line for line in lines_of(log) if line["request_id"] in identifiers]
-    assert [(line["method"], line["endpoint"], line["status"]) for line in mine] == [
+
+    def mine() -> list[dict[str, object]]:
+        return [line for line in lines_of(log) if line["request_id"] in identifiers]
+
+    wait_until(lambda: len(mine()) >= 2)
+    assert [(line["method"], line["endpoint"], line["status"]) for line in mine()] == [
         ("POST", "/bug", 500),
         ("-", "unparsed", 400),
     ]
+    metrics = httpx.get(f"{address}/metrics").text
     assert 'tribodrive_requests_total{endpoint="/bug",status="500"} 1.0' in metrics
     assert 'tribodrive_requests_total{endpoint="unparsed",status="400"} 1.0' in metrics
     assert "RuntimeError: a bug" in log.read_text("utf-8")
@@ -87,7 +109,7 @@ def test_internal_and_parser_errors_are_logged_and_counted(tmp_path: Path) -> No
 def test_a_log_that_nobody_reads_costs_lines_and_nothing_else() -> None:
     reader, writer = os.pipe()
     try:
-        with started_server(log=writer, workers=1) as (process, address):
+        with started_server(FAULTY, log=writer, workers=1) as (process, address):
             wait_until_warm(process, address)
             connection = http.client.HTTPConnection(urlsplit(address).netloc, timeout=PATIENCE_S)
             for _ in range(13_000):  # the pipe holds some hundred lines, the queue ten thousand
@@ -104,18 +126,13 @@ def test_a_log_that_nobody_reads_costs_lines_and_nothing_else() -> None:
         os.close(writer)
 
 
-def test_ready_does_not_queue_behind_calculations() -> None:
-    with running_server(FAULTY, workers=1, log_level="error") as (_, address):
-        target = urlsplit(address)
-        busy = []
+def test_ready_does_not_queue_behind_calculations(address: str) -> None:
+    with ExitStack() as stack:
         for _ in range(5):
-            connection = connected(address)
-            connection.sendall(f"POST /sleep/5 HTTP/1.1\r\nHost: {target.netloc}\r\nContent-Length: 0\r\n\r\n".encode())
-            busy.append(connection)
+            connection = stack.enter_context(connected(address))
+            connection.sendall(b"POST /sleep/5 HTTP/1.1\r\nHost: x\r\nContent-Length: 0\r\n\r\n")
         wait_for_metric(address, "tribodrive_calculations_waiting", 4)
         answer = httpx.get(f"{address}/readyz", timeout=5)
         assert answer.status_code == 200
         assert answer.json()["workers"] == 1
         assert "coupling" in answer.json()["warm"]
-        for connection in busy:
-            connection.close()

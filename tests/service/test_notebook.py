@@ -8,9 +8,10 @@ from pathlib import Path
 
 import pytest
 
+from tests.support.server import ROOT
+
 pytestmark = pytest.mark.service
 
-ROOT = Path(__file__).parents[2]
 FIGURES = 4
 RUN = "import sys; from nbclient.cli import main; sys.exit(main())"  # in a process of its own: it brings an event loop
 

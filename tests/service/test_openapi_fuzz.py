@@ -6,9 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.support.server import running_server
-
-ROOT = Path(__file__).parents[2]
+from tests.support.server import ROOT, running_server
 
 pytestmark = pytest.mark.service
 

@@ -30,14 +30,9 @@ def value_of(page: Page, path: str) -> str:
 
 def test_fill_and_read_a_result(visit: Callable[..., Page]) -> None:
     page = visit("/coupling")
-    for label, text in (
-        ("number of teeth", "52"),
-        ("module", "3,0"),
-        ("transmitted torque", "3000"),
-        ("speed", "1910"),
-    ):
-        page.get_by_label(re.compile(rf"^{label} ")).first.fill(text)
-    page.get_by_label(re.compile(r"^misalignment ")).fill("0.05")
+    given = {"number of teeth": 52, "module": "3,0", "transmitted torque": 3000, "speed": 1910, "misalignment": 0.05}
+    for label, text in given.items():
+        page.get_by_label(re.compile(rf"^{label} ")).first.fill(str(text))
     expect(page.locator(".card").first).to_be_visible()
     expect(page).to_have_url(re.compile(r"operation\.misalignment_deg=0\.05"))
     assert float(value_of(page, "geometry.pitch_radius_mm")) == pytest.approx(78)
@@ -119,7 +114,7 @@ def test_nothing_is_wrong_before_the_first_calculation(visit: Callable[..., Page
 
 
 def test_cards_stay_in_sight(visit: Callable[..., Page]) -> None:
-    page = visit(address_of(COUPLING), viewport={"width": 1400, "height": 900})
+    page = visit(address_of(COUPLING), viewport=DESK)
     page.locator(".results tr").nth(5).scroll_into_view_if_needed()
     page.mouse.wheel(0, 600)
     expect(page.locator(".card").first).to_be_in_viewport()
@@ -176,21 +171,12 @@ def test_compare(visit: Callable[..., Page]) -> None:
     assert "dashed: variant A" in (page.locator(".chart img").first.get_attribute("alt") or "")
     differing = page.locator(".differences tbody tr")
     assert differing.count() == 1
-    assert differing.inner_text().split("\t")[:1] + differing.inner_text().split("\t")[2:] == [
-        "profile crowning",
-        "0",
-        "10",
-        "µm",
-        "from zero",
-    ]
+    name, _, *values = differing.inner_text().split("\t")
+    assert (name, values) == ("profile crowning", ["0", "10", "µm", "from zero"])
     expect(page.locator(".card .was").first).to_be_visible()
     parts = page.locator(".differences, .cards, .charts, [aria-label='All results']")
-    assert parts.evaluate_all("parts => parts.map(part => part.className)") == [
-        "panel differences",
-        "cards",
-        "charts",
-        "scroll",
-    ]
+    order = ["panel differences", "cards", "charts", "scroll"]
+    assert parts.evaluate_all("parts => parts.map(part => part.className)") == order
     page.get_by_role("link", name="Report").click()
     expect(page.locator("body")).to_contain_text("Compared with variant A")
     assert page.get_by_text("variant A → this case").count() == 3
@@ -205,7 +191,7 @@ def test_compare(visit: Callable[..., Page]) -> None:
 def test_the_change_is_on_the_screen(visit: Callable[..., Page], name: str) -> None:
     example = examples()[name]
     path, pairs = example.endpoint.removeprefix("/v1"), pairs_of(example.request)
-    page = visit(link(path, pairs, ref=link("", pairs)[1:]), viewport={"width": 1400, "height": 900})
+    page = visit(link(path, pairs, ref=link("", pairs)[1:]), viewport=DESK)
     table = page.get_by_role("region", name="All results")
     assert table.evaluate("part => part.scrollWidth - part.clientWidth") == 0
     assert all(page.locator(".list").evaluate_all("lists => lists.map(each => !each.open)"))
@@ -333,8 +319,7 @@ OVERLAPPING = """() => {
 
 @pytest.mark.parametrize("name", sorted(examples()))
 def test_reports_print_on_ten_pages(visit: Callable[..., Page], name: str, tmp_path: Path) -> None:
-    example = examples()[name]
-    page = visit(link(f"{example.endpoint.removeprefix('/v1')}/report", pairs_of(example.request)))
+    page = visit(address_of(name, "/report"))
     cut = page.evaluate("[...document.images].filter(image => !image.complete || image.naturalWidth === 0).length")
     assert cut == 0
     assert page.evaluate(OVERLAPPING) == 0
@@ -350,8 +335,7 @@ def test_reports_print_on_ten_pages(visit: Callable[..., Page], name: str, tmp_p
 def test_texts_of_figures_are_seven_points_high_in_a_printed_report(
     visit: Callable[..., Page], name: str, tmp_path: Path
 ) -> None:
-    example = examples()[name]
-    page = visit(link(f"{example.endpoint.removeprefix('/v1')}/report", pairs_of(example.request)))
+    page = visit(address_of(name, "/report"))
     page.evaluate("document.body.replaceChildren(...document.querySelectorAll('figure'))")
     figures = page.evaluate("document.images.length")
     file = tmp_path / "report.pdf"

@@ -35,11 +35,8 @@ pytestmark = [
 
 @pytest.fixture(scope="module")
 def service() -> Iterator[str]:
-    with running_server(workers=2, log_level="error", root_path=PREFIX, hosts="tribology.example, b.example") as (
-        _,
-        at,
-    ):
-        yield at
+    with running_server(workers=2, log_level="error", root_path=PREFIX, hosts="tribology.example, b.example") as found:
+        yield found[1]
 
 
 @pytest.fixture(scope="module")

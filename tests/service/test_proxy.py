@@ -3,8 +3,6 @@
 import json
 import shutil
 import socket
-import subprocess
-import sys
 import threading
 import time
 from collections.abc import Iterator
@@ -18,7 +16,8 @@ import pytest
 from app.examples import examples
 from tests.rexs.units import turbo_unit
 from tests.support.proxy import running_proxy
-from tests.support.server import answer_to, memory_mb, running_server
+from tests.support.server import Server, answer_to, faulty_server, memory_mb
+from tests.support.studies import study_of
 
 pytestmark = [
     pytest.mark.service,
@@ -28,19 +27,16 @@ pytestmark = [
 COUPLING = examples()["pahl-axial-displacement"]
 
 
-Served = tuple[subprocess.Popen[str], str]
+@pytest.fixture(scope="module")
+def service() -> Iterator[Server]:
+    with faulty_server(workers=2) as server:
+        yield server
 
 
 @pytest.fixture(scope="module")
-def service() -> Iterator[Served]:
-    with running_server([sys.executable, "-m", "tests.support.faulty_server"], workers=2, log_level="error") as served:
-        yield served
-
-
-@pytest.fixture(scope="module")
-def proxy(service: Served, tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+def proxy(address: str, tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
     """The address of nginx in front of a service."""
-    with running_proxy(tmp_path_factory.mktemp("nginx"), service[1], **{"timeout 10s": "timeout 1s"}) as outside:
+    with running_proxy(tmp_path_factory.mktemp("nginx"), address, **{"timeout 10s": "timeout 1s"}) as outside:
         yield outside
 
 
@@ -68,8 +64,7 @@ def test_calculations_and_pages_pass(proxy: str) -> None:
 
 
 def test_lines_of_a_study_pass_one_by_one(proxy: str) -> None:
-    axis = {"path": "operation.speed_rpm", "start": 100, "stop": 2000, "count": 200}
-    body = {"endpoint": COUPLING.endpoint, "request": COUPLING.request, "vary": [axis]}
+    body = study_of(COUPLING.name, vary=[{"path": "operation.speed_rpm", "start": 100, "stop": 2000, "count": 200}])
     with httpx.stream("POST", f"{proxy}/v1/sweep", json=body, timeout=60) as response:
         kinds = [json.loads(line)["type"] for line in response.iter_lines()]
     assert kinds[0] == "sweep"
@@ -103,7 +98,7 @@ def test_a_late_byte_and_a_late_end_cost_no_answer(proxy: str) -> None:
     assert late.count(b"HTTP/1.1 200") == late.count(b"HTTP/1.1 422") == 1
 
 
-def test_floods_reach_nobody_else(service: Served, proxy: str) -> None:
+def test_floods_reach_nobody_else(service: Server, proxy: str) -> None:
     """Bodies of one-byte chunks, and pipelined requests whose answers nobody reads."""
     process, direct = service
     httpx.get(f"{direct}/openapi.json", timeout=20)  # the first one takes a second

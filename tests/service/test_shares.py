@@ -3,13 +3,12 @@
 import json
 import signal
 import subprocess
-import sys
 import threading
 import time
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import contextmanager, suppress
-from pathlib import Path
+from contextlib import ExitStack, contextmanager, suppress
+from functools import partial
 from typing import Any
 
 import httpx
@@ -17,51 +16,36 @@ import pytest
 
 from app.examples import examples
 from tests.support.faulty_server import LONG
-from tests.support.server import metric, running_server, send_signal, wait_for_metric, wait_until, workers
+from tests.support.server import (
+    Server,
+    faulty_server,
+    meanwhile,
+    metric,
+    send_signal,
+    wait_for_metric,
+    wait_until,
+    workers,
+)
+from tests.support.studies import study_of
 
 pytestmark = pytest.mark.service
 
-FAULTY = [sys.executable, "-m", "tests.support.faulty_server"]
 COUPLING = examples()["pahl-axial-displacement"]
 SUMMARY = {**COUPLING.request, "detail": "summary"}
 FAIR_S = 5.0
 """What 19 of 20 short calls wait at most beside others; `benchmarks.shares` measures 0.4 s, one queue 6 to 40 s."""
 HONEST, GREEDY = "127.0.0.2", "127.0.0.3"
-Server = tuple[subprocess.Popen[str], str]
 
 
 @pytest.fixture(scope="module")
-def faulty() -> Iterator[Server]:
-    with running_server(FAULTY, workers=2, deadline_s=40, log_level="error") as server:
+def service() -> Iterator[Server]:
+    with faulty_server(workers=2, deadline_s=40) as server:
         yield server
 
 
 def client(address: str, source: str) -> httpx.Client:
     """A client with an address of its own."""
     return httpx.Client(base_url=address, timeout=60, transport=httpx.HTTPTransport(local_address=source))
-
-
-@contextmanager
-def asking(address: str, path: str, *, times: int, source: str = GREEDY) -> Iterator[list[int]]:
-    """So many requests at once, asked again and again while the context is open; the statuses of the answers."""
-    statuses: list[int] = []
-    done = threading.Event()
-
-    def ask() -> None:
-        with client(address, source) as own:
-            while not done.is_set():
-                with suppress(httpx.TransportError):
-                    statuses.append(own.post(path).status_code)
-
-    threads = [threading.Thread(target=ask) for _ in range(times)]
-    for each in threads:
-        each.start()
-    try:
-        yield statuses
-    finally:
-        done.set()
-        for each in threads:
-            each.join()
 
 
 def honest_waits(address: str, count: int, pause_s: float = 0.05) -> list[float]:
@@ -77,8 +61,7 @@ def honest_waits(address: str, count: int, pause_s: float = 0.05) -> list[float]
     return sorted(waits)
 
 
-def test_a_worker_whose_client_left_is_not_handed_on(faulty: Server) -> None:
-    _, address = faulty
+def test_a_worker_whose_client_left_is_not_handed_on(address: str) -> None:
     for _ in range(6):
         with (
             ThreadPoolExecutor(3) as pool,
@@ -96,8 +79,8 @@ def test_a_worker_whose_client_left_is_not_handed_on(faulty: Server) -> None:
 
 
 @pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGSTOP])
-def test_a_worker_that_dies_before_its_call_began_is_no_loss(faulty: Server, number: signal.Signals) -> None:
-    process, address = faulty
+def test_a_worker_that_dies_before_its_call_began_is_no_loss(service: Server, number: signal.Signals) -> None:
+    process, address = service
     lost = metric(address, "tribodrive_workers_lost_total")
     with client(address, HONEST) as own:
         for _ in range(10):
@@ -107,9 +90,16 @@ def test_a_worker_that_dies_before_its_call_began_is_no_loss(faulty: Server, num
     assert metric(address, "tribodrive_workers_lost_total") == lost
 
 
-def test_beside_80_long_calculations_of_another_client(faulty: Server) -> None:
-    _, address = faulty
-    with asking(address, "/sleep/3", times=80) as statuses:
+def test_beside_80_long_calculations_of_another_client(address: str) -> None:
+    statuses: list[int] = []
+
+    def ask(own: httpx.Client) -> None:
+        with suppress(httpx.TransportError):
+            statuses.append(own.post("/sleep/1").status_code)
+
+    with ExitStack() as stack:
+        many = [stack.enter_context(client(address, GREEDY)) for _ in range(80)]
+        stack.enter_context(meanwhile(*(partial(ask, own) for own in many)))
         wait_for_metric(address, "tribodrive_calculations_waiting", 64)
         waits = honest_waits(address, 60)
     assert waits[57] < FAIR_S
@@ -119,8 +109,7 @@ def test_beside_80_long_calculations_of_another_client(faulty: Server) -> None:
 
 
 def long_study(count: int) -> dict[str, Any]:
-    cases = [{"operation.speed_rpm": LONG}] * count
-    return {"endpoint": COUPLING.endpoint, "request": COUPLING.request, "cases": cases}
+    return study_of(COUPLING.name, cases=[{"operation.speed_rpm": LONG}] * count)
 
 
 @contextmanager
@@ -148,37 +137,26 @@ def running_studies(address: str, count: int) -> Iterator[None]:
                 flight.result()
 
 
-def test_beside_two_studies_of_long_points(faulty: Server) -> None:
-    _, address = faulty
+def test_beside_two_studies_of_long_points(address: str) -> None:
     with running_studies(address, 2):
         time.sleep(1.0)
         waits = honest_waits(address, 60)
     assert waits[57] < FAIR_S
 
 
-def test_beside_clients_that_leave(faulty: Server) -> None:
-    _, address = faulty
-    done = threading.Event()
-
+def test_beside_clients_that_leave(address: str) -> None:
     def leave(seconds: float) -> None:
-        with client(address, GREEDY) as own:
-            while not done.is_set():
-                with suppress(httpx.ReadTimeout):
-                    own.post("/sleep/20", timeout=httpx.Timeout(5, read=seconds))
+        with suppress(httpx.ReadTimeout):
+            own.post("/sleep/20", timeout=httpx.Timeout(5, read=seconds))
 
-    threads = [threading.Thread(target=leave, args=(seconds,)) for seconds in (0.1, 0.4, 1.0)]
-    for each in threads:
-        each.start()
-    waits = honest_waits(address, 60)
-    done.set()
-    for each in threads:
-        each.join()
+    with client(address, GREEDY) as own, meanwhile(*(partial(leave, seconds) for seconds in (0.1, 0.4, 1.0))):
+        waits = honest_waits(address, 60)
     assert waits[57] < FAIR_S
 
 
-def test_points_of_a_study_end_with_it(faulty: Server) -> None:
+def test_points_of_a_study_end_with_it(service: Server) -> None:
     """The workers are replaced; a whole point would leave them as they are."""
-    process, address = faulty
+    process, address = service
     before = set(workers(process))
     with client(address, GREEDY) as own, own.stream("POST", "/v1/sweep", json=long_study(20)) as response:
         next(response.iter_lines())
@@ -187,56 +165,40 @@ def test_points_of_a_study_end_with_it(faulty: Server) -> None:
     wait_for_metric(address, "tribodrive_studies", 0)
 
 
-def test_an_interrupted_calculation_has_its_whole_deadline_again() -> None:
-    with (
-        running_server(FAULTY, workers=1, deadline_s=4, log_level="error") as (_, address),
-        ThreadPoolExecutor(1) as pool,
-        client(address, GREEDY) as greedy,
-    ):
-        honest_waits(address, 1)
+@pytest.fixture(scope="module")
+def one_worker() -> Iterator[str]:
+    """A service with one worker and three places in the queue, whose clients a header may name."""
+    with faulty_server(workers=1, queue=3, deadline_s=4, client_header="X-User") as (_, address):
+        yield address
+
+
+def test_an_interrupted_calculation_has_its_whole_deadline_again(one_worker: str) -> None:
+    with ThreadPoolExecutor(1) as pool, client(one_worker, GREEDY) as greedy:
+        honest_waits(one_worker, 1)
+        interrupted = metric(one_worker, "tribodrive_calculations_interrupted_total")
         long = pool.submit(greedy.post, "/sleep/3")
-        wait_for_metric(address, "tribodrive_calculations", 1)
+        wait_for_metric(one_worker, "tribodrive_calculations", 1)
         time.sleep(0.5)
-        honest_waits(address, 1)
+        honest_waits(one_worker, 1)
         assert long.result().status_code == 200  # after 1.5 s and another 3
-        assert metric(address, "tribodrive_calculations_interrupted_total") == 1
+        assert metric(one_worker, "tribodrive_calculations_interrupted_total") == interrupted + 1
 
 
-def test_a_full_queue_refuses_whoever_has_most_places() -> None:
+@pytest.mark.parametrize("named", [False, True])
+def test_a_full_queue_refuses_whoever_has_most_places(one_worker: str, named: bool) -> None:
+    """By address; or by a header, as behind a proxy all requests come from one."""
+    refused = metric(one_worker, "tribodrive_calculations_refused_total")
+    names = [{"X-User": "greedy"}, {"X-User": "honest"}] if named else [{}, {}]
     with (
-        running_server(FAULTY, workers=1, queue=3, log_level="error") as (_, address),
-        ThreadPoolExecutor(8) as pool,
-        client(address, GREEDY) as greedy,
-        client(address, HONEST) as honest,
-    ):
-        many = [pool.submit(greedy.post, "/sleep/0.8") for _ in range(4)]
-        wait_for_metric(address, "tribodrive_calculations_waiting", 3)
-        mine = pool.submit(honest.post, "/sleep/0.01")
-        assert mine.result().status_code == 200
-        assert sorted(each.result().status_code for each in many) == [200, 200, 200, 503]
-        assert metric(address, "tribodrive_calculations_refused_total") == 1
-
-
-def test_a_header_can_name_the_client() -> None:
-    """Behind a proxy all requests come from one address."""
-    with (
-        running_server(FAULTY, workers=1, queue=1, client_header="X-User", log_level="error") as (_, address),
         ThreadPoolExecutor(4) as pool,
-        client(address, HONEST) as proxy,
+        client(one_worker, GREEDY) as greedy,
+        client(one_worker, GREEDY if named else HONEST) as honest,
     ):
-        many = [pool.submit(proxy.post, "/sleep/1", headers={"X-User": "greedy"}) for _ in range(2)]
-        wait_for_metric(address, "tribodrive_calculations_waiting", 1)
-        assert proxy.post("/sleep/0", headers={"X-User": "honest"}).status_code == 200
-        assert sorted(each.result().status_code for each in many) == [200, 503]
-
-
-def test_the_log_has_the_cause_from_the_worker(tmp_path: Path) -> None:
-    log = tmp_path / "log"
-    with running_server(FAULTY, log=log, workers=1) as (_, address):
-        assert httpx.post(f"{address}/fail").status_code == 500
-    text = log.read_text("utf-8")
-    assert "in fail_deep_inside" in text
-    assert "ZeroDivisionError: deep inside" in text
+        many = [pool.submit(greedy.post, "/sleep/0.8", headers=names[0]) for _ in range(4)]
+        wait_for_metric(one_worker, "tribodrive_calculations_waiting", 3)
+        assert honest.post("/sleep/0.01", headers=names[1]).status_code == 200
+        assert sorted(each.result().status_code for each in many) == [200, 200, 200, 503]
+    assert metric(one_worker, "tribodrive_calculations_refused_total") == refused + 1
 
 
 def replace_workers(process: subprocess.Popen[str]) -> None:
@@ -246,8 +208,8 @@ def replace_workers(process: subprocess.Popen[str]) -> None:
     wait_until(lambda: len(set(workers(process)) - before) == len(before))
 
 
-def test_the_first_call_of_a_new_worker_is_like_any_other(faulty: Server) -> None:
-    process, address = faulty
+def test_the_first_call_of_a_new_worker_is_like_any_other(service: Server) -> None:
+    process, address = service
     with client(address, HONEST) as own:
 
         def seconds() -> float:

@@ -24,8 +24,8 @@ from tests.support.server import (
     children,
     command_line,
     descendants,
+    faulty_server,
     free_port,
-    running_server,
     started_server,
     template,
     wait_until,
@@ -87,7 +87,7 @@ def test_ends_at_any_moment_of_a_cold_start(tmp_path: Path, number: signal.Signa
 
 def test_a_second_interrupt_leaves_no_traceback(tmp_path: Path) -> None:
     log = tmp_path / "log"
-    with running_server(log=log) as (process, _):
+    with faulty_server(log=log) as (process, _):
         process.send_signal(signal.SIGINT)
         time.sleep(0.01)
         process.send_signal(signal.SIGINT)
@@ -113,19 +113,15 @@ def test_port_in_use_is_said_at_once() -> None:
 
 
 def test_the_image_checks_the_port_it_serves() -> None:
-    instruction = next(
-        line for line in (ROOT / "Dockerfile").read_text().splitlines() if line.startswith("HEALTHCHECK")
-    )
+    lines = (ROOT / "Dockerfile").read_text().splitlines()
+    instruction = next(line for line in lines if line.startswith("HEALTHCHECK"))
     program, *arguments = json.loads(instruction.partition(" CMD ")[2])
     assert program == "python"
-    with running_server() as (_, address):
-        served = {**os.environ, "TRIBODRIVE_PORT": address.rpartition(":")[2]}
-        assert subprocess.run([sys.executable, *arguments], env=served, check=False).returncode == 0
-        silent = {**os.environ, "TRIBODRIVE_PORT": str(free_port())}
-        assert (
-            subprocess.run([sys.executable, *arguments], env=silent, check=False, stderr=subprocess.DEVNULL).returncode
-            == 1
-        )
+    with faulty_server() as (_, address):
+        for port, outcome in ((address.rpartition(":")[2], 0), (str(free_port()), 1)):
+            own = {**os.environ, "TRIBODRIVE_PORT": port}
+            checked = subprocess.run([sys.executable, *arguments], env=own, check=False, stderr=subprocess.DEVNULL)
+            assert checked.returncode == outcome
 
 
 @pytest.mark.parametrize("after_s", [0.0, 0.05, 0.2, 0.5, 1.0, 2.0])

@@ -5,10 +5,8 @@ import os
 import signal
 import socket
 import subprocess
-import sys
-import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from pathlib import Path
@@ -25,50 +23,46 @@ from app.schema.fields import leaves
 from tests.support.browsing import address_of
 from tests.support.faulty_server import HANGING
 from tests.support.server import (
+    Server,
     descendants,
     descriptors,
+    faulty_server,
+    meanwhile,
     memory_mb,
     metric,
-    running_server,
     send_signal,
     wait_for_metric,
     wait_until,
     workers,
 )
+from tests.support.studies import study_of
 
 pytestmark = pytest.mark.service
 
-FAULTY = [sys.executable, "-m", "tests.support.faulty_server"]
 SWEEP = "/v1/sweep"
-LOADS = examples()["xue-pair-1-modified"]
+SLOPE = "modifications.helix_slope_um"
 COUPLING = examples()["pahl-axial-displacement"]
 NUMBERS = [
     leaf.path for leaf in leaves(CouplingResponse) if leaf.kind == "number" and leaf.is_scalar and "." in leaf.path
 ]
-Server = tuple[subprocess.Popen[str], str]
 
 
 @pytest.fixture(scope="module")
-def faulty() -> Iterator[Server]:
-    with running_server(FAULTY, workers=2, queue=2, deadline_s=4, study_points=30_000, log_level="error") as server:
+def service() -> Iterator[Server]:
+    with faulty_server(workers=2, queue=2, deadline_s=4, study_points=30_000) as server:
         yield server
 
 
 def loads(count: int) -> dict[str, Any]:
     """Points of some ten milliseconds."""
-    axis = {"path": "modifications.helix_slope_um", "start": -20, "stop": 20, "count": count}
-    return {"endpoint": LOADS.endpoint, "request": LOADS.request, "vary": [axis], "outputs": ["pressure.max_mpa"]}
+    axis = {"path": SLOPE, "start": -20, "stop": 20, "count": count}
+    return study_of("xue-pair-1-modified", vary=[axis], outputs=["pressure.max_mpa"])
 
 
-def couplings(count: int) -> dict[str, Any]:
+def couplings(count: int, outputs: Sequence[str] = ("axial_thrust.force_n",)) -> dict[str, Any]:
     """Points of less than a millisecond."""
     axis = {"path": "operation.speed_rpm", "start": 100, "stop": 2000, "count": count}
-    return {
-        "endpoint": COUPLING.endpoint,
-        "request": COUPLING.request,
-        "vary": [axis],
-        "outputs": ["axial_thrust.force_n"],
-    }
+    return study_of(COUPLING.name, vary=[axis], outputs=outputs)
 
 
 def lines_of(address: str, body: object) -> list[dict[str, Any]]:
@@ -104,15 +98,14 @@ def numbers(lines: list[dict[str, Any]]) -> list[Any]:
     return [line for line in lines if line["type"] == "point"]
 
 
-def test_same_lines_from_one_worker_and_from_two(faulty: Server) -> None:
-    _, address = faulty
+def test_same_lines_from_one_worker_and_from_two(address: str) -> None:
     two = numbers(lines_of(address, loads(60)))
-    with running_server(workers=1, log_level="error") as (_, other):
+    with faulty_server(workers=1) as (_, other):
         assert numbers(lines_of(other, loads(60))) == two
 
 
-def test_a_killed_worker_costs_nothing_but_time(faulty: Server) -> None:
-    process, address = faulty
+def test_a_killed_worker_costs_nothing_but_time(service: Server) -> None:
+    process, address = service
     expected = numbers(lines_of(address, loads(200)))
     with ThreadPoolExecutor(1) as pool:
         flight = pool.submit(lines_of, address, loads(200))
@@ -128,8 +121,8 @@ def test_a_killed_worker_costs_nothing_but_time(faulty: Server) -> None:
     assert set(found[-1]["counts"]) <= {"ok", "ok_with_warnings"}
 
 
-def test_a_stopped_worker_is_replaced_and_the_study_goes_on(faulty: Server) -> None:
-    process, address = faulty
+def test_a_stopped_worker_is_replaced_and_the_study_goes_on(service: Server) -> None:
+    process, address = service
     with ThreadPoolExecutor(1) as pool:
         flight = pool.submit(lines_of, address, loads(200))
         time.sleep(0.5)
@@ -139,8 +132,7 @@ def test_a_stopped_worker_is_replaced_and_the_study_goes_on(faulty: Server) -> N
     assert sum(counts.values()) == 200
 
 
-def test_a_third_study_waits_outside(faulty: Server) -> None:
-    _, address = faulty
+def test_a_third_study_waits_outside(address: str) -> None:
     with running_study(address, loads(20_000)), running_study(address, loads(20_000)):
         refused = httpx.post(address + SWEEP, json=loads(2))
         assert refused.status_code == 503
@@ -151,8 +143,7 @@ def test_a_third_study_waits_outside(faulty: Server) -> None:
     assert lines_of(address, loads(2))[-1]["type"] == "end"
 
 
-def test_a_full_queue_refuses_a_study_before_its_first_line(faulty: Server) -> None:
-    _, address = faulty
+def test_a_full_queue_refuses_a_study_before_its_first_line(address: str) -> None:
     with ThreadPoolExecutor(4) as pool:
         busy = [pool.submit(httpx.post, f"{address}/sleep/3", timeout=20) for _ in range(4)]
         wait_for_metric(address, "tribodrive_calculations_waiting", 2)
@@ -163,8 +154,7 @@ def test_a_full_queue_refuses_a_study_before_its_first_line(faulty: Server) -> N
     assert metric(address, "tribodrive_studies") == 0
 
 
-def test_single_requests_come_before_chunks(faulty: Server) -> None:
-    _, address = faulty
+def test_single_requests_come_before_chunks(address: str) -> None:
     with httpx.Client(base_url=address, timeout=20) as client, running_study(address, loads(20_000)):
         waits = []
         for _ in range(20):
@@ -175,8 +165,8 @@ def test_single_requests_come_before_chunks(faulty: Server) -> None:
     wait_until_free(address)
 
 
-def test_leaving_frees_the_workers_and_kills_none(faulty: Server) -> None:
-    process, address = faulty
+def test_leaving_frees_the_workers_and_kills_none(service: Server) -> None:
+    process, address = service
     lines_of(address, loads(2))
     family, lost = set(workers(process)), metric(address, "tribodrive_workers_lost_total")
     with running_study(address, loads(20_000)):
@@ -187,8 +177,8 @@ def test_leaving_frees_the_workers_and_kills_none(faulty: Server) -> None:
     assert metric(address, "tribodrive_workers_lost_total") == lost
 
 
-def test_a_hundred_cancelled_sweeps_leave_nothing_behind(faulty: Server) -> None:
-    process, address = faulty
+def test_a_hundred_cancelled_sweeps_leave_nothing_behind(service: Server) -> None:
+    process, address = service
     body = loads(20_000)
     for _ in range(3):
         with running_study(address, body):
@@ -208,42 +198,36 @@ def test_a_hundred_cancelled_sweeps_leave_nothing_behind(faulty: Server) -> None
     assert memory_mb(process.pid) < before[2] + 20
 
 
-def test_a_hanging_point_fails_alone(faulty: Server) -> None:
+def test_a_hanging_point_fails_alone(service: Server) -> None:
     """Its worker is stopped by the deadline, and its neighbours are solved."""
-    process, address = faulty
+    process, address = service
     cases = [{"operation.speed_rpm": speed} for speed in (100, HANGING, 200)]
-    body = {"endpoint": COUPLING.endpoint, "request": COUPLING.request, "cases": cases}
-    found = numbers(lines_of(address, body))
+    found = numbers(lines_of(address, study_of(COUPLING.name, cases=cases)))
     assert [point["status"] in {"ok", "ok_with_warnings"} for point in found] == [True, False, True]
     assert found[1]["error"]["code"] == "deadline_exceeded"
     assert len(workers(process)) == 2
 
 
-def test_memory_is_flat_over_many_points_and_a_slow_reader_slows_only_his_own(faulty: Server) -> None:
-    process, address = faulty
+def test_memory_is_flat_over_many_points_and_a_slow_reader_slows_only_his_own(service: Server) -> None:
+    process, address = service
     lines_of(address, couplings(2000))
     before = memory_mb(process.pid)
     highest = []
-    done = threading.Event()
 
     def watch() -> None:
-        while not done.wait(0.1):
-            highest.append(memory_mb(process.pid))
+        highest.append(memory_mb(process.pid))
+        time.sleep(0.1)
 
-    with ThreadPoolExecutor(1) as pool:
-        watching = pool.submit(watch)
-        with httpx.stream("POST", address + SWEEP, json=couplings(25_000), timeout=60) as response:
-            count = sum('"point"' in line for line in response.iter_lines())
-        done.set()
-        watching.result()
+    with meanwhile(watch), httpx.stream("POST", address + SWEEP, json=couplings(25_000), timeout=60) as response:
+        count = sum('"point"' in line for line in response.iter_lines())
     assert count == 25_000
     assert max(highest) < before + 25
 
 
-def test_nobody_calculates_what_nobody_reads(faulty: Server) -> None:
-    process, address = faulty
+def test_nobody_calculates_what_nobody_reads(service: Server) -> None:
+    process, address = service
     target = urlsplit(address)
-    content = json.dumps({**couplings(30_000), "outputs": NUMBERS}).encode()
+    content = json.dumps(couplings(30_000, NUMBERS)).encode()
     head = f"POST {SWEEP} HTTP/1.1\r\nHost: x\r\nContent-Type: application/json\r\n"
     with socket.socket() as connection:
         connection.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
@@ -268,10 +252,9 @@ def calculated_within(process: subprocess.Popen[str], seconds: float) -> float:
     return processor_seconds(workers(process)) - before
 
 
-def test_a_study_that_lost_its_connection_goes_on_from_where_it_was(faulty: Server) -> None:
-    _, address = faulty
+def test_a_study_that_lost_its_connection_goes_on_from_where_it_was(address: str) -> None:
     sample = {"count": 256, "seed": 7, "ranges": [{"path": "operation.speed_rpm", "min": 100, "max": 2000}]}
-    body = couplings(1) | {"vary": None, "sample": sample}
+    body = study_of(COUPLING.name, sample=sample, outputs=["axial_thrust.force_n"])
     whole = numbers(lines_of(address, body))
     with running_study(address, body) as found:
         seen = [whole[0], *(json.loads(next(found)) for _ in range(9))]
@@ -279,34 +262,43 @@ def test_a_study_that_lost_its_connection_goes_on_from_where_it_was(faulty: Serv
     assert numbers(lines_of(address, body | {"from_index": 10})) == whole[10:]
 
 
-def test_the_deadline_of_a_study_ends_it_with_a_line(tmp_path: Path) -> None:
-    log = tmp_path / "log"
-    with running_server(workers=1, study_deadline_s=1, log=log) as (_, address):
-        *points, last = lines_of(address, loads(2500))
-        assert last["type"] == "error"
-        assert last["code"] == "study_deadline"
-        assert last["done"] == len(numbers(points)) < 2500
-        table = httpx.post(address + SWEEP + "?format=csv", json=loads(2500), timeout=60).text.splitlines()
-        assert table[-1] == ",,error,,,study_deadline: the study took longer than 1 s; make it smaller"
-        assert metric(address, "tribodrive_studies_unfinished_total") == 2
+@pytest.fixture(scope="module")
+def short_of_time(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[str, Path]]:
+    """A service whose studies end after a second, and its log."""
+    log = tmp_path_factory.mktemp("log") / "log"
+    with faulty_server(workers=1, study_deadline_s=1, log=log) as (_, address):
+        yield address, log
+
+
+def test_the_deadline_of_a_study_ends_it_with_a_line(short_of_time: tuple[str, Path]) -> None:
+    address, log = short_of_time
+    *points, last = lines_of(address, loads(2500))
+    assert last["type"] == "error"
+    assert last["code"] == "study_deadline"
+    assert last["done"] == len(numbers(points)) < 2500
+    table = httpx.post(address + SWEEP + "?format=csv", json=loads(2500), timeout=60).text.splitlines()
+    assert table[-1] == ",,error,,,study_deadline: the study took longer than 1 s; make it smaller"
+    assert metric(address, "tribodrive_studies_unfinished_total") == 2
     assert "Traceback" not in log.read_text("utf-8")
 
 
-def test_a_figure_of_a_study_that_ends_at_its_deadline_is_a_503() -> None:
-    query = "&x=modifications.helix_slope_um&x.count=2500&show=pressure.max_mpa"
-    path = address_of("xue-pair-1-modified").replace("?", "/vary/figures/curve.svg?", 1) + query
-    with running_server(workers=1, study_deadline_s=1, log_level="error") as (_, address):
-        answer = httpx.get(address + path, timeout=60)
-        assert answer.status_code == 503
-        assert answer.json()["type"].endswith("study_ended")
-        assert "longer than 1 s" in answer.json()["detail"]
-        assert metric(address, "tribodrive_studies") == 0
+def curve(count: int) -> str:
+    """The figure of a study of so many points."""
+    figure = address_of("xue-pair-1-modified", "/vary/figures/curve.svg")
+    return f"{figure}&x={SLOPE}&x.count={count}&show=pressure.max_mpa"
 
 
-def test_a_client_who_leaves_a_figure_frees_its_study(faulty: Server) -> None:
-    _, address = faulty
-    query = "&x=modifications.helix_slope_um&x.count=20000&show=pressure.max_mpa"
-    path = address_of("xue-pair-1-modified").replace("?", "/vary/figures/curve.svg?", 1) + query
+def test_a_figure_of_a_study_that_ends_at_its_deadline_is_a_503(short_of_time: tuple[str, Path]) -> None:
+    address, log = short_of_time
+    answer = httpx.get(address + curve(2500), timeout=60)
+    assert answer.status_code == 503
+    assert answer.json()["type"].endswith("study_ended")
+    assert "longer than 1 s" in answer.json()["detail"]
+    assert metric(address, "tribodrive_studies") == 0
+    assert "Traceback" not in log.read_text("utf-8")
+
+
+def test_a_client_who_leaves_a_figure_frees_its_study(address: str) -> None:
     with pytest.raises(httpx.ReadTimeout):
-        httpx.get(address + path, timeout=1.0)
+        httpx.get(address + curve(20_000), timeout=1.0)
     wait_until_free(address)

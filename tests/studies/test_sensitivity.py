@@ -1,7 +1,5 @@
 """Sensitivities: against derivatives known from the physics, at the ends of ranges, at kinks."""
 
-import asyncio
-import json
 from dataclasses import replace
 from typing import Any
 
@@ -10,50 +8,45 @@ import pytest
 from app.calculations import BY_PATH, CALCULATIONS, Calculation
 from app.examples import examples
 from app.schema.fields import Leaf, leaf_at, leaves
-from app.studies.engine import Clock, encoded, guarded, json_line
 from app.studies.fields import fault
 from app.studies.sensitivity import Perturbation, Sensitivity, differences, perturbation
 from app.studies.sweep import Sweep
-from tests.support.pools import InlinePool
+from tests.support.requests import changed
+from tests.support.studies import lines_of, study_of
 
 COUPLING = examples()["pahl-axial-displacement"]
-UNIT = examples()["starter-turbo-gear-drive-train"]
+UNIT = "starter-turbo-gear-drive-train"
+CLOSED_FORM = {"request.model": {"lubrication": "closed_form"}}
+FACE_LOAD_FACTOR = "load.face_load_factor"
 
 
-def sensitivities(endpoint: str, request: dict[str, Any], **parts: Any) -> list[dict[str, Any]]:
-    body = {"endpoint": endpoint, "request": request, **parts}
-    study = Sensitivity(body, 2500, 30.0)
-
-    async def run() -> bytes:
-        clock = Clock(study.total)
-        lines = guarded(study.lines(InlinePool(), clock), clock, 600)
-        return b"".join([piece async for piece in encoded(lines, json_line)])
-
-    return [json.loads(line) for line in asyncio.run(run()).splitlines()]
+def sensitivities(example: str, changes: dict[str, Any] | None = None, **parts: Any) -> list[dict[str, Any]]:
+    """The lines of an example's sensitivities, the body changed at dotted paths."""
+    return lines_of(Sensitivity(changed(study_of(example, **parts), changes or {}), 2500, 30.0))
 
 
-def test_coaxial_thrust_is_proportional_to_friction() -> None:
-    request = {**COUPLING.request, "friction": {"coefficient": 0.17}}
-    output, path = "axial_thrust.coaxial_limit_n", "friction.coefficient"
-    line, end = sensitivities(COUPLING.endpoint, request, outputs=[output], inputs=[path])
-    assert line["elasticity"] == pytest.approx(1.0, abs=1e-3)
-    assert line["derivative"] * 0.17 == pytest.approx(end["outputs"][0]["value"], rel=1e-3)
+@pytest.mark.parametrize(
+    ("example", "changes", "output", "path", "exponent"),
+    [
+        (
+            COUPLING.name,
+            {"request.friction": {"coefficient": 0.17}},
+            "axial_thrust.coaxial_limit_n",
+            "friction.coefficient",
+            1.0,
+        ),
+        ("xue-line-contact-isothermal", {}, "hertz.max_pressure_mpa", "contact.line_load_n_per_mm", 0.5),
+        ("milian-table-1-incompressible", {}, "total.pumping_power_w", "operation.pinion_speed_rpm", 3.0),
+    ],
+)
+def test_an_output_goes_with_its_known_power_of_an_input(
+    example: str, changes: dict[str, Any], output: str, path: str, exponent: float
+) -> None:
+    line, end = sensitivities(example, changes, outputs=[output], inputs=[path])
+    assert line["elasticity"] == pytest.approx(exponent, abs=1e-3)
+    slope = exponent * end["outputs"][0]["value"] / end["inputs"][0]["value"]
+    assert line["derivative"] == pytest.approx(slope, rel=1e-3)
     assert line["kink"] is False
-
-
-def test_hertz_pressure_goes_with_the_root_of_the_load() -> None:
-    example = examples()["xue-line-contact-isothermal"]
-    output, path = "hertz.max_pressure_mpa", "contact.line_load_n_per_mm"
-    line, _ = sensitivities(example.endpoint, example.request, outputs=[output], inputs=[path])
-    assert line["elasticity"] == pytest.approx(0.5, abs=1e-3)
-    assert line["kink"] is False
-
-
-def test_pumping_power_at_low_speed_goes_with_the_cube_of_speed() -> None:
-    example = examples()["milian-table-1-incompressible"]
-    output, path = "total.pumping_power_w", "operation.pinion_speed_rpm"
-    line, _ = sensitivities(example.endpoint, example.request, outputs=[output], inputs=[path])
-    assert line["elasticity"] == pytest.approx(3.0, abs=1e-3)
 
 
 def test_every_item_of_a_list_is_moved() -> None:
@@ -64,8 +57,8 @@ def test_every_item_of_a_list_is_moved() -> None:
         "coupling": {**COUPLING.request["coupling"], "teeth": len(errors), "pitch_errors_um": errors},
         "operation": {"torque_n_m": 3000, "speed_rpm": 1910, "misalignment_deg": 0},
     }
-    output = "load_distribution.max_tangential_force_n"
-    *lines, _ = sensitivities(COUPLING.endpoint, request, outputs=[output])
+    parts = {"request": request, "outputs": ["load_distribution.max_tangential_force_n"]}
+    *lines, _ = sensitivities(COUPLING.name, **parts)
     slopes = {line["path"]: line["derivative"] for line in lines if "pitch_errors_um" in line["path"]}
     assert set(slopes) == {f"coupling.pitch_errors_um.{tooth}" for tooth in range(len(errors))}
     largest = slopes["coupling.pitch_errors_um.7"]
@@ -73,12 +66,12 @@ def test_every_item_of_a_list_is_moved() -> None:
     assert [each for path, each in slopes.items() if not path.endswith(".7")] == pytest.approx(
         [-largest / (len(errors) - 1)] * (len(errors) - 1), rel=1e-6
     )
-    named, _ = sensitivities(COUPLING.endpoint, request, outputs=[output], inputs=["coupling.pitch_errors_um.7"])
+    named, _ = sensitivities(COUPLING.name, **parts, inputs=["coupling.pitch_errors_um.7"])
     assert named["derivative"] == largest
 
 
 def test_every_number_is_moved_sorted_by_influence() -> None:
-    *lines, end = sensitivities(COUPLING.endpoint, COUPLING.request)
+    *lines, end = sensitivities(COUPLING.name)
     outputs = [each["path"] for each in end["outputs"]]
     assert [line["output"] for line in lines] == [output for output in outputs for _ in end["inputs"]]
     for output in outputs:
@@ -103,11 +96,9 @@ def test_every_number_is_moved_sorted_by_influence() -> None:
 
 
 def test_places_of_lists_are_moved() -> None:
-    example = examples()["milian-case-1-groove"]
-    body = {"endpoint": example.endpoint, "request": example.request}
-    study = Sensitivity(body, 2500, 30.0)
-    paths = [each.leaf.path for each in study.perturbations]
-    count = len(example.request["grooves"])
+    body = study_of("milian-case-1-groove")
+    paths = [each.leaf.path for each in Sensitivity(body, 2500, 30.0).perturbations]
+    count = len(body["request"]["grooves"])
     assert [path for path in paths if path.startswith("grooves")] == [
         f"grooves.{place}.{name}" for name in ("position_mm", "width_mm") for place in range(count)
     ]
@@ -238,9 +229,8 @@ def turbo_unit() -> list[dict[str, Any]]:
         "couplings.0.slope_mrad.0",
         "pinion_shaft.start_mm",
     ]
-    request = {**UNIT.request, "model": {"lubrication": "closed_form"}}
-    assert not any("offset_um" in each for each in UNIT.request["pinion_shaft"]["bearings"])
-    return sensitivities(UNIT.endpoint, request, outputs=["load.face_load_factor", "safety.blok_flank"], inputs=inputs)
+    assert not any("offset_um" in each for each in examples()[UNIT].request["pinion_shaft"]["bearings"])
+    return sensitivities(UNIT, CLOSED_FORM, outputs=[FACE_LOAD_FACTOR, "safety.blok_flank"], inputs=inputs)
 
 
 def test_lists_left_to_their_defaults_are_moved(turbo_unit: list[dict[str, Any]]) -> None:
@@ -257,7 +247,7 @@ def test_bore_offsets_move_by_what_a_bore_is_off(turbo_unit: list[dict[str, Any]
         line
         for line in turbo_unit
         if line["type"] == "sensitivity"
-        and (line["output"], line["path"]) == ("load.face_load_factor", "pinion_shaft.bearings.0.offset_um.1")
+        and (line["output"], line["path"]) == (FACE_LOAD_FACTOR, "pinion_shaft.bearings.0.offset_um.1")
     )
     assert found["step"] <= 5
     assert found["derivative"] == pytest.approx(0.00118, rel=0.02)
@@ -266,52 +256,28 @@ def test_bore_offsets_move_by_what_a_bore_is_off(turbo_unit: list[dict[str, Any]
 
 def test_a_step_that_is_too_large_says_so() -> None:
     """The bore of the last test moved by 100 um: -0.00024 per um, and both sides differ."""
-    path = "pinion_shaft.bearings.0.offset_um.1"
-    body = {"endpoint": UNIT.endpoint, "request": {**UNIT.request, "model": {"lubrication": "closed_form"}}}
-    sweep = {**body, "vary": [{"path": path, "values": [-100, -50, 0, 50, 100]}], "outputs": ["load.face_load_factor"]}
-    outputs = {line["at"][0]: line["out"][0] for line in points_of(sweep)}
-    leaf = leaf_of(UNIT.endpoint, path)
-    known = replace(leaf, path=path, declared=replace(leaf.declared, tolerance=100.0))
-    found = differences(perturbation(known, 0.0), outputs)
+    path = "pinion_shaft.bearings.0.offset_um"
+    vary = [{"path": f"{path}.1", "values": [-100, -50, 0, 50, 100]}]
+    body = changed(study_of(UNIT, vary=vary, outputs=[FACE_LOAD_FACTOR]), CLOSED_FORM)
+    points = [line for line in lines_of(Sweep(body, 2500, 30.0)) if line["type"] == "point"]
+    leaf = leaf_at(BY_PATH["/v1/drive-train"].request, path)
+    assert leaf is not None
+    known = replace(leaf, path=f"{path}.1", declared=replace(leaf.declared, tolerance=100.0))
+    found = differences(perturbation(known, 0.0), {line["at"][0]: line["out"][0] for line in points})
     assert found["derivative"] == pytest.approx(-0.000236, rel=0.02)
     assert found["kink"] is True
 
 
-def points_of(sweep: dict[str, Any]) -> list[dict[str, Any]]:
-    """The points of a sweep: a list that the request leaves to its default is reachable here too."""
-    study = Sweep(sweep, 2500, 30.0)
-
-    async def run() -> list[dict[str, Any]]:
-        found = study.lines(InlinePool(), Clock(study.total))
-        return [line async for group in found for line in group if line["type"] == "point"]
-
-    return asyncio.run(run())
-
-
-def leaf_of(endpoint: str, path: str) -> Leaf:
-    found = leaf_at(BY_PATH[endpoint].request, path.rpartition(".")[0])
-    assert found is not None
-    return found
-
-
 def test_a_change_of_regime_is_a_kink() -> None:
     """Without misalignment one side ends; where pressure has its least value over the helix slope, both rise."""
-    example = examples()["xue-pair-1"]
-    line, end = sensitivities(
-        example.endpoint,
-        example.request,
-        outputs=["load.face_load_factor"],
-        inputs=["modifications.helix_slope_um"],
-    )
-    assert next(each["value"] for each in end["inputs"]) == 0.0
+    line, end = sensitivities("xue-pair-1", outputs=[FACE_LOAD_FACTOR], inputs=["modifications.helix_slope_um"])
+    assert end["inputs"][0]["value"] == 0.0
     assert line["elasticity"] is None
     assert line["kink"] is True
     assert line["change"] > 0.0 or line["change"] < 0.0
 
 
 def test_no_thermal_film_is_computed_for_outputs_that_need_none() -> None:
-    example = examples()["starter-high-speed-scuffing"]
     for output, lubrication in (("safety.blok_factor", "closed_form"), ("safety.thermal_ehl_factor", None)):
-        body = {"endpoint": example.endpoint, "request": example.request, "outputs": [output]}
-        study = Sensitivity(body, 2500, 30.0)
+        study = Sensitivity(study_of("starter-high-speed-scuffing", outputs=[output]), 2500, 30.0)
         assert study.question.base["model"].get("lubrication") == lubrication

@@ -1,7 +1,5 @@
 """Load spectra: the same machine meets every case, nothing is lost, and simple laws come back."""
 
-import asyncio
-import copy
 import json
 from math import hypot
 from typing import Any
@@ -11,33 +9,32 @@ import pytest
 from scipy.stats import norm
 
 from app.calculations import BY_PATH
-from app.errors import InvalidBody, Unprocessable, faults_of
 from app.evaluate import evaluate
 from app.examples import examples
-from app.studies.engine import Clock, encoded, guarded, json_line
 from app.studies.fields import value_at
 from app.studies.points import Point
 from app.studies.requests import EXAMPLES
 from app.studies.spectrum import Spectrum
 from app.studies.sweep import Sweep
+from solvers.arrays import FloatArray
 from tests.support.pools import InlinePool
+from tests.support.requests import changed
+from tests.support.studies import fault_of, lines_of, study_of, timeless
 
-COUPLING = examples()["pahl-axial-displacement"]
-LOADS = examples()["xue-pair-1-modified"]
 STAGE = examples()["starter-high-speed-scuffing"]
 MU = "friction.coefficient"
+SCUFFING = BY_PATH["/v1/scuffing"]
 COAXIAL = "axial_thrust.coaxial_limit_n"
 PRESSURE = "pressure.max_mpa"
 SLOPE = {"path": "modifications.helix_slope_um", "distribution": "normal", "mean": 0, "deviation": 8}
 
 
 def coupling(**parts: Any) -> dict[str, Any]:
-    body = {"endpoint": COUPLING.endpoint, "request": COUPLING.request, "cases": [{}], "outputs": [COAXIAL], **parts}
-    return {name: part for name, part in body.items() if part is not None}
+    return study_of("pahl-axial-displacement", **{"cases": [{}], "outputs": [COAXIAL], **parts})
 
 
 def loads(**parts: Any) -> dict[str, Any]:
-    return {"endpoint": LOADS.endpoint, "request": LOADS.request, "outputs": [PRESSURE], **parts}
+    return study_of("xue-pair-1-modified", **{"outputs": [PRESSURE], **parts})
 
 
 def friction(**parts: Any) -> dict[str, Any]:
@@ -52,60 +49,26 @@ def below(output: str, **limit: float) -> dict[str, Any]:
     return {"output": output, "below": limit}
 
 
-def study_of(body: object, most: int = 20_000) -> Spectrum:
-    return Spectrum(body, most, 30.0)
-
-
-def text_of(body: object, slots: int = 1, seconds: float = 600) -> bytes:
-    study = study_of(body)
-
-    async def run() -> bytes:
-        clock = Clock(study.total)
-        lines = guarded(study.lines(InlinePool(slots), clock), clock, seconds)
-        return b"".join([piece async for piece in encoded(lines, json_line)])
-
-    return asyncio.run(run())
+def planned(body: object) -> Spectrum:
+    return Spectrum(body, 20_000, 30.0)
 
 
 def solved(body: object, slots: int = 1) -> list[dict[str, Any]]:
-    """The lines, without those of progress and without the time."""
-    lines = map(json.loads, text_of(body, slots).splitlines())
-    return [{**line, "elapsed_s": 0} for line in lines if line["type"] != "progress"]
-
-
-def fault_of(body: object, most: int = 20_000) -> tuple[str, str, str]:
-    with pytest.raises((Unprocessable, InvalidBody)) as caught:
-        study_of(body, most)
-    (fault, *_) = faults_of(caught.value)
-    return fault["pointer"], fault["code"], fault["message"]
+    return timeless(lines_of(planned(body), InlinePool(slots)))
 
 
 def test_lines() -> None:
     header, *points, end = solved(coupling(tolerances=friction(count=4, replicates=2), points=True))
-    assert list(header) == [
-        *(
-            "type",
-            "endpoint",
-            "cases",
-            "tolerances",
-            "outputs",
-            "total",
-            "model_version",
-            "sources",
-            "case",
-            "elapsed_s",
-        )
-    ]
+    names = "type endpoint cases tolerances outputs total model_version sources case"
+    assert list(header) == names.split()
     assert header["cases"] == [{"name": "case 1", "share": 1.0, "set": {}}]
     assert header["tolerances"]["inputs"][0]["cut_off"] == pytest.approx(6.334248e-5)
     assert [(line["draw"], line["case"]) for line in points] == [(draw, 0) for draw in range(8)]
     assert end["points"] == 8
     assert end["counts"] == {"ok": 8}
     assert "friction.static_coefficient" not in {each["field"] for each in end["assumptions"]}
-    assert [line["type"] for line in solved(coupling(tolerances=friction(count=4, replicates=2)))] == [
-        "spectrum",
-        "end",
-    ]
+    without = solved(coupling(tolerances=friction(count=4, replicates=2)))
+    assert [line["type"] for line in without] == ["spectrum", "end"]
 
 
 def test_one_case_without_tolerances() -> None:
@@ -124,12 +87,10 @@ def test_a_linear_output_of_a_normal_input() -> None:
     """The coaxial thrust is the coefficient of friction times a force: P = Phi((mu - m) / sqrt(s_y^2 + s^2))."""
     nominal = solved(coupling(cases=[{"set": {MU: 0.2}}]))[-1]["outputs"][COAXIAL]["mean"]
     deviation = 0.1 * nominal
-    limits = [
-        above(COAXIAL, nominal + 0.5 * deviation, deviation),
-        above(COAXIAL, nominal + 2.0 * deviation, deviation),
-    ]
+    distances = (0.5, 2.0)
+    limits = [above(COAXIAL, nominal + distance * deviation, deviation) for distance in distances]
     *_, end = solved(coupling(tolerances=friction(), limits=limits))
-    for found, distance in zip(end["limits"], (0.5, 2.0), strict=True):
+    for found, distance in zip(end["limits"], distances, strict=True):
         expected = norm.sf(distance * deviation / hypot(deviation, deviation))
         assert found["interval"][0] <= expected <= found["interval"][1]
         assert found["probability"] == pytest.approx(expected, abs=4.0 * found["standard_error"])
@@ -171,7 +132,7 @@ def test_a_limit_to_fall_short_of() -> None:
 
 def test_the_deadline_ends_a_spectrum_with_a_line() -> None:
     body = coupling(tolerances=friction(count=64), points=True)
-    lines = [json.loads(line) for line in text_of(body, seconds=1e-9).splitlines()]
+    lines = lines_of(planned(body), seconds=1e-9)
     assert "end" not in {line["type"] for line in lines}
     assert (lines[-1]["type"], lines[-1]["code"]) == ("error", "study_deadline")
     assert lines[-1]["done"] < 512
@@ -262,13 +223,7 @@ def test_nothing_solved() -> None:
     *_, end = solved(loads(cases=[{"set": {"gears.pinion.addendum": 3.0}}], limits=[above(PRESSURE, 1e3)]))
     assert end["limits"][0]["bounds"] == [0.0, 1.0]
     assert end["limits"][0]["decides"] is None
-    assert end["outputs"][PRESSURE] == {
-        "mean": None,
-        "standard_error": None,
-        "interval": None,
-        "min": None,
-        "max": None,
-    }
+    assert end["outputs"][PRESSURE] == dict.fromkeys(("mean", "standard_error", "interval", "min", "max"))
 
 
 def test_means_energy_and_extremes() -> None:
@@ -287,9 +242,13 @@ def test_means_energy_and_extremes() -> None:
 
 
 def scuffing() -> dict[str, Any]:
-    body: dict[str, Any] = copy.deepcopy(EXAMPLES["/v1/spectrum"]["scuffing"]["value"])
-    body["tolerances"] |= {"count": 2, "replicates": 2}
-    return body
+    return few_draws("scuffing")
+
+
+def few_draws(example: str) -> dict[str, Any]:
+    """An example of a spectrum with the fewest draws that still have an error."""
+    draws = {"tolerances.count": 2, "tolerances.replicates": 2}
+    return changed(EXAMPLES["/v1/spectrum"][example]["value"], draws)
 
 
 def test_the_scuffing_temperature_is_the_limit_where_none_is_given() -> None:
@@ -300,8 +259,7 @@ def test_the_scuffing_temperature_is_the_limit_where_none_is_given() -> None:
     assert limit["deviation"] == pytest.approx(0.15 * limit["mean"])
     (assumption,) = [each for each in end["assumptions"] if each["field"] == "limits"]
     assert "AGMA 925-A03" in assumption["reason"]
-    body = {"detail": "summary", **STAGE.request}
-    own = evaluate(BY_PATH["/v1/scuffing"], BY_PATH["/v1/scuffing"].request.model_validate(body))
+    own = evaluate(SCUFFING, SCUFFING.request.model_validate({"detail": "summary", **STAGE.request}))
     assert limit["mean"] == pytest.approx(own.safety.scuffing_c)
     assert end["notes"] == []
 
@@ -309,24 +267,20 @@ def test_the_scuffing_temperature_is_the_limit_where_none_is_given() -> None:
 def test_the_thermal_film_is_left_out_where_no_output_needs_it() -> None:
     body = scuffing()
     assert "lubrication" not in body["request"]["model"]
-    light, whole = study_of(body), study_of({**body, "outputs": ["film.thickness_ratio"]})
+    light, whole = planned(body), planned({**body, "outputs": ["film.thickness_ratio"]})
     assert light.question.base["model"]["lubrication"] == "closed_form"
     assert "lubrication" not in whole.question.base["model"]
-    calculation = BY_PATH["/v1/scuffing"]
-    own, film = (
-        evaluate(calculation, calculation.request.model_validate(request))
-        for request in (light.question.base, body["request"])
-    )
+    requests = (light.question.base, body["request"])
+    own, film = (evaluate(SCUFFING, SCUFFING.request.model_validate(request)) for request in requests)
     for path in light.question.outputs:
         assert value_at(own, path) == value_at(film, path)
 
 
 def test_a_scuffing_temperature_that_differs_between_cases_is_said() -> None:
-    body = scuffing()
-    body["cases"] = [{"set": {}}, {"set": {"temperatures.scuffing_test.fzg_stage": 10}}]
-    *_, end = solved(body)
-    assert len(end["notes"]) == 1
-    assert "differs between the cases" in end["notes"][0]
+    cases = [{"set": {}}, {"set": {"temperatures.scuffing_test.fzg_stage": 10}}]
+    *_, end = solved({**scuffing(), "cases": cases})
+    (note,) = end["notes"]
+    assert "differs between the cases" in note
 
 
 def test_a_scuffing_temperature_that_scatters_is_limited_by_its_median() -> None:
@@ -372,7 +326,7 @@ def test_equal_seeds_give_equal_bytes() -> None:
 
 
 def test_replicates_are_independent_samples() -> None:
-    study = study_of(coupling(tolerances=friction(count=8, replicates=3)))
+    study = planned(coupling(tolerances=friction(count=8, replicates=3)))
     samples = study.machines.reshape(3, 8)
     assert len({tuple(sorted(sample)) for sample in samples}) == 3
     for sample in samples:  # one point in each eighth of the distribution
@@ -380,9 +334,7 @@ def test_replicates_are_independent_samples() -> None:
 
 
 def test_a_gear_unit_with_temperatures_of_its_own_in_each_case() -> None:
-    body = copy.deepcopy(EXAMPLES["/v1/spectrum"]["drive_train"]["value"])
-    body["tolerances"] |= {"count": 2, "replicates": 2}
-    header, *points, end = solved({**body, "points": True})
+    header, *points, end = solved({**few_draws("drive_train"), "points": True})
     contact = [each["path"] for each in header["outputs"]].index("flash.contact_max_c")
     full, half = (np.array([line["out"][contact] for line in points if line["case"] == case]) for case in (0, 1))
     assert (full > half + 10.0).all()
@@ -390,6 +342,13 @@ def test_a_gear_unit_with_temperatures_of_its_own_in_each_case() -> None:
     assert (end["limits"][0]["mean"], end["limits"][0]["deviation"]) == (pytest.approx(220.0), pytest.approx(33.0))
     assert end["limits"][0]["decides"] == [1.0, 0.0]
     assert end["cases"][0]["limits"][0]["probability"] == pytest.approx(norm.cdf((full - 220) / 33).mean())
+
+
+def scatter(path: str, distribution: str, **numbers: float) -> dict[str, Any]:
+    return {"tolerances": {"inputs": [{"path": path, "distribution": distribution, **numbers}]}}
+
+
+FIRST = "/tolerances/inputs/0"
 
 
 @pytest.mark.parametrize(
@@ -402,35 +361,15 @@ def test_a_gear_unit_with_temperatures_of_its_own_in_each_case() -> None:
         ({"cases": [{}] * 101}, "/cases", "too_long"),
         ({"cases": [{"set": {"operation.sped_rpm": 1}}]}, "/cases/0/set", "unknown_path"),
         ({"cases": [{"set": {}}, {"set": {"operation.speed_rpm": 1e9}}]}, "/cases/1/set", "out_of_range"),
-        ({"cases": [{"set": {MU: 0.1}}], "tolerances": friction()}, "/tolerances/inputs/0/path", "duplicate_path"),
+        ({"cases": [{"set": {MU: 0.1}}], "tolerances": friction()}, f"{FIRST}/path", "duplicate_path"),
         ({"tolerances": friction(count=100)}, "/tolerances/count", "not_power_of_two"),
         ({"tolerances": friction(inputs=[])}, "/tolerances/inputs", "too_short"),
-        ({"tolerances": {"inputs": [{"path": MU}]}}, "/tolerances/inputs/0", "union_tag_not_found"),
-        (
-            {"tolerances": {"inputs": [{"path": MU, "distribution": "beta"}]}},
-            "/tolerances/inputs/0",
-            "union_tag_invalid",
-        ),
-        (
-            {"tolerances": {"inputs": [{"path": MU, "distribution": "normal", "mean": 0.2, "deviation": 0}]}},
-            "/tolerances/inputs/0/deviation",
-            "greater_than",
-        ),
-        (
-            {"tolerances": {"inputs": [{"path": MU, "distribution": "normal", "mean": -1, "deviation": 1}]}},
-            "/tolerances/inputs/0/mean",
-            "out_of_range",
-        ),
-        (
-            {"tolerances": {"inputs": [{"path": MU, "distribution": "triangular", "min": 0, "mode": 2, "max": 1}]}},
-            "/tolerances/inputs/0",
-            "out_of_range",
-        ),
-        (
-            {"tolerances": {"inputs": [{"path": "coupling.teeth", "distribution": "uniform", "min": 20, "max": 30}]}},
-            "/tolerances/inputs/0",
-            "not_integer",
-        ),
+        ({"tolerances": {"inputs": [{"path": MU}]}}, FIRST, "union_tag_not_found"),
+        (scatter(MU, "beta"), FIRST, "union_tag_invalid"),
+        (scatter(MU, "normal", mean=0.2, deviation=0), f"{FIRST}/deviation", "greater_than"),
+        (scatter(MU, "normal", mean=-1, deviation=1), f"{FIRST}/mean", "out_of_range"),
+        (scatter(MU, "triangular", min=0, mode=2, max=1), FIRST, "out_of_range"),
+        (scatter("coupling.teeth", "uniform", min=20, max=30), FIRST, "not_integer"),
         ({"limits": [{"output": COAXIAL}]}, "/limits/0", "above_or_below"),
         ({"limits": [{"output": COAXIAL, "above": {"mean": 2}}]}, "/limits/0/above", "value_or_mean"),
         ({"limits": [above("lubrication.regime.area", 1)]}, "/limits/0/output", "unknown_output"),
@@ -440,17 +379,18 @@ def test_a_gear_unit_with_temperatures_of_its_own_in_each_case() -> None:
     ],
 )
 def test_refusals(change: dict[str, Any], pointer: str, code: str) -> None:
-    assert fault_of(coupling(**change))[:2] == (pointer, code)
+    assert fault_of(Spectrum, coupling(**change))[:2] == (pointer, code)
 
 
 def test_shares_are_normalised() -> None:
-    found = study_of(coupling(cases=[{"share": 0.5}, {"share": 0.495}])).cases
+    found = planned(coupling(cases=[{"share": 0.5}, {"share": 0.495}])).cases
     assert [case.share for case in found] == pytest.approx([0.502513, 0.497487], abs=1e-6)
-    assert [case.share for case in study_of(coupling(cases=[{}, {}, {}, {}])).cases] == [0.25] * 4
+    assert [case.share for case in planned(coupling(cases=[{}, {}, {}, {}])).cases] == [0.25] * 4
 
 
 def test_a_study_of_too_many_solutions_is_refused_with_an_estimate() -> None:
-    pointer, code, message = fault_of(coupling(tolerances=friction(count=1024, replicates=100)))
+    body = coupling(tolerances=friction(count=1024, replicates=100))
+    pointer, code, message = fault_of(Spectrum, body, most=20_000)
     assert (pointer, code) == ("/tolerances/count", "too_many_points")
     assert "102400 solutions; the limit is 20000" in message
     assert " s on one core" in message
@@ -458,17 +398,13 @@ def test_a_study_of_too_many_solutions_is_refused_with_an_estimate() -> None:
 
 def test_distributions_of_a_sample() -> None:
     """A sweep takes the distributions of a spectrum."""
-    body = {
-        "endpoint": COUPLING.endpoint,
-        "request": COUPLING.request,
-        "sample": {"count": 64, "method": "sobol", **friction()},
-    }
-    rows = Sweep(body, 2500, 30.0).points.rows
-    assert np.mean(rows) == pytest.approx(0.2, abs=1e-3)
-    assert np.std(rows) == pytest.approx(0.02, abs=1e-3)
+    sample = sampled(method="sobol", **friction())
+    assert sample.mean() == pytest.approx(0.2, abs=1e-3)
+    assert sample.std() == pytest.approx(0.02, abs=1e-3)
     ends = {"path": MU, "min": 0.1, "max": 0.3}
-    samples = {
-        name: Sweep({**body, "sample": {"count": 64, name: [given]}}, 2500, 30.0).points.rows
-        for name, given in (("ranges", ends), ("inputs", {**ends, "distribution": "uniform"}))
-    }
-    assert samples["ranges"] == samples["inputs"]
+    assert np.array_equal(sampled(ranges=[ends]), sampled(inputs=[{**ends, "distribution": "uniform"}]))
+
+
+def sampled(**parts: Any) -> FloatArray:
+    body = study_of("pahl-axial-displacement", sample={"count": 64, **parts})
+    return np.array(Sweep(body, 2500, 30.0).points.rows)

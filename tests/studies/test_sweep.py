@@ -1,9 +1,7 @@
 """What a sweep says: header, points, ranges, statistics, the best point; as lines and as a table."""
 
-import asyncio
 import csv
 import io
-import json
 from math import comb
 from typing import Any
 
@@ -11,31 +9,25 @@ import numpy as np
 import pytest
 from scipy.stats import spearmanr
 
-from app.errors import Unprocessable
-from app.examples import examples
 from app.schema.fields import Leaf
-from app.studies.engine import Clock, encoded, guarded, json_line
 from app.studies.point_sets import PointSet
 from app.studies.points import Point
 from app.studies.requests import Best
 from app.studies.sweep import Summary, Sweep, statistics, table_row
 from tests.support.pools import InlinePool
+from tests.support.studies import fault_of, lines_of, study_of, timeless
 
-COUPLING = examples()["pahl-axial-displacement"]
 THRUST = "axial_thrust.force_n"
 FILM = "lubrication.load_capacity_coefficient"
 
 
+def body(**parts: Any) -> dict[str, Any]:
+    return study_of("pahl-axial-displacement", **parts)
+
+
 def swept(slots: int = 1, **parts: Any) -> list[dict[str, Any]]:
     """The lines of a sweep over a coupling."""
-    study = Sweep({"endpoint": COUPLING.endpoint, "request": COUPLING.request, **parts}, 2500, 30.0)
-
-    async def run() -> bytes:
-        clock = Clock(study.total)
-        lines = guarded(study.lines(InlinePool(slots), clock), clock, 600)
-        return b"".join([piece async for piece in encoded(lines, json_line)])
-
-    return [json.loads(line) for line in asyncio.run(run()).splitlines()]
+    return timeless(lines_of(Sweep(body(**parts), 2500, 30.0), InlinePool(slots)))
 
 
 GRID: list[dict[str, Any]] = [
@@ -74,10 +66,7 @@ def test_headline_numbers_by_default() -> None:
 
 
 def test_equal_lines_on_any_number_of_processes() -> None:
-    first, *others = (
-        [{key: value for key, value in line.items() if key != "elapsed_s"} for line in swept(slots, vary=GRID)]
-        for slots in (1, 2, 5)
-    )
+    first, *others = (swept(slots, vary=GRID) for slots in (1, 2, 5))
     assert all(other == first for other in others)
 
 
@@ -190,27 +179,18 @@ def table_of(lines: list[dict[str, Any]], points: PointSet, outputs: tuple[Leaf,
 
 
 def test_table() -> None:
-    body = {"endpoint": COUPLING.endpoint, "request": COUPLING.request, "outputs": [THRUST, "lubrication.regime.area"]}
-    cases: list[dict[str, Any]] = [
-        {"operation.torque_n_m": 4500},
-        {"model.sleeve": "floating", "operation.torque_n_m": None},
-    ]
-    study = Sweep({**body, "cases": cases[:1]}, 10, 30.0)
+    first: dict[str, Any] = {"operation.torque_n_m": 4500}
+    parts = {"cases": [first], "outputs": [THRUST, "lubrication.regime.area"]}
+    study = Sweep(body(**parts), 10, 30.0)
+    cases = [first, {"model.sleeve": "floating", "operation.torque_n_m": None}]
     points = PointSet([], study.points.varied, cases)
-    _, point, end = swept(cases=cases[:1], outputs=body["outputs"])
+    _, point, end = swept(**parts)
     refused = {**point, "index": 1, "status": "refused", "out": [None, "=1+1"], "warnings": ["a", "b"]}
     refused["error"] = {"pointer": "/x", "code": "some_code", "message": 'says "no", twice'}
     lines = [{"type": "sweep"}, point, {"type": "progress"}, refused, end]
+    heading = f"index,operation.torque_n_m [N m],status,{THRUST} [N],lubrication.regime.area,warnings,error"
     assert table_of(lines, points, study.outputs) == [
-        [
-            "index",
-            "operation.torque_n_m [N m]",
-            "status",
-            f"{THRUST} [N]",
-            "lubrication.regime.area",
-            "warnings",
-            "error",
-        ],
+        heading.split(","),
         ["0", "4500", "ok", repr(point["out"][0]), point["out"][1], "", ""],
         ["1", "", "refused", "", "'=1+1", "a b", 'some_code: says "no", twice'],
     ]
@@ -225,8 +205,7 @@ def test_words_that_a_spreadsheet_would_compute_are_quoted(text: str) -> None:
 
 
 def test_a_table_of_a_study_that_ended_early_ends_with_a_row_that_says_so() -> None:
-    body = {"endpoint": COUPLING.endpoint, "request": COUPLING.request, "outputs": [THRUST]}
-    study = Sweep({**body, "cases": [{"operation.torque_n_m": 4500}]}, 10, 30.0)
+    study = Sweep(body(cases=[{"operation.torque_n_m": 4500}], outputs=[THRUST]), 10, 30.0)
     error = {"type": "error", "code": "study_deadline", "message": "the study took longer than 1 s", "done": 0}
     heading, row = table_of([{"type": "sweep"}, error], study.points, study.outputs)
     assert dict(zip(heading, row, strict=True)) == {
@@ -239,24 +218,18 @@ def test_a_table_of_a_study_that_ended_early_ends_with_a_row_that_says_so() -> N
     }
 
 
-@pytest.mark.parametrize(
-    "points",
-    [
-        {"vary": GRID},
-        {"cases": [{"operation.torque_n_m": torque} for torque in (3000, 3500, 4000, 4500, 5000)]},
-        {
-            "sample": {
-                "count": 16,
-                "seed": 5,
-                "ranges": [{"path": "operation.misalignment_deg", "min": 0.03, "max": 0.08}],
-            }
-        },
-    ],
-    ids=["grid", "cases", "sample"],
-)
-def test_a_study_whose_connection_was_lost_goes_on_with_the_same_lines(points: dict[str, Any]) -> None:
-    header, *whole, _ = swept(**points, outputs=[THRUST], best={"minimise": THRUST})
-    again, *rest, end = swept(**points, outputs=[THRUST], best={"minimise": THRUST}, from_index=3)
+POINTS: dict[str, Any] = {
+    "vary": GRID,
+    "cases": [{"operation.torque_n_m": torque} for torque in (3000, 3500, 4000, 4500, 5000)],
+    "sample": {"count": 16, "seed": 5, "ranges": [{"path": "operation.misalignment_deg", "min": 0.03, "max": 0.08}]},
+}
+
+
+@pytest.mark.parametrize("kind", POINTS)
+def test_a_study_whose_connection_was_lost_goes_on_with_the_same_lines(kind: str) -> None:
+    parts = {kind: POINTS[kind], "outputs": [THRUST], "best": {"minimise": THRUST}}
+    header, *whole, _ = swept(**parts)
+    again, *rest, end = swept(**parts, from_index=3)
     assert rest == whole[3:]
     assert again == {**header, "from_index": 3}
     least = min(rest, key=lambda line: line["out"][0])
@@ -266,7 +239,4 @@ def test_a_study_whose_connection_was_lost_goes_on_with_the_same_lines(points: d
 
 
 def test_a_study_does_not_go_on_behind_its_last_point() -> None:
-    body = {"endpoint": COUPLING.endpoint, "request": COUPLING.request, "cases": [{}, {}], "from_index": 2}
-    with pytest.raises(Unprocessable) as caught:
-        Sweep(body, 10, 30.0)
-    assert (caught.value.code, caught.value.path) == ("out_of_range", "from_index")
+    assert fault_of(Sweep, body(cases=[{}, {}], from_index=2))[:2] == ("/from_index", "out_of_range")

@@ -11,10 +11,10 @@ PHONE = {"width": 360, "height": 740}
 DESK = {"width": 1400, "height": 900}
 
 
-def address_of(name: str) -> str:
-    """The page of an example."""
+def address_of(name: str, view: str = "") -> str:
+    """The page of an example, or another view of it ("/report")."""
     example = examples()[name]
-    return example_link(BY_PATH[example.endpoint], example)
+    return example_link(BY_PATH[example.endpoint], example).replace("?", f"{view}?", 1)
 
 
 def overflow(page: Page) -> int:

@@ -66,7 +66,7 @@ class DaskProcesses:
 
 
 @contextmanager
-def running_cluster(workers: int = 2) -> Iterator[DaskProcesses]:
+def running_cluster(workers: int) -> Iterator[DaskProcesses]:
     """A scheduler and workers in processes of their own."""
     with ExitStack() as stack:
         cluster = DaskProcesses(stack)

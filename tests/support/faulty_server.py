@@ -1,4 +1,7 @@
-"""The service with more endpoints that misbehave on demand, run as `python -m tests.support.faulty_server`."""
+"""The service with more endpoints that misbehave on demand, run as `python -m tests.support.faulty_server`.
+
+It loads the kernels of two calculations only: a start takes a fraction of the time.
+"""
 
 import os
 import signal
@@ -9,14 +12,17 @@ from unittest.mock import patch
 import numpy as np
 from fastapi import FastAPI, Request
 
+from app.calculations import COUPLING, LOADS
 from app.command import serve
 from app.main import create_app
 from app.studies import engine
 from app.studies.points import Chunk, Question, solve_chunk
 from app.studies.requests import Overrides
+from app.workers import start_up
 
 HANGING = 1234.5  # a varied value whose point never ends
 LONG = 987.5  # and one whose point takes three seconds
+STAGES = (COUPLING, LOADS)
 
 
 def sleep(seconds: float) -> float:
@@ -51,8 +57,10 @@ def solve_chunk_that_may_hang(question: Question, overrides: Sequence[Overrides]
 
 
 def create_faulty_app() -> FastAPI:
-    app = create_app()
     patch.object(engine, "solve_chunk", solve_chunk_that_may_hang).start()
+    content = " ".join(name for stage in STAGES for name in stage.examples)
+    patch.multiple(start_up, STAGES=STAGES, TRACKS=(STAGES,), content=lambda: content).start()
+    app = create_app()
 
     @app.post("/sleep/{seconds}")
     async def _(http: Request, seconds: float) -> float:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from solvers.errors import InvalidInput
+from solvers.errors import InvalidInput, NoSolution
 
 
 def codes(result: Any) -> set[str]:
@@ -21,6 +21,13 @@ def refused(calculation: Callable[..., object], *inputs: object) -> tuple[str, s
     with pytest.raises(InvalidInput) as refusal:
         calculation(*inputs)
     return refusal.value.code, refusal.value.field
+
+
+def unsolved(calculation: Callable[..., object], *inputs: object) -> NoSolution:
+    """What a calculation without solution says."""
+    with pytest.raises(NoSolution) as failure:
+        calculation(*inputs)
+    return failure.value
 
 
 def assert_finite(value: object, path: str = "result") -> None:

@@ -2,14 +2,13 @@
 
 import socket
 import subprocess
-import time
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from getpass import getuser
 from pathlib import Path
 from urllib.parse import urlsplit
 
-from tests.support.server import ROOT, free_port
+from tests.support.server import ROOT, free_port, wait_until
 
 
 @contextmanager
@@ -29,17 +28,14 @@ def running_proxy(folder: Path, address: str, **replaced: str) -> Iterator[str]:
     main.write_text(f"{head}{places}{site}}}\n", "utf-8")
     process = subprocess.Popen(["nginx", "-p", str(folder), "-c", str(main), "-e", f"{folder}/log"])  # noqa: S607
     try:
-        wait_until_open(port)
+        wait_until(lambda: is_open(port), 10)
         yield f"http://127.0.0.1:{port}"
     finally:
         process.terminate()
         process.wait(10)
 
 
-def wait_until_open(port: int) -> None:
-    end = time.monotonic() + 10
-    while time.monotonic() < end:
-        with suppress(OSError), socket.create_connection(("127.0.0.1", port), timeout=1):
-            return
-        time.sleep(0.05)
-    raise AssertionError("nginx did not start")
+def is_open(port: int) -> bool:
+    with suppress(OSError), socket.create_connection(("127.0.0.1", port), timeout=1):
+        return True
+    return False

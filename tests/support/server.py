@@ -5,9 +5,11 @@ import signal
 import socket
 import subprocess
 import sys
+import threading
 import time
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import contextmanager, suppress
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import AbstractContextManager, contextmanager, suppress
 from pathlib import Path
 from typing import Any
 from urllib.parse import urlsplit
@@ -16,8 +18,11 @@ import httpx
 
 ROOT = Path(__file__).parents[2]
 START_UP_S = 1200.0  # kernels are compiled the first time, by several services side by side
+FAULTY = [sys.executable, "-m", "tests.support.faulty_server"]
 PATIENCE_S = 30.0
 """For what takes well below a second on quiet cores: tests ask whether it happens, `benchmarks` how fast."""
+Server = tuple[subprocess.Popen[str], str]
+"""A process and its address."""
 
 
 def free_port() -> int:
@@ -34,7 +39,7 @@ def started_server(
     log: Path | int | None = None,
     environment: dict[str, str] | None = None,
     **settings: object,
-) -> Iterator[tuple[subprocess.Popen[str], str]]:
+) -> Iterator[Server]:
     """A server process and its address, whatever it answers yet; settings become environment variables."""
     port = free_port()
     variables = {f"TRIBODRIVE_{name.upper()}": str(value) for name, value in settings.items()}
@@ -63,11 +68,16 @@ def started_server(
 @contextmanager
 def running_server(
     command: list[str] | None = None, *, log: Path | None = None, **settings: object
-) -> Iterator[tuple[subprocess.Popen[str], str]]:
+) -> Iterator[Server]:
     """The same, once everything is warm."""
     with started_server(command, log=log, **settings) as (process, address):
         wait_until_warm(process, address)
         yield process, address
+
+
+def faulty_server(**settings: Any) -> AbstractContextManager[Server]:
+    """The service with endpoints that misbehave, and the kernels of the coupling and the load distribution only."""
+    return running_server(FAULTY, **{"log_level": "info" if "log" in settings else "error", **settings})
 
 
 def wait_until(condition: Callable[[], bool], seconds: float = PATIENCE_S) -> None:
@@ -76,6 +86,25 @@ def wait_until(condition: Callable[[], bool], seconds: float = PATIENCE_S) -> No
     while not condition():
         assert time.monotonic() < end
         time.sleep(0.02)
+
+
+@contextmanager
+def meanwhile(*works: Callable[[], object]) -> Iterator[None]:
+    """Each of these again and again, in a thread of its own, while the context is open."""
+    done = threading.Event()
+
+    def repeat(work: Callable[[], object]) -> None:
+        while not done.is_set():
+            work()
+
+    with ThreadPoolExecutor(len(works)) as pool:
+        flights = [pool.submit(repeat, work) for work in works]
+        try:
+            yield
+        finally:
+            done.set()
+        for flight in flights:
+            flight.result()
 
 
 def metric(address: str, name: str) -> float:
