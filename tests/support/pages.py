@@ -1,23 +1,66 @@
-"""What tests of pages share: the page of an example, and the lines of a study that a page shows."""
+"""What tests of pages share: what a link or an example asks for, and what a page of a case or of a study answers."""
 
 import asyncio
 import json
+import re
+from html import unescape
 from typing import Any
 
 from app.calculations import BY_PATH
 from app.examples import examples
-from app.pages.query import pairs_of
-from app.pages.studies.declaration import PageStudy
+from app.pages import views
+from app.pages.query import pairs_of, pairs_of_query, split_views
+from app.pages.studies import page as pages
+from app.pages.studies.declaration import PageStudy, StudyPage
 from app.pages.templating import page_path
 from app.pages.views import Asked
 from app.studies.engine import Clock
 from tests.support.pools import InlinePool
+
+MOST, DEADLINE_S = 2500, 30.0
 
 
 def asked(name: str, **said: str) -> Asked:
     """The page of an example; `said` is what its query says beside the case."""
     example = examples()[name]
     return Asked(page_path(BY_PATH[example.endpoint]), pairs_of(example.request), said)
+
+
+def asked_by(address: str) -> Asked:
+    """What a link asks for."""
+    path, _, query = address.partition("?")
+    return Asked(path, *split_views(pairs_of_query(query)))
+
+
+def html_of(found: Asked, status: int = 200) -> str:
+    """The page of a case."""
+    shown = views.page(found)
+    assert shown.status == status
+    return shown.content.decode()
+
+
+def checked(page: StudyPage, found: Asked) -> PageStudy:
+    """The study that is asked for; raises what refuses it."""
+    return pages.checked(page, found, MOST, DEADLINE_S)
+
+
+def opened(page: StudyPage, found: Asked, status: int = 200) -> str:
+    """The page of a study before its lines come."""
+    shown = pages.opened(page, found, MOST, DEADLINE_S)
+    assert shown.status == status
+    return (shown.head + shown.tail).decode()
+
+
+def whole(study: PageStudy, lines: list[dict[str, Any]]) -> str:
+    """The page of a study with its lines, as its reader sees the texts."""
+    return unescape(pages.whole(study, lines).decode())
+
+
+def fault_at(html: str, control: str) -> str:
+    """What a page says is wrong at a control."""
+    found = re.search(rf'id="f\.{re.escape(control)}-fault"(?! hidden)[^>]*>([^<]*)<', html)
+    assert found, re.findall(r'<div class="problem".*?</div>', html, re.DOTALL)
+    return unescape(found[1])
 
 
 def lines_of(study: PageStudy) -> list[dict[str, Any]]:
@@ -27,5 +70,4 @@ def lines_of(study: PageStudy) -> list[dict[str, Any]]:
         clock = Clock(study.study.total)
         return [line async for group in study.study.lines(InlinePool(), clock) for line in group]
 
-    found: list[dict[str, Any]] = json.loads(json.dumps(asyncio.run(run())))
-    return found
+    return json.loads(json.dumps(asyncio.run(run())))
