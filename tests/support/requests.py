@@ -10,6 +10,7 @@ import pytest
 from pydantic import ValidationError
 
 from app.calculations import BY_PATH
+from app.errors import Fault
 from app.evaluate import json_answer
 from app.examples import examples
 from app.schema.reading import faults
@@ -102,8 +103,13 @@ def warned(answer: dict[str, Any]) -> dict[str, Any]:
 
 
 def refused(endpoint: str, body: dict[str, Any], changes: Mapping[str, Any]) -> str:
-    """What a changed request is told is wrong with it."""
+    """What a changed request is told first is wrong with it."""
+    return all_faults(endpoint, body, changes)[0].message
+
+
+def all_faults(endpoint: str, body: dict[str, Any], changes: Mapping[str, Any]) -> list[Fault]:
+    """Everything that is wrong with a changed request."""
     model = BY_PATH[endpoint].request
     with pytest.raises(ValidationError) as refusal:
         model.model_validate(changed(body, changes))
-    return faults(model, refusal.value.errors())[0].message
+    return faults(model, refusal.value.errors())
