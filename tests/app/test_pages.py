@@ -122,6 +122,7 @@ def test_figures_of_the_load_distribution_are_a_link_away(name: str) -> None:
     html = page(name)
     assert re.findall(r'id="figure-([^"]+)"', html)[-2:] == ["section", "flank-pressure"]
     found = re.search(r'elsewhere"><a href="([^"]+)">Load distribution</a> of this pair: ([^<]+)</p>', html)
+    assert found
     assert found[2].count(" · ") == 8
     loads = asked_by(unescape(found[1]))
     assert loads.path == "/scuffing/load-distribution"
@@ -366,6 +367,7 @@ def test_reports_curl_is_the_request() -> None:
     example = examples()["milian-table-1"]
     html = views.report(asked("milian-table-1"), "http://host").content.decode()
     command = re.search(r"<pre>(curl .*?)</pre>", html, re.DOTALL)
+    assert command
     *_, address, _, _, _, body = shlex.split(unescape(command[1]))
     assert address == "http://host/v1/pumping"
     assert json.loads(body) == example.request
@@ -558,6 +560,7 @@ def test_a_report_tells_every_input_of_every_item() -> None:
     assert html.count("<caption>pinion shaft · sections</caption>") == -(-len(request["pinion_shaft"]["sections"]) // 4)
     assert "(420, 160), (−90, 560) N/µm" in html
     link = re.search(r'<dd class="link"><a href="([^"]*)">([^<]*)</a>', html)
+    assert link
     assert link[2].endswith("…")
     assert len(link[1]) > 1000
 

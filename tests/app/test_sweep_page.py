@@ -88,7 +88,7 @@ def test_every_endpoint_has_a_study_to_start_from() -> None:
 
 
 def test_the_crowning_that_forgives_is_a_map_of_17_by_11() -> None:
-    slopes, crownings = (axis.values for axis in checked(study_of(STUDIES[0]))[1].axes)
+    slopes, crownings = (axis.values or () for axis in checked(study_of(STUDIES[0]))[1].axes)
     assert (len(slopes), len(crownings)) == (17, 11)
     assert (slopes[0], slopes[-1]) == (-20.0, 20.0)
 
@@ -255,13 +255,14 @@ def test_a_fault_of_the_case_is_named_by_the_title_of_its_field() -> None:
     study = opened(SWEEP, replace(wrong, views=said), 422)
     for html in (study, html_of(wrong, 422)):
         problem = re.search(r'<div class="problem".*?</div>', html, re.DOTALL)
+        assert problem
         assert "transmitted torque is -5; permissible 0 to 100000000 N m" in problem[0]
     assert "torque_n_m" not in re.sub(r"<[^>]*>", "", study[study.index('class="problem"') :])
 
 
 def test_a_decimal_comma_is_read() -> None:
     _, points = checked(asked(COUPLING, x="operation.misalignment_deg", **{"x.to": "0,1"}))
-    assert points.axes[0].values[-1] == 0.1
+    assert (points.axes[0].values or ())[-1] == 0.1
 
 
 @pytest.mark.parametrize(("count", "wanted"), [("3", [40, 45, 50]), ("21", list(range(40, 51)))])

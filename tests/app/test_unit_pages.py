@@ -101,7 +101,8 @@ def test_the_grinding_proposed_is_that_of_the_search_and_leads_to_its_case() -> 
     assert [row[4] for row in sheet] == [shown(abs(value), 4) for value in wanted["at"].values()]
     worst, nominal = rows_of(page, "What it brings")
     assert worst[1:3] == [shown(end["objective_start"]), shown(wanted["objective"])]
-    cases = [study.case(at, [SAFETY]).response.safety.blok_flank for at in ({}, wanted["at"])]
+    grindings: tuple[dict[str, Any], ...] = ({}, wanted["at"])
+    cases = [study.case(at, [SAFETY]).response.safety.blok_flank for at in grindings]
     assert nominal[1:3] == [shown(each) for each in cases]
     assert ("With the inputs as described it is worse" in page) == (cases[1] < cases[0])
     numbers = {row[0].partition(":")[0].partition(",")[0]: row[1] for row in rows_of(page, "Which number is which")}
