@@ -543,8 +543,9 @@ def test_long_answers_are_compressed(client: httpx.Client) -> None:
 
 
 def test_assets_are_kept_by_browsers(client: httpx.Client) -> None:
-    html = client.get("/coupling").text
-    for address in re.findall(r'(?:href|src)="(/static/[^"]+)"', html):
+    addresses = re.findall(r'(?:href|src)="(/static/[^"]+)"', client.get("/coupling").text)
+    assert addresses
+    for address in addresses:
         answer = client.get(address)
         assert answer.status_code == 200
         assert "immutable" in answer.headers["cache-control"]

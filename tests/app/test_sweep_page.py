@@ -52,6 +52,11 @@ def checked(found: Asked) -> tuple[PageStudy, PointSet]:
     return study, study.study.points
 
 
+def varied(found: Asked, axis: int = 0) -> list[Any]:
+    """The values along an axis of the sweep."""
+    return list(checked(found)[1].axes[axis].values or ())
+
+
 def total(found: Asked) -> int:
     return checked(found)[1].total
 
@@ -88,7 +93,7 @@ def test_every_endpoint_has_a_study_to_start_from() -> None:
 
 
 def test_the_crowning_that_forgives_is_a_map_of_17_by_11() -> None:
-    slopes, crownings = (axis.values or () for axis in checked(study_of(STUDIES[0]))[1].axes)
+    slopes, crownings = (varied(study_of(STUDIES[0]), axis) for axis in (0, 1))
     assert (len(slopes), len(crownings)) == (17, 11)
     assert (slopes[0], slopes[-1]) == (-20.0, 20.0)
 
@@ -261,20 +266,19 @@ def test_a_fault_of_the_case_is_named_by_the_title_of_its_field() -> None:
 
 
 def test_a_decimal_comma_is_read() -> None:
-    _, points = checked(asked(COUPLING, x="operation.misalignment_deg", **{"x.to": "0,1"}))
-    assert (points.axes[0].values or ())[-1] == 0.1
+    assert varied(asked(COUPLING, x="operation.misalignment_deg", **{"x.to": "0,1"}))[-1] == 0.1
 
 
 @pytest.mark.parametrize(("count", "wanted"), [("3", [40, 45, 50]), ("21", list(range(40, 51)))])
 def test_whole_numbers_are_varied_in_whole_steps(count: str, wanted: list[int]) -> None:
     said = {"x": "coupling.teeth", "x.from": "40", "x.to": "50", "x.count": count}
-    assert checked(asked(COUPLING, **said))[1].axes[0].values == wanted
+    assert varied(asked(COUPLING, **said)) == wanted
 
 
 def test_words_make_a_family() -> None:
-    _, points = checked(asked(COUPLING, x="operation.misalignment_deg", **{"x.count": "3"}, y="operation.arrangement"))
+    said = {"x": "operation.misalignment_deg", "x.count": "3", "y": "operation.arrangement"}
     arrangement = leaf_at(BY_PATH["/v1/coupling"].request, "operation.arrangement")
-    assert set(points.axes[1].values) == set(arrangement.options)
+    assert set(varied(asked(COUPLING, **said), axis=1)) == set(arrangement.options)
 
 
 @pytest.mark.parametrize(
