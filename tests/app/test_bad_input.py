@@ -1,6 +1,5 @@
 """Bad input is a 422 problem with a pointer, whatever it is; the input is never echoed."""
 
-import copy
 import json
 from collections.abc import Iterator
 from typing import Any
@@ -9,39 +8,30 @@ import httpx
 import pytest
 from pydantic import BaseModel
 
-from app.calculations import CALCULATIONS, Calculation
+from app.calculations import BY_PATH, CALCULATIONS, Calculation
 from app.examples import Example, examples
 from app.schema.quantities import Input
+from tests.support.requests import changed
 
 HOSTILE: list[Any] = ["30", True, "x" * 50, None, [], {}, -1e300, 1e300, 10**400, 0, 1e-9, 1e-300]
 
 
 def example_of(calculation: Calculation) -> dict[str, Any]:
-    return next(copy.deepcopy(each.request) for each in examples().values() if each.endpoint == calculation.path)
+    return next(each.request for each in examples().values() if each.endpoint == calculation.path)
 
 
-def number_fields(model: type[BaseModel], prefix: tuple[str, ...] = ()) -> Iterator[tuple[str, ...]]:
+def number_fields(model: type[BaseModel], prefix: str = "") -> Iterator[str]:
     """Paths of every plain number in a request model."""
     for name, field in model.model_fields.items():
         if isinstance(field.annotation, type) and issubclass(field.annotation, BaseModel):
-            yield from number_fields(field.annotation, (*prefix, name))
+            yield from number_fields(field.annotation, f"{prefix}{name}.")
         elif field.annotation in {int, float, float | None}:
-            yield (*prefix, name)
+            yield f"{prefix}{name}"
 
 
-def changed(request: dict[str, Any], path: tuple[str, ...], value: object) -> dict[str, Any]:
-    section = request
-    for name in path[:-1]:
-        section = section.setdefault(name, {})
-    section[path[-1]] = value
-    return request
-
-
-def with_a_short_path(calculation: Calculation, request: dict[str, Any]) -> dict[str, Any]:
-    """The request with five points along a thermal path, if it has one: contacts are not what is tried here."""
-    if ("model", "path_points") in number_fields(calculation.request):
-        return changed(request, ("model", "path_points"), 5)
-    return request
+def short_path(calculation: Calculation) -> dict[str, int]:
+    """Five points along a thermal path, for a request that has one: contacts are not what is tried here."""
+    return {"model.path_points": 5} if "model.path_points" in number_fields(calculation.request) else {}
 
 
 def send(client: httpx.Client, path: str, body: object) -> httpx.Response:
@@ -63,25 +53,26 @@ def pointers(response: httpx.Response) -> set[str]:
     return {error["pointer"] for error in assert_problem(response)["errors"]}
 
 
+def pointer(path: str) -> str:
+    return "/" + path.replace(".", "/")
+
+
 CASES = [(each, path) for each in CALCULATIONS for path in number_fields(each.request)]
 
 
-@pytest.mark.parametrize(("calculation", "path"), CASES, ids=[f"{each.path}:{'.'.join(path)}" for each, path in CASES])
-def test_number_fields_refuse_what_is_no_number(
-    client: httpx.Client, calculation: Calculation, path: tuple[str, ...]
-) -> None:
+@pytest.mark.parametrize(("calculation", "path"), CASES, ids=[f"{each.path}:{path}" for each, path in CASES])
+def test_number_fields_refuse_what_is_no_number(client: httpx.Client, calculation: Calculation, path: str) -> None:
     for value in ("30", True, float("nan"), float("inf"), [1.0], {"a": 1}, 10**400):
-        response = send(client, calculation.path, changed(example_of(calculation), path, value))
-        assert "/" + "/".join(path) in pointers(response), value
+        response = send(client, calculation.path, changed(example_of(calculation), {path: value}))
+        assert pointer(path) in pointers(response), value
 
 
 @pytest.mark.parametrize("calculation", CALCULATIONS, ids=lambda each: each.path)
 def test_unknown_fields_are_refused_at_every_level(client: httpx.Client, calculation: Calculation) -> None:
     request = example_of(calculation)
-    sections: list[tuple[str, ...]] = [(), *((name,) for name, value in request.items() if isinstance(value, dict))]
-    for section in sections:
-        response = send(client, calculation.path, changed(example_of(calculation), (*section, "no~such/field"), 1))
-        assert "/" + "/".join((*section, "no~0such~1field")) in pointers(response)
+    for section in ("", *(f"{name}." for name, value in request.items() if isinstance(value, dict))):
+        response = send(client, calculation.path, changed(request, {f"{section}no~such/field": 1}))
+        assert f"{pointer(section)}no~0such~1field" in pointers(response)
 
 
 @pytest.mark.parametrize("calculation", CALCULATIONS, ids=lambda each: each.path)
@@ -104,15 +95,13 @@ def test_json_beyond_the_parser(client: httpx.Client, body: bytes) -> None:
 
 
 def test_integers_may_be_written_with_a_point(client: httpx.Client) -> None:
-    request = example_of(CALCULATIONS[0])
-    whole = send(client, CALCULATIONS[0].path, changed(request, ("coupling", "teeth"), 52)).json()
-    point = send(client, CALCULATIONS[0].path, changed(request, ("coupling", "teeth"), 52.0)).json()
-    assert whole == point
+    whole, point = (changed(example_of(CALCULATIONS[0]), {"coupling.teeth": teeth}) for teeth in (52, 52.0))
+    assert send(client, CALCULATIONS[0].path, whole).json() == send(client, CALCULATIONS[0].path, point).json()
 
 
 def test_the_input_is_not_echoed(client: httpx.Client) -> None:
     secret = "do-not-repeat-me"
-    response = send(client, CALCULATIONS[0].path, changed(example_of(CALCULATIONS[0]), ("detail",), secret))
+    response = send(client, CALCULATIONS[0].path, changed(example_of(CALCULATIONS[0]), {"detail": secret}))
     assert secret not in response.text
 
 
@@ -121,17 +110,17 @@ def test_the_input_is_not_echoed(client: httpx.Client) -> None:
 def test_nothing_gives_500(client: httpx.Client, calculation: Calculation) -> None:
     for path in number_fields(calculation.request):
         for value in HOSTILE:
-            request = changed(with_a_short_path(calculation, example_of(calculation)), path, value)
+            request = changed(example_of(calculation), {**short_path(calculation), path: value})
             response = send(client, calculation.path, request)
             assert response.status_code in {200, 422}, (path, value, response.text)
 
 
-def range_ends(model: type[BaseModel], path: tuple[str, ...]) -> tuple[float, float]:
+def range_ends(model: type[BaseModel], path: str) -> tuple[float, float]:
     """The smallest and the largest number that a field takes, but for open ends."""
-    field = model.model_fields[path[0]]
-    if len(path) > 1:
-        assert isinstance(field.annotation, type)
-        return range_ends(field.annotation, path[1:])
+    first, _, below = path.partition(".")
+    field = model.model_fields[first]
+    if below:
+        return range_ends(field.annotation, below)
     meaning = next(item for item in field.metadata if isinstance(item, Input))
     low = meaning.ge if meaning.ge is not None else meaning.gt
     high = meaning.le if meaning.le is not None else meaning.lt
@@ -147,9 +136,9 @@ TRIED = [each for name, each in examples().items() if not name.endswith("-therma
 @pytest.mark.slow
 @pytest.mark.parametrize("example", TRIED, ids=lambda each: each.name)
 def test_ends_of_every_range_are_answered(client: httpx.Client, example: Example) -> None:
-    calculation = next(each for each in CALCULATIONS if each.path == example.endpoint)
+    calculation = BY_PATH[example.endpoint]
     for path in number_fields(calculation.request):
         for value in range_ends(calculation.request, path):
-            request = changed(with_a_short_path(calculation, copy.deepcopy(example.request)), path, value)
-            response = send(client, calculation.path, {**request, "detail": "summary"})
+            request = changed(example.request, {**short_path(calculation), path: value, "detail": "summary"})
+            response = send(client, calculation.path, request)
             assert response.status_code in {200, 422}, (path, value, response.text)

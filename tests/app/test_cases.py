@@ -8,14 +8,13 @@ from typing import Any
 
 import pytest
 
-from app.calculations import CALCULATIONS, Calculation
+from app.calculations import BY_PATH, Calculation
 from app.evaluate import evaluate, written
 from app.examples import examples
 from app.schema.fields import field_path
 from app.schema.model import Request
 from app.sources import SOURCES
 
-BY_PATH = {each.path: each for each in CALCULATIONS}
 SOLVED = ("pahl-z-arrangement", "pahl-sleeve-orbit", "milian-table-1-incompressible", "xue-pair-1-modified")
 
 

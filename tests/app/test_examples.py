@@ -1,15 +1,13 @@
 """Every example is listed, runs as it stands and answers with finite numbers."""
 
 import json
-from collections.abc import Callable
 
 import httpx
 import pytest
 
 from app.calculations import CALCULATIONS
 from app.examples import examples
-
-Post = Callable[[str, object], httpx.Response]
+from tests.support.requests import Post
 
 
 def refuse(token: str) -> float:

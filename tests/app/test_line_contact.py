@@ -1,70 +1,42 @@
 """/v1/scuffing/line-contact: the binding names, the paper's contact end to end, and what is refused."""
 
-import copy
-from collections.abc import Callable
+from collections.abc import Mapping
 from typing import Any
 
-import httpx
 import pytest
 
-from app.examples import examples
+from tests.support.requests import Post, accepted, assumptions, example, refusals, warned
 
-Post = Callable[[str, object], httpx.Response]
 PATH = "/v1/scuffing/line-contact"
 
-SECTIONS = {
-    "hertz": {"half_width_mm", "max_pressure_mpa"},
-    "dimensionless": {"moes_m", "moes_l", "slide_roll_ratio", "peclet_1", "peclet_2"},
-    "film": {"central_um", "minimum_um", "dowson_higginson_um"},
-    "pressure": {"centre_mpa", "maximum_mpa", "maximum_at_mm"},
-    "temperature": {
-        "film_max_c",
-        "surface_1_max_c",
-        "surface_2_max_c",
-        "surface_1_flash_k",
-        "surface_2_flash_k",
-    },
-    "friction": {"coefficient", "power_w_per_mm", "max_shear_stress_mpa"},
-    "heat": {
-        "generated_w_per_mm",
-        "compression_w_per_mm",
-        "to_surface_1_w_per_mm",
-        "to_surface_2_w_per_mm",
-        "convected_w_per_mm",
-        "balance_error",
-    },
-    "convergence": {"iterations", "pressure_change", "temperature_change_k", "load_error", "nodes"},
-    "curves": {
-        "x_mm",
-        "pressure_mpa",
-        "hertz_pressure_mpa",
-        "film_um",
-        "mid_film_temperature_c",
-        "surface_1_temperature_c",
-        "surface_2_temperature_c",
-    },
-    "field": {"x_mm", "film_fraction", "temperature_c"},
+NAMES = {
+    "hertz": "half_width_mm max_pressure_mpa",
+    "dimensionless": "moes_m moes_l slide_roll_ratio peclet_1 peclet_2",
+    "film": "central_um minimum_um dowson_higginson_um",
+    "pressure": "centre_mpa maximum_mpa maximum_at_mm",
+    "temperature": "film_max_c surface_1_max_c surface_2_max_c surface_1_flash_k surface_2_flash_k",
+    "friction": "coefficient power_w_per_mm max_shear_stress_mpa",
+    "heat": (
+        "generated_w_per_mm compression_w_per_mm to_surface_1_w_per_mm to_surface_2_w_per_mm convected_w_per_mm "
+        "balance_error"
+    ),
+    "convergence": "iterations pressure_change temperature_change_k load_error nodes",
+    "curves": (
+        "x_mm pressure_mpa hertz_pressure_mpa film_um mid_film_temperature_c surface_1_temperature_c "
+        "surface_2_temperature_c"
+    ),
+    "field": "x_mm film_fraction temperature_c",
 }
 
 
-def request(**changes: dict[str, Any]) -> dict[str, Any]:
-    body = copy.deepcopy(examples()["xue-line-contact"].request)
-    for section, values in changes.items():
-        body[section] = {**body.get(section, {}), **values}
-    return body
-
-
-def solved(post: Post, detail: str = "curves", **changes: dict[str, Any]) -> dict[str, Any]:
-    response = post(PATH, {**request(**changes), "detail": detail})
-    assert response.status_code == 200, response.text
-    result: dict[str, Any] = response.json()
-    return result
+def solved(post: Post, changes: Mapping[str, Any] = {}) -> dict[str, Any]:
+    return accepted(post(PATH, example("xue-line-contact", changes)))
 
 
 def test_names_of_the_contract(post: Post) -> None:
-    result = solved(post, "fields")
-    for section, names in SECTIONS.items():
-        assert names <= set(result[section]), section
+    result = solved(post, {"detail": "fields"})
+    for section, names in NAMES.items():
+        assert set(names.split()) <= set(result[section]), section
     field = result["field"]
     assert len(field["temperature_c"]) == len(field["x_mm"])
     assert {len(row) for row in field["temperature_c"]} == {len(field["film_fraction"])}
@@ -89,7 +61,7 @@ def test_point_a_arrives_in_the_units_of_its_names(post: Post) -> None:
 
 
 def test_isothermal_results_have_no_temperatures(post: Post) -> None:
-    result = solved(post, "fields", model={"thermal": False})
+    result = solved(post, {"model.thermal": False, "detail": "fields"})
     assert result["temperature"] is None
     assert result["heat"] is None
     assert result["convergence"]["temperature_change_k"] is None
@@ -98,57 +70,49 @@ def test_isothermal_results_have_no_temperatures(post: Post) -> None:
 
 
 @pytest.mark.parametrize(
-    ("changes", "code", "pointer"),
+    ("field", "value", "code"),
     [
-        ({"contact": {"speed_1_m_per_s": -4}}, "no_entrainment", "/contact/speed_1_m_per_s"),
-        ({"contact": {"speed_1_m_per_s": 0}}, "stationary_surface", "/contact/speed_1_m_per_s"),
-        ({"contact": {"speed_2_m_per_s": 0}}, "stationary_surface", "/contact/speed_2_m_per_s"),
-        ({"lubricant": {"viscosity_pa_s": 6e-5}}, "viscosity_range", "/lubricant/viscosity_pa_s"),
-        ({"contact": {"line_load_n_per_mm": 2000}}, "pressure_range", "/contact/line_load_n_per_mm"),
-        ({"contact": {"line_load_n_per_mm": 0}}, "greater_than", "/contact/line_load_n_per_mm"),
-        ({"model": {"nodes": 20}}, "greater_than_equal", "/model/nodes"),
-        ({"model": {"thermal": 1}}, "bool_type", "/model/thermal"),
+        ("contact.speed_1_m_per_s", -4, "no_entrainment"),
+        ("contact.speed_1_m_per_s", 0, "stationary_surface"),
+        ("contact.speed_2_m_per_s", 0, "stationary_surface"),
+        ("lubricant.viscosity_pa_s", 6e-5, "viscosity_range"),
+        ("contact.line_load_n_per_mm", 2000, "pressure_range"),
+        ("contact.line_load_n_per_mm", 0, "greater_than"),
+        ("model.nodes", 20, "greater_than_equal"),
+        ("model.thermal", 1, "bool_type"),
     ],
 )
-def test_what_is_refused(post: Post, changes: dict[str, dict[str, Any]], code: str, pointer: str) -> None:
-    response = post(PATH, request(**changes))
-    assert response.status_code == 422, response.text
-    assert [(error["code"], error["pointer"]) for error in response.json()["errors"]] == [(code, pointer)]
+def test_what_is_refused(post: Post, field: str, value: float, code: str) -> None:
+    assert refusals(post(PATH, example("xue-line-contact", {field: value}))) == [(code, field)]
 
 
 def test_a_surface_may_stand_still_in_an_isothermal_film(post: Post) -> None:
-    result = solved(post, contact={"speed_1_m_per_s": 0}, model={"thermal": False})
+    result = solved(post, {"contact.speed_1_m_per_s": 0, "model.thermal": False})
     assert result["film"]["minimum_um"] > 0
 
 
 def test_exchanged_surfaces_exchange_their_results(post: Post) -> None:
     result = solved(post)
-    mirrored = solved(post, contact={"speed_1_m_per_s": 3.708, "speed_2_m_per_s": 1.018})
-    assert mirrored["temperature"]["surface_2_max_c"] == pytest.approx(
-        result["temperature"]["surface_1_max_c"], abs=0.02
-    )
+    mirrored = solved(post, {"contact.speed_1_m_per_s": 3.708, "contact.speed_2_m_per_s": 1.018})
+    hottest = result["temperature"]["surface_1_max_c"]
+    assert mirrored["temperature"]["surface_2_max_c"] == pytest.approx(hottest, abs=0.02)
     assert mirrored["friction"]["coefficient"] == pytest.approx(result["friction"]["coefficient"], rel=1e-4)
 
 
 def test_the_slow_surface_is_warned_about(post: Post) -> None:
-    codes = {warning["code"]: warning["field"] for warning in solved(post)["warnings"]}
-    assert codes == {"low_peclet": "contact.speed_1_m_per_s"}
+    assert warned(solved(post)) == {"low_peclet": "contact.speed_1_m_per_s"}
 
 
 def test_rheology_is_an_assumption_until_it_is_chosen(post: Post) -> None:
-    fields = {each["field"] for each in solved(post)["assumptions"]}
-    assert {"model.rheology", "model.eyring_stress_mpa"} <= fields
-    fields = {each["field"] for each in solved(post, model={"rheology": "newtonian"})["assumptions"]}
-    assert not {"model.rheology", "model.eyring_stress_mpa"} & fields
+    rheology = {"model.rheology", "model.eyring_stress_mpa"}
+    assert rheology <= set(assumptions(solved(post)))
+    assert not rheology & set(assumptions(solved(post, {"model.rheology": "newtonian"})))
 
 
 def test_a_contact_without_solution_says_how_far_it_came(post: Post) -> None:
     contact = {"line_load_n_per_mm": 68.0028, "radius_mm": 5, "speed_1_m_per_s": 10.5, "speed_2_m_per_s": 9.5}
-    result = (
-        post(PATH, {"contact": contact, "lubricant": {"viscosity_pa_s": 0.08}, "model": {"rheology": "newtonian"}})
-        .raise_for_status()
-        .json()
-    )
+    oil, model = {"viscosity_pa_s": 0.08}, {"rheology": "newtonian"}
+    result = accepted(post(PATH, {"contact": contact, "lubricant": oil, "model": model}))
     assert result["status"] == "no_solution"
     assert set(result["residuals"]) == {"pressure_change", "temperature_change", "load_error"}
     assert result["residuals"]["pressure_change"] > 1e-5

@@ -11,14 +11,16 @@ from app.evaluate import answer, evaluate
 from app.examples import STARTER, examples
 from solvers.errors import NoSolution
 from tests.support.gear_pairs import FZG_TORQUES
-from tests.support.requests import CONTACT, COUPLING, MIST, PAIR, refused, solved
+from tests.support.requests import CONTACT, COUPLING, MIST, PAIR, example, refused, solved
 
 LOADS = PAIR | {"model": {}}
+HOT_TEETH = {"temperatures.bulk_method": "given", "temperatures.bulk_c": 95, "friction_coefficient": 0.04}
 BODIES = {
     "/v1/coupling": COUPLING,
     "/v1/pumping": MIST,
     "/v1/scuffing": PAIR,
     "/v1/scuffing/load-distribution": LOADS,
+    "/v1/drive-train": example("starter-turbo-gear-drive-train", HOT_TEETH),
 }
 
 
@@ -190,55 +192,67 @@ def test_what_excludes_what(endpoint: str, changes: dict[str, Any], message: str
     assert refused(endpoint, BODIES[endpoint], changes) == message
 
 
+SCUFFING, LOAD_DISTRIBUTION, TRAIN = "/v1/scuffing", "/v1/scuffing/load-distribution", "/v1/drive-train"
+THICK = "Pa s at operating temperature is very thick; was mPa s meant?"
+VACUUM = "1.01 kPa is nearly a vacuum; was bar meant?"
+EXCHANGED = "°C; are they exchanged?"
+GROUND = "µm is less than can be ground; was mm meant?"
+NARROW = "mm is below half a module; were cm or inches meant?"
+DIAMETER = "13 mm is beyond 4 modules; is it a diameter?"
+FAST = "m/s, beyond 250; is it the speed of another shaft?"
+SLACK = "N/mm at most; were kW or kN m meant?"
+
+
 @pytest.mark.parametrize(
     ("endpoint", "changes", "message"),
     [
+        (SCUFFING, {"lubricant.viscosity_pa_s": 25}, f"25 {THICK}"),
+        (TRAIN, {"lubricant.viscosity_pa_s": 9.5}, f"9.5 {THICK}"),
+        (TRAIN, {"pinion_shaft.bearings.0.viscosity_pa_s": 14}, f"14 {THICK}"),
+        (TRAIN, {"wheel_shaft.bearings.1.viscosity_pa_s": 18}, f"18 {THICK}"),
+        (TRAIN, {"couplings.0.lubricant.viscosity_pa_s": 25}, f"25 {THICK}"),
+        ("/v1/pumping", {"ambient.pressure_kpa": 1.01}, VACUUM),
+        (TRAIN, {"ambient.pressure_kpa": 1.01}, VACUUM),
+        (LOAD_DISTRIBUTION, {"modifications.tip_relief_um": 0.03}, f"0.03 {GROUND}"),
+        (TRAIN, {"modifications.helix_slope_um": 0.05}, f"0.05 {GROUND}"),
+        (LOAD_DISTRIBUTION, {"gears.face_width_mm": 1.2}, f"1.2 {NARROW}"),
+        (TRAIN, {"gears.face_width_mm": 2}, f"2 {NARROW}"),
         (
-            "/v1/scuffing",
-            {"lubricant.viscosity_pa_s": 25},
-            "25 Pa s at operating temperature is very thick; was mPa s meant?",
-        ),
-        ("/v1/pumping", {"ambient.pressure_kpa": 1.01}, "1.01 kPa is nearly a vacuum; was bar meant?"),
-        (
-            "/v1/scuffing/load-distribution",
-            {"modifications.tip_relief_um": 0.03},
-            "0.03 µm is less than can be ground; was mm meant?",
-        ),
-        (
-            "/v1/scuffing/load-distribution",
-            {"gears.face_width_mm": 1.2},
-            "1.2 mm is below half a module; were cm or inches meant?",
-        ),
-        (
-            "/v1/scuffing/load-distribution",
+            LOAD_DISTRIBUTION,
             {"gears.face_width_mm": 250},
             "250 mm is beyond 3 pitch diameters of the pinion; was cm meant?",
         ),
         (
-            "/v1/scuffing/load-distribution",
+            LOAD_DISTRIBUTION,
             {"load.power_kw": 900},
             "the Hertzian pressure of 5917 MPa is beyond what steel carries; is the load too high?",
         ),
-        ("/v1/coupling", {"coupling.tooth_height_mm": 13}, "13 mm is beyond 4 modules; is it a diameter?"),
         (
-            "/v1/scuffing",
+            TRAIN,
+            {"operation.power_kw": 120e3},
+            "the tooth force of 799.8 N per mm of face and module breaks a tooth of steel; were W or N mm meant?",
+        ),
+        (LOAD_DISTRIBUTION, {"load.power_kw": 0.05}, f"the line load is 0.367 {SLACK}"),
+        (TRAIN, {"operation.power_kw": 0.01}, f"the line load is 0.605 {SLACK}"),
+        ("/v1/coupling", {"coupling.tooth_height_mm": 13}, DIAMETER),
+        (TRAIN, {"couplings.0.coupling.tooth_height_mm": 13}, DIAMETER),
+        (
+            SCUFFING,
             {"lubricant": {"iso_vg": 220}, "temperatures.bulk_c": 86.85, "temperatures.oil_c": 95},
-            "the oil at 95 °C is hotter than the teeth at 86.85 °C; are they exchanged?",
+            f"the oil at 95 °C is hotter than the teeth at 86.85 {EXCHANGED}",
         ),
+        (TRAIN, {"temperatures.oil_c": 120}, f"the oil at 120 °C is hotter than the teeth at 95 {EXCHANGED}"),
+        (LOAD_DISTRIBUTION, {"load.pinion_speed_rpm": 100000}, f"the pitch-line velocity is 366.6 {FAST}"),
+        (TRAIN, {"operation.pinion_speed_rpm": 25000}, f"the pitch-line velocity is 312.6 {FAST}"),
         (
-            "/v1/scuffing/load-distribution",
-            {"load.pinion_speed_rpm": 100000},
-            "the pitch-line velocity is 366.6 m/s, beyond 250; is it the speed of another shaft?",
-        ),
-        (
-            "/v1/scuffing/load-distribution",
+            LOAD_DISTRIBUTION,
             {"modifications.tip_relief_um": 20, "modifications.tip_relief_length_mm": 30},
             "the relief is 30 mm long, the path of contact 14.28 mm; is that a radius?",
         ),
         (
-            "/v1/scuffing/load-distribution",
-            {"load.power_kw": 0.05},
-            "the line load is 0.367 N/mm at most; were kW or kN m meant?",
+            TRAIN,
+            {"modifications.tip_relief_length_mm": 60},
+            "the relief is 60 mm long, the path of contact 31.36 mm; is that a radius?",
         ),
     ],
 )

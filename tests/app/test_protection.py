@@ -12,18 +12,20 @@ from app.examples import examples
 from app.settings import Settings
 
 
+def answer_to(client: httpx.Client, sent: bytes) -> bytes:
+    """Everything that the service answers on a connection of one's own before it closes it."""
+    target = urlsplit(str(client.base_url))
+    with socket.create_connection((target.hostname, target.port), timeout=60) as connection:
+        connection.sendall(sent)
+        return b"".join(iter(lambda: connection.recv(65536), b""))
+
+
 def test_an_old_client_gets_no_chunks(client: httpx.Client) -> None:
     request = examples()["pahl-axial-displacement"]
     axis = {"path": "operation.speed_rpm", "start": 100, "stop": 200, "count": 5}
     body = json.dumps({"endpoint": request.endpoint, "request": request.request, "vary": [axis]}).encode()
     head = b"POST /v1/sweep HTTP/1.0\r\nContent-Type: application/json\r\nContent-Length: %d\r\n\r\n" % len(body)
-    target = urlsplit(str(client.base_url))
-    answer = b""
-    with socket.create_connection((target.hostname, target.port), timeout=60) as connection:
-        connection.sendall(head + body)
-        while piece := connection.recv(65536):
-            answer += piece
-    headers, _, content = answer.partition(b"\r\n\r\n")
+    headers, _, content = answer_to(client, head + body).partition(b"\r\n\r\n")
     assert b" 200 " in headers
     assert b"transfer-encoding" not in headers.lower()
     assert b"content-length: %d" % len(content) in headers.lower()
@@ -47,15 +49,12 @@ def test_headers_of_every_answer(client: httpx.Client) -> None:
         assert "server" not in headers
 
 
-def test_announced_large_body(client: httpx.Client) -> None:
-    response = client.post("/v1/coupling", content=b" " * (Settings().max_body_bytes + 1))
-    assert response.status_code == 413
-    assert response.headers["content-type"] == "application/problem+json"
-
-
-def test_unannounced_large_body(client: httpx.Client) -> None:
-    chunks = (b" " * 65536 for _ in range(Settings().max_body_bytes // 65536 + 2))
-    response = client.post("/v1/coupling", content=chunks, headers={"Content-Type": "application/json"})
+@pytest.mark.parametrize("announced", [True, False])
+def test_large_bodies(client: httpx.Client, *, announced: bool) -> None:
+    size = Settings().max_body_bytes + 1
+    content = b" " * size if announced else (b" " * 65536 for _ in range(size // 65536 + 2))
+    headers = {} if announced else {"Content-Type": "application/json"}
+    response = client.post("/v1/coupling", content=content, headers=headers)
     assert response.status_code == 413
     assert response.headers["content-type"] == "application/problem+json"
 
@@ -70,13 +69,8 @@ def test_a_refused_request_does_not_cost_the_answer_to_the_one_before(client: ht
     body = json.dumps(example.request).encode()
     head = f"POST {example.endpoint} HTTP/1.1\r\nHost: a\r\nContent-Type: application/json\r\n"
     calculation = f"{head}Content-Length: {len(body)}\r\n\r\n".encode() + body
-    target = urlsplit(str(client.base_url))
-    answer = b""
-    with socket.create_connection((target.hostname, target.port), timeout=60) as connection:
-        connection.sendall(calculation + b"GET /healthz HTTP/1.1\r\nHost: a\r\nX-Padding: %s\r\n\r\n" % (b"x" * 20_000))
-        while piece := connection.recv(65536):
-            answer += piece
-    first, _, second = answer.partition(b"HTTP/1.1 431 ")
+    too_large = b"GET /healthz HTTP/1.1\r\nHost: a\r\nX-Padding: %s\r\n\r\n" % (b"x" * 20_000)
+    first, _, second = answer_to(client, calculation + too_large).partition(b"HTTP/1.1 431 ")
     assert first.startswith(b"HTTP/1.1 200 ")
     assert second
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from app.calculations import CALCULATIONS
+from app.calculations import BY_PATH, CALCULATIONS
 from app.schema.fields import ITEM, Leaf, headlines, leaf_at, leaves
 from app.schema.model import Documented
 from app.schema.quantities import split_unit
@@ -150,34 +150,27 @@ def oil_law(leaf: Leaf) -> bool:
     return leaf.path in {"lubricant.pressure_viscosity_law", "lubricant.compressible"}
 
 
-def test_terms_of_the_field() -> None:
-    request, answer = next((each.request, each.response) for each in CALCULATIONS if each.path == "/v1/scuffing")
-    terms = {
-        "modifications.lead_crowning_um": ("helix crowning", "C_β"),
-        "temperatures.bulk_c": ("bulk temperature", "θ_M"),
-        "temperatures.scuffing_c": ("scuffing temperature", "θ_S"),
-    }
-    for path, (title, symbol) in terms.items():
-        leaf = leaf_at(request, path)
-        assert leaf is not None
-        assert (leaf.title, leaf.declared.symbol) == (title, symbol)
-    terms = {
-        "film.thickness_ratio": ("specific film thickness", "λ"),
-        "safety.blok_factor": ("safety factor (flash temperature method)", "S_B"),
-        "load.face_load_factor": ("face load factor", "K_Hβ"),
-        "load.max_at.gamma": ("profile parameter, place of the largest line load", "Γ"),
-        "pressure.max_at.gamma": ("profile parameter, place of the largest pressure", "Γ"),
-    }
-    for path, (title, symbol) in terms.items():
-        leaf = leaf_at(answer, path)
-        assert leaf is not None
-        assert (leaf.title, leaf.declared.symbol) == (title, symbol)
+@pytest.mark.parametrize(
+    ("model", "path", "title", "symbol"),
+    [
+        ("request", "modifications.lead_crowning_um", "helix crowning", "C_β"),
+        ("request", "temperatures.bulk_c", "bulk temperature", "θ_M"),
+        ("request", "temperatures.scuffing_c", "scuffing temperature", "θ_S"),
+        ("response", "film.thickness_ratio", "specific film thickness", "λ"),
+        ("response", "safety.blok_factor", "safety factor (flash temperature method)", "S_B"),
+        ("response", "load.face_load_factor", "face load factor", "K_Hβ"),
+        ("response", "load.max_at.gamma", "profile parameter, place of the largest line load", "Γ"),
+        ("response", "pressure.max_at.gamma", "profile parameter, place of the largest pressure", "Γ"),
+    ],
+)
+def test_terms_of_the_field(model: str, path: str, title: str, symbol: str) -> None:
+    leaf = leaf_at(getattr(BY_PATH["/v1/scuffing"], model), path)
+    assert (leaf.title, leaf.declared.symbol) == (title, symbol)
 
 
 def test_list_items_are_found_by_their_index() -> None:
-    pumping = next(each.request for each in CALCULATIONS if each.path == "/v1/pumping")
+    pumping = BY_PATH["/v1/pumping"].request
     leaf = leaf_at(pumping, "grooves.12.width_mm")
-    assert leaf is not None
     assert leaf.path == "grooves.*.width_mm"
     assert (leaf.unit, leaf.kind, leaf.declared.bounds) == ("mm", "number", {"ge": 0.01, "le": 5000})
     assert leaf_at(pumping, "grooves.width_mm") is None
@@ -185,9 +178,7 @@ def test_list_items_are_found_by_their_index() -> None:
 
 
 def test_choices_are_the_solvers() -> None:
-    pumping = next(each.request for each in CALCULATIONS if each.path == "/v1/pumping")
-    flow = leaf_at(pumping, "model.flow")
-    assert flow is not None
+    flow = leaf_at(BY_PATH["/v1/pumping"].request, "model.flow")
     assert flow.options == ("gas_dynamics", "pocket_chain", "incompressible")
     assert (flow.default, flow.kind) == ("gas_dynamics", "text")
 

@@ -1,16 +1,13 @@
 """The contract of /v1/scuffing/load-distribution and /v1/scuffing."""
 
-import copy
-from collections.abc import Callable
+from collections.abc import Mapping
 from typing import Any
 
-import httpx
 import pytest
 
 from app.examples import examples
-from tests.support.requests import changed
+from tests.support.requests import GONE, Post, accepted, assumptions, example, refusals, warned
 
-Post = Callable[[str, object], httpx.Response]
 DISTRIBUTION, SCUFFING = "/v1/scuffing/load-distribution", "/v1/scuffing"
 
 SECTIONS = {
@@ -46,27 +43,26 @@ SCUFFING_SECTIONS = {
 }
 
 
-def request(name: str = "xue-pair-1", **changes: dict[str, Any]) -> dict[str, Any]:
-    """An example with some fields of its sections changed."""
-    body = copy.deepcopy(examples()[name].request)
-    for section, values in changes.items():
-        body[section] = {**body.get(section, {}), **values}
-    return body
+def distribution(post: Post, changes: Mapping[str, Any] = {}, name: str = "xue-pair-1") -> dict[str, Any]:
+    """The load distribution of an example with changes."""
+    return accepted(post(DISTRIBUTION, example(name, changes)))
+
+
+def scuffing(post: Post, changes: Mapping[str, Any] = {}) -> dict[str, Any]:
+    """The scuffing of an example with changes."""
+    return accepted(post(SCUFFING, example("xue-pair-1-scuffing", changes)))
 
 
 def test_every_field_of_the_contract_is_there(post: Post) -> None:
-    for path, name, sections in (
-        (DISTRIBUTION, "xue-pair-1", SECTIONS),
-        (SCUFFING, "xue-pair-1-scuffing", SECTIONS | SCUFFING_SECTIONS),
-    ):
-        result = post(path, {**request(name), "detail": "fields"}).json()
+    loads, result = distribution(post, {"detail": "fields"}), scuffing(post, {"detail": "fields"})
+    for answer, sections in ((loads, SECTIONS), (result, SECTIONS | SCUFFING_SECTIONS)):
         for section, fields in sections.items():
-            assert set(fields.split()) <= set(result[section]), section
+            assert set(fields.split()) <= set(answer[section]), section
     assert result["unsolved_points"] == 0
 
 
 def test_arrays_of_a_group_have_one_length(post: Post) -> None:
-    result = post(DISTRIBUTION, {**request(model={"feature_points": 31}), "detail": "fields"}).json()
+    result = distribution(post, {"model.feature_points": 31, "detail": "fields"})
     assert {len(values) for values in result["feature_line"].values()} == {31}
     for section in ("contact_lines", "stiffness", "transmission_error"):
         assert len({len(values) for values in result[section]["curves"].values()}) == 1
@@ -77,7 +73,7 @@ def test_arrays_of_a_group_have_one_length(post: Post) -> None:
 
 
 def test_numbers_arrive_in_the_units_of_their_names(post: Post) -> None:
-    result = post(DISTRIBUTION, {**request(), "detail": "curves"}).json()
+    result = distribution(post, {"detail": "curves"})
     assert result["geometry"]["transverse_contact_ratio"] == pytest.approx(1.5914, abs=6e-5)
     assert result["contact_lines"]["min_length_mm"] == pytest.approx(20.2608, abs=1e-4)
     assert result["transmission_error"]["peak_to_peak_um"] == pytest.approx(8.80, rel=6e-3)
@@ -91,7 +87,7 @@ def test_numbers_arrive_in_the_units_of_their_names(post: Post) -> None:
 
 
 def test_scuffing_arrives_in_the_units_of_its_names(post: Post) -> None:
-    result = post(SCUFFING, request("xue-pair-1-scuffing")).json()
+    result = scuffing(post)
     assert result["flash"]["blok_max_k"] == pytest.approx(71.5, abs=0.1)
     assert result["flash"]["blok_at_psi"] == 0.0
     assert result["contact_temperature"]["blok_max_c"] == pytest.approx(86.85 + 71.5, abs=0.1)
@@ -105,54 +101,36 @@ def test_scuffing_arrives_in_the_units_of_its_names(post: Post) -> None:
 
 
 def test_safety_is_null_without_a_scuffing_temperature(post: Post) -> None:
-    body = request("xue-pair-1-scuffing")
-    body["temperatures"].pop("scuffing_c")
-    assert post(SCUFFING, body).json()["safety"] is None
+    assert scuffing(post, {"temperatures.scuffing_c": GONE})["safety"] is None
 
 
 def test_power_and_torque_are_two_ways_to_say_one_thing(post: Post) -> None:
-    by_power = post(DISTRIBUTION, request()).json()
-    body = request()
-    body["load"] = {"pinion_torque_n_m": by_power["load"]["pinion_torque_n_m"], "pinion_speed_rpm": 2000}
-    by_torque = post(DISTRIBUTION, body).json()
+    by_power = distribution(post)
+    load = {"pinion_torque_n_m": by_power["load"]["pinion_torque_n_m"], "pinion_speed_rpm": 2000}
+    by_torque = distribution(post, {"load": load})
     assert by_torque["pressure"]["max_mpa"] == pytest.approx(by_power["pressure"]["max_mpa"], rel=1e-12)
 
 
+PINION, WHEEL = "gears.pinion", "gears.wheel"
 REFUSED: list[tuple[str, dict[str, Any], tuple[str, str]]] = [
-    (DISTRIBUTION, {"load": {"pinion_speed_rpm": 2000}}, ("torque_or_power", "/load")),
-    (DISTRIBUTION, {"load.pinion_torque_n_m": 200}, ("torque_or_power", "/load")),
-    (DISTRIBUTION, {"gears.centre_distance_mm": 80}, ("flank_interference", "/gears/centre_distance_mm")),
-    (DISTRIBUTION, {"gears.centre_distance_mm": 95}, ("no_mesh", "/gears/centre_distance_mm")),
+    (DISTRIBUTION, {"load": {"pinion_speed_rpm": 2000}}, ("torque_or_power", "load")),
+    (DISTRIBUTION, {"load.pinion_torque_n_m": 200}, ("torque_or_power", "load")),
+    (DISTRIBUTION, {"gears.centre_distance_mm": 80}, ("flank_interference", "gears.centre_distance_mm")),
+    (DISTRIBUTION, {"gears.centre_distance_mm": 95}, ("no_mesh", "gears.centre_distance_mm")),
+    (DISTRIBUTION, {PINION: {"teeth": 12, "profile_shift": 0.9}}, ("pointed_tooth", f"{PINION}.addendum")),
+    (DISTRIBUTION, {f"{PINION}.dedendum": 0.95}, ("no_tip_clearance", f"{PINION}.dedendum")),
     (
         DISTRIBUTION,
-        {"gears.pinion": {"teeth": 12, "profile_shift": 0.9}},
-        ("pointed_tooth", "/gears/pinion/addendum"),
+        {"gears.helix_angle_deg": 0, f"{PINION}.addendum": 0.5, f"{WHEEL}.addendum": 0.5},
+        ("no_contact", f"{PINION}.addendum"),
     ),
-    (
-        DISTRIBUTION,
-        {"gears.pinion": {"teeth": 23, "dedendum": 0.95}},
-        ("no_tip_clearance", "/gears/pinion/dedendum"),
-    ),
-    (
-        DISTRIBUTION,
-        {
-            "gears.helix_angle_deg": 0,
-            "gears.pinion": {"teeth": 23, "addendum": 0.5},
-            "gears.wheel": {"teeth": 30, "addendum": 0.5},
-        },
-        ("no_contact", "/gears/pinion/addendum"),
-    ),
-    (
-        DISTRIBUTION,
-        {"gears.module_mm": 0.03, "gears.helix_angle_deg": 30},
-        ("overlap_range", "/gears/face_width_mm"),
-    ),
+    (DISTRIBUTION, {"gears.module_mm": 0.03, "gears.helix_angle_deg": 30}, ("overlap_range", "gears.face_width_mm")),
     (
         DISTRIBUTION,
         {"model.tooth_stiffness": "parabola", "model.contact": "hertzian"},
-        ("contact_law", "/model/contact"),
+        ("contact_law", "model.contact"),
     ),
-    (SCUFFING, {"temperatures.scuffing_c": 50}, ("scuffing_temperature", "/temperatures/scuffing_c")),
+    (SCUFFING, {"temperatures.scuffing_c": 50}, ("scuffing_temperature", "temperatures.scuffing_c")),
 ]
 
 
@@ -160,11 +138,8 @@ REFUSED: list[tuple[str, dict[str, Any], tuple[str, str]]] = [
 def test_impossible_gears_and_contradictions_are_named(
     post: Post, path: str, changes: dict[str, Any], expected: tuple[str, str]
 ) -> None:
-    body = request("xue-pair-1" if path == DISTRIBUTION else "xue-pair-1-scuffing")
-    response = post(path, changed(body, changes))
-    assert response.status_code == 422, response.text
-    (only,) = response.json()["errors"]
-    assert (only["code"], only["pointer"]) == expected
+    name = "xue-pair-1" if path == DISTRIBUTION else "xue-pair-1-scuffing"
+    assert refusals(post(path, example(name, changes))) == [expected]
 
 
 @pytest.mark.parametrize(
@@ -181,7 +156,7 @@ def test_a_path_that_reaches_a_base_circle_has_no_verdict(post: Post, lubricatio
         "temperatures": {"scuffing_c": 300, "bulk_c": 86.85},
         "model": {"lubrication": lubrication, "path_points": points},
     }
-    result = post(SCUFFING, body).json()
+    result = accepted(post(SCUFFING, body))
     assert result["status"] == "ok_with_warnings"
     assert (result["pressure"]["max_mpa"], result["pressure"]["max_at"]) == (None, None)
     assert (result["flash"]["blok_max_k"], result["flash"]["blok_at_psi"]) == (None, None)
@@ -192,48 +167,41 @@ def test_a_path_that_reaches_a_base_circle_has_no_verdict(post: Post, lubricatio
 
 
 def test_pressure_is_null_where_the_path_reaches_a_base_circle(post: Post) -> None:
-    body = request(gears={"pinion": {"teeth": 10}, "wheel": {"teeth": 60}})
-    result = post(DISTRIBUTION, {**body, "detail": "fields"}).json()
+    result = distribution(post, {PINION: {"teeth": 10}, WHEEL: {"teeth": 60}, "detail": "fields"})
     assert result["geometry"]["undercut"] is True
     assert result["feature_line"]["pressure_mpa"][0] is None
     assert set(result["flank"]["pressure_mpa"][0]) == {None}
-    assert {"undercut", "path_reaches_base_circle"} <= {warning["code"] for warning in result["warnings"]}
+    assert {"undercut", "path_reaches_base_circle"} <= set(warned(result))
 
 
 def test_without_load_what_has_no_meaning_is_null(post: Post) -> None:
-    result = post(DISTRIBUTION, request(load={"power_kw": 0})).json()
+    result = distribution(post, {"load.power_kw": 0})
     assert result["load"]["max_at"] is None
     assert result["stiffness"]["mean_mesh_n_per_mm_um"] is None
     assert result["friction_loss"]["loss_factor"] is None
     assert result["feature_line"]["load_sharing"] is None
-    assert "no_load" in {warning["code"] for warning in result["warnings"]}
+    assert "no_load" in warned(result)
 
 
 def test_relief_lengths_are_assumptions_only_where_there_is_relief(post: Post) -> None:
-    def assumed(name: str) -> dict[str, Any]:
-        return {each["field"]: each["value"] for each in post(DISTRIBUTION, request(name)).json()["assumptions"]}
-
-    assert "modifications.tip_relief_length_mm" not in assumed("xue-pair-1")
-    relieved = assumed("xue-pair-1-modified")
+    assert "modifications.tip_relief_length_mm" not in assumptions(distribution(post))
+    relieved = assumptions(distribution(post, name="xue-pair-1-modified"))
     assert relieved["modifications.tip_relief_length_mm"] == pytest.approx(0.5914 * 8.9721, rel=1e-3)
     assert relieved["modifications.relief_exponent"] == 1
     assert "modifications.root_relief_length_mm" not in relieved
 
 
 def test_our_choices_are_assumptions_until_they_are_made(post: Post) -> None:
-    body = request()
-    body.pop("model")
-    assumed = {each["field"] for each in post(DISTRIBUTION, body).json()["assumptions"]}
-    assert {"model.contact", "model.section"} <= assumed
-    chosen = {each["field"] for each in post(DISTRIBUTION, request()).json()["assumptions"]}
-    assert not {"model.contact", "model.section"} & chosen
+    choices = {"model.contact", "model.section"}
+    assert choices <= set(assumptions(distribution(post, {"model": GONE})))
+    assert not choices & set(assumptions(distribution(post)))
 
 
 def test_a_rack_in_the_transverse_plane_is_the_same_gear(post: Post) -> None:
-    normal = post(DISTRIBUTION, request()).json()
+    normal = distribution(post)
     # 3 mm / cos(9.8 deg); atan(tan(20 deg) / cos(9.8 deg))
-    transverse = {"module_plane": "transverse", "module_mm": 3.04442552, "pressure_angle_deg": 20.27239}
-    same = post(DISTRIBUTION, request(gears=transverse)).json()
+    transverse = {"gears.module_mm": 3.04442552, "gears.pressure_angle_deg": 20.27239}
+    same = distribution(post, {"gears.module_plane": "transverse", **transverse})
     assert same["geometry"]["centre_distance_mm"] == pytest.approx(normal["geometry"]["centre_distance_mm"], rel=1e-6)
     assert same["pressure"]["max_mpa"] == pytest.approx(normal["pressure"]["max_mpa"], rel=1e-4)
 
@@ -245,30 +213,19 @@ def test_examples_cover_the_papers_cases() -> None:
 
 
 def test_the_rack_tip_radius_assumed_is_the_one_used(post: Post) -> None:
-    steep = request(gears={"pressure_angle_deg": 25})
-    steep["gears"].pop("rack_tip_radius", None)
-    result = post(DISTRIBUTION, steep).json()
-    assumed = {each["field"]: each["value"] for each in result["assumptions"]}
-    assert assumed["gears.rack_tip_radius"] == pytest.approx(0.31788, abs=5e-6)
-    assert "rack_tip_radius" in {warning["code"] for warning in result["warnings"]}
-    usual = post(DISTRIBUTION, request()).json()["assumptions"]
-    assert {each["value"] for each in usual if each["field"] == "gears.rack_tip_radius"} <= {0.38}
+    steep = distribution(post, {"gears.pressure_angle_deg": 25, "gears.rack_tip_radius": GONE})
+    assert assumptions(steep)["gears.rack_tip_radius"] == pytest.approx(0.31788, abs=5e-6)
+    assert "rack_tip_radius" in warned(steep)
+    assert assumptions(distribution(post))["gears.rack_tip_radius"] == 0.38
 
 
-@pytest.mark.parametrize("modified", [{}, {"tip_relief_um": 5, "lead_crowning_um": 10}])
-def test_a_tiny_torque_is_answered_and_named(post: Post, modified: dict[str, float]) -> None:
-    body = request(modifications=modified)
-    body["load"] = {"pinion_torque_n_m": 1e-30, "pinion_speed_rpm": 2000}
-    response = post(DISTRIBUTION, body)
-    assert response.status_code == 200
-    warnings = {warning["code"]: warning["field"] for warning in response.json()["warnings"]}
-    assert warnings["no_load"] == "load.pinion_torque_n_m"
-    body["load"] = {"power_kw": 0, "pinion_speed_rpm": 2000}
-    warnings = {each["code"]: each["field"] for each in post(DISTRIBUTION, body).json()["warnings"]}
-    assert warnings["no_load"] == "load.power_kw"
+@pytest.mark.parametrize("modified", [{}, {"modifications": {"tip_relief_um": 5, "lead_crowning_um": 10}}])
+def test_a_tiny_torque_is_answered_and_named(post: Post, modified: dict[str, Any]) -> None:
+    for field, load in (("pinion_torque_n_m", 1e-30), ("power_kw", 0)):
+        body = {"load": {field: load, "pinion_speed_rpm": 2000}, **modified}
+        assert warned(distribution(post, body))["no_load"] == f"load.{field}"
 
 
 def test_a_relief_beyond_the_path_points_at_its_length(post: Post) -> None:
-    body = request(modifications={"root_relief_um": 5, "root_relief_length_mm": 100})
-    warnings = {each["code"]: each["field"] for each in post(DISTRIBUTION, body).json()["warnings"]}
-    assert warnings["unusual_value"] == "modifications.root_relief_length_mm"
+    result = distribution(post, {"modifications.root_relief_um": 5, "modifications.root_relief_length_mm": 100})
+    assert warned(result)["unusual_value"] == "modifications.root_relief_length_mm"

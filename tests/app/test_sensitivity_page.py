@@ -3,6 +3,7 @@
 import asyncio
 import re
 from collections.abc import Callable
+from dataclasses import replace
 from html import unescape
 from types import SimpleNamespace
 from typing import Any
@@ -11,23 +12,20 @@ import httpx
 import pytest
 
 from app.http.routes import study_pages
-from app.pages.query import pairs_of_query, split_views
 from app.pages.studies import page as pages
 from app.pages.studies.sensitivity import MOST_ROWS, SensitivityPage
 from app.pages.studies.sweep import SweepPage
 from app.pages.typesetting import shown
 from app.pages.views import Asked
-from tests.support.pages import asked
-from tests.support.studies import lines_of
+from tests.support.pages import asked, asked_by, checked, lines_of, opened, whole
 
-MOST, DEADLINE_S = 2500, 30.0
 COUPLING = "pahl-axial-displacement"
 
 
 def result_of(found: Asked) -> tuple[list[dict[str, Any]], str]:
-    study = pages.opened(SensitivityPage, found, MOST, DEADLINE_S).page
-    lines = lines_of(study.study)
-    return lines, unescape(pages.drawn(study, lines).decode())
+    study = checked(SensitivityPage, found)
+    lines = lines_of(study)
+    return lines, whole(study, lines)
 
 
 @pytest.mark.parametrize(
@@ -48,13 +46,11 @@ def test_the_table_says_what_the_study_says(name: str) -> None:
     for line, (address, _, cells) in zip(moved, rows, strict=False):
         assert f">{shown(line['change'], 4)}<" in cells
         assert f">{shown(line['elasticity'], 3)}<" in cells
-        path, _, query = address.partition("?")
-        pairs, said = split_views(pairs_of_query(query))
-        assert path == f"{found.path}/vary"
-        assert pairs == found.pairs
-        assert said["x"] == line["path"]
-    first = Asked(found.path, *split_views(pairs_of_query(rows[0][0].partition("?")[2])))
-    assert pages.checked(SweepPage, first, MOST, DEADLINE_S).study.total > 1
+        curve = asked_by(address)
+        assert (curve.path, curve.pairs) == (f"{found.path}/vary", found.pairs)
+        assert curve.views["x"] == line["path"]
+    first = replace(asked_by(rows[0][0]), path=found.path)
+    assert checked(SweepPage, first).study.total > 1
 
 
 def test_the_figure_shows_the_most_influential_first() -> None:
@@ -67,30 +63,22 @@ def test_the_figure_shows_the_most_influential_first() -> None:
 
 
 def test_a_case_without_the_output_says_so() -> None:
-    study = pages.opened(SensitivityPage, asked(COUPLING), MOST, DEADLINE_S).page
-    *lines, end = lines_of(study.study)
+    study = checked(SensitivityPage, asked(COUPLING))
+    *lines, end = lines_of(study)
     nothing = [{**line, "change": None, "derivative": None} for line in lines]
     without = {**end, "outputs": [{**end["outputs"][0], "value": None}]}
-    assert "The case has no thrust to be held" in pages.drawn(study, [*nothing, without]).decode()
+    assert "The case has no thrust to be held" in whole(study, [*nothing, without])
     still = [{**line, "change": 0.0, "derivative": 0.0} for line in lines]
-    assert "No input moves the thrust to be held" in pages.drawn(study, [*still, end]).decode()
-
-
-def test_a_study_that_breaks_off_says_why() -> None:
-    study = pages.opened(SensitivityPage, asked(COUPLING), MOST, DEADLINE_S).page
-    page = pages.drawn(study, [{"type": "error", "code": "study_deadline", "message": "<b>too long</b>", "done": 3}])
-    assert "&lt;b&gt;too long&lt;/b&gt;" in page.decode()
+    assert "No input moves the thrust to be held" in whole(study, [*still, end])
 
 
 @pytest.mark.parametrize(
-    ("said", "message"),
-    [({"show": "axial_thrust"}, "is a section"), ({"show": "<script>"}, "there is no <script>")],
+    ("output", "message"), [("axial_thrust", "is a section"), ("<script>", "there is no <script>")]
 )
-def test_a_wrong_output_is_refused(said: dict[str, str], message: str) -> None:
-    opened = pages.opened(SensitivityPage, asked(COUPLING, **said), MOST, DEADLINE_S)
-    assert opened.status == 422
-    assert b"<script>" not in opened.head.partition(b"<body>")[2]
-    assert message in unescape(opened.head.decode())
+def test_a_wrong_output_is_refused(output: str, message: str) -> None:
+    html = opened(SensitivityPage, asked(COUPLING, show=output), 422)
+    assert "<script>" not in html.partition("<body>")[2]
+    assert message in unescape(html)
 
 
 def test_the_page_by_its_address(client: httpx.Client) -> None:

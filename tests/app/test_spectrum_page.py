@@ -1,6 +1,7 @@
 """The page of a load spectrum: a pasted table and tolerances make the study, whose numbers and links it shows."""
 
 import re
+from dataclasses import replace
 from html import unescape
 from typing import Any
 from urllib.parse import urlencode
@@ -11,34 +12,25 @@ import pytest
 from app.calculations import BY_PATH
 from app.errors import Unprocessable
 from app.examples import examples
-from app.pages.query import pairs_of, pairs_of_query, split_views
+from app.pages.query import pairs_of
 from app.pages.studies import page as pages
 from app.pages.studies.page import StudyPage
 from app.pages.studies.spectrum import SpectrumPage, address_of, cases_of, table_of
-from app.pages.templating import page_path
-from app.pages.views import Asked
 from app.studies.requests import EXAMPLES
 from app.studies.spectrum import Spectrum
-from tests.support.studies import lines_of
+from tests.support.pages import DEADLINE_S, asked, asked_by, checked, fault_at, lines_of, whole
 
 SCUFFING = BY_PATH["/v1/scuffing"]
-MOST, DEADLINE_S = 20_000, 30.0
-COUPLING = examples()["pahl-axial-displacement"]
+MOST = 20_000
+COUPLING = "pahl-axial-displacement"
+CASE = pairs_of(examples()[COUPLING].request)
 TABLE = "name\tshare\tload.power_kw\ttemperatures.oil_c\nstart\t2 %\t2000,5\t40\nfull load\t0.98\t\t\n"
 
 
-def asked(**said: str) -> Asked:
-    return Asked(page_path(BY_PATH[COUPLING.endpoint]), pairs_of(COUPLING.request), said)
-
-
-def checked(found: Asked) -> StudyPage:
-    return pages.checked(SpectrumPage, found, MOST, DEADLINE_S)
-
-
-def shown(study: StudyPage) -> tuple[dict[str, Any], str]:
-    """The last line of a study, and what its page shows."""
-    lines = [line for line in lines_of(study.study) if line["type"] != "progress"]
-    return lines[-1], unescape(pages.drawn(study, lines).decode())
+def studied(study: StudyPage) -> tuple[list[dict[str, Any]], str]:
+    """The lines of a study but those of its progress, and what its page shows."""
+    lines = [line for line in lines_of(study) if line["type"] != "progress"]
+    return lines, whole(study, lines)
 
 
 def test_a_table_as_a_spreadsheet_copies_it() -> None:
@@ -69,8 +61,9 @@ def test_ready_studies_are_those_of_the_interface(name: str) -> None:
     """The query of a starter makes the machines and cases of the example."""
     body = EXAMPLES["/v1/spectrum"][name]["value"]
     calculation = BY_PATH[body["endpoint"]]
-    path, _, query = address_of(calculation, pairs_of(body["request"]), body).partition("?")
-    study = checked(Asked(path.removesuffix("/spectrum"), *split_views(pairs_of_query(query)))).study
+    question = asked_by(address_of(calculation, pairs_of(body["request"]), body))
+    path = question.path.removesuffix("/spectrum")
+    study = pages.checked(SpectrumPage, replace(question, path=path), MOST, DEADLINE_S).study
     tolerances = {**body["tolerances"], "count": 32, "replicates": 8}
     own = Spectrum({**body, "tolerances": tolerances}, MOST, DEADLINE_S)
     assert isinstance(study, Spectrum)
@@ -112,32 +105,28 @@ SAID = {
 
 
 def test_the_page_shows_what_the_study_says() -> None:
-    study = checked(asked(**SAID))
-    end, page = shown(study)
-    (limit,) = end["limits"]
+    lines, page = studied(checked(SpectrumPage, asked(COUPLING, **SAID)))
+    (limit,) = lines[-1]["limits"]
     assert "robability of being above the limit" in page
     assert f"{limit['risk']} risk" in page
     for name in ("limit", "probability", "decides", "losses"):
         assert f'id="figure-{name}"' in page
     rows = re.findall(r'<tr><td><a href="([^"]+)">(low|high)</a></td>', page)
     assert [name for _, name in rows] == ["low", "high"]
-    pairs, _ = split_views(pairs_of_query(rows[1][0].partition("?")[2]))
-    assert ("operation.torque_n_m", "4500") in pairs
+    assert ("operation.torque_n_m", "4500") in asked_by(rows[1][0]).pairs
     assert "64 machines in 2 cases" in page
 
 
 def test_no_name_of_a_case_is_a_formula_in_a_spreadsheet() -> None:
-    study = checked(asked(**{**SAID, "cases": SAID["cases"].replace("low", "=1+1")}))
-    lines = [line for line in lines_of(study.study) if line["type"] != "progress"]
-    table = pages.file(study, lines, "losses", "csv")
-    assert isinstance(table, bytes)
-    assert b"\n'=1+1," in table
+    study = checked(SpectrumPage, asked(COUPLING, **{**SAID, "cases": SAID["cases"].replace("low", "=1+1")}))
+    lines, _ = studied(study)
+    assert b"\n'=1+1," in pages.file(study, lines, "losses", "csv")
 
 
 def test_a_probability_that_nobody_knows_is_no_number() -> None:
     """A limit 20 deviations away: 10^-80 is not known, and no figure draws it."""
-    end, page = shown(checked(asked(**{**SAID, "limit": "20000"})))
-    (limit,) = end["limits"]
+    lines, page = studied(checked(SpectrumPage, asked(COUPLING, **{**SAID, "limit": "20000"})))
+    (limit,) = lines[-1]["limits"]
     assert 0.0 < limit["probability"] < 1e-9
     assert "robability of being above the limit below 0.001 %: low risk" in page
     assert "The probability is below 0.001 % in every case" in page
@@ -145,8 +134,9 @@ def test_a_probability_that_nobody_knows_is_no_number() -> None:
 
 
 def test_the_nominal_machine_alone() -> None:
-    end, page = shown(checked(asked(cases="name;share\nonly;1", show="axial_thrust.force_n")))
-    assert end["points"] == 1
+    said = {"cases": "name;share\nonly;1", "show": "axial_thrust.force_n"}
+    lines, page = studied(checked(SpectrumPage, asked(COUPLING, **said)))
+    assert lines[-1]["points"] == 1
     assert "state one, and there is a probability" in page
 
 
@@ -168,10 +158,9 @@ def test_the_nominal_machine_alone() -> None:
     ],
 )
 def test_what_is_wrong_stands_at_its_control(client: httpx.Client, said: dict[str, str], control: str) -> None:
-    query = urlencode([*pairs_of(COUPLING.request), *said.items()])
-    page = client.get(f"/coupling/spectrum?{query}")
+    page = client.get("/coupling/spectrum?" + urlencode([*CASE, *said.items()]))
     assert page.status_code == 422
-    assert re.search(rf'id="f\.{re.escape(control)}-fault"(?! hidden)', page.text), page.text
+    assert fault_at(page.text, control)
     assert f'href="#f.{control}"' in page.text
 
 
@@ -194,17 +183,16 @@ def test_hostile_queries_are_no_errors_of_the_service(client: httpx.Client) -> N
         "set;set\n1;2",
         "٣\n٣",
     ]
-    case = pairs_of(COUPLING.request)
     for text in texts:
         for name in ("cases", "t0", "machines", "limit", "limit.by", "limit.side", "hours", "show", "t0.law"):
             said = {"t0": "friction.coefficient", "t0.by": "0.01", "cases": "name\na", name: text}
-            page = client.get("/coupling/spectrum?" + urlencode([*case, *said.items()]), follow_redirects=True)
+            page = client.get("/coupling/spectrum?" + urlencode([*CASE, *said.items()]), follow_redirects=True)
             assert page.status_code in {200, 400, 422}, (name, text)
             assert "<script>;" not in page.text
 
 
 def test_the_page_works_from_the_case(client: httpx.Client) -> None:
-    case = client.get("/coupling?" + urlencode(pairs_of(COUPLING.request)))
+    case = client.get("/coupling?" + urlencode(CASE))
     address = unescape(re.findall(r'href="(/coupling/spectrum\?[^"]+)"', case.text)[0])
     start = client.get(address)
     assert start.status_code == 200
@@ -218,7 +206,7 @@ def test_the_page_works_from_the_case(client: httpx.Client) -> None:
 
 
 def test_the_report_has_a_section_of_its_own(client: httpx.Client) -> None:
-    query = urlencode([*pairs_of(COUPLING.request), *SAID.items(), ("project", "Pump 7")])
+    query = urlencode([*CASE, *SAID.items(), ("project", "Pump 7")])
     page = client.get(f"/coupling/spectrum?{query}")
     address = unescape(re.findall(r'href="(/coupling/spectrum/report\?[^"]+)"', page.text)[0])
     report = client.get(address)

@@ -62,27 +62,18 @@ def marks(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     return done
 
 
-def load(pool: FakePool, stage: Stage) -> None:
-    asyncio.run(StartUp(pool)._load(stage))
+SAID = "two processes died while they loaded coupling: its kernels are compiled again"
 
 
+@pytest.mark.parametrize(("deaths", "done", "said"), [(1, [], []), (2, ["discarded solvers.coupling.model"], [SAID])])
 def test_a_stage_that_kills_the_template_twice_is_compiled_again(
-    marks: list[str], caplog: pytest.LogCaptureFixture
+    marks: list[str], caplog: pytest.LogCaptureFixture, deaths: int, done: list[str], said: list[str]
 ) -> None:
-    pool = FakePool(deaths={COUPLING: 2})
-    load(pool, COUPLING)
-    assert marks == ["discarded solvers.coupling.model"]
+    pool = FakePool(deaths={COUPLING: deaths})
+    asyncio.run(StartUp(pool)._load(COUPLING))
+    assert marks == done
     assert pool.loaded == [COUPLING]
-    assert [record.message for record in caplog.records if record.levelno >= logging.WARNING] == [
-        "two processes died while they loaded coupling: its kernels are compiled again"
-    ]
-
-
-def test_one_death_of_the_template_costs_no_kernel(marks: list[str]) -> None:
-    pool = FakePool(deaths={COUPLING: 1})
-    load(pool, COUPLING)
-    assert marks == []
-    assert pool.loaded == [COUPLING]
+    assert [record.message for record in caplog.records if record.levelno >= logging.WARNING] == said
 
 
 def test_a_complete_cache_in_which_a_kernel_is_missing_is_no_longer_marked(

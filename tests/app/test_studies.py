@@ -3,7 +3,6 @@
 import csv
 import io
 import json
-from collections.abc import Callable
 from typing import Any
 
 import httpx
@@ -12,13 +11,15 @@ import pytest
 from app.calculations import BY_PATH
 from app.examples import examples
 from app.schema.fields import headlines
-from app.studies.fields import set_value, value_at
+from app.studies.design import Design
 from app.studies.requests import EXAMPLES
-
-Post = Callable[[str, object], httpx.Response]
+from app.studies.sweep import Corners
+from tests.support.requests import Post, changed, refusals, value_at
 
 COUPLING = examples()["pahl-heavily-crowned"]
 LOADS = examples()["fzg-type-a"]
+UNIT = examples()["starter-turbo-gear-drive-train"]
+CORNERS, DESIGN = "/v1/drive-train/corners", "/v1/drive-train/design"
 THRUST = "axial_thrust.force_n"
 SWEEP = {
     "endpoint": COUPLING.endpoint,
@@ -29,17 +30,17 @@ SWEEP = {
 
 
 def lines(response: httpx.Response) -> list[dict[str, Any]]:
+    """The lines of a study but those of its progress."""
     assert response.status_code == 200, response.text
-    return [json.loads(line) for line in response.text.splitlines()]
+    assert response.headers["content-type"] == "application/x-ndjson"
+    found = map(json.loads, response.text.splitlines())
+    return [line for line in found if line["type"] != "progress"]
 
 
-def without_time(text: str) -> list[dict[str, Any]]:
-    found = map(json.loads, text.splitlines())
-    return [
-        {key: value for key, value in line.items() if key != "elapsed_s"}
-        for line in found
-        if line["type"] != "progress"
-    ]
+def assert_solved(end: dict[str, Any], total: int) -> None:
+    """Every point of a study has its numbers."""
+    assert end["type"] == "end"
+    assert end["counts"].get("ok", 0) + end["counts"].get("ok_with_warnings", 0) == total
 
 
 @pytest.mark.parametrize(
@@ -51,32 +52,52 @@ def without_time(text: str) -> list[dict[str, Any]]:
     ],
 )
 def test_points_are_what_single_requests_answer(post: Post, example: Any, axis: dict[str, Any]) -> None:
-    response = post("/v1/sweep", {"endpoint": example.endpoint, "request": example.request, "vary": [axis]})
-    assert response.headers["content-type"] == "application/x-ndjson"
-    header, *points, end = [line for line in lines(response) if line["type"] != "progress"]
+    sweep = {"endpoint": example.endpoint, "request": example.request, "vary": [axis]}
+    header, *points, end = lines(post("/v1/sweep", sweep))
     assert len(points) == header["total"] == end["points"]
     outputs = [leaf.path for leaf in headlines(BY_PATH[example.endpoint].response)]
     for point in points:
-        body = json.loads(json.dumps(example.request))
-        set_value(BY_PATH[example.endpoint].request, body, axis["path"], point["at"][0])
-        single = post(example.endpoint, body).json()
+        single = post(example.endpoint, changed(example.request, {axis["path"]: point["at"][0]})).json()
         assert point["out"] == [value_at(single, path) for path in outputs]
         assert point["status"] == single["status"]
 
 
 def test_equal_requests_give_equal_lines(post: Post) -> None:
-    first, second = (post("/v1/sweep", SWEEP).text for _ in range(2))
-    assert without_time(first) == without_time(second)
+    *first, one = lines(post("/v1/sweep", SWEEP))
+    *second, other = lines(post("/v1/sweep", SWEEP))
+    assert first == second
+    assert {**one, "elapsed_s": None} == {**other, "elapsed_s": None}
 
 
-def test_refused_before_the_first_line(post: Post) -> None:
-    response = post("/v1/sweep", {**SWEEP, "vary": [{"path": "operation.misaligment_deg", "values": [1]}]})
-    assert response.status_code == 422
-    assert response.headers["content-type"] == "application/problem+json"
-    assert response.json()["type"].endswith(":unknown_path")
-    (error,) = response.json()["errors"]
-    assert error["pointer"] == "/vary/0/path"
-    assert "did you mean operation.misalignment_deg?" in error["message"]
+MISSPELT = {"vary": [{"path": "operation.misaligment_deg", "values": [1]}]}
+TOO_MANY = {"vary": [{"path": "operation.misalignment_deg", "start": 0.01, "stop": 0.05, "count": 2501}]}
+OF_UNIT = {"request": UNIT.request}
+
+
+@pytest.mark.parametrize(
+    ("path", "body", "pointer", "code", "words"),
+    [
+        (
+            "/v1/sweep",
+            SWEEP | MISSPELT,
+            "vary.0.path",
+            "unknown_path",
+            ("did you mean operation.misalignment_deg?",),
+        ),
+        ("/v1/sweep", SWEEP | TOO_MANY, "vary", "too_many_points", ("2501", "2500")),
+        (CORNERS, OF_UNIT | {"ranges": [{"path": "thermal.wall", "values": [1]}]}, "ranges.0.path", "unknown_path", ()),
+        (CORNERS, OF_UNIT | {"endpoint": "/v1/coupling"}, "endpoint", "extra_forbidden", ()),
+        (DESIGN, OF_UNIT | {"variables": []}, "variables", "too_short", ()),
+    ],
+)
+def test_refused_before_the_first_line(
+    post: Post, path: str, body: dict[str, Any], pointer: str, code: str, words: tuple[str, ...]
+) -> None:
+    response = post(path, body)
+    assert refusals(response) == [(code, pointer)]
+    assert all(word in response.json()["errors"][0]["message"] for word in words)
+    if code == "unknown_path":
+        assert response.json()["type"].endswith(f":{code}")
 
 
 def test_errors_of_the_base_request_are_its_own(post: Post) -> None:
@@ -91,19 +112,10 @@ def test_errors_of_a_point_are_the_endpoints_own(post: Post) -> None:
     _, refused, good, end = lines(
         post("/v1/sweep", {"endpoint": LOADS.endpoint, "request": LOADS.request, "cases": cases})
     )
-    body = json.loads(json.dumps(LOADS.request))
-    set_value(BY_PATH[LOADS.endpoint].request, body, "gears.pinion.addendum", 3.0)
+    body = changed(LOADS.request, cases[0])
     assert refused["error"] == post(LOADS.endpoint, body).json()["errors"][0]
     assert good["status"] in {"ok", "ok_with_warnings"}
     assert end["counts"]["refused"] == 1
-
-
-def test_more_points_than_the_setting_allows(post: Post) -> None:
-    axis = {"path": "operation.misalignment_deg", "start": 0.01, "stop": 0.05, "count": 2501}
-    (error,) = post("/v1/sweep", {**SWEEP, "vary": [axis]}).json()["errors"]
-    assert (error["pointer"], error["code"]) == ("/vary", "too_many_points")
-    assert "2501" in error["message"]
-    assert "2500" in error["message"]
 
 
 @pytest.mark.parametrize("body", [b"", b"{", b"[1]", b'{"a": 1, "a": 2}'])
@@ -136,9 +148,7 @@ def test_formats(client: httpx.Client, query: str, accept: str, media_type: str)
 
 
 def test_unknown_format(post: Post) -> None:
-    response = post("/v1/sweep?format=xlsx", SWEEP)
-    assert response.status_code == 422
-    assert response.json()["errors"][0]["pointer"] == "/format"
+    assert refusals(post("/v1/sweep?format=xlsx", SWEEP))[0][1] == "format"
 
 
 def test_table_has_the_numbers_of_the_lines(post: Post) -> None:
@@ -151,8 +161,7 @@ def test_table_has_the_numbers_of_the_lines(post: Post) -> None:
 @pytest.mark.parametrize("name", EXAMPLES["/v1/sweep"])
 def test_examples_of_sweeps(post: Post, name: str) -> None:
     *_, end = lines(post("/v1/sweep", EXAMPLES["/v1/sweep"][name]["value"]))
-    assert end["type"] == "end"
-    assert end["counts"].get("ok", 0) + end["counts"].get("ok_with_warnings", 0) == end["points"]
+    assert_solved(end, end["points"])
 
 
 @pytest.mark.parametrize("name", EXAMPLES["/v1/sensitivity"])
@@ -169,16 +178,52 @@ def test_examples_of_sensitivities(post: Post, name: str) -> None:
 def test_examples_of_spectra(post: Post, name: str) -> None:
     header, *_, end = lines(post("/v1/spectrum", EXAMPLES["/v1/spectrum"][name]["value"]))
     assert header["type"] == "spectrum"
-    assert end["counts"].get("ok", 0) + end["counts"].get("ok_with_warnings", 0) == header["total"]
+    assert_solved(end, header["total"])
     assert len(end["limits"]) == 1
 
 
-def test_documents(client: httpx.Client) -> None:
+def test_corners_on_the_workers(post: Post) -> None:
+    """The thermal film is left out, and the outputs are still those of the whole answer."""
+    ranges = [{"path": "thermal.wall_response", "values": [0.3, 1.0]}]
+    outputs = ["load.face_load_factor", "safety.blok_flank"]
+    body = {**UNIT.request, "model": {"lubrication": "thermal_ehl", "path_points": 3}}
+    _, *points, _, _, end = lines(post(CORNERS, {"request": body, "ranges": ranges, "outputs": outputs}))
+    assert end["counts"] == {"ok_with_warnings": 2}
+    single = post(UNIT.endpoint, changed(body, {"thermal.wall_response": 1.0})).json()
+    assert single["safety"]["thermal_ehl_feature"] is not None
+    assert points[1]["out"] == [value_at(single, path) for path in outputs]
+
+
+def test_a_design_on_the_workers(post: Post) -> None:
+    worked = {"request.friction_coefficient": 0.04, "request.temperatures.bulk_c": 95.0}
+    body = changed(EXAMPLES[DESIGN]["robust"]["value"], {"evaluations": 1, **worked})
+    header, trial, end = lines(post(DESIGN, body))
+    assert header["corners"] == 12
+    assert trial["objective"] == end["objective_best"] == end["objective_start"]
+    assert 1.6 < trial["objective"] < 1.63, "the nominal correction of the worked example: 1.609 with full sliding"
+
+
+@pytest.mark.parametrize("example", EXAMPLES[CORNERS].values(), ids=list(EXAMPLES[CORNERS]))
+def test_examples_of_corners_are_accepted(example: dict[str, Any]) -> None:
+    assert Corners(example["value"], 2500, 30.0).total in {12, 128}
+
+
+@pytest.mark.parametrize("example", EXAMPLES[DESIGN].values(), ids=list(EXAMPLES[DESIGN]))
+def test_examples_of_designs_are_accepted(example: dict[str, Any]) -> None:
+    assert Design(example["value"], 2500, 30.0).total == 720
+
+
+@pytest.mark.parametrize(
+    ("path", "schema"), [("/v1/sweep", "SweepRequest"), (CORNERS, "CornersRequest"), (DESIGN, "DesignRequest")]
+)
+def test_documents(client: httpx.Client, path: str, schema: str) -> None:
     document = client.get("/openapi.json").json()
-    sweep = document["paths"]["/v1/sweep"]["post"]
-    assert set(sweep["responses"]["200"]["content"]) == {"application/x-ndjson", "text/csv"}
-    assert sweep["requestBody"]["content"]["application/json"]["schema"] == {
-        "$ref": "#/components/schemas/SweepRequest"
-    }
-    assert set(sweep["requestBody"]["content"]["application/json"]["examples"]) == set(EXAMPLES["/v1/sweep"])
+    operation = document["paths"][path]["post"]
+    content = operation["requestBody"]["content"]["application/json"]
+    assert content["schema"] == {"$ref": f"#/components/schemas/{schema}"}
+    assert set(content["examples"]) == set(EXAMPLES[path])
+    properties = document["components"]["schemas"][schema]["properties"]
+    assert all(each["title"] and each["description"] for each in properties.values())
+    if path == "/v1/sweep":
+        assert set(operation["responses"]["200"]["content"]) == {"application/x-ndjson", "text/csv"}
     assert "422" in document["paths"]["/v1/sensitivity"]["post"]["responses"]

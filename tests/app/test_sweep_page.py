@@ -2,7 +2,7 @@
 
 import json
 import re
-from contextlib import suppress
+from contextlib import nullcontext, suppress
 from dataclasses import replace
 from html import unescape
 from io import BytesIO
@@ -13,15 +13,14 @@ import numpy as np
 import pytest
 from matplotlib.image import imread
 
-from app.calculations import CALCULATIONS, Calculation
+from app.calculations import BY_PATH, CALCULATIONS, Calculation
 from app.errors import InvalidBody, Unprocessable
 from app.examples import examples
 from app.figures.data import Axis, values
 from app.figures.drawing.image import draw, places
 from app.figures.rendering import MEDIA_TYPES
 from app.figures.studies import MOST_CURVES, Coordinate, Grid, figures_of
-from app.pages import views
-from app.pages.query import STUDY_NAMES, VIEW_NAMES, body_of, pairs_of_query, split_views
+from app.pages.query import STUDY_NAMES, VIEW_NAMES, body_of
 from app.pages.studies import page as pages
 from app.pages.studies.design import DesignPage
 from app.pages.studies.page import output_choices
@@ -34,10 +33,9 @@ from app.sources import SHORT_SOURCES
 from app.studies.engine import Line, point_line
 from app.studies.point_sets import PointSet
 from app.studies.points import Question, solve_point
-from tests.support.pages import asked
+from tests.support import pages as support
+from tests.support.pages import DEADLINE_S, MOST, asked, asked_by, fault_at, html_of, opened, whole
 
-MOST, DEADLINE_S = 2500, 30.0
-CALCULATION = {each.path: each for each in CALCULATIONS}
 COUPLING = "pahl-axial-displacement"
 LOADS = "xue-pair-1-modified"
 SLOPE, CROWNING = "modifications.helix_slope_um", "modifications.lead_crowning_um"
@@ -47,9 +45,14 @@ QUICK = (COUPLING, "pahl-sleeve-orbit", "pahl-recommended-crowning", "milian-tab
 
 
 def checked(found: Asked) -> tuple[SweepPage, PointSet]:
-    study = pages.checked(SweepPage, found, MOST, DEADLINE_S)
+    study = support.checked(SweepPage, found)
     assert isinstance(study, SweepPage)
     return study, study.study.points
+
+
+def varied(found: Asked, axis: int = 0) -> list[Any]:
+    """The values along an axis of the sweep."""
+    return list(checked(found)[1].axes[axis].values or ())
 
 
 def total(found: Asked) -> int:
@@ -66,9 +69,8 @@ def solved(found: Asked) -> tuple[SweepPage, list[Line]]:
 
 
 def study_of(example: StudyExample) -> Asked:
-    path, _, query = example.address.partition("?")
-    pairs, said = split_views(pairs_of_query(query))
-    return Asked(path.removesuffix("/vary"), pairs, said)
+    found = asked_by(example.address)
+    return replace(found, path=found.path.removesuffix("/vary"))
 
 
 def test_what_a_study_says_is_no_field_of_a_request() -> None:
@@ -78,36 +80,33 @@ def test_what_a_study_says_is_no_field_of_a_request() -> None:
 
 @pytest.mark.parametrize("example", STUDIES, ids=lambda each: each.title)
 def test_every_study_to_start_from_is_one(example: StudyExample) -> None:
-    opened = pages.opened(SweepPage, study_of(example), MOST, DEADLINE_S)
-    assert opened.status == 200
-    assert opened.page.study is not None
-    assert opened.tail.endswith(b"</html>\n") or opened.tail.strip().endswith(b"</html>")
+    page = pages.opened(SweepPage, study_of(example), MOST, DEADLINE_S)
+    assert page.status == 200
+    assert page.page.study is not None
+    assert page.tail.rstrip().endswith(b"</html>")
 
 
 def test_every_endpoint_has_a_study_to_start_from() -> None:
-    assert {each.calculation.path for each in STUDIES} == set(CALCULATION)
+    assert {each.calculation.path for each in STUDIES} == set(BY_PATH)
 
 
 def test_the_crowning_that_forgives_is_a_map_of_17_by_11() -> None:
-    _, points = checked(study_of(STUDIES[0]))
-    assert [len(axis.values or ()) for axis in points.axes] == [17, 11]
-    slopes = points.axes[0].values
-    assert slopes is not None
+    slopes, crownings = (varied(study_of(STUDIES[0]), axis) for axis in (0, 1))
+    assert (len(slopes), len(crownings)) == (17, 11)
     assert (slopes[0], slopes[-1]) == (-20.0, 20.0)
 
 
 @pytest.mark.parametrize("calculation", CALCULATIONS, ids=lambda each: each.path)
-def test_every_number_of_a_case_is_varied_by_its_name_alone(calculation: Calculation) -> None:
-    """Around its value, inside what is allowed; one that has no value may ask for a range, in words."""
+def test_numbers_are_varied_and_outputs_shown_by_their_names_alone(calculation: Calculation) -> None:
+    """A number is varied around its value, inside what is allowed; one without a value may ask for a range."""
     found = asked(next(each.name for each in examples().values() if each.endpoint == calculation.path))
-    case = found.case
-    for choice in field_choices(calculation, case, texts=False):
-        said = Asked(found.path, found.pairs, {"x": choice.path})
-        if case_value(case, choice.path):
-            assert total(said) > 1, choice
-        else:
-            with suppress(Unprocessable, InvalidBody):
-                assert total(said) > 1, choice
+    choices = [choice.path for choice in field_choices(calculation, found.case, texts=False)]
+    with_values = [path for path in choices if case_value(found.case, path)]
+    for path in choices:
+        with nullcontext() if path in with_values else suppress(Unprocessable, InvalidBody):
+            assert total(replace(found, views={"x": path})) > 1, path
+    for choice in output_choices(calculation):
+        assert total(replace(found, views={"x": with_values[0], "show": choice.path}))
 
 
 def case_value(case: dict[str, Any], path: str) -> Any:
@@ -117,75 +116,48 @@ def case_value(case: dict[str, Any], path: str) -> Any:
     return here
 
 
-@pytest.mark.parametrize("calculation", CALCULATIONS, ids=lambda each: each.path)
-def test_every_output_that_can_be_shown_is_told_by_a_study(calculation: Calculation) -> None:
-    example = next(each for each in examples().values() if each.endpoint == calculation.path)
-    found = asked(example.name)
-    case = found.case
-    said = {
-        "x": next(each.path for each in field_choices(calculation, case, texts=False) if case_value(case, each.path))
-    }
-    for choice in output_choices(calculation):
-        assert total(Asked(found.path, found.pairs, said | {"show": choice.path}))
-
-
 @pytest.mark.parametrize("name", QUICK)
 def test_a_points_link_opens_the_case_that_was_solved(name: str) -> None:
     found = asked(name)
-    calculation = found.calculation
-    field = next(
-        choice.path
-        for choice in field_choices(calculation, found.case, texts=False)
-        if choice.path.endswith(("torque_n_m", "speed_rpm", "torque_n_m"))
-    )
-    study, (*points, _) = solved(Asked(found.path, found.pairs, {"x": field, "x.count": "3"}))
+    choices = [choice.path for choice in field_choices(found.calculation, found.case, texts=False)]
+    field = next(path for path in choices if path.endswith(("torque_n_m", "speed_rpm")))
+    study, (*points, _) = solved(replace(found, views={"x": field, "x.count": "3"}))
     for index, point in enumerate(points):
-        _, _, query = study.point_address(index).partition("?")
-        body = body_of(calculation.request, pairs_of_query(query))
+        body = body_of(found.calculation.request, asked_by(study.point_address(index)).pairs)
         alone = solve_point(study.study.question._replace(base=body), {})
         assert alone.out == point["out"] != [None]
 
 
 def test_a_link_of_a_field_that_excludes_others_leaves_them_out() -> None:
-    found = asked("starter-industrial-scuffing")
-    study, _ = checked(
-        Asked(found.path, found.pairs, {"x": "load.pinion_torque_n_m", "x.from": "1000", "x.to": "2000"})
-    )
-    names = dict(pairs_of_query(study.point_address(0).partition("?")[2]))
+    torque = {"x": "load.pinion_torque_n_m", "x.from": "1000", "x.to": "2000"}
+    study, _ = checked(asked("starter-industrial-scuffing", **torque))
+    names = dict(asked_by(study.point_address(0)).pairs)
     assert "load.pinion_torque_n_m" in names
     assert "load.power_kw" not in names
 
 
 def test_an_item_of_a_list_is_varied_and_opened() -> None:
-    found = asked("starter-coupling-pitch-errors")
-    study, (*points, _) = solved(
-        Asked(
-            found.path, found.pairs, {"x": "coupling.pitch_errors_um.3", "x.from": "-20", "x.to": "20", "x.count": "3"}
-        )
-    )
+    item = {"x": "coupling.pitch_errors_um.3", "x.from": "-20", "x.to": "20", "x.count": "3"}
+    study, (*points, _) = solved(asked("starter-coupling-pitch-errors", **item))
     assert "refused" not in {point["status"] for point in points}
-    body = body_of(found.calculation.request, pairs_of_query(study.point_address(2).partition("?")[2]))
+    body = body_of(BY_PATH["/v1/coupling"].request, asked_by(study.point_address(2)).pairs)
     assert body["coupling"]["pitch_errors_um"][3] == 20
 
 
 def test_the_figures_numbers_are_the_points() -> None:
     study, lines = solved(asked(LOADS, **MAP, **{"y.count": "7"}, show="pressure.max_mpa"))
     found = np.array([line["out"][0] for line in lines[:-1]]).reshape(3, 7)
-    files = {name: pages.file(study, lines, name, "csv") for name in ("map", "worst")}
-    drawn = {name: file.decode().splitlines() for name, file in files.items() if isinstance(file, bytes)}
-    rows = [list(map(float, line.split(","))) for line in drawn["map"][1:]]
-    assert [row[2] for row in rows] == found.T.ravel().tolist()
-    assert drawn["map"][0] == "helix crowning [µm],helix slope [µm],largest Hertzian pressure [MPa]"
-    worst = [float(line.split(",")[1]) for line in drawn["worst"][1:]]
-    assert worst == found.max(axis=0).tolist()
-    own = [float(line.split(",")[2]) for line in drawn["worst"][1:]]
-    assert own == found[1].tolist()
+    maps, worst = (pages.file(study, lines, name, "csv").decode().splitlines() for name in ("map", "worst"))
+    assert maps[0] == "helix crowning [µm],helix slope [µm],largest Hertzian pressure [MPa]"
+    assert [float(line.split(",")[2]) for line in maps[1:]] == found.T.ravel().tolist()
+    ends = [tuple(map(float, line.split(",")[1:3])) for line in worst[1:]]
+    assert ends == list(zip(found.max(axis=0), found[1], strict=True)), "the worst, and that of the case's own slope"
 
 
 def test_the_best_point_is_the_one_of_the_sweeps_end(client: httpx.Client) -> None:
     study, _ = checked(asked(LOADS, **MAP, **{"y.count": "7"}))
     lines = [json.loads(line) for line in client.get(study.view(".ndjson")).text.splitlines()]
-    page = pages.drawn(study, lines).decode()
+    page = whole(study, lines)
     best = lines[-1]["best"]
     assert f"at helix slope {best['at'][0]:g} µm, helix crowning {best['at'][1]:g} µm" in page
 
@@ -276,51 +248,35 @@ def test_a_map_over_even_ratios_puts_its_points_where_the_axes_have_them() -> No
     ],
 )
 def test_what_is_refused_stands_at_its_control(said: dict[str, str], control: str, message: str) -> None:
-    opened = pages.opened(SweepPage, asked(COUPLING, **said), MOST, DEADLINE_S)
-    assert opened.status == 422
-    page = unescape(opened.head.decode())
-    found = re.search(rf'id="f\.{re.escape(control)}-fault">([^<]*)<', page)
-    assert found is not None, re.findall(r'<div class="problem".*?</div>', page, re.DOTALL)
-    assert message in found[1]
+    assert message in fault_at(opened(SweepPage, asked(COUPLING, **said), 422), control)
 
 
 def test_a_fault_of_the_case_is_named_by_the_title_of_its_field() -> None:
     pairs = [(name, "-5" if name == "operation.torque_n_m" else text) for name, text in asked(COUPLING).pairs]
+    wrong = replace(asked(COUPLING), pairs=pairs)
     said = {"x": "operation.misalignment_deg", "show": "axial_thrust.coaxial_limit_n"}
-    study = pages.opened(SweepPage, replace(asked(COUPLING, **said), pairs=pairs), MOST, DEADLINE_S).head.decode()
-    case = views.page(replace(asked(COUPLING), pairs=pairs)).content.decode()
-    for html in (study, case):
+    study = opened(SweepPage, replace(wrong, views=said), 422)
+    for html in (study, html_of(wrong, 422)):
         problem = re.search(r'<div class="problem".*?</div>', html, re.DOTALL)
-        assert problem is not None
+        assert problem
         assert "transmitted torque is -5; permissible 0 to 100000000 N m" in problem[0]
     assert "torque_n_m" not in re.sub(r"<[^>]*>", "", study[study.index('class="problem"') :])
 
 
 def test_a_decimal_comma_is_read() -> None:
-    _, points = checked(asked(COUPLING, x="operation.misalignment_deg", **{"x.to": "0,1"}))
-    axis = points.axes[0].values
-    assert axis is not None
-    assert axis[-1] == 0.1
+    assert varied(asked(COUPLING, x="operation.misalignment_deg", **{"x.to": "0,1"}))[-1] == 0.1
 
 
-def test_whole_numbers_are_varied_in_whole_steps() -> None:
-    said = {"x": "coupling.teeth", "x.from": "40", "x.to": "50"}
-    for count, values_wanted in (("3", [40, 45, 50]), ("21", list(range(40, 51)))):
-        _, points = checked(asked(COUPLING, **said, **{"x.count": count}))
-        assert points.axes[0].values == values_wanted
+@pytest.mark.parametrize(("count", "wanted"), [("3", [40, 45, 50]), ("21", list(range(40, 51)))])
+def test_whole_numbers_are_varied_in_whole_steps(count: str, wanted: list[int]) -> None:
+    said = {"x": "coupling.teeth", "x.from": "40", "x.to": "50", "x.count": count}
+    assert varied(asked(COUPLING, **said)) == wanted
 
 
 def test_words_make_a_family() -> None:
-    _, points = checked(asked(COUPLING, x="operation.misalignment_deg", **{"x.count": "3"}, y="operation.arrangement"))
-    words = points.axes[1].values
-    assert words is not None
-    assert set(words) == set(leaf_options("operation.arrangement"))
-
-
-def leaf_options(path: str) -> tuple[Any, ...]:
-    leaf = leaf_at(CALCULATION["/v1/coupling"].request, path)
-    assert leaf is not None
-    return leaf.options
+    said = {"x": "operation.misalignment_deg", "x.count": "3", "y": "operation.arrangement"}
+    arrangement = leaf_at(BY_PATH["/v1/coupling"].request, "operation.arrangement")
+    assert set(varied(asked(COUPLING, **said), axis=1)) == set(arrangement.options)
 
 
 @pytest.mark.parametrize(
@@ -377,9 +333,8 @@ def test_figures_are_files(client: httpx.Client) -> None:
         answer = client.get(links.image("map", image_format))
         assert answer.headers["content-type"] == kind
         assert answer.content == client.get(links.image("map", image_format)).content
-    assert client.get(links.image("curve", "svg")).status_code == 404
-    assert client.get(links.image("pie", "svg")).status_code == 404
-    assert client.get(links.image("map", "gif")).status_code == 404
+    for name, image_format in (("curve", "svg"), ("pie", "svg"), ("map", "gif")):
+        assert client.get(links.image(name, image_format)).status_code == 404
 
 
 def test_a_posted_study_is_the_same(client: httpx.Client) -> None:
@@ -391,24 +346,23 @@ def test_a_posted_study_is_the_same(client: httpx.Client) -> None:
 
 def test_ready_questions_on_the_page_of_a_case_are_asked_of_this_case() -> None:
     own = asked("xue-pair-3-modified")
-    page = unescape(pages.opened(SweepPage, own, MOST, DEADLINE_S).head.decode())
-    links = re.findall(r'<li><a href="([^"]+)">Which crowning forgives', page)
-    pairs, said = split_views(pairs_of_query(links[0].partition("?")[2]))
-    assert pairs == own.pairs
-    assert (said["x"], said["y"], said["x.count"]) == (SLOPE, CROWNING, "17")
-    assert total(Asked(own.path, pairs, said)) == 17 * 11
+    links = re.findall(r'<li><a href="([^"]+)">Which crowning forgives', unescape(opened(SweepPage, own)))
+    question = asked_by(links[0])
+    assert question.pairs == own.pairs
+    assert [question.views[name] for name in ("x", "y", "x.count")] == [SLOPE, CROWNING, "17"]
+    assert total(replace(question, path=own.path)) == 17 * 11
 
 
 def test_the_result_links_the_map_of_safety_over_speed_and_power_of_its_case(client: httpx.Client) -> None:
     own = asked("starter-turbo-gear-drive-train")
     page = unescape(client.get(own.page).text)
     (link,) = re.findall(r'<a href="([^"]+)">How safe is it, over speed and power', page)
-    pairs, said = split_views(pairs_of_query(link.partition("?")[2]))
-    assert pairs == own.pairs
-    varied = {name: text for name, text in said.items() if name[0] in "xy"}
+    question = asked_by(link)
+    assert question.pairs == own.pairs
+    varied = {name: text for name, text in question.views.items() if name[0] in "xy"}
     speed, power = "operation.pinion_speed_rpm", "operation.power_kw"
     assert varied == {"x": speed, "x.count": "9", "y": power, "y.count": "9"}, "around its own values"
-    assert total(Asked(own.path, pairs, said)) == 81
+    assert total(replace(question, path=own.path)) == 81
 
 
 def test_a_map_marks_the_case_and_the_best_point() -> None:
@@ -423,9 +377,8 @@ def test_the_names_of_a_study_are_those_of_its_form() -> None:
     varied_one, unit = asked(COUPLING, x="operation.torque_n_m"), asked("starter-turbo-gear-drive-train")
     scattering = asked(COUPLING, **{"t9": "friction.coefficient", "t9.by": "0.01"})
     studies = ((SweepPage, varied_one), (DesignPage, unit), (SpectrumPage, scattering))
-    forms = [pages.opened(page, case, MOST, DEADLINE_S).head for page, case in studies]
     pattern = r'<(?:input|select|textarea)\b[^>]*?\bname="([^"]+)"'
-    found = [set(re.findall(pattern, form.decode())) for form in forms]
+    found = [set(re.findall(pattern, opened(page, case))) for page, case in studies]
     assert set.union(*found) >= STUDY_NAMES
     for names, case in zip(found, (varied_one, unit, scattering), strict=True):
         assert names - STUDY_NAMES == set(dict(case.pairs))

@@ -11,7 +11,6 @@ import pytest
 
 from app.calculations import BY_PATH
 from app.pages.cases import solved
-from app.pages.query import pairs_of_query, split_views
 from app.pages.studies import page as pages
 from app.pages.studies.corners import CornersPage
 from app.pages.studies.design import DesignPage
@@ -20,10 +19,8 @@ from app.pages.studies.sensitivity import SensitivityPage
 from app.pages.study_links import study_links
 from app.pages.typesetting import shown
 from app.pages.views import Asked
-from tests.support.pages import asked
-from tests.support.studies import lines_of
+from tests.support.pages import asked, asked_by, checked, lines_of, opened, whole
 
-MOST, DEADLINE_S = 2500, 30.0
 UNIT = "starter-generator-gear-drive-train"
 SAFETY, SLOPE = "safety.blok_flank", "modifications.helix_slope_um"
 
@@ -36,10 +33,9 @@ def small(**said: str) -> Asked:
 
 @cache
 def studied(page: type[StudyPage]) -> tuple[StudyPage, list[dict[str, Any]], str]:
-    found = small(trials="5") if page is DesignPage else asked(UNIT)
-    study = pages.checked(page, found, MOST, DEADLINE_S)
-    lines = lines_of(study.study)
-    return study, lines, unescape(pages.drawn(study, lines).decode())
+    study = checked(page, small(trials="5") if page is DesignPage else asked(UNIT))
+    lines = lines_of(study)
+    return study, lines, whole(study, lines)
 
 
 def rows_of(page: str, title: str) -> list[list[str]]:
@@ -48,11 +44,9 @@ def rows_of(page: str, title: str) -> list[list[str]]:
 
 
 def value_of(address: str, output: str) -> float:
-    path, _, query = address.partition("?")
-    pairs, _ = split_views(pairs_of_query(query))
+    found = asked_by(address)
     group, name = output.split(".")
-    value: float = getattr(getattr(solved(BY_PATH[f"/v1{path}"], pairs, None).response, group), name)
-    return value
+    return getattr(getattr(solved(found.calculation, found.pairs, None).response, group), name)
 
 
 def test_corners_name_both_ends_of_every_output_and_lead_there() -> None:
@@ -107,8 +101,8 @@ def test_the_grinding_proposed_is_that_of_the_search_and_leads_to_its_case() -> 
     assert [row[4] for row in sheet] == [shown(abs(value), 4) for value in wanted["at"].values()]
     worst, nominal = rows_of(page, "What it brings")
     assert worst[1:3] == [shown(end["objective_start"]), shown(wanted["objective"])]
-    before, after = dict[str, Any](), wanted["at"]
-    cases = [study.solved(at).response.safety.blok_flank for at in (before, after)]
+    grindings: tuple[dict[str, Any], ...] = ({}, wanted["at"])
+    cases = [study.solved(at).response.safety.blok_flank for at in grindings]
     assert nominal[1:3] == [shown(each) for each in cases]
     assert ("With the inputs as described it is worse" in page) == (cases[1] < cases[0])
     numbers = {row[0].partition(":")[0].partition(",")[0]: row[1] for row in rows_of(page, "Which number is which")}
@@ -121,7 +115,7 @@ def test_the_grinding_proposed_is_that_of_the_search_and_leads_to_its_case() -> 
     assert set(result.figures) == set(DesignPage.figures)
     reached = result.figures["search"].panels[0].lines[0].y.tolist()
     assert reached == [line["objective"] for line in lines if line["type"] == "trial"]
-    pairs = dict(pairs_of_query(result.leads[0].address.partition("?")[2]))
+    pairs = dict(asked_by(result.leads[0].address).pairs)
     assert {path: float(pairs[path]) for path in wanted["at"]} == wanted["at"]
     assert result.leads[2].address.startswith("/drive-train/corners?")
     at_worst = study.solved({**wanted["at"], **wanted["worst_corner"]}).response
@@ -160,21 +154,19 @@ def test_corners_are_those_typed_on_both_pages() -> None:
     said = {"corner.friction": "0,1; 0.2", "corner.offset": "0 300; 300 0", "corner.pinion_clearance": "140 120"}
     turbo = asked("starter-turbo-gear-drive-train", **said)
     for page, part, others in ((CornersPage, "ranges", 3), (DesignPage, "corners", 1)):
-        body = pages.checked(page, turbo, MOST, DEADLINE_S).body()
+        body = checked(page, turbo).body()
         values = {str(axis["path"]): axis["values"] for axis in body[part]}
         assert values["couplings.0.friction.coefficient"] == [0.1, 0.2]
         assert values["['couplings.0.offset_um.0', 'couplings.0.offset_um.1']"] == [[0, 300], [300, 0]]
         assert [140, 120] in [each for axis in values.values() for each in axis]
         assert len(values) == 3 + others
         wrong = asked("starter-turbo-gear-drive-train", **{**said, "corner.friction": "0.1; 7"})
-        opened = pages.opened(page, wrong, MOST, DEADLINE_S)
-        assert opened.status == 422
-        assert '<a href="#f.corner.friction">Uncertain inputs, friction</a>' in opened.head.decode()
+        assert '<a href="#f.corner.friction">Uncertain inputs, friction</a>' in opened(page, wrong, 422)
 
 
 def test_ranges_and_trials_come_from_the_form() -> None:
     said = {"low.0": "-10", "high.0": "20,5", "trials": "7", "show": "load.face_load_factor"}
-    body = pages.checked(DesignPage, asked(UNIT, **said), MOST, DEADLINE_S).body()
+    body = checked(DesignPage, asked(UNIT, **said)).body()
     assert body["variables"][0] == {"path": ["modifications.helix_slope_um"], "min": -10, "max": 20.5, "step": 0.5}
     assert body["variables"][1]["max"] == 20.0
     assert (body["evaluations"], body["objective"], body["direction"]) == (7, "load.face_load_factor", "minimise")
@@ -190,23 +182,21 @@ def test_ranges_and_trials_come_from_the_form() -> None:
     ],
 )
 def test_what_is_wrong_stands_at_its_control(said: dict[str, str], control: str, title: str) -> None:
-    opened = pages.opened(DesignPage, asked(UNIT, **said), MOST, DEADLINE_S)
-    assert opened.status == 422
-    assert f'<a href="#f.{control}">{title}</a>' in opened.head.decode()
+    assert f'<a href="#f.{control}">{title}</a>' in opened(DesignPage, asked(UNIT, **said), 422)
 
 
 @pytest.mark.parametrize("page", [CornersPage, DesignPage], ids=lambda page: page.link.name)
 def test_a_unit_without_the_output_says_which_to_choose(page: type[StudyPage]) -> None:
     bare = small()
     without = Asked(bare.path, [pair for pair in bare.pairs if not pair[0].startswith("temperatures.scuffing")])
-    study = pages.checked(page, without, MOST, DEADLINE_S)
-    text = pages.drawn(study, lines_of(study.study)).decode()
+    study = checked(page, without)
+    text = whole(study, lines_of(study))
     assert "choose another output" in text or "has no answer at its worst corner" in text
 
 
 @pytest.mark.parametrize("page", [SensitivityPage, CornersPage, DesignPage], ids=lambda page: page.link.name)
 def test_a_study_that_breaks_off_says_why(page: type[StudyPage]) -> None:
-    study = pages.checked(page, asked(UNIT), MOST, DEADLINE_S)
+    study = checked(page, asked(UNIT))
     text = pages.drawn(study, [{"type": "error", "code": "study_deadline", "message": "<b>too long</b>", "done": 3}])
     assert "&lt;b&gt;too long&lt;/b&gt;" in text.decode()
 
@@ -233,5 +223,5 @@ def test_lines_and_figures_by_their_addresses(client: httpx.Client) -> None:
     svg = client.get(case.view("corners/figures/corners.svg"))
     assert (svg.status_code, svg.headers["content-type"]) == (200, "image/svg+xml")
     assert svg.text.rstrip().endswith("</svg>")
-    assert client.get(case.view("corners/figures/other.svg")).status_code == 404
-    assert client.get(case.view("corners/figures/corners.gif")).status_code == 404
+    for nothing in ("other.svg", "corners.gif"):
+        assert client.get(case.view(f"corners/figures/{nothing}")).status_code == 404

@@ -1,15 +1,23 @@
-"""Requests as users send them, changed at dotted paths, and their answers without a server."""
+"""Requests as users send them, changed at dotted paths, and what is answered, by the service or without one."""
 
 import copy
 import json
+from collections.abc import Callable, Mapping
 from typing import Any
 
+import httpx
 import pytest
 from pydantic import ValidationError
 
 from app.calculations import BY_PATH
+from app.errors import Fault
 from app.evaluate import json_answer
+from app.examples import examples
 from app.schema.reading import faults
+
+Post = Callable[[str, object], httpx.Response]
+GONE = object()
+"""The value of a field that a changed request leaves out."""
 
 PAIR: dict[str, Any] = {
     "gears": {
@@ -36,22 +44,30 @@ CONTACT: dict[str, Any] = {
 }
 
 
-def solved(endpoint: str, body: dict[str, Any], changes: dict[str, Any]) -> dict[str, Any]:
+def solved(endpoint: str, body: dict[str, Any], changes: Mapping[str, Any] = {}) -> dict[str, Any]:
     """The summary of the answer to a changed request."""
     calculation = BY_PATH[endpoint]
     request = calculation.request.model_validate(changed(body, {"detail": "summary", **changes}))
     return json.loads(json_answer(calculation, request))
 
 
-def changed(body: dict[str, Any], changes: dict[str, Any]) -> dict[str, Any]:
-    """A copy with values at dotted paths set; a number in a path is the place in a list."""
+def example(name: str, changes: Mapping[str, Any] = {}) -> dict[str, Any]:
+    """The request of an example, changed at dotted paths."""
+    return changed(examples()[name].request, changes)
+
+
+def changed(body: dict[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
+    """A copy with values at dotted paths set or left out; a number in a path is the place in a list."""
     result = copy.deepcopy(body)
     for path, value in changes.items():
         *way, last = path.split(".")
         place: Any = result
         for part in way:
             place = place[int(part)] if part.isdecimal() else place.setdefault(part, {})
-        place[last] = value
+        if value is GONE:
+            place.pop(last, None)
+        else:
+            place[last] = value
     return result
 
 
@@ -63,9 +79,37 @@ def value_at(answer: dict[str, Any], path: str) -> Any:
     return place
 
 
-def refused(endpoint: str, body: dict[str, Any], changes: dict[str, Any]) -> str:
-    """What a changed request is told is wrong with it."""
+def accepted(response: httpx.Response) -> dict[str, Any]:
+    """The answer of the service to a request that it takes."""
+    assert response.status_code == 200, response.text
+    return response.json()
+
+
+def refusals(response: httpx.Response) -> list[tuple[str, str]]:
+    """Code and dotted path of everything that is wrong with a request that the service refuses."""
+    assert response.status_code == 422, response.text
+    assert response.headers["content-type"] == "application/problem+json"
+    return [(each["code"], each["pointer"][1:].replace("/", ".")) for each in response.json()["errors"]]
+
+
+def assumptions(answer: dict[str, Any]) -> dict[str, Any]:
+    """The values that an answer assumes, by their fields."""
+    return {each["field"]: each["value"] for each in answer["assumptions"]}
+
+
+def warned(answer: dict[str, Any]) -> dict[str, Any]:
+    """The fields that an answer warns of, by the codes of its warnings."""
+    return {each["code"]: each["field"] for each in answer["warnings"]}
+
+
+def refused(endpoint: str, body: dict[str, Any], changes: Mapping[str, Any]) -> str:
+    """What a changed request is told first is wrong with it."""
+    return all_faults(endpoint, body, changes)[0].message
+
+
+def all_faults(endpoint: str, body: dict[str, Any], changes: Mapping[str, Any]) -> list[Fault]:
+    """Everything that is wrong with a changed request."""
     model = BY_PATH[endpoint].request
     with pytest.raises(ValidationError) as refusal:
         model.model_validate(changed(body, changes))
-    return faults(model, refusal.value.errors())[0].message
+    return faults(model, refusal.value.errors())
