@@ -10,6 +10,7 @@ import httpx
 import pytest
 
 from app.calculations import BY_PATH
+from app.figures.data import Hue
 from app.pages.cases import solved
 from app.pages.studies import page as pages
 from app.pages.studies.corners import CornersPage
@@ -76,7 +77,7 @@ def test_the_worst_corner_is_that_of_least_safety_and_its_load_is_drawn() -> Non
     assert [len(row.dots) for row in panel.rows] == [len(axis["values"]) for axis in lines[0]["axes"]]
     for row in panel.rows:
         assert min(dot.value for dot in row.dots) == worst["out"][0] == row.value
-        assert [dot.value for dot in row.dots if dot.hue == "vermillion"] == [row.value]
+        assert [dot.value for dot in row.dots if dot.hue == Hue.VERMILLION] == [row.value]
     nominal = study.solved({}).response.safety.blok_flank
     assert [(level.value, level.vertical) for level in panel.levels] == [(nominal, True)]
     curves = result.figures["face-load"].panels[0].lines

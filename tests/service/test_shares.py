@@ -15,8 +15,8 @@ import httpx
 import pytest
 
 from app.examples import examples
-from tests.support.faulty_server import LONG
 from tests.support.server import (
+    LONG,
     Server,
     faulty_server,
     meanwhile,

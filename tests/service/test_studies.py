@@ -21,8 +21,8 @@ from app.examples import examples
 from app.schema.coupling import CouplingResponse
 from app.schema.fields import leaves
 from tests.support.browsing import address_of
-from tests.support.faulty_server import HANGING
 from tests.support.server import (
+    HANGING,
     Server,
     descendants,
     descriptors,

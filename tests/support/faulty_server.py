@@ -19,9 +19,8 @@ from app.studies import engine
 from app.studies.points import Chunk, Question, solve_chunk
 from app.studies.requests import Overrides
 from app.workers import start_up
+from tests.support.server import HANGING, LONG
 
-HANGING = 1234.5  # a varied value whose point never ends
-LONG = 987.5  # and one whose point takes three seconds
 STAGES = (COUPLING, LOADS)
 
 

@@ -18,7 +18,9 @@ import httpx
 
 ROOT = Path(__file__).parents[2]
 START_UP_S = 1200.0  # kernels are compiled the first time, by several services side by side
-FAULTY = [sys.executable, "-m", "tests.support.faulty_server"]
+FAULTY = [sys.executable, "-m", "tests.support.faulty_server"]  # run, never imported: it patches the service
+HANGING = 1234.5  # a varied value whose point never ends there
+LONG = 987.5  # and one whose point takes three seconds
 PATIENCE_S = 30.0
 """For what takes well below a second on quiet cores: tests ask whether it happens, `benchmarks` how fast."""
 Server = tuple[subprocess.Popen[str], str]
