@@ -26,6 +26,7 @@ from tests.support.server import (
     descendants,
     faulty_server,
     free_port,
+    running_server,
     started_server,
     template,
     wait_until,
@@ -87,7 +88,7 @@ def test_ends_at_any_moment_of_a_cold_start(tmp_path: Path, number: signal.Signa
 
 def test_a_second_interrupt_leaves_no_traceback(tmp_path: Path) -> None:
     log = tmp_path / "log"
-    with faulty_server(log=log) as (process, _):
+    with running_server(log=log) as (process, _):
         process.send_signal(signal.SIGINT)
         time.sleep(0.01)
         process.send_signal(signal.SIGINT)
