@@ -291,7 +291,7 @@ def lead_chart(
 
 
 def search(output: Axis, objectives: Sequence[float | None], *, greatest: bool) -> Figure:
-    """The objectives of the corrections at their worst corners in the order tried; None: a corner has no solution."""
+    """The objective at the worst corner of each correction tried, in order; None where a corner has no solution."""
     reached = values(objectives)
     so_far = np.fmax.accumulate(reached) if greatest else np.fmin.accumulate(reached)
     order = np.arange(1, reached.size + 1, dtype=np.float64)

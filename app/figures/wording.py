@@ -33,12 +33,12 @@ def number(value: float, unit: str | None = None, digits: int = 3) -> str:
 
 
 def without_rounding(value: float, whole: float) -> float:
-    """The value; zero where it is rounding error relative to the whole."""
+    """The value for display: zero where it is below 1e-9 of the whole."""
     return 0.0 if abs(value) < NOISE * abs(whole) else value
 
 
 def percent(fraction: float) -> str:
-    """A fraction in per cent; a rounding error is none."""
+    """A fraction in per cent; zero where it is rounding error."""
     return number(100.0 * without_rounding(fraction, 1.0), "%")
 
 

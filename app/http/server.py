@@ -35,7 +35,7 @@ log = logging.getLogger(REQUEST_LOG)  # which goes to the standard output
 
 
 class Refused(Exception):
-    """Raised to stop the parser at a request that exceeds a limit."""
+    """A request exceeds a limit; raised inside the parser, which stops there."""
 
 
 class LimitedProtocol(HttpToolsProtocol):
@@ -129,7 +129,7 @@ class LimitedProtocol(HttpToolsProtocol):
             self._expect_request()
 
     def send_400_response(self, msg: str) -> None:
-        """Answer a request that could not be parsed or was refused while it was parsed."""
+        """Answer a request that cannot be parsed, or that `_refuse` has stopped."""
         del msg
         self._unparsed = 0
         self._answer(self._refusal)
@@ -163,7 +163,7 @@ class LimitedProtocol(HttpToolsProtocol):
         return self.cycle is None or self.cycle.response_complete
 
     def _refuse(self, status: HTTPStatus) -> NoReturn:
-        """Stop the parser; uvicorn then calls `send_400_response`."""
+        """Stop parsing; uvicorn then calls `send_400_response`, which answers with the status."""
         self._refusal = status
         raise Refused
 

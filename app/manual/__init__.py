@@ -25,7 +25,7 @@ NAMES = (
 
 @dataclass(frozen=True, slots=True)
 class Chapter:
-    """A chapter: its name in addresses and file names, and its text in Markdown."""
+    """A chapter: `name` is part of its address and its file name, `text` is Markdown."""
 
     name: str
     text: str

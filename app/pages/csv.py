@@ -43,7 +43,7 @@ def values(case: Case, title: str) -> bytes:
 
 
 def curves(response: Response) -> list[str]:
-    """The curves, or the groups of them, that an answer has."""
+    """The paths of the groups that hold curves, and of curves that belong to no group."""
     found = (
         each.path
         for each in entries(response)

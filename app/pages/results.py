@@ -126,7 +126,7 @@ def texts_of(value: Any, digits: int, of_items: int = 4) -> tuple[str, ...]:
 
 
 def _change(now: Any, before: Any) -> str:
-    """What became of a value; of a number by how much it changed."""
+    """The change from `before` to `now` in words, for numbers in per cent."""
     if isinstance(now, bool) or not isinstance(now, int | float) or not isinstance(before, int | float):
         return "no change" if now == before else "changed"
     if before == 0.0:
@@ -160,7 +160,7 @@ def resolved(response: Response) -> dict[str, Any]:
 
 
 def cards(response: Documented, inputs: dict[str, Any], before: Documented | None = None) -> list[Row]:
-    """The headline numbers; of several numbers of the same rank only the largest is shown.
+    """The headline numbers in order; of numbers that share a rank, only the largest.
 
     Where a warning makes the answer doubtful, no verdict is good.
     """

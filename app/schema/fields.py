@@ -146,7 +146,7 @@ _Names = tuple[str, ...]
 
 
 def _ways(model: type[Documented], above: _Way = ()) -> Iterator[_Way]:
-    """The way to every field of a model and of its sections: the fields that it goes through, and itself."""
+    """For every field of a model and of its sections, the fields around it from the outermost on, and the field."""
     for each in members(model):
         yield (*above, each)
         if each.group:
@@ -154,7 +154,7 @@ def _ways(model: type[Documented], above: _Way = ()) -> Iterator[_Way]:
 
 
 def _names(way: _Way, *, solvers: bool = False) -> _Names:
-    """The names on a way, in the interface or the solver's, each list with `*` behind it."""
+    """The names along a way, in the interface or in the solver, with `*` after each list."""
     names = ((each.solver_name if solvers else each.name, each.dimensions) for each in way)
     return tuple(part for name, listed in names for part in ((name, ITEM) if listed else (name,)))
 
@@ -164,7 +164,7 @@ def _path(way: _Way) -> str:
 
 
 def _below(model: type[Documented], above: _Way, titles: dict[str, str]) -> tuple[Leaf | Branch, ...]:
-    """The fields and sections of a model; what the sections around them say of level and detail holds for them."""
+    """The fields and sections of a model, which take over the level of detail of the sections around them."""
     found: list[Leaf | Branch] = []
     for each in members(model):
         way = (*above, each)

@@ -39,7 +39,7 @@ class CheckedAxis(NamedTuple):
 
 
 class PointSet(NamedTuple):
-    """Points in order, a row each: its coordinates along `axes`, or without axes what it changes.
+    """Points in order: each row has the coordinates along `axes`, or without axes the values that the point sets.
 
     `varied` are the fields that differ between points.
     """

@@ -55,7 +55,7 @@ def perturbation(leaf: Leaf, value: float) -> Perturbation:
 
 
 def differences(moved: Perturbation, outputs: dict[float, float | None]) -> Line:
-    """What an output does where one input is moved, from the output by the value of the input; None: no answer.
+    """The change and the derivative of an output by one input; `outputs` by value of the input, None without answer.
 
     The derivative [output per input] is central where both sides have answers, else one-sided; `elasticity` is per cent
     of the output for a per cent of the input, none at zero and for a temperature in degrees; `change` is by one step

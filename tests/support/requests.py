@@ -103,12 +103,12 @@ def warned(answer: dict[str, Any]) -> dict[str, Any]:
 
 
 def refused(endpoint: str, body: dict[str, Any], changes: Mapping[str, Any]) -> str:
-    """What a changed request is told first is wrong with it."""
+    """The message of the first fault of a changed request."""
     return all_faults(endpoint, body, changes)[0].message
 
 
 def all_faults(endpoint: str, body: dict[str, Any], changes: Mapping[str, Any]) -> list[Fault]:
-    """Everything that is wrong with a changed request."""
+    """All faults of a changed request."""
     model = BY_PATH[endpoint].request
     with pytest.raises(ValidationError) as refusal:
         model.model_validate(changed(body, changes))

@@ -139,7 +139,7 @@ def _draw_bars(axes: Axes, bars: Line, beside: list[Line]) -> None:
 
 
 def _draw_rows(axes: Axes, panel: Panel) -> None:
-    """Horizontal bars below each other with their values at their right, or dots; a variant over its namesake."""
+    """A horizontal bar with its value, or a line of dots, for each row; bars of a variant lie over its base."""
     own = [row for row in panel.rows if row.role is not Role.VARIANT]
     places = {row.name: place for place, row in enumerate(own)}
     axes.grid(visible=False, axis="y")
@@ -168,7 +168,7 @@ def _draw_dots(axes: Axes, place: int, row: Row) -> None:
 
 
 def _draw_row(axes: Axes, place: int, row: Row) -> None:
-    """A bar, or those of its parts behind each other, and a line between its bounds."""
+    """A bar, or one bar for each part, end to end, and a line between the bounds."""
     left = 0.0
     for part in row.parts or [replace(row, name="", value=float(np.nan_to_num(row.value)))]:
         label = fill(part.name, NAME_LENGTH)
@@ -279,7 +279,7 @@ def _name(axes: Axes, text: str, xy: tuple[float, float], xycoords: Any = "data"
 
 
 def place_texts(axes: Axes, panel: Panel) -> None:
-    """Put the texts of areas into them, as many lines as fit, and those of points beside them, off other texts."""
+    """Place the texts of areas, as many lines as fit, and those of points, beside them and clear of other texts."""
     for area in panel.areas:
         room = Bbox([(area.left, area.bottom), (area.right, area.top)]).transformed(axes.transData)
         middle = (area.left * area.right) ** 0.5, (area.bottom * area.top) ** 0.5  # of logarithmic axes
@@ -298,7 +298,7 @@ def place_texts(axes: Axes, panel: Panel) -> None:
             continue
         text.set(ha="center", va="center")
         size, side = text.get_window_extent(), SIDES[str(text.get_gid())]
-        # Of the places around the point that where the text covers least of texts and curves, and is not far away.
+        # The cheapest position: overlaps with other texts, crossed curves, room outside the axes and distance cost.
         costs = {}
         for reach in (7, 12, 20, 32, 48, 64):
             for across, up in ((0, side), (0, -side), (1, 0), (-1, 0), (1, 0.7), (-1, 0.7), (1, -0.7), (-1, -0.7)):

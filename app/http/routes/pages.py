@@ -208,7 +208,7 @@ async def _shown(http: Request, asked: views.Asked, view: Callable[..., views.Sh
 
 
 def failed(http: Request, error: Exception) -> Response:
-    """A page about an error where a page was asked for, or where a browser finds nothing; else the problem document."""
+    """An error as a page where the route has pages or a browser finds nothing, else as a problem document."""
     if isinstance(error, HTTPException):
         if "text/html" not in http.headers.get("accept", "") or get_route_path(http.scope).startswith("/v1/"):
             return answer(http, error)
@@ -224,7 +224,7 @@ def failed(http: Request, error: Exception) -> Response:
 def problem_page(
     http: Request, status: int, title: str, detail: str, headers: dict[str, str] | None = None
 ) -> Response:
-    """Something that is no page."""
+    """The page that says why there is nothing to show."""
     return html(rendered("problem.html", root_of(http), title=title, detail=detail), status, headers)
 
 

@@ -100,7 +100,7 @@ async def _planned(http: Request, own: type[StudyPage], asked: Asked, view: Call
     """The study of a case, or its page, from a worker."""
     if asked.pairs:
         http.app.state.start_up.require(asked.calculation.path)
-    return await planned(http, partial(view, own, asked), getattr(http.app.state.settings, own.most))
+    return await planned(http, partial(view, own, asked), getattr(http.app.state.settings, own.plan.most))
 
 
 async def _pieces(http: Request, opened: study_page.Opened, lines: Lines, clock: Clock) -> AsyncGenerator[bytes, None]:

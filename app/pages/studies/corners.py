@@ -38,7 +38,7 @@ class UnitPage(StudyPage):
 
     @cached_property
     def uncertain(self) -> dict[str, Axis]:
-        """The uncertain inputs with their usual values, by what they are; a case that is refused has none."""
+        """The uncertain inputs with their usual values, by quantity; empty where the case is refused."""
         try:
             return usual_corners(BaseRequest(self.calculation, self.asked.body).checked({}))
         except REFUSED:
@@ -70,7 +70,7 @@ class UnitPage(StudyPage):
         return (Controls("Uncertain inputs", fields=tuple(fields), about=about),)
 
     def places(self) -> dict[str, str]:
-        """The control of each uncertain input; of all of them the first one."""
+        """The control of each uncertain input; faults of all inputs together are shown at the first."""
         names = list(self.ranges())
         places = {f"{self.corners}.{place}": name for place, name in enumerate(names)}
         return {self.corners: names[0], **places} if names else {}
@@ -114,7 +114,7 @@ class CornersPage(UnitPage):
     study: Corners
 
     def body(self) -> dict[str, Any]:
-        """The corners as typed or usual, and beside the output what decides and costs no film."""
+        """The corners as typed or usual; outputs are the one shown and the headlines that need no thermal film."""
         output, paths = self.output.path, [leaf.path for leaf in headlines(self.calculation.response)]
         deciding = [path for path in paths if not (needs_film(DRIVE_TRAIN, path) or path.startswith(COLD))]
         return {
@@ -124,7 +124,7 @@ class CornersPage(UnitPage):
         }
 
     def result(self, lines: list[Line]) -> Result:
-        """What each uncertainty does, the load at the worst corner beside that of the case, both in numbers."""
+        """The effect of each uncertain input, and the load at the worst corner beside that of the case."""
         end, output = lines[-1], self.output
         extremes = {line["output"]: line for line in lines if line["type"] == "extremes"}
         progress = f"{end['points']} corners in {shown(end['elapsed_s'], 2)} s"
@@ -145,7 +145,7 @@ class CornersPage(UnitPage):
         return Result(progress, {"corners": found, **load}, tables, tuple(remarks), leads)
 
     def _uncertain(self, lines: list[Line], worst: Overrides) -> list[Uncertain]:
-        """Of each choice of each axis the worst that the output is with it."""
+        """For each value of each uncertain input, the worst output among the corners with that value."""
         points = [line for line in lines if line["type"] == "point" and line["out"][0] is not None]
         pick = min if self.output.view.greatest_is_best else max
         found = []
@@ -166,7 +166,7 @@ class CornersPage(UnitPage):
         return found
 
     def _extremes(self, extremes: dict[str, Line], case: Case) -> Table:
-        """Every output between its ends, each of which leads to its corner."""
+        """The least and the largest value of each output, each a link to the case at its corner."""
         rows = []
         for leaf in self.study.outputs:
             if leaf.path in extremes:

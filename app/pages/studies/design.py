@@ -44,7 +44,7 @@ class DesignPage(UnitPage):
     )
     figures = ("lead", LOAD_ALONE.name, GAP.name, "search")
     grows = True
-    left_alone = ("pinion clearance", "wheel clearance", "thrust fraction")  # for they say least
+    left_alone = ("pinion clearance", "wheel clearance", "thrust fraction")  # they change the result least
     plan = Design
 
     def body(self) -> dict[str, Any]:
@@ -69,7 +69,7 @@ class DesignPage(UnitPage):
         }
 
     def places(self) -> dict[str, str]:
-        """The ends of the ranges, of the uncertain inputs, and the number of trials."""
+        """The controls of the ranges, of the uncertain inputs, of the number of trials, and of the output."""
         lower = {f"variables.{place}": f"{LOWER}{place}" for place in range(len(GROUND))}
         upper = {f"variables.{place}.max": f"{UPPER}{place}" for place in range(len(GROUND))}
         return {**super().places(), **lower, **upper, "evaluations": TRIALS, "objective": "show"}
@@ -83,7 +83,7 @@ class DesignPage(UnitPage):
         return Controls("Search", fields=tuple(fields)), *super().controls()
 
     def result(self, lines: list[Line]) -> Result:
-        """The sheet, what it brings, which number is which; the load and the gap; the search."""
+        """The grinding sheet, its effect, the numbers before and after; figures of lead, load, gap and search."""
         trials = [line for line in lines if line["type"] == "trial"]
         solved = [line for line in trials if line["objective"] is not None]
         if not solved:
@@ -163,7 +163,7 @@ class DesignPage(UnitPage):
         return Table("What to grind", ("gear", "correction", "where", *numbered, "unit"), rows, note)
 
     def _before_and_after(self, end: Line, wanted: Line, case: Case, ground: Case) -> Table:
-        """The output at the worst corner and as described, before and after, and why the latter may fall."""
+        """The output before and after grinding, at the worst corner and as described; a note where it gets worse."""
         output = self.output
         before, after = (value_at(each.response, output.path) for each in (case, ground))
         unit, note = output.unit or "", ""

@@ -1,7 +1,7 @@
 """The page of a study before, while and after its lines come, and its figures as files; runs in workers."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import groupby
@@ -32,7 +32,7 @@ Options = tuple[tuple[str, str], ...]
 
 
 class Choice(NamedTuple):
-    """An entry of a menu, in a group."""
+    """An entry of a menu, with the title of its group."""
 
     path: str
     label: str
@@ -40,7 +40,11 @@ class Choice(NamedTuple):
 
 
 class Menu(NamedTuple):
-    """A choice in groups; `empty` is the label of no choice, `shown` that of `chosen`, which a narrow menu may cut."""
+    """A menu with grouped entries.
+
+    `chosen` is the path of the chosen entry, empty where there is no choice, of which `empty` is the label. `shown` is
+    the label of the choice, printed below the menu because a narrow menu cuts it off.
+    """
 
     name: str
     label: str
@@ -52,7 +56,7 @@ class Menu(NamedTuple):
 
 
 class Controls(NamedTuple):
-    """A group of the controls of a study's form; with a text on how to fill them in, each takes a line."""
+    """A group of controls in the form of a study; where `about` explains them, each has a line of its own."""
 
     title: str
     menu: Menu | None = None
@@ -61,13 +65,13 @@ class Controls(NamedTuple):
 
 
 class Number(str):
-    """The heading of a column of numbers, which stand right."""
+    """The heading of a column of numbers, which is aligned to the right."""
 
     __slots__ = ()
 
 
 class Link(NamedTuple):
-    """A link in a table or above the result; `label` is what a screen reader says where its text says too little."""
+    """A link in a table or above the result; screen readers read `label` where the text alone says too little."""
 
     text: str
     address: str
@@ -75,7 +79,7 @@ class Link(NamedTuple):
 
 
 class Table(NamedTuple):
-    """A table under its title, and what there is to say of it; a folded one is opened by a click."""
+    """A table with its title and a note below it; a folded table opens at a click."""
 
     title: str
     head: tuple[str, ...]
@@ -91,10 +95,10 @@ class Table(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Result:
-    """What a page shows of the lines of a study: the `first` tables, figures by their names, more tables.
+    """The result of a study as its page shows it: the `first` tables, the figures by name, then the other tables.
 
-    `leads` are links to go on from the result. `script` is JSON for the script of the page, with which a click into
-    the first figure opens the case of a point.
+    `leads` are links above the result. `script` is JSON for the script of the page, with which a click into the first
+    figure opens the case at that point.
     """
 
     progress: str
@@ -107,15 +111,26 @@ class Result:
 
 
 class StudyPage(ABC):
-    """A study of a case on a page of its own: a class for each kind of study, an instance for what a query asks.
+    """The page of a study of a case: one class for each kind of study, one instance for each query.
 
-    The output shown when none is chosen is the first of `outputs` that the answer has, else the first headline. `most`
-    is the setting that bounds the points of the study. A page that `grows` shows its result while the lines come, the
-    others only how far they are. Without one of the controls in `needs` there is no study, and `choose` asks for it.
-    `figures` names all that there may be, `files` the forms in which the lines are offered. `plan` makes the study of
-    a body, of at most so many points.
+    Attributes
+    ----------
+    link, question, about
+        Name in addresses and label of the page, its heading, and the sentence below that.
+    figures, files
+        Names of all figures that the page can show, and the formats in which the lines can be downloaded.
+    outputs
+        Outputs in order of preference: the first that the answer has is shown where none is chosen, else the first
+        headline.
+    grows
+        Whether the page shows its result while lines arrive; otherwise it shows only the progress.
+    needs, choose
+        Controls of which at least one has to be filled in for a study, and the sentence that asks for it.
+    plan
+        The kind of study, which is made from its body, the largest number of points and the deadline of a point [s].
+    study, faults
+        The study, None until the query has been accepted, and what the query is refused for, by control.
 
-    `study` is None until the query is found to ask for one, `faults` are what it is refused for, by control.
     """
 
     link: StudyLink
@@ -124,11 +139,10 @@ class StudyPage(ABC):
     figures: tuple[str, ...]
     outputs: tuple[str, ...] = ()
     grows = False
-    most = "most_study_points"
     needs: tuple[str, ...] = ()
     choose = ""
     files: tuple[str, ...] = ("ndjson",)
-    plan: Callable[[dict[str, Any], int, float], Study]
+    plan: type[Study]
 
     def __init__(self, asked: Asked) -> None:
         self.asked = asked
@@ -138,38 +152,38 @@ class StudyPage(ABC):
 
     @abstractmethod
     def body(self) -> dict[str, Any]:
-        """What the endpoint of the study is asked; raises Unprocessable."""
+        """The body of the request to the endpoint of the study; raises Unprocessable."""
 
     @abstractmethod
     def result(self, lines: list[Line]) -> Result:
-        """What the page shows of the lines; with `grows` also of those that have come while the study runs."""
+        """The result of all lines; on a page that `grows`, also of the lines that have arrived so far."""
 
     def controls(self) -> tuple[Controls, ...]:
-        """What the form has beside the output."""
+        """The groups of controls above the menu of outputs."""
         return ()
 
     def shows(self) -> tuple[FieldView, ...]:
-        """What the form has beside the menu of outputs."""
+        """The fields beside the menu of outputs."""
         return ()
 
     def places(self) -> dict[str, str]:
-        """The control that makes a part of the body, by the path of the part."""
+        """The name of the control from which each part of the body is made, by the dotted path of the part."""
         return {}
 
     def starters(self) -> Sequence[Starter | StudyExample]:
-        """Links to ready studies: that of every example; a case of one's own needs none."""
+        """Links to ready studies, one for each example; none where the query has a case."""
         examples = () if self.asked.pairs else examples_of(self.calculation)
         path = f"{self.asked.path}/{self.link.name}"
         return [Starter(each.title, each.source, link(path, pairs_of(each.request))) for each in examples]
 
     @property
     def calculation(self) -> Calculation:
-        """What it is a study of."""
+        """The calculation whose case is studied."""
         return self.asked.calculation
 
     @cached_property
     def case(self) -> dict[str, Any]:
-        """The request with its defaults, as far as it can be read."""
+        """The request with its defaults; empty where it cannot be read."""
         try:
             return self.asked.case
         except Unreadable:
@@ -192,12 +206,12 @@ class StudyPage(ABC):
         return output
 
     def number(self, control: str, usual: float | None = None) -> Any:
-        """The number typed at a control, the usual one where it is empty; what is no number stays text."""
+        """The number typed at a control, or `usual` where it is empty; other text is returned as it is."""
         text = self.views.get(control)
         return number_of(text) if text else usual
 
     def menu(self, name: str, label: str, empty: str, choices: list[Choice]) -> Menu:
-        """A menu, whose choice may be one that it does not offer."""
+        """A menu with these entries, and with the choice of the query if that is not among them."""
         chosen = self.views.get(name, "")
         labels = {choice.path: choice.label for choice in choices}
         groups = [(group, list(items)) for group, items in groupby(choices, key=lambda choice: choice.group)]
@@ -207,7 +221,7 @@ class StudyPage(ABC):
         return Menu(name, label, empty, chosen, shown, groups, dict(self.faults).get(name))
 
     def field(self, name: str, label: str, usual: Scalar = None, unit: str = "", options: Options = ()) -> FieldView:
-        """What is typed, with what stands for it where it is left empty; or a choice of a few options."""
+        """A field with what was typed, and with the usual value as placeholder; a menu where there are options."""
         return FieldView(
             name=name,
             label=label,
@@ -220,7 +234,7 @@ class StudyPage(ABC):
         )
 
     def control_at(self, path: str) -> str:
-        """The control that a path into the study means; a field of the case keeps its own name."""
+        """The name of the control for a dotted path in the body; fields of the case are controls themselves."""
         head, *rest = parts = path.split(".")
         if head == "request":
             return ".".join(rest)
@@ -229,13 +243,13 @@ class StudyPage(ABC):
         return next((places[each] for each in above if each in places), path)
 
     def view(self, below: str) -> str:
-        """The address of the page or of a view of the study."""
+        """The address of this page with `below` appended to its path: a file, a figure, the report."""
         views = {name: text for name, text in self.views.items() if name in STUDY_NAMES or name == "theme"}
         return link(f"{self.asked.path}/{self.link.name}{below}", self.asked.pairs, **views, sources=SHORT_SOURCES)
 
     @property
     def too_long(self) -> bool:
-        """Whether a link cannot hold the study."""
+        """Whether the query of this page is too long for a link."""
         return len(self.view("").partition("?")[2]) > LONGEST_QUERY
 
     def image(self, figure: str, image_format: str) -> str:
@@ -243,24 +257,24 @@ class StudyPage(ABC):
         return self.view(f"/figures/{figure}.{image_format}")
 
     def input(self, path: str) -> Leaf:
-        """The single value at a path of the request."""
+        """The field of the request at a path, which has to be a single value."""
         return scalar_at(self.calculation.request, path, "", "unknown_path")
 
     def address(self, overrides: Overrides, below: str = "") -> str:
-        """Where the page of a point is, or a view of it."""
+        """The address of the case at a point: its page, or with `below` a view such as its report."""
         body = with_overrides(self.calculation, self.asked.body, overrides)
         del body["detail"]
         return link(f"{self.asked.path}{below}", pairs_of(body), theme=self.views.get("theme", ""))
 
     def solved(self, overrides: Overrides) -> Case:
-        """The case at a point with its answer, no more of it calculated than the outputs of the study need."""
+        """The case at a point with its answer, of which only the parts are calculated that the outputs need."""
         body = with_overrides(self.calculation, self.asked.body, overrides)
         outputs = [leaf.path for leaf in self.study.outputs]
         return solved(self.calculation, pairs_of(reduced_request(self.calculation.path, body, outputs)), None)
 
 
 class Opened(NamedTuple):
-    """A page around its result; one without a study is whole."""
+    """A page in two halves, between which the result of the study is sent; without a study nothing is."""
 
     page: StudyPage
     status: int
@@ -269,7 +283,7 @@ class Opened(NamedTuple):
 
 
 def opened(kind: type[StudyPage], asked: Asked, most: int, deadline_s: float) -> Opened:
-    """The page of a study of a case, with the study if there is a case, or what it is refused for."""
+    """The page for a query, with its study if the query asks for one, or with the reasons why that is refused."""
     page, status = kind(asked), 200
     try:
         if asked.pairs and (not page.needs or any(asked.views.get(name) for name in page.needs)):
@@ -301,14 +315,14 @@ def opened(kind: type[StudyPage], asked: Asked, most: int, deadline_s: float) ->
 
 
 def checked(kind: type[StudyPage], asked: Asked, most: int, deadline_s: float) -> StudyPage:
-    """The study that is asked for; raises what refuses it, with paths into the study."""
+    """The page with the study that the query asks for; raises the errors of REFUSED, whose paths are in the body."""
     page = kind(asked)
     page.study = page.plan(page.body(), most, deadline_s)
     return page
 
 
 def output_choices(calculation: Calculation) -> list[Choice]:
-    """Every number of the answer that a study can show, the headlines first."""
+    """The single numbers of the answer, which a study can show, the headlines first."""
     response = calculation.response
     first = headlines(response)
     titles = {branch.path: branch.title for branch in tree(response).branches}
@@ -328,9 +342,10 @@ def titled(leaf: Leaf) -> str:
 
 
 def drawn(page: StudyPage, lines: list[Line], done: int | None = None) -> bytes:
-    """Figures, tables and links, of the first `done` points while the study runs.
+    """The result as HTML: figures, tables and links.
 
-    A study that ended early says why, and shows what it found.
+    While the study runs, `done` is the number of solved points. The result of a study that ended early begins with the
+    reason.
     """
     *before, last = lines or [{"type": "progress"}]
     ended_early = last["type"] == "error"
@@ -352,7 +367,7 @@ def drawn(page: StudyPage, lines: list[Line], done: int | None = None) -> bytes:
 
 
 def file(page: StudyPage, lines: list[Line], name: str, image_format: Format) -> bytes | str:
-    """One figure as a file, or why the study has none of this name."""
+    """One figure as a file, or the reason why the study has no figure of this name."""
     found = page.result(lines)
     if name not in found.figures:
         return "; ".join([f"This study has the figures {', '.join(found.figures) or 'none'}", *found.remarks])

@@ -18,7 +18,7 @@ MOST_ROWS = 40  # of a table that can be read; the file has all
 
 
 class SensitivityPage(StudyPage):
-    """What moves an output most."""
+    """Which inputs change an output most."""
 
     link = study_links.SENSITIVITY
     question = "which input matters?"
@@ -27,12 +27,12 @@ class SensitivityPage(StudyPage):
     plan = Sensitivity
 
     def body(self) -> dict[str, Any]:
-        """The case and the output shown."""
+        """The request of the case, and the output that is shown."""
         outputs = [self.output.path]
         return {"endpoint": self.calculation.path, "request": self.asked.body, "outputs": outputs}
 
     def result(self, lines: list[Line]) -> Result:
-        """Bars and a table, the most influential input first."""
+        """The change of the output by one step of each input, as bars and as a table, the largest first."""
         end, output = lines[-1], self.output
         inputs = {each["path"]: each for each in end["inputs"]}
         steps, rows = list[Influence](), []

@@ -127,7 +127,6 @@ class SpectrumPage(StudyPage):
     about = "Machines are drawn from the tolerances; each runs every case, and its worst case meets the limit."
     figures = ("limit", "probability", "decides", "losses")
     outputs = tuple(paths.contact for paths in SCUFFING.values())
-    most = "spectrum_solves"
     needs = ("cases", "t0")
     choose = "Cases are a table of what each part of the operating time changes; tolerances say how the fields scatter."
     plan = Spectrum
@@ -176,7 +175,7 @@ class SpectrumPage(StudyPage):
         return scuffing is not None and (self.views.get("show") or self.usual_output.path) == scuffing.contact
 
     def _limits(self) -> list[dict[str, Any]] | None:
-        """The limit as typed, else that of the output; None where it is the scuffing temperature."""
+        """The limit as typed, else that of the output; None where the scuffing temperature stands for it."""
         view, scatter, value = self.output.view, self.number("limit.by"), self.number("limit")
         if value is None and view.bound and isinstance(view.limit, int | float) and not self._assumes_limit:
             value = view.limit
@@ -189,7 +188,7 @@ class SpectrumPage(StudyPage):
         return [{"output": self.output.path, side: threshold}]
 
     def places(self) -> dict[str, str]:
-        """The controls of the cases, the tolerances, the limit and the hours."""
+        """The names of the controls of cases, tolerances, limit, machines and hours."""
         places = {"cases": "cases", "limits": "limit", "tolerances": "machines", "hours_per_year": "hours"}
         for place in range(SCATTERING):
             where, name = f"tolerances.inputs.{place}", f"t{place}"
@@ -236,7 +235,7 @@ class SpectrumPage(StudyPage):
         )
 
     def starters(self) -> Sequence[study_links.Starter]:
-        """The ready studies of the interface; a case of one's own needs none."""
+        """Links to the ready studies of /v1/spectrum; none where the query has a case."""
         starters = []
         for each in EXAMPLES["/v1/spectrum"].values():
             body = each["value"]
@@ -246,7 +245,7 @@ class SpectrumPage(StudyPage):
         return starters
 
     def result(self, lines: list[Line]) -> Result:
-        """The probability, what it is made of, what decides, the losses; each case leads to its page."""
+        """The probability of failure with the limit, the deciding cases, the influences and the losses."""
         header, end, output = lines[0], lines[-1], self.output
         cases = len(self.study.cases)
         machines = end["points"] // cases
@@ -320,7 +319,7 @@ class SpectrumPage(StudyPage):
         return {"losses": losses(cases, mean, None if None in years else sum(years) / 1e3)}
 
     def _limit_table(self, end: Line, found: Line) -> Table:
-        """The limit as number and deviation, and on what an assumed one rests."""
+        """The limit with its deviation, and where it comes from."""
         assumed = next((each["reason"] for each in end["assumptions"] if each["field"] == "limits"), None)
         row = (
             self.output.title,

@@ -72,7 +72,7 @@ def _has_numbers(leaf: Leaf) -> bool:
 
 
 class SweepPage(StudyPage):
-    """One field of a case varied, or two."""
+    """A sweep of a case over one field or two."""
 
     link = study_links.VARY
     question = "vary an input"
@@ -89,14 +89,15 @@ class SweepPage(StudyPage):
     study: Sweep
 
     def _own(self, leaf: Leaf) -> float | None:
-        """The number that the case itself has at a field."""
+        """The number in the case at the path of a field."""
         value = value_at(self.case, leaf.path)
         return float(value) if is_number(value) else None
 
     def _usual_ends(self, leaf: Leaf) -> tuple[float, float] | tuple[None, None]:
-        """Around the value of the case, inside what is allowed; None where the case has none and the range no two ends.
+        """The ends between which a field is varied if none are typed; (None, None) where none can be chosen.
 
-        Whole numbers where the field takes no others, else four digits; none where it takes no numbers.
+        They lie around the value of the case, inside the range of the field; without a value they are the range itself,
+        if it has two finite ends. Integers, or numbers of four significant digits.
         """
         if numbers := [each for each in leaf.options if is_number(each)]:
             return min(numbers), max(numbers)
@@ -116,10 +117,11 @@ class SweepPage(StudyPage):
         return (ceil(low), floor(high)) if leaf.kind == "integer" else (float(f"{low:.4g}"), float(f"{high:.4g}"))
 
     def _axis(self, name: str, where: str) -> dict[str, Any]:
-        """The axis of a field as typed or usual; where it takes only some values, those, of numbers between the ends.
+        """The axis of a field, as typed or with its usual ends.
 
-        Whole numbers are as evenly spread as they can be, each once. What is no spread is left to the validator.
-        Raises Unprocessable at `where`.
+        A field that takes only certain values gets these, numbers only those between the ends; integers are spread as
+        evenly as possible, each once. Other faults are left to the validator of the body. Raises Unprocessable at
+        `where`.
         """
         leaf = scalar_at(self.calculation.request, self.views[name], f"{where}.path", "unknown_path")
         axis, choices = {"path": leaf.path}, _choices_of(leaf)
@@ -145,14 +147,14 @@ class SweepPage(StudyPage):
 
     @property
     def is_greatest_best(self) -> bool:
-        """Whether the best value is the greatest; raises Unprocessable."""
+        """Whether the greatest value is sought; raises Unprocessable."""
         best = self.views.get("best", "greatest" if self.output.view.greatest_is_best else "least")
         if best not in {"least", "greatest"}:
             raise Unprocessable("literal_error", "best: must be one of least, greatest", "best")
         return best == "greatest"
 
     def body(self) -> dict[str, Any]:
-        """The axes, and the output with the better one of its ends."""
+        """The axes as typed or usual, the output, and whether its least or greatest value is sought."""
         goal = "maximise" if self.is_greatest_best else "minimise"
         x, y = map(self.views.get, AXES)
         if y and not x:
@@ -168,7 +170,7 @@ class SweepPage(StudyPage):
         }
 
     def places(self) -> dict[str, str]:
-        """The controls of both axes; what concerns the whole grid is its number of points."""
+        """The controls of both axes; faults of the grid as a whole are shown at its number of points."""
         places = {"vary": "x.count"}
         parts = {"": ".from", ".path": "", ".stop": ".to", ".count": ".count", ".scale": ".scale"}
         for place, name in enumerate(AXES):
@@ -176,7 +178,7 @@ class SweepPage(StudyPage):
         return places
 
     def controls(self) -> tuple[Controls, ...]:
-        """The axes: menus of fields, ranges with what stands for them when empty."""
+        """For each axis a menu of fields, and its range with the usual ends as placeholders."""
         fields = dict(zip(AXES, self.study.points.varied, strict=False)) if self.study else {}
         groups = []
         for name, title, empty in (("x", "Vary", "choose …"), ("y", "and, as curves or a map", "nothing else")):
@@ -194,18 +196,18 @@ class SweepPage(StudyPage):
         return tuple(groups)
 
     def shows(self) -> tuple[FieldView, ...]:
-        """Which end of the output is the better one."""
+        """The menu of whether the least or the greatest value of the output is sought."""
         ends = (("", "by the output"), ("least", "least"), ("greatest", "greatest"))
         return (self.field("best", "the best is", options=ends),)
 
     def starters(self) -> Sequence[Starter | StudyExample]:
-        """The ready studies of examples; with a case of one's own they are asked of it, around its own values."""
+        """Links to ready studies of examples; where the query has a case, of this case and around its values."""
         if not self.asked.pairs:
             return study_links.studies_of(self.calculation)
         return study_links.studies_of_case(self.calculation, self.asked.pairs, self.case)
 
     def result(self, lines: list[Line]) -> Result:
-        """The figures; at the end also every point with a link to its case."""
+        """The figures, once the study has ended also a table of the points with links to their cases."""
         received = [line for line in lines if line["type"] == "point"]
         grid = self._grid(received)
         figures = figures_of(grid)
@@ -223,7 +225,7 @@ class SweepPage(StudyPage):
         )
 
     def _grid(self, received: list[Line]) -> Grid:
-        """The data of the figures; a point that has not come yet is a gap."""
+        """The data of the figures; NaN for points that have not arrived."""
         points = self.study.points
         found = np.full(points.total, nan)
         found[: len(received)] = [nan if line["out"][0] is None else float(line["out"][0]) for line in received]
@@ -275,7 +277,7 @@ class SweepPage(StudyPage):
         return Table("Points", (*titles, "status", "case"), rows, note, folded=True)
 
     def point_address(self, index: int) -> str:
-        """The page of the case at a point."""
+        """The address of the page of the case at a point."""
         return self.address(self.study.points.overrides(index))
 
     def _script(self, received: list[Line], figure: Figure) -> str:
