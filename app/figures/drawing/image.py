@@ -11,7 +11,6 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.backends.backend_pdf import FigureCanvasPdf
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure as Sheet
-from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.text import Text
 
 from app.figures.data import Figure, Panel, ThemeName
@@ -20,13 +19,14 @@ from app.figures.drawing.style import DPI, TEXT, TITLE, WIDTH, themed
 from app.figures.wording import subscripts
 
 EDGE = 0.1  # inches around everything
-TITLE_LINE, FINDING_LINE = 1.3 * TITLE / 72.0, 1.3 * TEXT / 72.0  # inches: 1.3 of the size of the letters
-TITLE_LENGTH, FINDING_LENGTH = 58, 84  # characters of a line
-HEIGHTS = {1: 2.6, 2: 1.65, 3: 1.3}  # inches, of panels above each other
-PLANE_HEIGHT = 3.3  # inches, of a field over two axes
+LINE = 1.3 / 72.0  # inches: height of a line of letters of one point
+TITLE_LENGTH, LENGTH, BESIDE_LENGTH = 58, 84, 30  # characters of a line: of the title, of others, of axes beside others
+HEIGHTS = {1: 2.6, 2: 1.6, 3: 1.25}  # inches, of panels above each other
+PLANE, PLANE_BESIDE = 3.3, 1.8  # inches, height of a field over two axes, and of one beside others
 ROW_HEIGHT = 0.3  # inches, of a row of bars with a name of up to two lines
-ABSCISSA_LENGTH = 30  # characters of a line below axes that stand beside others
-ABSCISSA = 0.45  # inches, ticks and name
+ABSCISSA = 0.45  # inches, ticks and name below axes
+TICKS = 0.4  # inches, least width of the names of ticks left of axes
+LEGEND, BAR, END = 1.5, 1.0, 0.2  # inches right of axes: with a legend, with a colour bar, with neither
 CANVASES = {"svg": FigureCanvasSVG, "png": FigureCanvasAgg, "pdf": FigureCanvasPdf}
 # Neither date nor version, so that equal figures give equal bytes.
 METADATA: dict[str, dict[str, str | None]] = {
@@ -75,49 +75,55 @@ def places(figure: Figure) -> list[Place]:
 def size(figure: Figure) -> tuple[float, float]:
     """Width and height of the image in inches."""
     heights = [_height(panel, figure) for panel in figure.panels]
-    named = sum(bool(panel.rows) or panel.x != below.x for panel, below in pairwise(figure.panels))
-    body = max(heights) + ABSCISSA if figure.beside else sum(heights) + ABSCISSA * (1 + named)
-    return WIDTH, body + EDGE + _head(figure)[-1]
+    body = max(heights, default=0.0) if figure.beside else sum(heights) + _gap(figure) * (len(heights) - 1)
+    return WIDTH, _head(figure)[-1] + _heading(figure) + body + ABSCISSA + EDGE
 
 
 def _head(figure: Figure) -> tuple[str, str, float, float]:
     """Title and finding in lines, and how far below the top of the image the finding begins and the panels."""
-    title, finding = fill(figure.title, TITLE_LENGTH), fill(figure.subtitle, FINDING_LENGTH)
-    below = EDGE + TITLE_LINE * (1 + title.count("\n"))
-    return title, finding, below, below + FINDING_LINE * (1 + finding.count("\n"))
+    title, finding = fill(figure.title, TITLE_LENGTH), fill(figure.subtitle, LENGTH)
+    below = EDGE + LINE * TITLE * (1 + title.count("\n"))
+    return title, finding, below, below + LINE * TEXT * (1 + finding.count("\n")) + EDGE
 
 
 def _height(panel: Panel, figure: Figure) -> float:
-    """Height of a panel without what stands below it, in inches."""
+    """Height of the axes of a panel in inches."""
     if panel.rows:
-        return ROW_HEIGHT * (len({row.name for row in panel.rows}) + (1 if panel.levels or panel.title else 0.3))
+        return ROW_HEIGHT * (len({row.name for row in panel.rows}) + (1 if panel.levels else 0.3))
     if panel.equal or panel.areas:
-        return PLANE_HEIGHT / 1.5 if figure.beside else PLANE_HEIGHT
+        return PLANE_BESIDE if figure.beside else PLANE
     return HEIGHTS[1 if figure.beside else min(len(figure.panels), max(HEIGHTS))]
+
+
+def _heading(figure: Figure) -> float:
+    """Height of the titles and names of ordinates above axes, in inches."""
+    names = 0 if all(panel.rows for panel in figure.panels) else 2 if figure.beside else 1
+    return LINE * TEXT * (names + any(panel.title for panel in figure.panels)) + EDGE / 2
+
+
+def _share(figure: Figure) -> bool:
+    """Whether the panels stand above each other over one abscissa."""
+    return not figure.beside and all(panel.x == figure.panels[0].x for panel in figure.panels)
+
+
+def _gap(figure: Figure) -> float:
+    """Distance between axes above each other in inches."""
+    return _heading(figure) + (EDGE / 2 if _share(figure) else ABSCISSA)
 
 
 def laid_out(figure: Figure) -> tuple[Sheet, list[Axes]]:
     """The sheet with everything on it at its place, and the axes of the panels; inside the theme's settings."""
-    (title, finding, below, above), (width, height) = _head(figure), size(figure)
-    engine = ConstrainedLayoutEngine(rect=(0, 0, 1, 1.0 - (above + EDGE) / height), w_pad=EDGE, h_pad=EDGE / 2)
-    sheet = Sheet(figsize=(width, height), dpi=DPI["svg"], layout=engine)
+    (title, finding, below, _), (width, height) = _head(figure), size(figure)
+    sheet = Sheet(figsize=(width, height), dpi=DPI["svg"])
     FigureCanvasAgg(sheet)  # measures texts
     style: dict[str, Any] = {"va": "top", "linespacing": 1.2}
     sheet.text(EDGE / width, 1.0 - EDGE / height, title, fontsize=TITLE, fontweight="bold", **style)
     sheet.text(EDGE / width, 1.0 - below / height, finding, fontsize=TEXT, color=rcParams["axes.labelcolor"], **style)
     axes = _axes(sheet, figure) if figure.panels else []
-    for each, panel in zip(axes, figure.panels, strict=True):
-        draw_panel(each, panel, _height(panel, figure))
-        if figure.beside:
-            each.set_xlabel(fill(panel.x.label, ABSCISSA_LENGTH))
-    sheet.align_ylabels([each for each, panel in zip(axes, figure.panels, strict=True) if not panel.rows])
     for text in sheet.findobj(Text):
         typeset = subscripts(text.get_text(), _symbol)
         if typeset != text.get_text():
             text.set(text=typeset, parse_math=True)
-    if axes:
-        engine.execute(sheet)
-    sheet.set_layout_engine("none")
     for each, panel in zip(axes, figure.panels, strict=True):
         place_texts(each, panel)
     return sheet, axes
@@ -129,16 +135,26 @@ def _symbol(letter: str, subscript: str) -> str:
 
 
 def _axes(sheet: Sheet, figure: Figure) -> list[Axes]:
-    """Axes above or beside each other; an axis that two share is named once."""
-    panels, heights = figure.panels, [_height(each, figure) for each in figure.panels]
-    count, ratios = ((1, len(panels)), None) if figure.beside else ((len(panels), 1), heights)
-    axes = list(sheet.subplots(*count, squeeze=False, height_ratios=ratios).flat)
-    for (before, above), (panel, each) in pairwise(zip(panels, axes, strict=True)):
-        if figure.beside:
-            each.yaxis.label.set_visible(panel.y.label != before.y.label)
-        elif before.x == panel.x:
-            each.sharex(above)
-            if not panel.rows:
-                above.tick_params(labelbottom=False)
-                above.xaxis.label.set_visible(False)
+    """Axes with their contents, and room around them for the names of ticks, legends and colour bars."""
+    heights, (width, height) = [_height(panel, figure) for panel in figure.panels], size(figure)
+    rows, columns = (1, len(heights)) if figure.beside else (len(heights), 1)
+    ratios = None if figure.beside else heights
+    axes = list(sheet.subplots(rows, columns, squeeze=False, sharex=_share(figure), height_ratios=ratios).flat)
+    for each, panel in zip(axes, figure.panels, strict=True):
+        draw_panel(each, panel, BESIDE_LENGTH if figure.beside else LENGTH)
+        each.xaxis.label.set_visible(each is axes[-1] or not _share(figure))
+    for each, (before, panel) in zip(axes[1:], pairwise(figure.panels), strict=True):
+        each.yaxis.label.set_visible(not figure.beside or panel.y.label != before.y.label)
+    ticks = max(text.get_window_extent().width for each in axes for text in each.get_yticklabels())
+    left = EDGE + max(TICKS, ticks / sheet.dpi) + EDGE / 2
+    ends = [LEGEND if each.get_legend() else BAR if each.child_axes else END for each in axes]
+    right, between = (ends[-1], left + max(ends[:-1], default=0.0)) if figure.beside else (max(ends), 0.0)
+    sheet.subplots_adjust(
+        left=left / width,
+        right=1.0 - right / width,
+        top=1.0 - (_head(figure)[-1] + _heading(figure)) / height,
+        bottom=(ABSCISSA + EDGE) / height,
+        wspace=between * columns / (width - left - right - between * (columns - 1)),
+        hspace=_gap(figure) * rows / sum(heights),
+    )
     return axes

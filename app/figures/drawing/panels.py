@@ -11,10 +11,10 @@ from matplotlib.colors import LogNorm, Normalize, to_rgba
 from matplotlib.patches import Rectangle
 from matplotlib.text import Text
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullLocator
-from matplotlib.transforms import Bbox, BboxBase
+from matplotlib.transforms import Bbox, BboxBase, offset_copy
 
 from app.figures.data import Line, Map, Panel, Role, Row, Scale
-from app.figures.drawing.style import DASHES, LETTER, LIMIT, TEXT, patch, written
+from app.figures.drawing.style import DASHES, LIMIT, TEXT, patch, written
 from app.figures.wording import NOISE, number, without_rounding
 
 FARTHEST_LEVEL = 4.0  # a limit beyond so many times the values is named at the edge instead of flattening them
@@ -23,8 +23,7 @@ BAR_SHARE, TINT = 0.8, 0.2  # of the spacing; opacity of fills
 ROW = 0.52  # height of a row's bar
 RING = 5  # pixels
 SIDES = {"above": 1, "below": -1}  # of a point, on which its text is tried first; other texts stay where they are
-# Of a ratio on a logarithmic axis; up to the next number its ticks are evenly spaced.
-RATIO_TICKS, LINEAR_RATIO = (0.1, 0.2, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 5.0, 10.0, 20.0, 50.0, 100.0), 1.3
+RATIO_TICKS = (1.0, 1.5, 2.0, 3.0, 5.0, 7.0)  # of a decade
 CROWDED = 0.05  # of the colour bar: a tick nearer to a critical value gives way
 BESIDE_ROWS = 0.4  # of the reach of rows, for texts at their ends
 WIDE = 0.15  # of the longest bar: bounds farther apart have their values at their ends
@@ -34,21 +33,27 @@ NUMBERS = FuncFormatter(lambda value, _: number(value, digits=6))
 Style = dict[str, Any]  # of matplotlib's artists
 
 
-def draw_panel(axes: Axes, panel: Panel, height: float) -> None:
-    """Everything of a panel of a height in inches; the texts of points and areas stay for `place_texts`."""
-    scales = ["log" if quantity.log else "linear" for quantity in (panel.x, panel.y)]
-    axes.set(xscale=scales[0], yscale=scales[1], title=panel.title or "")
+def draw_panel(axes: Axes, panel: Panel, length: int) -> None:
+    """Everything of a panel, with so many characters in a line of the names of its axes.
+
+    The ordinate is named above the axes, where its name can be read without turning the head. The texts of points and
+    areas stay for `place_texts`.
+    """
+    name = "" if panel.rows else fill(panel.y.label, length)
+    axes.set(xscale="log" if panel.x.log else "linear", yscale="log" if panel.y.log else "linear")
+    axes.set_title(panel.title or "", pad=4.0 + 1.3 * TEXT * len(name.splitlines()))
+    axes.set_ylabel(name, rotation="horizontal", ha="left", va="bottom")
+    axes.yaxis.set_label_coords(0.0, 1.0, offset_copy(axes.transAxes, axes.figure, y=4.0, units="points"))
     for axis, quantity in ((axes.xaxis, panel.x), (axes.yaxis, panel.y)):
         axis.set_major_locator(LogLocator(numticks=7) if quantity.log else MaxNLocator(nbins=6, steps=STEPS))
         axis.set_minor_locator(NullLocator())
         if quantity.ticks is not None:
             axis.set_ticks(quantity.ticks)
         axis.set_major_formatter(NUMBERS)
-    axes.set_xlabel(panel.x.label, loc="right" if panel.rows else "center")  # it may be wider than the axes of rows
-    if panel.rows:
-        _draw_rows(axes, panel)
-    else:
-        axes.set_ylabel(fill(panel.y.label, max(round(height / LETTER), 10)))
+    axes.set_xlabel(
+        fill(panel.x.label, length), loc="right" if panel.rows else "center"
+    )  # it may be wider than the axes of rows
+    _draw_rows(axes, panel)
     _draw_fills(axes, panel)
     if panel.map is not None:
         _draw_map(axes, panel, panel.map)
@@ -141,6 +146,8 @@ def _draw_bars(axes: Axes, bars: Line, beside: list[Line]) -> None:
 def _draw_rows(axes: Axes, panel: Panel) -> None:
     """A horizontal bar with its value, or a line of dots, for each row; bars of a variant lie over its base."""
     own = [row for row in panel.rows if row.role is not Role.VARIANT]
+    if not own:
+        return
     places = {row.name: place for place, row in enumerate(own)}
     axes.grid(visible=False, axis="y")
     axes.spines["left"].set_visible(False)
@@ -217,9 +224,9 @@ def _draw_map(axes: Axes, panel: Panel, chart: Map) -> None:
     colors = axes.pcolormesh(x, y, shown, cmap=cmap, norm=norm, shading="gouraud", rasterized=True)
     axes.grid(visible=False)
     critical = {each.value: each.name for each in chart.critical if low <= each.value <= high}
-    linear = chart.scale is not Scale.RATIO or high <= LINEAR_RATIO
-    ticks = MaxNLocator(nbins=6, steps=STEPS).tick_values(low, high) if linear else RATIO_TICKS
-    ticks = [tick for tick in ticks if low <= tick <= high]
+    bar = axes.figure.colorbar(colors, axes.inset_axes((1.04, 0.0, 0.035, 1.0)), format=NUMBERS)
+    bar.locator = LogLocator(subs=RATIO_TICKS) if chart.scale is Scale.RATIO else MaxNLocator(nbins=6, steps=STEPS)
+    ticks = [tick for tick in bar.get_ticks() if low <= tick <= high]
     thin: Style = {"colors": "#FFFFFF" if still is None else "#1F2937", "linewidths": 0.6, "alpha": 0.55}
     strong: Style = {"colors": LIMIT if still is None else "#111827", "linewidths": 1.5, "linestyles": "dashed"}
     for levels, style in (({*ticks} - {*critical, still}, thin), ({*critical}, strong)):
@@ -227,8 +234,8 @@ def _draw_map(axes: Axes, panel: Panel, chart: Map) -> None:
         if inside:
             axes.contour(x, y, shown, inside, negative_linestyles="solid", **style)
     if not chart.bar:
+        bar.ax.remove()
         return
-    bar = axes.figure.colorbar(colors, ax=axes, pad=0.03, aspect=22, format=NUMBERS)
     bar.outline.set_visible(False)
     bar.set_ticks([tick for tick in ticks if all(abs(norm(tick) - norm(each)) > CROWDED for each in critical)])
     bar.set_label(f"{chart.title}, {chart.unit}" if chart.unit else chart.title)

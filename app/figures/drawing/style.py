@@ -10,8 +10,7 @@ from app.figures.data import Hue, Role, ThemeName
 
 WIDTH = 5.6  # inches
 DPI = {"svg": 100, "png": 180, "pdf": 180}  # of the maps inside the vector formats too
-TITLE, TEXT, SMALL = 11.0, 8.5, 8.0  # points; the texts of axes, as the style sheet has it, are small
-LETTER = 0.58 * SMALL / 72.0  # inches: mean width of a character
+TITLE, TEXT = 11.0, 8.5  # points; the texts of axes have 8, as the style sheet says
 DASHES: dict[Role, Any] = {Role.RESULT: "solid", Role.REFERENCE: (0, (1.2, 1.8)), Role.VARIANT: (0, (4.5, 2.2))}
 LIMIT = "C7"  # colour of limits
 
