@@ -11,7 +11,7 @@ from matplotlib.colors import LogNorm, Normalize, to_rgba
 from matplotlib.patches import Rectangle
 from matplotlib.text import Text
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullLocator
-from matplotlib.transforms import Bbox, BboxBase, offset_copy
+from matplotlib.transforms import Bbox, BboxBase, ScaledTranslation
 
 from app.figures.data import Line, Map, Panel, Role, Row, Scale
 from app.figures.drawing.style import DASHES, LIMIT, TEXT, patch, written
@@ -23,8 +23,9 @@ BAR_SHARE, TINT = 0.8, 0.2  # of the spacing; opacity of fills
 ROW = 0.52  # height of a row's bar
 RING = 5  # pixels
 SIDES = {"above": 1, "below": -1}  # of a point, on which its text is tried first; other texts stay where they are
-RATIO_TICKS = (1.0, 1.5, 2.0, 3.0, 5.0, 7.0)  # of a decade
-CROWDED = 0.05  # of the colour bar: a tick nearer to a critical value gives way
+# Of a decade of ratios, and up to which ratio the ticks are evenly spaced instead.
+RATIO_TICKS, LINEAR_RATIO = (1.0, 1.5, 2.0, 3.0, 5.0, 7.0), 1.5
+CROWDED = 0.08  # of the colour bar: a tick nearer to a critical value gives way
 BESIDE_ROWS = 0.4  # of the reach of rows, for texts at their ends
 WIDE = 0.15  # of the longest bar: bounds farther apart have their values at their ends
 STEPS = (1, 2, 2.5, 5, 10)  # of ticks, times powers of ten
@@ -43,16 +44,16 @@ def draw_panel(axes: Axes, panel: Panel, length: int) -> None:
     axes.set(xscale="log" if panel.x.log else "linear", yscale="log" if panel.y.log else "linear")
     axes.set_title(panel.title or "", pad=4.0 + 1.3 * TEXT * len(name.splitlines()))
     axes.set_ylabel(name, rotation="horizontal", ha="left", va="bottom")
-    axes.yaxis.set_label_coords(0.0, 1.0, offset_copy(axes.transAxes, axes.figure, y=4.0, units="points"))
+    above = axes.transAxes + ScaledTranslation(0.0, 4.0 / 72.0, axes.figure.dpi_scale_trans)
+    axes.yaxis.set_label_coords(0.0, 1.0, above)
     for axis, quantity in ((axes.xaxis, panel.x), (axes.yaxis, panel.y)):
         axis.set_major_locator(LogLocator(numticks=7) if quantity.log else MaxNLocator(nbins=6, steps=STEPS))
         axis.set_minor_locator(NullLocator())
         if quantity.ticks is not None:
             axis.set_ticks(quantity.ticks)
         axis.set_major_formatter(NUMBERS)
-    axes.set_xlabel(
-        fill(panel.x.label, length), loc="right" if panel.rows else "center"
-    )  # it may be wider than the axes of rows
+    # The name may be wider than the axes of rows.
+    axes.set_xlabel(fill(panel.x.label, length), loc="right" if panel.rows else "center")
     _draw_rows(axes, panel)
     _draw_fills(axes, panel)
     if panel.map is not None:
@@ -221,11 +222,13 @@ def _draw_map(axes: Axes, panel: Panel, chart: Map) -> None:
         for along, axis in ((chart.x, panel.x), (chart.y, panel.y))
     )
     shown = np.ma.masked_invalid(np.broadcast_to(chart.values, (y.size, x.size)))
-    colors = axes.pcolormesh(x, y, shown, cmap=cmap, norm=norm, shading="gouraud", rasterized=True)
+    colors = axes.pcolormesh(x, y, shown, cmap=cmap, norm=norm, shading="nearest", rasterized=True)
+    axes.set(xlim=x[[0, -1]], ylim=y[[0, -1]])
     axes.grid(visible=False)
     critical = {each.value: each.name for each in chart.critical if low <= each.value <= high}
     bar = axes.figure.colorbar(colors, axes.inset_axes((1.04, 0.0, 0.035, 1.0)), format=NUMBERS)
-    bar.locator = LogLocator(subs=RATIO_TICKS) if chart.scale is Scale.RATIO else MaxNLocator(nbins=6, steps=STEPS)
+    decades = chart.scale is Scale.RATIO and high > LINEAR_RATIO
+    bar.locator = LogLocator(subs=RATIO_TICKS) if decades else MaxNLocator(nbins=6, steps=STEPS)
     ticks = [tick for tick in bar.get_ticks() if low <= tick <= high]
     thin: Style = {"colors": "#FFFFFF" if still is None else "#1F2937", "linewidths": 0.6, "alpha": 0.55}
     strong: Style = {"colors": LIMIT if still is None else "#111827", "linewidths": 1.5, "linestyles": "dashed"}
