@@ -136,11 +136,12 @@ class _DriveTrain:
             for begin, end, outer, inner in self._under_teeth(place, sections, face_start)
         ]
         stage.put(f"{name}.sections", cylinders, shaft)
+        placed = [(stage.position(each, shaft), each) for each in _bearings(stage, shaft)]
+        placed.sort(key=lambda each: each[0] or 0.0)
         bearings = [
-            self._bearing(each, shaft, f"{name}.bearings.{index}")
-            for index, each in enumerate(_bearings(self._stage, shaft))
+            self._bearing(bearing, position, shaft, f"{name}.bearings.{index}")
+            for index, (position, bearing) in enumerate(placed)
         ]
-        bearings.sort(key=lambda each: each.get("position_mm", 0.0))
         stage.put(f"{name}.bearings", bearings, shaft)
         material = self._reading.model.reference_of([shaft], "material")
         for row in table.MATERIAL:
@@ -205,10 +206,9 @@ class _DriveTrain:
             self._stage.note(f"{NAMES[place]}.sections", gear.reference_diameter, reason)
         return found
 
-    def _bearing(self, bearing: Component, shaft: Component, path: str) -> dict[str, Any]:
+    def _bearing(self, bearing: Component, position: float | None, shaft: Component, path: str) -> dict[str, Any]:
         reading, stage = self._reading, self._stage
         made: dict[str, Any] = {}
-        position = self._stage.position(bearing, shaft)
         if position is None:
             attribute = "u_coordinate_on_shaft_inner_side"
             stage.lacks(f"{path}.position_mm", bearing, attribute, "where the bearing sits")

@@ -156,7 +156,7 @@ class Train:
             for load in self._reading.model.parts_of(shaft.id):
                 if load.type != "external_load":
                     continue
-                torque = self._stated_torque(load, speeds.get(group), case)
+                torque = self._stated_torque(load, shaft, speeds.get(group), case)
                 if torque is not None:
                     known[group] += torque
                     if torque * speeds.get(group, 0.0) < 0.0:
@@ -175,13 +175,14 @@ class Train:
         shafts = (model.whole_of(part, "shaft") for part in parts)
         return {self._group[shaft.id] for shaft in shafts if shaft is not None and shaft.id in self._group}
 
-    def _stated_torque(self, load: Component, speed: float | None, case: LoadCase | None) -> float | None:
-        """The torque of a load about the unit's axis [N m], where the load defines it."""
+    def _stated_torque(
+        self, load: Component, shaft: Component, speed: float | None, case: LoadCase | None
+    ) -> float | None:
+        """The torque of a load on a shaft, about the unit's axis [N m], where the load defines it."""
         if self._reading.flag(load, "defines_torque") is False:
             return None
         torque = self._reading.number(load, "torque_around_u_axis", "Nm", case)
         if torque is not None:
-            shaft = self._reading.model.whole_of(load.id, "shaft")
-            return torque * self._sense(shaft) if shaft else torque
+            return torque * self._sense(shaft)  # the u axis of a load is that of its shaft
         power = self._reading.number(load, "power", "W", case)
         return power / (speed * REVOLUTION_PER_MINUTE) if power is not None and speed else None
