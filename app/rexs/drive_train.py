@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 from app.rexs import table
 from app.rexs.model import Component
 from app.rexs.reading import Vector
-from app.rexs.stages import StageDraft, shaft_axis
+from app.rexs.stages import StageDraft
 
 MOST_PIECES = 10  # of a cone; a request allows 40 sections of a shaft
 LONGEST_PIECE = 10.0  # mm of a cone that one cylinder stands for
@@ -47,7 +47,7 @@ def _obstacles(stage: StageDraft) -> Iterator[tuple[Component, str]]:
         bearings = _bearings(stage, shaft)
         if len(bearings) != len(NAMES):
             yield shaft, f"the shaft has {len(bearings)} radial bearings in the casing; two are needed"
-        if shaft_axis(stage.reading, shaft) is None:
+        if stage.reading.axis(shaft) is None:
             yield shaft, "the file does not say where the shaft lies (support_vector)"
         if stage.face_interval(place) is None:
             yield gear, "the file does not say where on its shaft the gear sits"
@@ -72,7 +72,7 @@ class _DriveTrain:
 
     def __init__(self, stage: StageDraft) -> None:
         self._stage, self._reading = stage, stage.reading
-        found = [shaft_axis(self._reading, shaft) for shaft in stage.shafts]
+        found = [self._reading.axis(shaft) for shaft in stage.shafts]
         self._axes = [axis for axis in found if axis is not None]
         z, y = self._axes[0].direction, self._reading.vector(stage.shafts[0], "w_axis_vector")
         if y is None or abs(_dot(y, z)) > 1e-6 or _dot(y, y) <= 0.0:
