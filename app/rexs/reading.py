@@ -9,13 +9,14 @@ from functools import cached_property
 from math import isfinite, sqrt
 from typing import Annotated, Any, NamedTuple
 
-from pydantic import BaseModel, ValidationError
+from pydantic import BaseModel
 
 from app.calculations import BY_PATH
+from app.errors import InvalidBody
 from app.rexs.model import Attribute, Component, LoadCase, Model
 from app.rexs.table import IGNORED, Row, converted
 from app.schema.quantities import Output
-from app.schema.reading import faults
+from app.schema.reading import validated
 
 LARGEST = 1e30  # in any unit; keeps sums and products of a hostile file finite
 MESH = {"gears", "load", "materials", "modifications"}
@@ -243,9 +244,9 @@ class Draft:
         while True:
             request = _nested({theirs: self.fields[ours] for ours, theirs in own.items()})
             try:
-                model.model_validate(request)
-            except ValidationError as error:
-                found = faults(model, map(dict, error.errors()))
+                validated(model, request)
+            except InvalidBody as error:
+                found = error.faults
             else:
                 return request
             accepted = len(own)

@@ -18,7 +18,7 @@ MOST_FINDINGS = 1000  # that an answer lists; who wrote the file sees the patter
 MOST_STAGES = 50  # chosen: far beyond any unit
 MOST_CASES = 200  # of a spectrum in the file that are read
 LONGEST_NAME, MOST_SPECTRUM_CASES = 100, 100  # of /v1/spectrum
-SHARES = (("operating_time_fraction", ""), ("operating_time", "h"))
+SHARES = {"operating_time_fraction": "", "operating_time": "h"}  # attributes and their units
 
 
 def gear_unit(model: Model) -> dict[str, Any]:
@@ -130,10 +130,10 @@ def _shares(reading: Reading, cases: list[LoadCase]) -> tuple[list[float], str |
     """Share of the operating time of each load case, and how it was found where the file leaves that open."""
     if not cases:
         return [], None
-    unit, standard = reading.model.first("gear_unit"), dict(SHARES)
+    unit = reading.model.first("gear_unit")
     stated = {name for case in cases for each in case.attributes.values() for name in each}
-    own = sorted(name for name in stated if name.endswith("_fraction") and name not in standard)
-    for name, size in (standard | dict.fromkeys(own, "")).items() if unit else ():
+    own = sorted(name for name in stated if name.endswith("_fraction") and name not in SHARES)
+    for name, size in (SHARES | dict.fromkeys(own, "")).items() if unit else ():
         values = [reading.number(unit, name, size, case) for case in cases]
         known = [value for value in values if value is not None and value >= 0.0]
         if len(known) == len(values) and sum(known) > 0.0:
