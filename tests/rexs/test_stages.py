@@ -59,6 +59,15 @@ def test_formats_say_the_same() -> None:
     assert answer(unit.json()) == answer(unit.zipped()) == answer(unit)
 
 
+@pytest.mark.parametrize("unit", [three_stages(), turbo_unit()])
+def test_ordered_assemblies_say_the_same(unit: Unit) -> None:
+    plain = answer(unit)
+    for each in unit.relations:
+        if each["type"] == "assembly":
+            each["type"] = "ordered_assembly"
+    assert answer(unit) == plain
+
+
 def test_an_array_in_base64_says_the_same() -> None:
     unit = turbo_unit()
     plain = answer(unit)
