@@ -1,4 +1,8 @@
-"""Flank modifications of both gears as the gap of the mesh, on the flanks that carry the load."""
+"""Flank modifications of both gears as the gap of the mesh, on the flanks that carry the load.
+
+Tip relief of the pinion and root relief of the wheel act at E, the others at A; a slope's sign follows from the end of
+the face that meshes first.
+"""
 
 from math import sqrt
 
@@ -9,19 +13,14 @@ from app.rexs.stages import ROLES, Involute, StageDraft
 
 
 class Modifications:
-    """Flank modifications of both gears as the gap of the mesh, on the flanks that carry the load.
-
-    Tip relief of the pinion and root relief of the wheel act at E, the others at A; a slope's sign follows from the
-    end of the face that meshes first.
-    """
+    """Fills the fields of `modifications` in the draft of a stage."""
 
     def __init__(self, stage: StageDraft) -> None:
         self._stage, self._reading = stage, stage.reading
-        self._carried: list[tuple[int, Component]] = []  # each with the place of its gear
+        self._carried = [(place, each) for place in (0, 1) for each in self._of_working_flank(place)]  # place of gear
 
     def fill(self) -> None:
-        """Set the fields of `modifications`."""
-        self._carried = [(place, each) for place in (0, 1) for each in self._of_working_flank(place)]
+        """Set all fields."""
         self._relief("tip_relief", ("tip_relief", "root_relief"))
         self._relief("root_relief", ("root_relief", "tip_relief"))
         self._crowning("profile_crowning", "profile_crowning_um", ("_at_tip", "_at_root"))
