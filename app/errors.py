@@ -35,6 +35,10 @@ class Unreadable(ServiceError):
     """The body is no JSON that can be read."""
 
 
+class ContentTooLarge(ServiceError):
+    """The body is larger than the settings allow."""
+
+
 class InvalidBody(Exception):
     """The body is no request; the faults are a hundred at most."""
 
@@ -109,6 +113,7 @@ class Kind(NamedTuple):
 
 PROBLEMS: dict[type[Exception], Kind] = {
     Unreadable: Kind(400, "bad_request", "The request cannot be read"),
+    ContentTooLarge: Kind(413, "content_too_large", "The request body is too large"),
     WarmingUp: Kind(503, "warming_up", "The kernels of this calculation are still being compiled; try again", 2),
     QueueFull: Kind(503, "queue_full", "Too many calculations are waiting; try again later", 1),
     StudiesFull: Kind(503, "studies_full", "Other studies are running; try again later", 5),

@@ -13,12 +13,11 @@ from app.figures import rendering
 from app.figures.data import ThemeName
 from app.figures.declaration import Declaration
 from app.schema.fields import field_path
-from app.schema.model import MODEL_VERSION, Request, Response, Section, above, from_si, members
+from app.schema.model import MODEL_VERSION, Request, Response, Section, from_si, members
 from app.schema.reading import validated
 from app.sources import SOURCES
 from solvers import notices
 from solvers.errors import InvalidInput, NoSolution
-from solvers.quantity import Detail
 
 MOST_MEMBERS = 1000  # fields of one object, chosen: no section has nearly as many
 MOST_OBJECTS = 10_000  # in a body, chosen: no study within its limits names nearly as many
@@ -100,9 +99,9 @@ def json_answer(calculation: Calculation, request: Request) -> bytes:
     return written(evaluate(calculation, request))
 
 
-def written(response: Response, detail: Detail = "fields") -> bytes:
-    """The response as JSON, its fields above a level of detail left out."""
-    return response.model_dump_json(exclude_unset=True, exclude=above(type(response), detail)).encode()
+def written(response: Response) -> bytes:
+    """The response as JSON."""
+    return response.model_dump_json(exclude_unset=True).encode()
 
 
 def drawn(

@@ -12,10 +12,11 @@ from secrets import token_hex
 from prometheus_client import Counter, Histogram
 from starlette._utils import get_route_path
 from starlette.exceptions import HTTPException
-from starlette.requests import ClientDisconnect
+from starlette.requests import ClientDisconnect, Request
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from app.http.problems import internal_error, problem
+from app.errors import ContentTooLarge
+from app.http.problems import answer, internal_error, problem
 from app.log import DURATION, REQUEST_LOG, REQUESTS
 from app.settings import MEBIBYTE, Settings
 
@@ -139,7 +140,7 @@ class _Request:
         """Answer, whatever happens, and log and count it."""
         announced = self._headers.get(b"content-length", b"")
         if announced.isdigit() and int(announced) > self._most_bytes:
-            application = problem(self._identifier, 413, "content_too_large", self._too_large())
+            application = answer(Request(self._scope), self._too_large())
         try:
             await application(self._scope, self._receive_within_limits, self._send_decorated)
         except ClientDisconnect:
@@ -147,13 +148,13 @@ class _Request:
         except asyncio.CancelledError:  # the server stops and waits no longer; this task ends with its answer
             if self._status == CLIENT_GONE:
                 retry = {"Retry-After": "5"}
-                answer = problem(self._identifier, 503, "shutting_down", "The service stops", headers=retry)
-                await answer(self._scope, self._receive, self._send_decorated)
+                stopping = problem(self._identifier, 503, "shutting_down", "The service stops", headers=retry)
+                await stopping(self._scope, self._receive, self._send_decorated)
         except Exception as error:
-            answer = internal_error(self._identifier, error)
+            failure = internal_error(self._identifier, error)
             if self._status != CLIENT_GONE:
                 raise  # too late for another answer: the connection is cut
-            await answer(self._scope, self._receive, self._send_decorated)
+            await failure(self._scope, self._receive, self._send_decorated)
         finally:
             endpoint = getattr(self._scope.get("route"), "path", "unmatched")
             status = self._state.get("answered", self._status)  # by the protocol, in our place
@@ -192,9 +193,9 @@ class _Request:
             raise HTTPException(408, "The request body took too long to arrive") from error
         self._received += len(message.get("body", b""))
         if self._received > self._most_bytes:
-            raise HTTPException(413, self._too_large())
+            raise self._too_large()
         self._complete = not message.get("more_body", False)
         return message
 
-    def _too_large(self) -> str:
-        return f"The request body is larger than {self._most_bytes} bytes"
+    def _too_large(self) -> ContentTooLarge:
+        return ContentTooLarge(f"The request body is larger than {self._most_bytes} bytes")

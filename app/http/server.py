@@ -186,6 +186,10 @@ class LimitedProtocol(HttpToolsProtocol):
         """Send a problem document once all earlier requests are answered, and close the connection."""
         if self.transport.is_closing():
             return
+        if self._in_body and self.pipeline:  # its request waits for the answers before it, and will not start
+            self.pipeline.popleft()
+            self._cycles.pop()
+            self.cycle, self._in_body = self._cycles[-1], False
         if not (self._answered or self._in_body):
             self._outstanding = status
             return

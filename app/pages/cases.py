@@ -14,6 +14,7 @@ from app.pages.query import Pairs, body_of
 from app.schema.fields import Branch, leaf_at, leaves, tree
 from app.schema.model import Request
 from app.schema.reading import validated
+from solvers.quantity import Detail
 
 NAME = r"[a-z]\w*(?:[._]\w+)+"  # of a field: words joined by points and underscores
 COMPRESSION = 1  # the fastest level of zlib
@@ -41,19 +42,20 @@ class Case:
     kept: bytes
 
 
-def solved(calculation: Calculation, pairs: Pairs, kept: bytes | None) -> Case:
-    """The case with all that its figures need; the one that is kept if there is one, whatever the fields.
+def solved(calculation: Calculation, pairs: Pairs, kept: bytes | None, detail: Detail = "fields") -> Case:
+    """The case, usually with all that its figures need; the one that is kept if there is one, whatever the fields.
 
     Raises Unreadable, InvalidBody and Unprocessable.
     """
     if kept is None:
         body = body_of(calculation.request, pairs)
         _fill(tree(calculation.request), body)
-        request = validated(calculation.request, body).model_copy(update={"detail": "fields"})
+        request = validated(calculation.request, body)
         result = solve(calculation, request)
         kept = zlib.compress(pickle.dumps((request, result)), COMPRESSION)
     else:
         request, result = pickle.loads(zlib.decompress(kept))  # noqa: S301  our own
+    request = request.model_copy(update={"detail": detail})
     return Case(calculation, request, response_to(calculation, request, result), kept)
 
 

@@ -129,8 +129,8 @@ def form(request: type[Request], state: State) -> tuple[Section, ...]:
             sections.append(replace(block, blocks=(block,), kind="section", id=f"{anchor(block.path)}-", fault=None))
     if loose:
         names = [leaf.path for leaf in root.leaves if leaf.path != DETAIL]
-        general = _section("general", "general", names, loose, state)
-        sections.append(replace(general, open=general.open or any(leaf.required for leaf in root.leaves)))
+        needed = any(leaf.required for leaf in root.leaves)
+        sections.append(_section("general", "general", names, loose, state, needed=needed))
     return tuple(sorted(sections, key=lambda each: (not each.needed, each.advanced)))
 
 

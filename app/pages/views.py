@@ -203,9 +203,9 @@ def form_page(asked: Asked) -> Shown:
 
 def result(asked: Asked, media: Literal["json", "csv"]) -> Shown:
     """The answer of the API, or its values as a table, or one of its curves."""
-    case = solved(asked.calculation, asked.pairs, asked.kept)
+    case = solved(asked.calculation, asked.pairs, asked.kept, "curves" if media == "json" else "fields")
     if media == "json":
-        content = json_written(case.response, "curves")
+        content = json_written(case.response)
     elif (path := asked.views.get("curve")) is None:
         content = csv.values(case, asked.title)
     else:

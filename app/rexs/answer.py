@@ -10,7 +10,7 @@ from app.errors import Unprocessable
 from app.evaluate import content_of, evaluate, refuse_endless
 from app.pages.overview import unit_page
 from app.rexs import table
-from app.rexs.document import Document, File, NotRexs, read, with_attributes
+from app.rexs.document import Document, File, read, with_attributes
 from app.rexs.model import Attribute
 from app.rexs.reading import AssumedValue, Fault, MissingValue, Unused
 from app.rexs.unit import gear_unit
@@ -75,7 +75,7 @@ class GearUnit(BaseModel):
 
 def unit_of(content: bytes, most_bytes: int) -> dict[str, Any]:
     """The answer of /v1/rexs; raises Unprocessable where the file is no REXS that can be read."""
-    return gear_unit(_read(content, most_bytes).model)
+    return gear_unit(read(content, most_bytes).model)
 
 
 def unit_json(content: bytes, most_bytes: int) -> bytes:
@@ -94,7 +94,7 @@ def with_results(content: bytes, most_bytes: int, stage: int, request: bytes | N
     `request` is the stage's request as edited, else the one of the file is solved: of the drive train where it can be
     formed, else of /v1/scuffing. Raises Unprocessable, and what reading a request raises.
     """
-    document = _read(content, most_bytes)
+    document = read(content, most_bytes)
     found = next((each for each in gear_unit(document.model)["stages"] if each["id"] == stage), None)
     if found is None:
         raise Unprocessable("unknown_stage", f"the file has no stage {stage} that can be calculated", None)
@@ -126,10 +126,3 @@ def with_answer(document: Document, stage: int, endpoint: str, answer: dict[str,
             written.append(Attribute(f"{table.CUSTOM if custom else ''}{name}", unit, value))
     written += [Attribute(f"{table.CUSTOM}{name}", "none", answer[name]) for name in ("status", "case")]
     return with_attributes(document.file, stage, written)
-
-
-def _read(content: bytes, most_bytes: int) -> Document:
-    try:
-        return read(content, most_bytes)
-    except NotRexs as error:
-        raise Unprocessable("not_rexs", str(error), None) from error

@@ -16,6 +16,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from lxml import etree
 
+from app.errors import Unprocessable
 from app.rexs.model import Attribute, Component, LoadCase, Model, Relation
 
 MOST_ELEMENTS = 1_500_000  # tags and attributes of XML, containers of JSON: at 200 bytes each 300 MB
@@ -25,8 +26,9 @@ SAFE = {"resolve_entities": False, "load_dtd": False, "no_network": True, "huge_
 """No entities, no other files, libxml2's limits of depth and length."""
 
 
-class NotRexs(Exception):
-    """The file is not a REXS model that can be read; the message says where and why."""
+def not_rexs(message: str) -> Unprocessable:
+    """The refusal of a file that is no REXS model that can be read; the message says where and why."""
+    return Unprocessable("not_rexs", message, None)
 
 
 class File(NamedTuple):
@@ -45,14 +47,14 @@ class Document(NamedTuple):
 
 
 def read(content: bytes, most_bytes: int) -> Document:
-    """Read a REXS file of at most `most_bytes` (unpacked), whichever of the formats it has."""
+    """Read a REXS file of at most `most_bytes` (unpacked), whichever of the formats it has; raises Unprocessable."""
     if content.startswith(b"PK"):
         content = _unpacked(content, most_bytes)
     if len(content) > most_bytes:
-        raise NotRexs(f"the model has more than {most_bytes // 1_000_000} MB")
+        raise not_rexs(f"the model has more than {most_bytes // 1_000_000} MB")
     start = content.lstrip(b"\xef\xbb\xbf \t\r\n")[:1]
     if not start:
-        raise NotRexs("the file is empty")
+        raise not_rexs("the file is empty")
     if start == b"{":
         return Document(File(content, "application/json", ".rexsj"), _model_of_json(content))
     return Document(File(content, "application/xml", ".rexs"), _model_of_xml(content))
@@ -70,11 +72,11 @@ def _unpacked(content: bytes, most_bytes: int) -> bytes:
         with zipfile.ZipFile(io.BytesIO(content)) as archive:
             models = [name for name in archive.namelist() if name.lower().endswith((".rexs", ".rexsj", ".xml"))]
             if len(models) != 1:
-                raise NotRexs(f"the archive holds {len(models)} models (.rexs or .rexsj); it must hold one")
+                raise not_rexs(f"the archive holds {len(models)} models (.rexs or .rexsj); it must hold one")
             with archive.open(models[0]) as packed:
                 return packed.read(most_bytes + 1)
     except (zipfile.BadZipFile, zlib.error, NotImplementedError, RuntimeError, OSError, EOFError, ValueError) as error:
-        raise NotRexs("the archive is damaged, encrypted or packed in a way that cannot be read") from error
+        raise not_rexs("the archive is damaged, encrypted or packed in a way that cannot be read") from error
 
 
 def _model(
@@ -86,11 +88,11 @@ def _model(
 ) -> Model:
     version = str(version or "").strip()
     if version.split(".")[0] not in VERSIONS:
-        raise NotRexs("the version of the model is not 1.x or 2.x" if version else "the model states no version")
+        raise not_rexs("the version of the model is not 1.x or 2.x" if version else "the model states no version")
     by_id: dict[int, Component] = {}
     for component in components:
         if component.id in by_id:
-            raise NotRexs(f"component {component.id} is there twice")
+            raise not_rexs(f"component {component.id} is there twice")
         by_id[component.id] = component
     return Model(version[:20], " ".join(filter(None, application)), by_id, tuple(relations), tuple(load_cases))
 
@@ -108,7 +110,7 @@ def _numbers(code: object, text: object) -> list[Any] | None:
 def _model_of_xml(content: bytes) -> Model:
     """The model, read part by part, so that the tree of a large file is never there as a whole."""
     if content.count(b"<") + content.count(b"=") > MOST_ELEMENTS:
-        raise NotRexs(f"the file has more than {MOST_ELEMENTS} tags and attributes")
+        raise not_rexs(f"the file has more than {MOST_ELEMENTS} tags and attributes")
     readers = {"component": _xml_component, "relation": _xml_relation, "load_case": _xml_load_case}
     found: dict[str, list[Any]] = {tag: [] for tag in readers}
     steps = etree.iterparse(io.BytesIO(content), events=("end",), tag=tuple(readers), **SAFE)
@@ -120,12 +122,12 @@ def _model_of_xml(content: bytes) -> Model:
             found[element.tag].append(readers[element.tag](element))
             element.clear(keep_tail=False)
     except etree.XMLSyntaxError as error:
-        raise NotRexs(f"line {error.lineno}: {error.msg}") from error
+        raise not_rexs(f"line {error.lineno}: {error.msg}") from error
     root = steps.root
     if root.getroottree().docinfo.internalDTD is not None:
-        raise NotRexs("the file has a document type declaration; REXS has none")
+        raise not_rexs("the file has a document type declaration; REXS has none")
     if root.tag != "model":
-        raise NotRexs("the outermost element is not <model>")
+        raise not_rexs("the outermost element is not <model>")
     application = root.get("applicationId"), root.get("applicationVersion")
     return _model(root.get("version"), application, found["component"], found["relation"], found["load_case"])
 
@@ -168,7 +170,7 @@ def _xml_load_case(element: Any) -> LoadCase:
 def _xml_id(element: Any, attribute: str = "id") -> int:
     text = (element.get(attribute) or "").strip()
     if not re.fullmatch(r"-?\d{1,18}", text):
-        raise NotRexs(f"line {element.sourceline}: <{element.tag}> needs a whole number as its id or order")
+        raise not_rexs(f"line {element.sourceline}: <{element.tag}> needs a whole number as its id or order")
     return int(text)
 
 
@@ -186,18 +188,18 @@ def _xml_with(content: bytes, component: int, attributes: Iterable[Attribute]) -
 
 def _model_of_json(content: bytes) -> Model:
     if content.count(b"{") + content.count(b"[") > MOST_ELEMENTS:
-        raise NotRexs(f"the file has more than {MOST_ELEMENTS} objects and arrays")
+        raise not_rexs(f"the file has more than {MOST_ELEMENTS} objects and arrays")
     try:
         document = json.loads(content, parse_constant=_refuse_constant)
         if b"\\ud" in content.lower():
             json.dumps(document, ensure_ascii=False).encode()  # refuses half a surrogate pair
     except json.JSONDecodeError as error:
-        raise NotRexs(f"line {error.lineno}: {error.msg}") from error
+        raise not_rexs(f"line {error.lineno}: {error.msg}") from error
     except (ValueError, RecursionError) as error:  # not UTF-8, a number of thousands of digits, too deep
-        raise NotRexs("the file is not JSON that can be read") from error
+        raise not_rexs("the file is not JSON that can be read") from error
     model = document.get("model")
     if not isinstance(model, dict):
-        raise NotRexs("model is missing or of the wrong kind")
+        raise not_rexs("model is missing or of the wrong kind")
     return _model(
         model.get("version"),
         (str(model.get(name) or "") for name in ("applicationId", "applicationVersion")),
@@ -215,7 +217,7 @@ def _objects(of: Any, name: str) -> list[dict[str, Any]]:
     """The list of objects under a name; none where the name is not there."""
     found = of.get(name, []) if isinstance(of, dict) else None
     if not isinstance(found, list) or not all(isinstance(each, dict) for each in found):
-        raise NotRexs(f"{name} must be a list of objects")
+        raise not_rexs(f"{name} must be a list of objects")
     return found
 
 
@@ -244,7 +246,7 @@ def _json_load_case(item: dict[str, Any]) -> LoadCase:
 def _json_id(item: dict[str, Any]) -> int:
     found = item.get("id")
     if not isinstance(found, int) or isinstance(found, bool):
-        raise NotRexs("every component, and every ref of a relation, needs a whole number as its id")
+        raise not_rexs("every component, and every ref of a relation, needs a whole number as its id")
     return found
 
 

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 from app.rexs import table
 from app.rexs.model import Component
 from app.rexs.reading import Vector
-from app.rexs.stages import StageDraft, shaft_axis
+from app.rexs.stages import StageDraft
 
 MOST_PIECES = 10  # of a cone; a request allows 40 sections of a shaft
 LONGEST_PIECE = 10.0  # mm of a cone that one cylinder stands for
@@ -47,7 +47,7 @@ def _obstacles(stage: StageDraft) -> Iterator[tuple[Component, str]]:
         bearings = _bearings(stage, shaft)
         if len(bearings) != len(NAMES):
             yield shaft, f"the shaft has {len(bearings)} radial bearings in the casing; two are needed"
-        if shaft_axis(stage.reading, shaft) is None:
+        if stage.reading.axis(shaft) is None:
             yield shaft, "the file does not say where the shaft lies (support_vector)"
         if stage.face_interval(place) is None:
             yield gear, "the file does not say where on its shaft the gear sits"
@@ -72,7 +72,7 @@ class _DriveTrain:
 
     def __init__(self, stage: StageDraft) -> None:
         self._stage, self._reading = stage, stage.reading
-        found = [shaft_axis(self._reading, shaft) for shaft in stage.shafts]
+        found = [self._reading.axis(shaft) for shaft in stage.shafts]
         self._axes = [axis for axis in found if axis is not None]
         z, y = self._axes[0].direction, self._reading.vector(stage.shafts[0], "w_axis_vector")
         if y is None or abs(_dot(y, z)) > 1e-6 or _dot(y, y) <= 0.0:
@@ -136,11 +136,12 @@ class _DriveTrain:
             for begin, end, outer, inner in self._under_teeth(place, sections, face_start)
         ]
         stage.put(f"{name}.sections", cylinders, shaft)
+        placed = [(stage.position(each, shaft), each) for each in _bearings(stage, shaft)]
+        placed.sort(key=lambda each: each[0] or 0.0)
         bearings = [
-            self._bearing(each, shaft, f"{name}.bearings.{index}")
-            for index, each in enumerate(_bearings(self._stage, shaft))
+            self._bearing(bearing, position, shaft, f"{name}.bearings.{index}")
+            for index, (position, bearing) in enumerate(placed)
         ]
-        bearings.sort(key=lambda each: each.get("position_mm", 0.0))
         stage.put(f"{name}.bearings", bearings, shaft)
         material = self._reading.model.reference_of([shaft], "material")
         for row in table.MATERIAL:
@@ -205,10 +206,9 @@ class _DriveTrain:
             self._stage.note(f"{NAMES[place]}.sections", gear.reference_diameter, reason)
         return found
 
-    def _bearing(self, bearing: Component, shaft: Component, path: str) -> dict[str, Any]:
+    def _bearing(self, bearing: Component, position: float | None, shaft: Component, path: str) -> dict[str, Any]:
         reading, stage = self._reading, self._stage
         made: dict[str, Any] = {}
-        position = self._stage.position(bearing, shaft)
         if position is None:
             attribute = "u_coordinate_on_shaft_inner_side"
             stage.lacks(f"{path}.position_mm", bearing, attribute, "where the bearing sits")

@@ -10,6 +10,8 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
+ASSEMBLIES = ("ordered_assembly", "assembly")  # relations of a part to its whole
+
 
 @dataclass(frozen=True, slots=True)
 class Attribute:
@@ -100,14 +102,13 @@ class Model:
         return (each for each in found if each is not None)
 
     def parts_of(self, assembly: int) -> Sequence[Component]:
-        """The parts of an assembly (ordered or not), each once."""
-        found = [*self.related("ordered_assembly", "assembly", assembly, "part")]
-        found += self.related("assembly", "assembly", assembly, "part")
+        """The parts of an assembly, each once."""
+        found = (each for kind in ASSEMBLIES for each in self.related(kind, "assembly", assembly, "part"))
         return list({part.id: part for part in found}.values())
 
     def whole_of(self, part: int, type_: str) -> Component | None:
         """The assembly of a type that the component is a part of."""
-        wholes = self.related("assembly", "part", part, "assembly")
+        wholes = (each for kind in ASSEMBLIES for each in self.related(kind, "part", part, "assembly"))
         return next((each for each in wholes if each.type == type_), None)
 
     def reference_of(self, origins: Iterable[Component | None], type_: str) -> Component | None:

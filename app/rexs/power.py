@@ -52,13 +52,10 @@ class Flow:
 
 
 class Train:
-    """The shafts of a unit in groups that turn as one, and the meshes between the groups.
+    """The shafts of a unit in groups that turn as one, and the meshes between the groups."""
 
-    `senses`: +1 or -1, the sense of each shaft's u axis in the unit.
-    """
-
-    def __init__(self, reading: Reading, pairs: list[Pair], senses: dict[int, float]) -> None:
-        self._reading, self._pairs, self._senses = reading, pairs, senses
+    def __init__(self, reading: Reading, pairs: list[Pair]) -> None:
+        self._reading, self._pairs = reading, pairs
         self._shafts = reading.model.by_type["shaft"]
         if len(self._shafts) > MOST_SHAFTS:
             message = f"speeds and torques of {len(self._shafts)} shafts are not looked for"
@@ -78,17 +75,14 @@ class Train:
         for shaft in self._shafts:
             speed = speeds.get(self._group[shaft.id], nan)
             if isfinite(speed):
-                flow.speed[shaft.id] = speed * self._sense(shaft)
+                flow.speed[shaft.id] = speed * self._reading.sense(shaft)
         forces = self._forces(speeds, case)
         for pair in self._pairs:
             force = forces.get(pair.stage.id, nan)
-            first, second = (pair.teeth[place] * force * self._sense(pair.shafts[place]) for place in (0, 1))
+            first, second = (pair.teeth[place] * force * self._reading.sense(pair.shafts[place]) for place in (0, 1))
             if isfinite(first) and isfinite(second):
                 flow.mesh_torque[pair.stage.id] = first, second
         return flow
-
-    def _sense(self, shaft: Component) -> float:
-        return self._senses.get(shaft.id, 1.0)
 
     def _groups(self) -> dict[int, int]:
         """For each shaft one shaft that stands for all that turn with it."""
@@ -111,7 +105,7 @@ class Train:
         for shaft, own in stated:
             if own is None:
                 continue
-            speed, group = own * self._sense(shaft), self._group[shaft.id]
+            speed, group = own * self._reading.sense(shaft), self._group[shaft.id]
             if group not in speeds:
                 self._spread(group, speed, speeds)
             elif abs(speeds[group] - speed) > BALANCE * max(abs(speed), abs(speeds[group])):
@@ -119,16 +113,13 @@ class Train:
                 self._reading.find("speed_conflict", shaft, "rotational_speed", message)
         return speeds
 
-    def _spread(self, start: int, speed: float, speeds: dict[int, float]) -> None:
-        speeds[start] = speed
-        waiting = [start]
-        while waiting:
-            group = waiting.pop()
-            for pair, place in self._at[group]:
-                other = self._group[pair.shafts[1 - place].id]
-                if other not in speeds:
-                    speeds[other] = -speeds[group] * pair.teeth[place] / pair.teeth[1 - place]
-                    waiting.append(other)
+    def _spread(self, group: int, speed: float, speeds: dict[int, float]) -> None:
+        """Set the speed of a group and of all groups that mesh with it."""
+        speeds[group] = speed
+        for pair, place in self._at[group]:
+            other = self._group[pair.shafts[1 - place].id]
+            if other not in speeds:
+                self._spread(other, -speed * pair.teeth[place] / pair.teeth[1 - place], speeds)
 
     def _forces(self, speeds: dict[int, float], case: LoadCase | None) -> dict[int, float]:
         """Torque of each stage's mesh per tooth [N m], where the torques that the file states determine it."""
@@ -156,7 +147,7 @@ class Train:
             for load in self._reading.model.parts_of(shaft.id):
                 if load.type != "external_load":
                     continue
-                torque = self._stated_torque(load, speeds.get(group), case)
+                torque = self._stated_torque(load, shaft, speeds.get(group), case)
                 if torque is not None:
                     known[group] += torque
                     if torque * speeds.get(group, 0.0) < 0.0:
@@ -175,13 +166,14 @@ class Train:
         shafts = (model.whole_of(part, "shaft") for part in parts)
         return {self._group[shaft.id] for shaft in shafts if shaft is not None and shaft.id in self._group}
 
-    def _stated_torque(self, load: Component, speed: float | None, case: LoadCase | None) -> float | None:
-        """The torque of a load about the unit's axis [N m], where the load defines it."""
+    def _stated_torque(
+        self, load: Component, shaft: Component, speed: float | None, case: LoadCase | None
+    ) -> float | None:
+        """The torque of a load on a shaft, about the unit's axis [N m], where the load defines it."""
         if self._reading.flag(load, "defines_torque") is False:
             return None
         torque = self._reading.number(load, "torque_around_u_axis", "Nm", case)
         if torque is not None:
-            shaft = self._reading.model.whole_of(load.id, "shaft")
-            return torque * self._sense(shaft) if shaft else torque
+            return torque * self._reading.sense(shaft)  # the u axis of a load is that of its shaft
         power = self._reading.number(load, "power", "W", case)
         return power / (speed * REVOLUTION_PER_MINUTE) if power is not None and speed else None

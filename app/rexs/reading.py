@@ -5,16 +5,18 @@ Whatever happens on the way is recorded for the answer: what is wrong in the fil
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
-from math import isfinite
-from typing import Annotated, Any
+from functools import cached_property
+from math import isfinite, sqrt
+from typing import Annotated, Any, NamedTuple
 
-from pydantic import BaseModel, ValidationError
+from pydantic import BaseModel
 
 from app.calculations import BY_PATH
+from app.errors import InvalidBody
 from app.rexs.model import Attribute, Component, LoadCase, Model
 from app.rexs.table import IGNORED, Row, converted
 from app.schema.quantities import Output
-from app.schema.reading import faults
+from app.schema.reading import validated
 
 LARGEST = 1e30  # in any unit; keeps sums and products of a hostile file finite
 MESH = {"gears", "load", "materials", "modifications"}
@@ -25,6 +27,17 @@ SECTIONS = {
 }
 """What of a draft is in the requests for a single mesh."""
 Vector = tuple[float, float, float]
+
+
+class Axis(NamedTuple):
+    """A shaft's axis in the unit: its origin [mm] and its direction."""
+
+    origin: Vector
+    direction: Vector
+
+    def along(self, point: Vector) -> float:
+        """Coordinate of a point along the axis [mm]."""
+        return sum((a - b) * u for a, b, u in zip(point, self.origin, self.direction, strict=True))
 
 
 class Fault(BaseModel, frozen=True):
@@ -119,6 +132,29 @@ class Reading:
         scale = converted(1.0, attribute.unit, "mm") or 1.0
         return x * scale, y * scale, z * scale
 
+    def axis(self, shaft: Component) -> Axis | None:
+        """Where a shaft lies, if the file says so."""
+        origin, direction = self.vector(shaft, "support_vector"), self.vector(shaft, "u_axis_vector")
+        if origin is None:
+            return None
+        x, y, z = direction or (1.0, 0.0, 0.0)
+        size = sqrt(x * x + y * y + z * z)
+        if not size > 0.0:
+            self.find("axis", shaft, "u_axis_vector", "the axis has no direction")
+            return None
+        return Axis(origin, (x / size, y / size, z / size))
+
+    def sense(self, shaft: Component) -> float:
+        """+1 where the u axis of a shaft points as that of the first shaft that has one, or is not known; else -1."""
+        return self._senses.get(shaft.id, 1.0)
+
+    @cached_property
+    def _senses(self) -> dict[int, float]:
+        axes = {shaft.id: axis.direction for shaft in self.model.by_type["shaft"] if (axis := self.axis(shaft))}
+        base = next(iter(axes.values()), (0.0, 0.0, 0.0))
+        cosines = {id_: sum(a * b for a, b in zip(axis, base, strict=True)) for id_, axis in axes.items()}
+        return {id_: 1.0 if cosine >= 0.0 else -1.0 for id_, cosine in cosines.items()}
+
     def ignored(self, components: Iterable[Component]) -> list[Unused]:
         """What these components say that was not asked for."""
         found = []
@@ -208,9 +244,9 @@ class Draft:
         while True:
             request = _nested({theirs: self.fields[ours] for ours, theirs in own.items()})
             try:
-                model.model_validate(request)
-            except ValidationError as error:
-                found = faults(model, map(dict, error.errors()))
+                validated(model, request)
+            except InvalidBody as error:
+                found = error.faults
             else:
                 return request
             accepted = len(own)

@@ -1,13 +1,12 @@
-"""The stages of a gear unit as requests: gears, load, oil, material, modifications of one mesh."""
+"""The stages of a gear unit as requests: gears, load, oil and material of one mesh."""
 
 from collections.abc import Iterable, Iterator
 from math import acos, atan, cos, pi, radians, sqrt, tan
-from typing import NamedTuple
 
 from app.rexs import table
 from app.rexs.model import Component, LoadCase
 from app.rexs.power import Flow, Pair
-from app.rexs.reading import Draft, Reading, Vector
+from app.rexs.reading import Draft, Reading
 from solvers.gears.gear import involute
 from solvers.gears.pair import inverse_involute
 
@@ -63,14 +62,12 @@ class StageDraft(Draft):
     """One mesh on its way to requests. Its pinion is the gear that drives, else the smaller one.
 
     `order`, `driver`: places of pinion and wheel, and of the driving gear where it is known, in the file's pair.
-    `case`: the load case whose load the requests carry, where the model itself states none. `senses`: as of a `Train`.
+    `case`: the load case whose load the requests carry, where the model itself states none.
     """
 
-    def __init__(
-        self, reading: Reading, pair: Pair, flow: Flow, senses: dict[int, float], case: LoadCase | None
-    ) -> None:
+    def __init__(self, reading: Reading, pair: Pair, flow: Flow, case: LoadCase | None) -> None:
         super().__init__(reading)
-        self.flow, self.senses, self.case = flow, senses, case
+        self.flow, self.case = flow, case
         self.driver = flow.driver(pair)
         first = self.driver if self.driver is not None else int(pair.teeth[1] < pair.teeth[0])
         self.order = first, 1 - first
@@ -79,7 +76,7 @@ class StageDraft(Draft):
         self.gears, self.shafts, self.teeth = pair.gears[::turn], pair.shafts[::turn], pair.teeth[::turn]
 
     def fill(self) -> None:
-        """Take over all that the file says of the mesh."""
+        """Take over what the file says of the mesh but for modifications of its flanks."""
         for row in table.STAGE:
             self.take(row, self.stage)
         for place, role in enumerate(ROLES):
@@ -99,7 +96,6 @@ class StageDraft(Draft):
             for row in table.MATERIAL:
                 self.take(row, self.material(place), f"materials.{role}.")
         self._oil()
-        Modifications(self).fill()
 
     def flanks(self, place: int) -> dict[str, Component]:
         """Left and right flank of pinion (0) or wheel (1), as far as the file has them."""
@@ -150,7 +146,7 @@ class StageDraft(Draft):
         """
         reading = self.reading
         stated = reading.number(part, table.POSITION)
-        origin, axis = reading.vector(part, "support_vector"), shaft_axis(reading, shaft)
+        origin, axis = reading.vector(part, "support_vector"), reading.axis(shaft)
         if origin is None or axis is None:
             return None if stated is None else self.position_of_coordinate(shaft, stated)
         along = axis.along(origin)
@@ -168,14 +164,14 @@ class StageDraft(Draft):
         """Place of a coordinate on a shaft along the pinion shaft's axis [mm]."""
         if shaft.id == self.shafts[0].id:
             return along
-        axis, base = shaft_axis(self.reading, shaft), shaft_axis(self.reading, self.shafts[0])
+        axis, base = self.reading.axis(shaft), self.reading.axis(self.shafts[0])
         if axis is None or base is None:
             return None
         return base.along(axis.origin) + along * self.along(shaft)
 
     def along(self, shaft: Component) -> float:
         """+1 where the u axes of a shaft and of the pinion's shaft point the same way, else -1."""
-        return self.senses.get(shaft.id, 1.0) * self.senses.get(self.shafts[0].id, 1.0)
+        return self.reading.sense(shaft) * self.reading.sense(self.shafts[0])
 
     def involute(self, place: int) -> "Involute | None":
         """The transverse geometry of a gear, where the file gives enough."""
@@ -392,30 +388,6 @@ class StageDraft(Draft):
             self.put("lubricant.kind", known, oil, "basis")
 
 
-class Axis(NamedTuple):
-    """A shaft's axis in the unit: its origin [mm] and its direction."""
-
-    origin: Vector
-    direction: Vector
-
-    def along(self, point: Vector) -> float:
-        """Coordinate of a point along the axis [mm]."""
-        return sum((a - b) * u for a, b, u in zip(point, self.origin, self.direction, strict=True))
-
-
-def shaft_axis(reading: Reading, shaft: Component) -> Axis | None:
-    """Where a shaft lies, if the file says so."""
-    origin, direction = reading.vector(shaft, "support_vector"), reading.vector(shaft, "u_axis_vector")
-    if origin is None:
-        return None
-    x, y, z = direction or (1.0, 0.0, 0.0)
-    size = sqrt(x * x + y * y + z * z)
-    if not size > 0.0:
-        reading.find("axis", shaft, "u_axis_vector", "the axis has no direction")
-        return None
-    return Axis(origin, (x / size, y / size, z / size))
-
-
 class Involute:
     """Transverse geometry of one gear: normal module and diameters [mm], angles [rad], profile shift coefficient."""
 
@@ -445,201 +417,3 @@ class Involute:
         """What is wrong with a root diameter [mm], or None."""
         low, high = self.reference_diameter - 6.0 * self.module, self.reference_diameter + 2.0 * self.module
         return None if max(low, 0.0) < diameter < high else f"is {diameter:.6g} mm, which is no root of these teeth"
-
-
-class Modifications:
-    """Flank modifications of both gears as the gap of the mesh, on the flanks that carry the load.
-
-    Tip relief of the pinion and root relief of the wheel act at E, the others at A; a slope's sign follows from the
-    end of the face that meshes first.
-    """
-
-    def __init__(self, stage: StageDraft) -> None:
-        self._stage, self._reading = stage, stage.reading
-        self._carried: list[tuple[int, Component]] = []  # each with the place of its gear
-
-    def fill(self) -> None:
-        """Set the fields of `modifications`."""
-        self._carried = [(place, each) for place in (0, 1) for each in self._of_working_flank(place)]
-        self._relief("tip_relief", ("tip_relief", "root_relief"))
-        self._relief("root_relief", ("root_relief", "tip_relief"))
-        self._crowning("profile_crowning", "profile_crowning_um", ("_at_tip", "_at_root"))
-        self._crowning("helix_crowning", "lead_crowning_um", ("_amount_datum_face", "_amount_non_datum_face"))
-        self._slopes()
-        self._end_relief()
-
-    def _of_working_flank(self, place: int) -> list[Component]:
-        """Modifications of the flank of pinion (0) or wheel (1) that carries the load."""
-        sides = {side: modifications_of(self._reading, each) for side, each in self._stage.flanks(place).items()}
-        if not any(sides.values()):
-            return []
-        side = self._working_side(place)
-        if side is None:
-            side = "right" if sides.get("right") else "left"
-            self._stage.note("modifications", side, "which flank carries the load is not known")
-        found = sides.get(side, [])
-        for each in found:
-            if each.type in table.OTHER_MODIFICATIONS:
-                self._reading.find("modification", each, None, f"{table.OTHER_MODIFICATIONS[each.type]}; left out")
-        return [each for each in found if each.type in table.MODIFICATIONS]
-
-    def _working_side(self, place: int) -> str | None:
-        """The flank that carries the load: as the file says, else by sense of rotation and driver.
-
-        Seen from the end of the shaft where u is least (the datum face), a gear with positive speed turns clockwise:
-        of a driving gear the right flank then leads and pushes, of a driven one the left flank is pushed.
-        """
-        stage = self._stage
-        data = self._reading.model.related("stage_gear_data", "gear", stage.gears[place].id, "stage_gear_data")
-        for each in data:
-            if (said := self._reading.text(each, "loaded_tooth_flank")) in {"left", "right"}:
-                return said
-        speed = stage.flow.speed.get(stage.shafts[place].id)
-        if not speed or stage.driver is None:
-            return None
-        return "right" if (speed > 0.0) == (place == 0) else "left"
-
-    def _crowning(self, kind: str, field: str, ends: tuple[str, str]) -> None:
-        """A crowning: the amounts of both gears add, each the mean of its two ends."""
-        means, origin = [], None
-        for _, each in self._carried:
-            values = [self._reading.number(each, kind + end, "um") for end in ends] if each.type == kind else []
-            known = [value for value in values if value is not None]
-            if not known:
-                continue
-            if abs(known[0] - known[-1]) > 0.01:
-                message = "the amounts at both ends differ; their mean is used"
-                self._reading.find("ends_differ", each, kind + ends[1], message)
-            means.append(sum(known) / len(known))
-            origin = origin or each
-        if origin is not None:
-            self._stage.put(f"modifications.{field}", sum(means), origin, kind + ends[0])
-
-    def _relief(self, name: str, kinds: tuple[str, str]) -> None:
-        """A relief at one end of the path: amounts add, length and shape are those of the larger one.
-
-        `kinds`: what of the pinion and what of the wheel relieves that end.
-        """
-        found = []
-        for place, each in self._carried:
-            kind = kinds[place]
-            amount = self._reading.number(each, f"{kind}_depth", "um") if each.type == kind else None
-            if amount:
-                found.append((amount, each, kind, place))
-        if not found:
-            return
-        path = f"modifications.{name}"
-        largest, component, kind, place = max(found, key=lambda each: abs(each[0]))
-        self._stage.put(f"{path}_um", sum(each[0] for each in found), component, f"{kind}_depth")
-        length = self._relief_length(component, kind, place)
-        if length is not None:
-            self._stage.put(f"{path}_length_mm", length, component, f"{kind}_datum_length")
-        if len(found) > 1:
-            reason = "both gears are relieved there; amounts add, length and shape of the larger one"
-            self._stage.note(f"{path}_um", largest, reason)
-        shape = self._reading.text(component, "shape_of_relief")
-        exponent = {"linear": 1.0, "parabolic": 2.0}.get(shape)
-        path = "modifications.relief_exponent"
-        if exponent is None:
-            self._stage.assume(path, 1.0, f"the shape of the relief is {shape[:30] or 'not stated'}; linear is used")
-        elif self._stage.fields.get(path, exponent) != exponent:
-            self._stage.note(path, self._stage.fields[path], "tip and root relief have different shapes")
-        else:
-            self._stage.put(path, exponent, component, "shape_of_relief")
-
-    def _relief_length(self, component: Component, kind: str, place: int) -> float | None:
-        """Length of a relief along the line of action [mm], from its length or from the diameter where it begins."""
-        length = self._reading.number(component, f"{kind}_datum_length", "mm")
-        if length is not None:
-            return length
-        diameter = self._reading.number(component, f"{kind}_datum_diameter", "mm")
-        gear, mate = self._stage.involute(place), self._stage.involute(1 - place)
-        if diameter is None or gear is None or mate is None:
-            return None
-        begin = gear.roll_length(diameter)
-        if kind == "tip_relief":
-            return self._tip_roll(place, gear) - begin
-        base = (gear.base_diameter + mate.base_diameter) / 2.0
-        own_distance = (gear.reference_diameter + mate.reference_diameter) / 2
-        distance = self._stage.fields.get("gears.centre_distance_mm") or own_distance
-        line = sqrt(max(distance**2 - base**2, 0.0))
-        return begin - (line - self._tip_roll(1 - place, mate))
-
-    def _tip_roll(self, place: int, gear: Involute) -> float:
-        """Roll length of a gear's tip [mm]."""
-        addendum = self._stage.fields.get(f"gears.{ROLES[place]}.addendum", 1.0)
-        return gear.roll_length(gear.reference_diameter + 2.0 * gear.module * (addendum + gear.shift))
-
-    def _slopes(self) -> None:
-        """Profile and helix slopes; positive amounts take material away at the tip and at the non-datum face."""
-        sums, origins = {"profile_slope": 0.0, "helix_slope": 0.0}, {}
-        for place, each in self._carried:
-            amount = self._reading.number(each, each.type, "um") if each.type in sums else None
-            if not amount:
-                continue
-            sense = (1.0, -1.0)[place] if each.type == "profile_slope" else self._end_sense(place)
-            if sense is None:
-                message = "left out: its sign needs the direction of rotation and the driver"
-                self._reading.find("modification", each, "helix_slope", message)
-                continue
-            sums[each.type] += sense * amount
-            origins[each.type] = each
-        where = {"profile_slope": "tip", "helix_slope": "face where u is largest (the non-datum face)"}
-        for kind, total in sums.items():
-            if kind in origins:
-                path = f"modifications.{kind}_um"
-                self._stage.put(path, total, origins[kind], kind)
-                self._stage.note(path, total, f"positive amounts remove material at the {where[kind]}")
-
-    def _end_sense(self, place: int) -> float | None:
-        """+1 where u of this gear's shaft grows towards the end that leaves the mesh last.
-
-        Contact begins at the end that follows from sense of rotation and hand of the driver: seen along its u axis
-        y runs against sigma h, sigma the sense of rotation and h +1 for a right-hand helix.
-        """
-        stage = self._stage
-        speed = stage.flow.speed.get(stage.shafts[0].id)
-        if not speed:
-            return None
-        hand = -1.0 if self._stage.fields.get("gears.hand") == "left" else 1.0
-        return -(1.0 if speed > 0.0 else -1.0) * hand * stage.along(stage.shafts[place])
-
-    def _end_relief(self) -> None:
-        """Relief of both ends: ours is the same at both, so that the mean of the ends is used."""
-        found = []
-        for _, each in self._carried:
-            kind, _, end = each.type.partition("_relief_")
-            amount = self._reading.number(each, f"end_relief_depth_{end}", "um") if kind == "end" else None
-            length = self._reading.number(each, f"end_relief_length_{end}", "mm") if kind == "end" else None
-            if amount:
-                found.append((end, amount, length, each))
-        if not found:
-            return
-        found.sort(key=lambda each: each[0])  # the datum face first
-        origin = found[0][3]
-        datum, other = (sum(each[1] for each in found if each[0] == end) for end in ("datum_face", "non_datum_face"))
-        if abs(datum - other) > 0.01:
-            self._reading.find("ends_differ", origin, None, "end reliefs differ; their mean is used at both ends")
-        self._stage.put("modifications.end_relief_um", (datum + other) / 2.0, origin, "end_relief_depth_datum_face")
-        lengths = [each[2] for each in found if each[2]]
-        if lengths:
-            path = "modifications.end_relief_length_mm"
-            self._stage.put(path, sum(lengths) / len(lengths), origin, "end_relief_length_datum_face")
-
-
-def modifications_of(reading: Reading, flank: Component) -> list[Component]:
-    """The modifications of a flank, those that are not modelled among them."""
-    return list(reading.model.references_of(flank.id, *table.MODIFICATIONS, *table.OTHER_MODIFICATIONS))
-
-
-def related_components(stage: StageDraft) -> Iterator[Component]:
-    """The components that describe the mesh: what they say and nobody asked for is listed as ignored."""
-    yield stage.stage
-    for place in (0, 1):
-        yield stage.gears[place]
-        for flank in stage.flanks(place).values():
-            yield flank
-            yield from modifications_of(stage.reading, flank)
-        yield from filter(None, (stage.tool(place), stage.material(place)))
-    if stage.lubricant is not None:
-        yield stage.lubricant

@@ -1,6 +1,6 @@
 """A gear unit from its file: every stage with ready requests, its load cases, and what is missing, assumed, ignored."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from itertools import islice
 from typing import Any
 
@@ -8,16 +8,17 @@ from pydantic import BaseModel
 
 from app.rexs import table
 from app.rexs.drive_train import add_drive_train
-from app.rexs.model import LoadCase, Model
+from app.rexs.model import Component, LoadCase, Model
+from app.rexs.modifications import Modifications, modifications_of
 from app.rexs.power import Flow, Pair, Train
 from app.rexs.reading import MESH, SECTIONS, Reading, path_in
-from app.rexs.stages import SPEED, TORQUE, StageDraft, pairs, related_components, shaft_axis
+from app.rexs.stages import SPEED, TORQUE, StageDraft, pairs
 
 MOST_FINDINGS = 1000  # that an answer lists; who wrote the file sees the pattern earlier
 MOST_STAGES = 50  # chosen: far beyond any unit
 MOST_CASES = 200  # of a spectrum in the file that are read
 LONGEST_NAME, MOST_SPECTRUM_CASES = 100, 100  # of /v1/spectrum
-SHARES = (("operating_time_fraction", ""), ("operating_time", "h"))
+SHARES = {"operating_time_fraction": "", "operating_time": "h"}  # attributes and their units
 
 
 def gear_unit(model: Model) -> dict[str, Any]:
@@ -29,14 +30,13 @@ def gear_unit(model: Model) -> dict[str, Any]:
         message = f"the unit has more than {MOST_STAGES} stages; the first ones are read"
         reading.find("too_many_stages", None, None, message)
         del found[MOST_STAGES:]
-    senses = _senses(reading)
     cases = model.load_cases[:MOST_CASES]
     if len(cases) < len(model.load_cases):
         reading.find("too_many_cases", None, None, f"the first {MOST_CASES} load cases are read")
     if len(cases) > MOST_SPECTRUM_CASES:
         message = f"a load spectrum of more than {MOST_SPECTRUM_CASES} load cases cannot be asked as it stands"
         reading.find("too_many_cases", None, None, message)
-    train = Train(reading, found, senses)
+    train = Train(reading, found)
     base, flows = train.flow(), [(case, train.flow(case)) for case in cases]
     unit = model.first("gear_unit")
     return {
@@ -44,19 +44,18 @@ def gear_unit(model: Model) -> dict[str, Any]:
         "application": model.application,
         "name": unit.name if unit else "",
         "shafts": [{"id": each.id, "name": each.name} for each in model.by_type["shaft"]],
-        "stages": [_stage(reading, pair, senses, base, flows) for pair in found],
+        "stages": [_stage(reading, pair, base, flows) for pair in found],
         "findings": _rows(islice(reading.findings, MOST_FINDINGS)),
     }
 
 
-def _stage(
-    reading: Reading, pair: Pair, senses: dict[int, float], base: Flow, flows: list[tuple[LoadCase, Flow]]
-) -> dict[str, Any]:
+def _stage(reading: Reading, pair: Pair, base: Flow, flows: list[tuple[LoadCase, Flow]]) -> dict[str, Any]:
     """One stage of the answer, with the load of the base model, or where it states none of the first load case."""
     stated: list[tuple[LoadCase | None, Flow]] = [(None, base), *flows]
     case, flow = next((each for each in stated if each[1].knows(pair)), stated[0])
-    stage = StageDraft(reading, pair, flow, senses, case)
+    stage = StageDraft(reading, pair, flow, case)
     stage.fill()
+    Modifications(stage).fill()
     if case is not None:
         for path in (TORQUE, SPEED, table.OIL_TEMPERATURE.field):
             if path in stage.fields:
@@ -80,8 +79,21 @@ def _stage(
         "spectra": {endpoint: _spectrum(endpoint, cases) for endpoint in requests if askable},
         "missing": _rows(stage.missing.values()),
         "assumed": _rows(stage.assumed.values()),
-        "ignored": _rows(reading.ignored(related_components(stage))),
+        "ignored": _rows(reading.ignored(_described_by(stage))),
     }
+
+
+def _described_by(stage: StageDraft) -> Iterator[Component]:
+    """The components that describe the mesh: what they say and nobody asked for is listed as ignored."""
+    yield stage.stage
+    for place in (0, 1):
+        yield stage.gears[place]
+        for flank in stage.flanks(place).values():
+            yield flank
+            yield from modifications_of(stage.reading, flank)
+        yield from filter(None, (stage.tool(place), stage.material(place)))
+    if stage.lubricant is not None:
+        yield stage.lubricant
 
 
 def _cases(stage: StageDraft, flows: list[tuple[LoadCase, Flow]]) -> list[dict[str, Any]]:
@@ -118,28 +130,16 @@ def _shares(reading: Reading, cases: list[LoadCase]) -> tuple[list[float], str |
     """Share of the operating time of each load case, and how it was found where the file leaves that open."""
     if not cases:
         return [], None
-    unit, standard = reading.model.first("gear_unit"), dict(SHARES)
+    unit = reading.model.first("gear_unit")
     stated = {name for case in cases for each in case.attributes.values() for name in each}
-    own = sorted(name for name in stated if name.endswith("_fraction") and name not in standard)
-    for name, size in (standard | dict.fromkeys(own, "")).items() if unit else ():
+    own = sorted(name for name in stated if name.endswith("_fraction") and name not in SHARES)
+    for name, size in (SHARES | dict.fromkeys(own, "")).items() if unit else ():
         values = [reading.number(unit, name, size, case) for case in cases]
         known = [value for value in values if value is not None and value >= 0.0]
         if len(known) == len(values) and sum(known) > 0.0:
             reason = f"shares from the attribute {name}, which is not of the standard" if name in own else None
             return [value / sum(known) for value in known], reason
     return [1.0 / len(cases)] * len(cases), "the file states no shares of the load cases: equal shares"
-
-
-def _senses(reading: Reading) -> dict[int, float]:
-    """+1 or -1 for each shaft: whether its u axis points as that of the first one."""
-    senses: dict[int, float] = {}
-    base = None
-    for shaft in reading.model.by_type["shaft"]:
-        if (axis := shaft_axis(reading, shaft)) is not None:
-            base = base or axis.direction
-            cosine = sum(a * b for a, b in zip(axis.direction, base, strict=True))
-            senses[shaft.id] = 1.0 if cosine >= 0.0 else -1.0
-    return senses
 
 
 def _check_relations(reading: Reading) -> None:

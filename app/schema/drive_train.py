@@ -5,7 +5,7 @@ from dataclasses import replace
 from functools import partial
 from typing import Annotated, Any, ClassVar
 
-from pydantic import BeforeValidator, Field, model_validator
+from pydantic import BeforeValidator, Field
 
 from app.schema.coupling import CrownedCoupling
 from app.schema.gears import BacklashGears, GearMaterials
@@ -21,7 +21,6 @@ from app.schema.scuffing import (
     MeshInOil,
     ScuffingLoad,
     ScuffingModel,
-    with_default,
 )
 from solvers.coupling.inputs import Coupling, CouplingDesign, CouplingOil
 from solvers.drive_train import derived, results
@@ -158,6 +157,10 @@ class ThrustCollar(Section):
 class DriveTrainRequest(MeshInOil):
     """A single-stage gear unit with its shafts, bearings, couplings and heat."""
 
+    methods: ClassVar = MeshInOil.methods | {
+        "temperatures.bulk_method": ("temperatures.bulk_c", "thermal.pinion_bulk_c", "thermal.wheel_bulk_c")
+    }
+
     gears: Annotated[TrainGears, Input("gear pair")]
     grooves: Annotated[
         list[GearGroove], Input("grooves", text="circumferential grooves; they do not carry less", length=(0, 50))
@@ -184,15 +187,6 @@ class DriveTrainRequest(MeshInOil):
     model: Annotated[TrainModel, Input("model", text="choices where the papers leave room", advanced=True)] = (
         TrainModel()
     )
-
-    @model_validator(mode="before")
-    @classmethod
-    def bulk_given(cls, given: Any) -> Any:
-        """Where a tooth temperature is given, `bulk_method` is "given" unless the request says otherwise."""
-        teeth = given.get("thermal") if isinstance(given, dict) else None
-        if isinstance(teeth, dict) and any(teeth.get(name) is not None for name in ("pinion_bulk_c", "wheel_bulk_c")):
-            return with_default(given, "temperatures", "bulk_method", "given")
-        return given
 
     def inputs(self) -> si.DriveTrainInputs:
         """The solver's inputs. Raises InvalidInput no_oil where a plain bearing has neither a viscosity nor an oil."""

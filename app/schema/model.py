@@ -164,10 +164,6 @@ class Member:
     group: type[Documented] | None
     dimensions: int
 
-    def is_above(self, detail: Detail) -> bool:
-        """Whether only answers of a higher level of detail have the field."""
-        return LEVELS.index(self.meaning.detail) > LEVELS.index(detail)
-
 
 @cache
 def members(model: type[BaseModel]) -> tuple[Member, ...]:
@@ -231,7 +227,7 @@ def _sources(group: type[Documented], record: Any, detail: Detail) -> tuple[tupl
     held = {name: inner for name, hint in get_type_hints(record).items() if (inner := _record_in(hint))}
     found = []
     for each in members(group):
-        if each.record and not each.is_above(detail):
+        if each.record and LEVELS.index(each.meaning.detail) <= LEVELS.index(detail):
             holders = (name for name, inner in held.items() if issubclass(inner, each.record))
             found.append((each, None if issubclass(record, each.record) else next(holders, None)))
     return tuple(found)
@@ -253,18 +249,6 @@ def _displayed(value: Any, member: Member, detail: Detail) -> Any:
         missing, value = np.isnan(value), value.astype(object)
         value[missing] = None
     return value.tolist()
-
-
-@cache
-def above(group: type[Documented], detail: Detail) -> dict[str, Any]:
-    """The fields of a group above a level of detail, as pydantic's `exclude` names them."""
-    found: dict[str, Any] = {}
-    for member in members(group):
-        if member.is_above(detail):
-            found[member.name] = True
-        elif member.group is not None and (inner := above(member.group, detail)):
-            found[member.name] = {"__all__": inner} if member.dimensions else inner
-    return found
 
 
 def _with_choices(document: dict[str, Any], section: type[Any]) -> None:

@@ -183,14 +183,6 @@ class ContactTemperatures(Section, of=si.Temperatures):
             raise PydanticCustomError("exclusive", "bulk_c and an estimated bulk are both given; keep one")
         return self
 
-    @model_validator(mode="before")
-    @classmethod
-    def bulk_given(cls, given: Any) -> Any:
-        """Where a bulk temperature is given, `bulk_method` is "given" unless the request says otherwise."""
-        if isinstance(given, dict) and given.get("bulk_c") is not None:
-            return {"bulk_method": "given"} | given
-        return given
-
     def unused(self) -> dict[str, bool]:
         """A bulk temperature that is estimated is not given; one that is given does not ask how the oil comes."""
         estimated = self.bulk_method == "estimated"
@@ -233,22 +225,34 @@ SMOOTH_FILM = (
 )
 
 
-def with_default(given: Any, section: str, name: str, value: Any) -> Any:
-    """What was sent, with a field of a section set where it is left out."""
-    held = given.get(section, {})
-    return given | {section: {name: value} | held} if isinstance(held, dict) else given
+def _is_given(sent: Any, path: str) -> bool:
+    """Whether what was sent has a value at a dotted path."""
+    for name in path.split("."):
+        sent = sent.get(name) if isinstance(sent, dict) else None
+    return sent is not None
 
 
 class MeshInOil(Request):
-    """What requests about scuffing have in common: a loaded pair with an oil, temperatures and a law of friction."""
+    """What requests about scuffing have in common: a loaded pair with an oil, temperatures and a law of friction.
+
+    `methods` are the fields that are "given" where one of these values is, unless the request says otherwise.
+    """
+
+    methods: ClassVar[dict[str, tuple[str, ...]]] = {
+        "model.friction": ("friction_coefficient",),
+        "temperatures.bulk_method": ("temperatures.bulk_c",),
+    }
 
     @model_validator(mode="before")
     @classmethod
-    def friction_given(cls, given: Any) -> Any:
-        """Where a coefficient of friction is given, `friction` is "given" unless the request says otherwise."""
-        if isinstance(given, dict) and given.get("friction_coefficient") is not None:
-            return with_default(given, "model", "friction", "given")
-        return given
+    def methods_of_given_values(cls, sent: Any) -> Any:
+        """Set a method that is left out to "given" where its value is given."""
+        for method, values in cls.methods.items() if isinstance(sent, dict) else ():
+            section, name = method.split(".")
+            held = sent.get(section, {})
+            if isinstance(held, dict) and any(_is_given(sent, path) for path in values):
+                sent = sent | {section: {name: "given"} | held}
+        return sent
 
     @model_validator(mode="after")
     def known_friction(self) -> Self:

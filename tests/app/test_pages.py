@@ -17,6 +17,7 @@ from app.errors import Unprocessable, Unreadable
 from app.evaluate import evaluate, written
 from app.examples import examples
 from app.pages import views
+from app.pages.form import State, form
 from app.pages.query import MATRIX, body_of, link, normalised, pairs_of, pairs_of_query
 from app.pages.results import NOT_RESULTS
 from app.pages.templating import page_path
@@ -581,6 +582,15 @@ def test_a_report_tells_every_input_of_every_item() -> None:
     assert link
     assert link[2].endswith("…")
     assert len(link[1]) > 1000
+
+
+def test_a_required_field_of_no_section_stands_before_the_optional_sections() -> None:
+    general, *others = (
+        [each.title for each in form(BY_PATH[path].request, State())].index("general")
+        for path in ("/v1/drive-train", "/v1/scuffing", "/v1/pumping/choking-speed")
+    )
+    assert general == 2  # behind the gear pair and the operating point
+    assert min(others) >= 3
 
 
 def test_a_missing_section_is_told_by_its_fields() -> None:

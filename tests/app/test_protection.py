@@ -57,6 +57,10 @@ def test_large_bodies(client: httpx.Client, *, announced: bool) -> None:
     response = client.post("/v1/coupling", content=content, headers=headers)
     assert response.status_code == 413
     assert response.headers["content-type"] == "application/problem+json"
+    problem = response.json()
+    assert problem["type"] == "urn:tribodrive:problem:content_too_large"
+    assert problem["title"] == "The request body is too large"
+    assert problem["detail"] == f"The request body is larger than {size - 1} bytes"
 
 
 def test_large_headers(client: httpx.Client) -> None:
@@ -64,15 +68,21 @@ def test_large_headers(client: httpx.Client) -> None:
     assert response.status_code == 431
 
 
-def test_a_refused_request_does_not_cost_the_answer_to_the_one_before(client: httpx.Client) -> None:
+TOO_LARGE = b"GET /healthz HTTP/1.1\r\nHost: a\r\nX-Padding: %s\r\n\r\n" % (b"x" * 20_000)
+NO_CHUNK = b"POST /v1/coupling HTTP/1.1\r\nHost: a\r\nTransfer-Encoding: chunked\r\n\r\nno length\r\n"
+
+
+@pytest.mark.parametrize(("refused", "status"), [(TOO_LARGE, b"431"), (NO_CHUNK, b"400")])
+@pytest.mark.parametrize("earlier", [1, 3])
+def test_a_refused_request_does_not_cost_the_answers_to_those_before(
+    client: httpx.Client, refused: bytes, status: bytes, earlier: int
+) -> None:
     example = examples()["pahl-axial-displacement"]
     body = json.dumps(example.request).encode()
     head = f"POST {example.endpoint} HTTP/1.1\r\nHost: a\r\nContent-Type: application/json\r\n"
     calculation = f"{head}Content-Length: {len(body)}\r\n\r\n".encode() + body
-    too_large = b"GET /healthz HTTP/1.1\r\nHost: a\r\nX-Padding: %s\r\n\r\n" % (b"x" * 20_000)
-    first, _, second = answer_to(client, calculation + too_large).partition(b"HTTP/1.1 431 ")
-    assert first.startswith(b"HTTP/1.1 200 ")
-    assert second
+    answers = answer_to(client, calculation * earlier + refused).split(b"HTTP/1.1 ")[1:]
+    assert [each[:3] for each in answers] == [*[b"200"] * earlier, status]
 
 
 def test_wrong_method(client: httpx.Client) -> None:

@@ -150,6 +150,9 @@ def test_the_nominal_machine_alone() -> None:
         ({"t0": "friction.coefficient", "t0.by": "x"}, "t0.by"),
         ({"t0": "friction.coeficient", "t0.by": "0.1"}, "t0"),
         ({"t0": "friction.coefficient", "t0.by": "0.1", "t1": "friction.coefficient", "t1.by": "0.1"}, "t0"),
+        ({"t3": "friction.coefficient", "t3.by": "-1"}, "t3.by"),  # the tolerances before it are empty
+        ({"t3": "friction.coeficient", "t3.by": "0.1"}, "t3"),
+        ({"t2": "friction.coefficient", "t2.by": "0.1", "t4": "friction.coefficient", "t4.by": "0.1"}, "t2"),
         ({"t0": "friction.coefficient", "t0.by": "0.02", "machines": "1000000"}, "machines"),
         ({"cases": "name\na", "limit": "x"}, "limit"),
         ({"cases": "name\na", "limit.by": "5", "show": "axial_thrust.force_n"}, "limit"),

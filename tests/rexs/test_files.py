@@ -10,8 +10,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from app.errors import Unprocessable
 from app.rexs.answer import with_answer
-from app.rexs.document import NotRexs, read, with_attributes
+from app.rexs.document import read, with_attributes
 from app.rexs.model import Attribute
 from app.rexs.unit import gear_unit
 from tests.rexs.units import Unit, three_stages, turbo_unit
@@ -78,8 +79,10 @@ BOMB = b'<?xml version="1.0"?><!DOCTYPE a [<!ENTITY b0 "lol">' + b"".join(
     ],
 )
 def test_refused_with_a_reason(content: bytes, words: str) -> None:
-    with pytest.raises(NotRexs, match=words):
+    with pytest.raises(Unprocessable) as caught:
         read(content, MOST_BYTES)
+    assert caught.value.code == "not_rexs"
+    assert words in caught.value.message
 
 
 def test_a_name_that_leaves_the_archive_is_only_a_name() -> None:

@@ -59,6 +59,15 @@ def test_formats_say_the_same() -> None:
     assert answer(unit.json()) == answer(unit.zipped()) == answer(unit)
 
 
+@pytest.mark.parametrize("unit", [three_stages(), turbo_unit()])
+def test_ordered_assemblies_say_the_same(unit: Unit) -> None:
+    plain = answer(unit)
+    for each in unit.relations:
+        if each["type"] == "assembly":
+            each["type"] = "ordered_assembly"
+    assert answer(unit) == plain
+
+
 def test_an_array_in_base64_says_the_same() -> None:
     unit = turbo_unit()
     plain = answer(unit)
@@ -80,6 +89,27 @@ def test_power_enters_where_torque_and_speed_have_one_sign() -> None:
     first = answer(unit)["stages"][0]
     assert first["driver"] == first["pinion"]
     assert first["requests"][LOAD]["gears"]["pinion"]["teeth"] == 67
+
+
+@pytest.mark.parametrize("relation", ["assembly", "ordered_assembly"])
+def test_a_torque_counts_about_the_axis_of_its_shaft(relation: str) -> None:
+    """Speed and torque of a shaft have one sign where power enters, however the load is attached to it."""
+    unit = turbo_unit()
+    wheel_shaft = [each for each in unit.components if each["type"] == "shaft"][1]
+    driving, driven = (each["id"] for each in unit.components if each["type"] == "external_load")
+    origin, size = wheel_shaft["attributes"]["support_vector"]
+    wheel_shaft["attributes"]["support_vector"] = ([760.0, *origin[1:]], size)
+    wheel_shaft["attributes"]["u_axis_vector"] = ([-1.0, 0.0, 0.0], size)  # so that it turns as the pinion's shaft
+    for name in ("power", "defines_torque"):
+        del unit.of(driving)[name]
+    unit.of(driven).update(torque_around_u_axis=(-38197.0, "N m"), defines_torque=(True, "none"))
+    for each in unit.relations:
+        if driven in each["roles"].values():
+            each["type"] = relation
+    stage = answer(unit)["stages"][0]
+    assert stage["driver"] == stage["pinion"]
+    assert stage["requests"][LOAD]["load"]["pinion_torque_n_m"] == pytest.approx(11459.1, rel=1e-5)
+    assert stage["requests"][LOAD]["gears"]["pinion"]["teeth"] == 39
 
 
 @pytest.mark.parametrize("case", [({"power": (0.69265, "kW")}), ({"power": (692.65, "W")})])
@@ -349,6 +379,17 @@ def test_other_bearings_by_their_stiffness(stiffness: tuple[float, str], kind: s
         assert bearing["stiffness_n_per_um"] == pytest.approx(200.0)
     assert bearing["type"] == (kind or "linear")
     assert any("radial stiffness" in each["message"] for each in stage["missing"]) == (kind is None)
+
+
+def test_what_a_bearing_lacks_is_named_at_its_place_along_the_shaft() -> None:
+    unit = turbo_unit()
+    first = next(each for each in unit.components if each["type"] == "hydrodynamic_radial_plain_bearing")
+    first["type"] = "concept_bearing"
+    first["attributes"]["u_coordinate_on_shaft_inner_side"] = (700.0, "mm")  # behind the second one
+    (stage,) = answer(unit)["stages"]
+    bearings = stage["requests"]["/v1/drive-train"]["pinion_shaft"]["bearings"]
+    assert [each["type"] for each in bearings] == ["journal", "linear"]
+    assert [each["field"] for each in stage["missing"]] == ["pinion_shaft.bearings.1.stiffness_n_per_um"]
 
 
 def test_what_the_models_cannot_use_is_listed() -> None:

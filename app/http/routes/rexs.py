@@ -11,7 +11,6 @@ from app.http.routes.pages import html, problem_page, root_of
 from app.rexs import answer
 from app.rexs.document import File
 from app.settings import MEBIBYTE, Settings
-from app.workers.pool import Pool
 
 DOCUMENTED_TYPES = ("application/xml", "application/json", "application/zip")
 TYPES = (*DOCUMENTED_TYPES, "text/xml", "application/octet-stream")
@@ -42,7 +41,7 @@ pages = APIRouter(include_in_schema=False)
 async def read_unit(http: Request) -> Response:
     """The stages of a gear unit as ready requests, and what is missing, assumed, not used or wrong in the file."""
     content, _ = await _upload(http)
-    found = await _pool(http).calculate(http, answer.unit_json, content, _most_bytes(http))
+    found = await http.app.state.pool.calculate(http, answer.unit_json, content, _most_bytes(http))
     return Response(found, media_type="application/json")
 
 
@@ -63,7 +62,7 @@ async def write_results(
     content, request = await _upload(http)
     limits: Settings = http.app.state.settings
     arguments = (content, _most_bytes(http), stage, request, limits.deadline_s)
-    file: File = await _pool(http).calculate(http, answer.with_results, *arguments)
+    file: File = await http.app.state.pool.calculate(http, answer.with_results, *arguments)
     headers = {"Content-Disposition": f'attachment; filename="results{file.suffix}"'}
     return Response(file.content, media_type=file.media_type, headers=headers)
 
@@ -79,7 +78,9 @@ async def show_unit(http: Request) -> Response:
     """The unit as a page: stages, findings, and a link to every calculation."""
     try:
         content, _ = await _upload(http)
-        return html(await _pool(http).calculate(http, answer.unit_html, root_of(http), content, _most_bytes(http)))
+        return html(
+            await http.app.state.pool.calculate(http, answer.unit_html, root_of(http), content, _most_bytes(http))
+        )
     except Unprocessable as error:
         return problem_page(http, 422, "The file cannot be read", error.message)
 
@@ -96,11 +97,6 @@ async def _upload(http: Request) -> tuple[bytes, bytes | None]:
     if "file" not in parts:
         raise Unprocessable("missing", "the form needs a part named file", "file")
     return parts["file"], parts.get("request") or None
-
-
-def _pool(http: Request) -> Pool:
-    pool: Pool = http.app.state.pool
-    return pool
 
 
 def _most_bytes(http: Request) -> int:

@@ -45,6 +45,7 @@ LOSSES = {
     DRIVE_TRAIN: ("losses.coupling_w", "losses.pumping_w", "losses.mesh_w", "losses.bearings_w"),
 }
 MOST_BARS = 40  # that fit a page side by side
+TOLERANCES = tuple(f"t{place}" for place in range(SCATTERING))
 
 
 def cases_of(calculation: Calculation, text: str) -> list[dict[str, Any]]:
@@ -127,7 +128,7 @@ class SpectrumPage(StudyPage):
     about = "Machines are drawn from the tolerances; each runs every case, and its worst case meets the limit."
     figures = ("limit", "probability", "decides", "losses")
     outputs = tuple(paths.contact for paths in SCUFFING.values())
-    needs = ("cases", "t0")
+    needs = ("cases", *TOLERANCES)
     choose = "Cases are a table of what each part of the operating time changes; tolerances say how the fields scatter."
     plan = Spectrum
     study: Spectrum
@@ -135,7 +136,7 @@ class SpectrumPage(StudyPage):
     def body(self) -> dict[str, Any]:
         """The cases and tolerances as typed, the output shown with its limit, and the losses."""
         calculation, views, output = self.calculation, self.views, self.output.path
-        inputs = [self._scatter(f"t{place}", place) for place in range(SCATTERING) if views.get(f"t{place}")]
+        inputs = [self._scatter(name, place) for place, name in enumerate(self._given())]
         machines = self.number("machines", int(MACHINES[0][1]))
         if not isinstance(machines, int):
             raise Unprocessable("int_type", "give a whole number", "tolerances.count")
@@ -149,6 +150,10 @@ class SpectrumPage(StudyPage):
             "limits": self._limits(),
             "hours_per_year": self.number("hours"),
         }
+
+    def _given(self) -> list[str]:
+        """The controls of the tolerances that are filled in; others between them may be empty."""
+        return [name for name in TOLERANCES if self.views.get(name)]
 
     def _scatter(self, name: str, place: int) -> dict[str, Any]:
         """The distribution of one field: around the value of the case, by its usual tolerance."""
@@ -190,11 +195,12 @@ class SpectrumPage(StudyPage):
     def places(self) -> dict[str, str]:
         """The names of the controls of cases, tolerances, limit, machines and hours."""
         places = {"cases": "cases", "limits": "limit", "tolerances": "machines", "hours_per_year": "hours"}
-        for place in range(SCATTERING):
-            where, name = f"tolerances.inputs.{place}", f"t{place}"
+        for place, name in enumerate(self._given()):
+            where = f"tolerances.inputs.{place}"
             places |= {where: f"{name}.by", f"{where}.path": name}
             places |= {f"{where}.{middle}": f"{name}.about" for middle in ("mean", "median")}
-        return {**places, "tolerances.inputs": "t0"}
+            places.setdefault("tolerances.inputs", name)
+        return places
 
     def controls(self) -> tuple[Controls, ...]:
         """The table of cases, and the tolerances: those given and two more."""
@@ -207,10 +213,9 @@ class SpectrumPage(StudyPage):
         )
         table = replace(self.field("cases", "cases"), widget="table", text=text, help=about)
         groups = [Controls("Load spectrum", fields=(table,))]
-        last = max((place for place in range(SCATTERING) if self.views.get(f"t{place}")), default=-1)
+        last = max((place for place, name in enumerate(TOLERANCES) if self.views.get(name)), default=-1)
         choices = field_choices(self.calculation, case, texts=False) if self.asked.pairs else []
-        for place in range(min(SCATTERING, last + 3)):
-            name = f"t{place}"
+        for place, name in enumerate(TOLERANCES[: last + 3]):
             path = self.views.get(name, "")
             leaf, own = leaf_at(self.calculation.request, path), value_at(case, path)
             unit, usual = (leaf.unit or "", leaf.declared.tolerance) if leaf else ("", None)
