@@ -19,6 +19,12 @@ settings.register_profile(
 settings.load_profile("kernels")
 
 
+@pytest.fixture
+def without_images(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Images of a report's figures are empty, where its texts alone are read."""
+    monkeypatch.setattr("app.pages.charts.written", lambda *_: b"")
+
+
 @pytest.fixture(scope="session")
 def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
     # Processes of one test run start theirs in turn: the first one compiles the kernels, the next finds them.
