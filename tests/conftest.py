@@ -7,6 +7,7 @@ import httpx
 import pytest
 from hypothesis import HealthCheck, settings
 
+from solvers.kernel_cache import is_complete
 from tests.support.server import running_server
 
 # The first example of a property may compile a kernel; the same examples every time, searches live in benchmarks.
@@ -19,11 +20,21 @@ settings.register_profile(
 settings.load_profile("kernels")
 
 
+@pytest.fixture
+def without_images(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Images of a report's figures are empty, where its texts alone are read."""
+    monkeypatch.setattr("app.pages.charts.written", lambda *_: b"")
+
+
 @pytest.fixture(scope="session")
 def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
-    # Processes of one test run start theirs in turn: the first one compiles the kernels, the next finds them.
+    from app.workers.stages import content  # noqa: PLC0415  tests of solvers alone need no application
+
+    # While kernels have to be compiled, processes of one test run start theirs in turn: the next one finds them.
     with (tmp_path_factory.getbasetemp().parent / "server.lock").open("w") as turn:
         flock(turn, LOCK_EX)
+        if is_complete(content()):
+            flock(turn, LOCK_UN)
         with running_server(log_level="error") as (_, address):
             flock(turn, LOCK_UN)
             yield address

@@ -2,6 +2,7 @@
 
 import ast
 from collections.abc import Iterator
+from functools import cache
 from graphlib import TopologicalSorter
 from itertools import takewhile
 from pathlib import Path
@@ -15,10 +16,20 @@ MODULES = [path for package in ("app", "solvers") for path in (ROOT / package).r
 STANDARD = {"collections", "contextlib", "dataclasses", "enum", "functools", "itertools", "math", "operator", "typing"}
 
 
+@cache
+def tree(path: Path) -> ast.Module:
+    return ast.parse(path.read_text("utf-8"))
+
+
+@cache
+def imports(path: Path) -> list[ast.Import | ast.ImportFrom]:
+    """Every import of a module, wherever in it."""
+    return [node for node in ast.walk(tree(path)) if isinstance(node, ast.Import | ast.ImportFrom)]
+
+
 def imported(path: Path) -> set[str]:
-    tree = ast.parse(path.read_text("utf-8"))
-    names = {alias.name for node in ast.walk(tree) if isinstance(node, ast.Import) for alias in node.names}
-    names |= {node.module or "" for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)}
+    names = {alias.name for node in imports(path) if isinstance(node, ast.Import) for alias in node.names}
+    names |= {node.module or "" for node in imports(path) if isinstance(node, ast.ImportFrom)}
     return {name.split(".")[0] for name in names}
 
 
@@ -49,7 +60,7 @@ SOLVERS = {name for name in PACKAGES if name.startswith("solvers")}
 
 def modules_imported(path: Path) -> Iterator[str]:
     """The project's modules that a module imports, wherever in it."""
-    for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+    for node in imports(path):
         if isinstance(node, ast.ImportFrom) and node.module in NAMES:
             for alias in node.names:
                 inner = f"{node.module}.{alias.name}"
@@ -66,10 +77,10 @@ def siblings(name: str, other: str) -> tuple[str, str]:
 
 
 def test_imports_have_no_circle_between_modules_or_packages_of_solvers() -> None:
-    imports = {name_of(path): set(modules_imported(path)) for path in MODULES}
-    assert set(TopologicalSorter(imports).static_order()) >= NAMES
+    needed = {name_of(path): set(modules_imported(path)) for path in MODULES}
+    assert set(TopologicalSorter(needed).static_order()) >= NAMES
     between: dict[str, set[str]] = {}
-    for name, others in imports.items():
+    for name, others in needed.items():
         for one, two in (siblings(name, other) for other in others):
             if one != two and {one, two} <= PACKAGES and {one, two} & SOLVERS:
                 between.setdefault(one, set()).add(two)
@@ -121,4 +132,4 @@ def test_no_room_imports_a_higher_one() -> None:
 
 @pytest.mark.parametrize("path", MODULES, ids=lambda path: str(path.relative_to(ROOT)))
 def test_a_module_says_what_it_is_about(path: Path) -> None:
-    assert ast.get_docstring(ast.parse(path.read_text("utf-8")))
+    assert ast.get_docstring(tree(path))

@@ -149,7 +149,9 @@ def test_every_figure_of_the_table_exists() -> None:
         assert set(names.split()) <= {each.name for each in BY_PATH[path].figures}, path
 
 
-@pytest.mark.parametrize("name", QUICK)
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=() if name in QUICK else pytest.mark.slow) for name in sorted(examples())]
+)
 def test_examples_give_figures_with_finite_numbers_and_findings(name: str) -> None:
     for which, data in figures(name):
         assert all((data.title, data.finding, data.source)), which
@@ -393,14 +395,11 @@ def test_comparison_draws_the_variant_dashed_in_the_same_hue() -> None:
     ("name", "image_format", "theme"),
     [
         *((name, "svg", "light") for name in CASES.values()),
-        *(
-            pytest.param(name, "png", theme, marks=pytest.mark.slow)
-            for theme in ("light", "dark")
-            for name in sorted(examples())
-        ),
+        *(pytest.param(name, "png", "dark", marks=pytest.mark.slow) for name in CASES.values()),
     ],
 )
 def test_every_figure_of_an_example_is_drawn(name: str, image_format: str, theme: Any) -> None:
+    """Those of all examples are drawn by the test of their labels."""
     for which, data in figures(name):
         assert len(draw(data, image_format, theme)) > 5_000, which
 

@@ -287,15 +287,17 @@ def test_figures_of_a_page_are_drawn_from_the_kept_answer() -> None:
     for declaration in BY_PATH["/v1/scuffing"].figures:
         if declaration.name in {"friction", "modification", "modification-traces"}:  # of a film, of modified flanks
             continue
-        svg = views.figure(again, declaration.name, "svg")
-        assert svg.content == views.figure(case, declaration.name, "svg").content
-        assert svg.keep == {}
+        data = views.figure(again, declaration.name, "csv")
+        assert data.content == views.figure(case, declaration.name, "csv").content
+        assert data.keep == {}
         found = json.loads(views.figure(again, declaration.name, "json").content)
         assert len(found["header"]) == len(found["lines"][0])
         for panel in found["panels"]:
             left, top, width, height = panel["box"]
             assert 0.0 < left < left + width <= 1.0
             assert 0.0 < top < top + height <= 1.0
+    drawn, kept_drawn = (views.figure(each, "safety", "svg").content for each in (case, again))
+    assert kept_drawn == drawn
 
 
 def long_case(torque: str) -> dict[str, str]:
@@ -355,6 +357,7 @@ def test_report_has_every_part(name: str) -> None:
     assert "<script" not in html
 
 
+@pytest.mark.usefixtures("without_images")
 def test_names_of_a_report_are_whole_or_refused() -> None:
     html = views.report(asked("fzg-type-a", project="A\u202eB\x07C", notes="one\n\x1btwo"), "").content.decode()
     assert "<dd>ABC</dd>" in html
@@ -364,6 +367,7 @@ def test_names_of_a_report_are_whole_or_refused() -> None:
             views.report(asked("fzg-type-a", **{name: "n" * (longest + 1)}), "")
 
 
+@pytest.mark.usefixtures("without_images")
 def test_reports_curl_is_the_request() -> None:
     example = examples()["milian-table-1"]
     html = views.report(asked("milian-table-1"), "http://host").content.decode()
@@ -569,6 +573,7 @@ def test_assets_are_kept_by_browsers(client: httpx.Client) -> None:
         assert "immutable" in answer.headers["cache-control"]
 
 
+@pytest.mark.usefixtures("without_images")
 def test_a_report_tells_every_input_of_every_item() -> None:
     """Sections of a shaft side by side, four at most; a stiffness by its rows; a link short as text only."""
     example = "starter-generator-gear-drive-train"

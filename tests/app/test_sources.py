@@ -100,6 +100,7 @@ def test_links_name_the_sources_which_are_no_part_of_the_case() -> None:
         assert pairs == case.pairs
 
 
+@pytest.mark.usefixtures("without_images")
 @pytest.mark.parametrize("view", [views.page, partial(views.report, host="http://host")])
 def test_a_page_of_other_sources_says_that_numbers_may_differ(view: Callable[[views.Asked], views.Shown]) -> None:
     page, outdated = (view(asked(**looks)).content.decode() for looks in ({}, {"sources": "0" * 16}))

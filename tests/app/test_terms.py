@@ -25,11 +25,16 @@ TERMS = {
 }
 
 
+@pytest.fixture(scope="module")
+def texts() -> list[str]:
+    """The API's texts, the manual and titles of examples."""
+    chapters = [chapter.read_text("utf-8") for chapter in (ROOT / "app" / "manual").glob("*.md")]
+    return [json.dumps(app.openapi()), *(example.title for example in examples().values()), *chapters]
+
+
 @pytest.mark.parametrize("other", TERMS)
-def test_the_standard_term_is_used(other: str) -> None:
-    """In the API's texts, the manual and titles of examples; names of fields and functions stay."""
-    texts = [json.dumps(app.openapi()), *(example.title for example in examples().values())]
-    texts += [chapter.read_text("utf-8") for chapter in (ROOT / "app" / "manual").glob("*.md")]
-    around = re.compile(rf".{{0,60}}\b{other}(?!_).{{0,30}}", re.IGNORECASE)
-    found = [passage for text in texts for passage in around.findall(text)]
+def test_the_standard_term_is_used(texts: list[str], other: str) -> None:
+    """Names of fields and functions stay."""
+    written = re.compile(rf"\b{other}(?!_)", re.IGNORECASE)
+    found = [text[max(place.start() - 60, 0) : place.end() + 30] for text in texts for place in written.finditer(text)]
     assert not found, TERMS[other]

@@ -10,6 +10,7 @@ from typing import Any
 import httpx
 import pytest
 
+from app.command import print_unit
 from tests.rexs.units import three_stages, turbo_unit
 from tests.support.server import ROOT
 
@@ -107,14 +108,15 @@ def test_the_page_leads_to_the_load_spectrum(client: httpx.Client) -> None:
     assert "1 machine in 2 cases" in answer.text
 
 
-def test_the_command_prints_the_answer(tmp_path: Path, client: httpx.Client) -> None:
+def test_the_command_prints_the_answer(
+    tmp_path: Path, client: httpx.Client, capsys: pytest.CaptureFixture[str]
+) -> None:
     file = tmp_path / "unit.rexs"
     file.write_bytes(three_stages().xml())
     done = subprocess.run(
         [sys.executable, "-m", "app", "rexs", str(file)], capture_output=True, check=True, cwd=ROOT, text=True
     )
     assert json.loads(done.stdout) == client.post("/v1/rexs", content=file.read_bytes(), headers=XML).json()
-    missing = subprocess.run(
-        [sys.executable, "-m", "app", "rexs", "nothing.rexs"], capture_output=True, check=False, cwd=ROOT, text=True
-    )
-    assert (missing.returncode, missing.stdout) == (1, "")
+    with pytest.raises(SystemExit, match=r"nothing\.rexs: No such file"):
+        print_unit(Path("nothing.rexs"))
+    assert capsys.readouterr().out == ""

@@ -1,6 +1,7 @@
 """Values in the units shown: as text, as a dictionary, and inside their ranges."""
 
 from collections.abc import Callable
+from functools import cache
 from typing import Any
 
 import httpx
@@ -40,6 +41,7 @@ class Contact:
 CONTACT = Contact(Film(2e-6, 373.15), np.array([1e6, np.nan]), "Barus", None)
 
 
+@cache
 def solved(name: str) -> tuple[Any, Any]:
     example = examples()[name]
     calculation = BY_PATH[example.endpoint]

@@ -188,8 +188,8 @@ def test_a_search_asks_for_each_place_once() -> None:
         x, y = shares
         return None if x + y > 1.5 else 2.0 + np.array([abs(x - 0.7), 2 * (y - x / 2), x - 2 * y]) + 0.1 * x * y
 
-    whole = search(figures, [0.2, 0.9], 30)
-    assert len({tuple(place) for place in whole}) == len(whole) <= 30
+    whole = search(figures, [0.2, 0.9], 20)
+    assert len({tuple(place) for place in whole}) == len(whole) <= 20
     assert search(figures, [0.2, 0.9], 10) == whole[:10]
 
 
@@ -228,7 +228,7 @@ def test_a_search_keeps_away_from_where_there_is_no_solution(scale: float) -> No
         tried.append((x, None if figures is None else float(figures.max())))
         return figures
 
-    search(judge, [0.2], 40)
+    search(judge, [0.2], 20)
     assert any(figure is None for _, figure in tried)
     assert min((figure, place) for place, figure in tried if figure is not None)[1] == pytest.approx(0.6, abs=0.01)
 

@@ -5,7 +5,7 @@ from math import ceil, log2, pi, radians, tan
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, assume, given, settings
+from hypothesis import assume
 from hypothesis import strategies as st
 
 from solvers.errors import InvalidInput
@@ -35,7 +35,6 @@ from tests.support.properties import examples
 from tests.support.pumping_cases import spaces_of
 
 AIR = gas(Ambient())
-RANDOM = settings(max_examples=100, suppress_health_check=[HealthCheck.filter_too_much, HealthCheck.too_slow])
 COARSE = PumpingModel(slices=12)
 MODELS = [
     COARSE,
@@ -45,8 +44,7 @@ MODELS = [
 ]
 
 
-@settings(RANDOM, max_examples=50)
-@given(setups(), st.floats(200, 60000), st.sampled_from(MODELS), st.sampled_from(list(Gap)))
+@examples(12, 50, setups(), st.floats(200, 60000), st.sampled_from(MODELS), st.sampled_from(list(Gap)))
 def test_any_pair_at_any_speed(setup: PumpingSetup, speed: float, model: PumpingModel, gap: Gap) -> None:
     try:
         result = solve(PumpingInputs(replace(setup, model=replace(model, gap=gap)), speed * pi / 30))
@@ -63,13 +61,12 @@ def test_any_pair_at_any_speed(setup: PumpingSetup, speed: float, model: Pumping
     assert np.isfinite(result.total.pumping_power)
 
 
-@settings(RANDOM, max_examples=40)
-@given(setups())
+@examples(10, 40, setups())
 def test_power_grows_with_the_cube_of_a_low_speed(setup: PumpingSetup) -> None:
     assert low_speed_exponent(setup, MODELS[2]) == pytest.approx(3, abs=0.02)
 
 
-@examples(6, 100, setups())
+@examples(4, 100, setups())
 def test_power_of_gas_dynamics_grows_with_the_cube_of_a_low_speed(setup: PumpingSetup) -> None:
     """With 64 slices in the stroke at one time, for spaces whose coast side does not seal."""
     assume(setup.normal_backlash > 0.01 * setup.gears.normal_module)
@@ -106,16 +103,14 @@ def low_speed_exponent(setup: PumpingSetup, model: PumpingModel, mach: float = 0
     return log2(two / one)
 
 
-@RANDOM
-@given(setups(helix=False), st.floats(500, 30000), st.sampled_from(MODELS))
+@examples(25, 100, setups(helix=False), st.floats(500, 30000), st.sampled_from(MODELS))
 def test_spur_gears_blow_alike_at_both_ends(setup: PumpingSetup, speed: float, model: PumpingModel) -> None:
     setup = replace(setup, model=replace(model, spaces=Spaces.PINION))
     flow = pinion(solve(PumpingInputs(setup, speed * pi / 30))).mass_flow
     assert flow.front == pytest.approx(flow.rear, abs=1e-9 * (abs(flow.radial) + abs(flow.reset) + abs(flow.front)))
 
 
-@RANDOM
-@given(setups(helix=False), st.sampled_from(list(Closure)))
+@examples(25, 100, setups(helix=False), st.sampled_from(list(Closure)))
 def test_closed_pocket_keeps_its_entropy(setup: PumpingSetup, closure: Closure) -> None:
     model = PumpingModel(Flow.POCKET_CHAIN, closure, slices=1, spaces=Spaces.PINION, discharge_coefficient=0.0)
     result = pinion(solve(PumpingInputs(replace(setup, model=model), 1000.0)))

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, assume, given, settings
+from hypothesis import assume
 from hypothesis import strategies as st
 from scipy.spatial import cKDTree
 from shapely import Polygon
@@ -20,9 +20,10 @@ from solvers.pumping.space.section import section
 from solvers.pumping.space.stroke import StrokeTable, stroke_table
 from solvers.pumping.space.tooth_space import ToothSpace, stroke_limits, tooth_space
 from tests.support.meshing_pairs import setups
+from tests.support.properties import examples
 from tests.support.pumping_cases import rough_gears
 
-RANDOM = settings(max_examples=120, suppress_health_check=[HealthCheck.filter_too_much, HealthCheck.too_slow])
+FEW, MANY = 30, 120
 
 
 def polar(radius: FloatArray, angle: FloatArray) -> FloatArray:
@@ -86,8 +87,7 @@ def sampled_section(space: ToothSpace, angle: float, points: int = 1500) -> tupl
     return float(Polygon(outline).area), gap_l, gap_r
 
 
-@RANDOM
-@given(setups(), st.floats(0.02, 0.98), st.sampled_from(list(Gap)), st.booleans())
+@examples(FEW, MANY, setups(), st.floats(0.02, 0.98), st.sampled_from(list(Gap)), st.booleans())
 def test_area_and_clearances_against_sampled_polygons(
     setup: PumpingSetup, share: float, gap: Gap, of_pinion: bool
 ) -> None:
@@ -116,8 +116,7 @@ def test_area_of_the_papers_gears_against_polygons(gears: GearPairInputs, gap: G
         assert section(space, angle)[0] == pytest.approx(sampled_section(space, angle, 6000)[0], rel=2e-4)
 
 
-@RANDOM
-@given(setups(), st.booleans())
+@examples(FEW, MANY, setups(), st.booleans())
 def test_contact_gap_has_one_minimum_and_continuous_sections(setup: PumpingSetup, of_pinion: bool) -> None:
     space = tooth_space(gear_pair(setup.gears), setup.normal_backlash, Gap.CONTACT, of_pinion=of_pinion)
     table = continuous_sealed_table(space, of_pinion)
@@ -174,8 +173,7 @@ def test_area_and_carried_gas_keep_step(*, of_pinion: bool) -> None:
     assert together.max() < 0.2 * bends.max()
 
 
-@RANDOM
-@given(setups())
+@examples(FEW, MANY, setups())
 def test_driver_and_driven_spaces_mirror_each_other(setup: PumpingSetup) -> None:
     # time reversed, a gear that drives becomes one that is driven: equal gears have mirrored spaces
     gears = replace(setup.gears, wheel=setup.gears.pinion, centre_distance=None, rack_tip_radius=0.25)
@@ -191,8 +189,7 @@ def test_driver_and_driven_spaces_mirror_each_other(setup: PumpingSetup) -> None
     assert driven.carried == pytest.approx(driver.carried[::-1] - driver.carried[-1], abs=1e-15)
 
 
-@RANDOM
-@given(setups())
+@examples(FEW, MANY, setups())
 def test_fillet_joins_involute_and_bottom_land(setup: PumpingSetup) -> None:
     pair = gear_pair(setup.gears)
     for gear, teeth in ((pair.pinion, setup.gears.pinion), (pair.wheel, setup.gears.wheel)):

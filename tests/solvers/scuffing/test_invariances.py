@@ -5,7 +5,7 @@ from math import radians
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, assume, given, settings
+from hypothesis import assume
 from hypothesis import strategies as st
 
 from solvers.errors import InvalidInput
@@ -17,8 +17,9 @@ from solvers.scuffing.model import solve as solve_load_distribution
 from solvers.scuffing.modification import gap, gaps_at
 from solvers.scuffing.results import LoadDistribution
 from tests.support.changes import scaled
+from tests.support.properties import examples
 
-EXAMPLES = settings(max_examples=200, suppress_health_check=[HealthCheck.filter_too_much, HealthCheck.too_slow])
+FEW, MANY = 40, 200
 SHAPES = ("profile_crowning", "lead_crowning", "tip_relief", "root_relief", "end_relief")
 SLOPES = ("profile_slope", "helix_slope")
 AMPLITUDES = (*SHAPES, *SLOPES)
@@ -81,8 +82,7 @@ def solve(inputs: LoadDistributionInputs) -> LoadDistribution:
     return solve_load_distribution(inputs)
 
 
-@EXAMPLES
-@given(designs())
+@examples(FEW, MANY, designs())
 def test_the_load_is_balanced(inputs: LoadDistributionInputs) -> None:
     result = solve(inputs)
     assert result.load.balance_error < 1e-12
@@ -92,8 +92,7 @@ def test_the_load_is_balanced(inputs: LoadDistributionInputs) -> None:
     assert 0 < result.load.contact_fraction <= 1 + 1e-12
 
 
-@EXAMPLES
-@given(gears())
+@examples(FEW, MANY, gears())
 def test_contact_lengths_agree_with_their_closed_forms(inputs: GearPairInputs) -> None:
     path = path_of(inputs)
     lengths, rolls = contact_lengths(path), roll_positions(path.plane, 40)
@@ -105,8 +104,7 @@ def test_contact_lengths_agree_with_their_closed_forms(inputs: GearPairInputs) -
     assert np.trapezoid(found, rolls.phase) / rolls.phase[-1] == pytest.approx(lengths.mean, abs=1e-8 * scale)
 
 
-@EXAMPLES
-@given(designs(), st.floats(0.1, 10.0))
+@examples(FEW, MANY, designs(), st.floats(0.1, 10.0))
 def test_gears_of_another_size_under_the_same_stress_deform_alike(inputs: LoadDistributionInputs, size: float) -> None:
     lengths = ("gears.module", "gears.face_width", *(f"modifications.{name}" for name in AMPLITUDES))
     similar = scaled(scaled(inputs, size, *lengths), size**3, "load.pinion_torque")
@@ -123,8 +121,7 @@ def test_gears_of_another_size_under_the_same_stress_deform_alike(inputs: LoadDi
         assert other.friction_loss.loss_factor == pytest.approx(one.friction_loss.loss_factor, rel=1e-7)
 
 
-@EXAMPLES
-@given(designs())
+@examples(FEW, MANY, designs())
 def test_exchanging_driver_and_driven_mirrors_everything(inputs: LoadDistributionInputs) -> None:
     gears, shape = inputs.gears, inputs.modifications
     ratio = gears.wheel.teeth / gears.pinion.teeth
@@ -154,8 +151,7 @@ def test_exchanging_driver_and_driven_mirrors_everything(inputs: LoadDistributio
     assert mirrored[inner] == pytest.approx(one.flank.line_load[inner], abs=1e-6 * scale)
 
 
-@EXAMPLES
-@given(gears(), st.floats(1.0, 1e4), MODELS)
+@examples(FEW, MANY, gears(), st.floats(1.0, 1e4), MODELS)
 def test_unmodified_teeth_share_as_minimum_elastic_energy_does(
     inputs: GearPairInputs, torque: float, model: Model
 ) -> None:
@@ -181,8 +177,7 @@ def test_unmodified_teeth_share_as_minimum_elastic_energy_does(
     assert v * result.transmission_error.curves.error[2] == pytest.approx(pedrero, rel=1e-11)
 
 
-@EXAMPLES
-@given(designs())
+@examples(FEW, MANY, designs())
 def test_more_torque_presses_every_point_harder(inputs: LoadDistributionInputs) -> None:
     one, other = solve(inputs), solve(scaled(inputs, 1.5, "load.pinion_torque"))
     slack = 1e-9 * other.load.max_line_load
@@ -194,8 +189,7 @@ def test_more_torque_presses_every_point_harder(inputs: LoadDistributionInputs) 
     assert other.load.contact_fraction >= one.load.contact_fraction - 1e-12
 
 
-@EXAMPLES
-@given(designs())
+@examples(FEW, MANY, designs())
 def test_the_gap_is_linear_in_its_amplitudes(inputs: LoadDistributionInputs) -> None:
     path = path_of(inputs.gears)
     x, y = np.meshgrid(np.linspace(0, path.length, 7), np.linspace(0, inputs.gears.face_width, 5))
@@ -204,8 +198,7 @@ def test_the_gap_is_linear_in_its_amplitudes(inputs: LoadDistributionInputs) -> 
     assert gaps_at(gap(double, path), x, y) == pytest.approx(2 * single, rel=1e-12, abs=1e-18)
 
 
-@EXAMPLES
-@given(designs(), st.floats(0.5, 2.0))
+@examples(FEW, MANY, designs(), st.floats(0.5, 2.0))
 def test_line_loads_scale_with_elasticity_as_they_do_with_torque(inputs: LoadDistributionInputs, factor: float) -> None:
     """E and torque by one factor leave every deflection as it was."""
     moduli = ("pinion_material.youngs_modulus", "wheel_material.youngs_modulus")
