@@ -1,8 +1,7 @@
 """Worker processes that calculate: who gets one, how they are started and replaced, and the first start.
 
 stages     what is compiled and loaded one after the other
-template   the process that loads everything once and is forked; what its copies do
-control    the service's end of these processes
+processes  the template, which loads everything once and is forked, and its copies, the workers
 pool       which call gets the next worker, is refused or interrupted; carries out calls of single requests and of
            studies; a worker that dies, stops or is not wanted any more is replaced
 start_up   compiles and loads stage after stage while the port is open
