@@ -9,10 +9,10 @@ from typing import Any
 
 import numpy as np
 
+from app.figures import written
 from app.figures.comparison import compared
 from app.figures.data import Figure, NoFigure, Role, ThemeName, Values
 from app.figures.declaration import Declaration
-from app.figures.rendering import written
 from app.figures.tables import columns_of
 from app.pages.cases import Case
 

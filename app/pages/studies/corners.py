@@ -11,12 +11,11 @@ from app.figures.studies import corners
 from app.figures.units import axis_of
 from app.figures.wording import listed, number
 from app.pages import study_links
-from app.pages.cases import Case
+from app.pages.cases import REFUSED, Case
 from app.pages.query import CORNER, number_of, text_of
 from app.pages.studies.page import Controls, Link, Number, Result, StudyPage, Table, titled
 from app.pages.studies.sweep import numbered
 from app.pages.typesetting import shown
-from app.pages.views import REFUSED
 from app.schema.fields import headlines
 from app.studies.engine import Line
 from app.studies.fields import value_at

@@ -8,19 +8,20 @@ from itertools import groupby
 from typing import Any, NamedTuple
 
 from app.calculations import Calculation
-from app.errors import Unprocessable, Unreadable
+from app.errors import InvalidBody, Unprocessable, Unreadable
+from app.figures import MEDIA_TYPES, Format, written
 from app.figures.data import Figure
-from app.figures.rendering import MEDIA_TYPES, Format, written
-from app.pages.cases import Case, Fault, faults_of, solved
+from app.pages.cases import REFUSED, Asked, Case, Fault, faults_of, solved
 from app.pages.charts import embedded
 from app.pages.form import FieldView
 from app.pages.query import LONGEST_QUERY, STUDY_NAMES, link, number_of, pairs_of, text_of
 from app.pages.results import NOT_RESULTS
 from app.pages.study_links import Starter, StudyExample, StudyLink
 from app.pages.templating import examples_of, rendered
-from app.pages.views import REFUSED, Asked, title_of
 from app.pages.views import report as case_report
+from app.pages.views import title_of
 from app.schema.fields import ITEM, Leaf, headlines, leaf_at, leaves, tree
+from app.schema.reading import validated
 from app.sources import SHORT_SOURCES
 from app.studies.engine import Line, Study
 from app.studies.fields import NUMBERS, scalar_at
@@ -183,9 +184,11 @@ class StudyPage(ABC):
 
     @cached_property
     def case(self) -> dict[str, Any]:
-        """The request with its defaults; empty where it cannot be read."""
+        """The request with its defaults; as it is given where that is refused, empty where it cannot be read."""
         try:
-            return self.asked.case
+            return validated(self.calculation.request, self.asked.body).model_dump()
+        except InvalidBody:
+            return self.asked.body
         except Unreadable:
             return {}
 
