@@ -51,6 +51,16 @@ class Asked:
         return body_of(self.calculation.request, self.pairs)
 
     @property
+    def case(self) -> dict[str, Any]:
+        """The request with its defaults; as far as it is given where that is refused, empty where it is unreadable."""
+        try:
+            return validated(self.calculation.request, self.body).model_dump()
+        except InvalidBody:
+            return self.body
+        except Unreadable:
+            return {}
+
+    @property
     def theme(self) -> ThemeName | None:
         """The theme asked for; a page without one follows the reader's system."""
         return next((theme for theme in get_args(ThemeName) if theme == self.views.get("theme")), None)

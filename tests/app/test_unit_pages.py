@@ -201,6 +201,17 @@ def test_a_study_that_breaks_off_says_why(page: type[StudyPage]) -> None:
     assert "&lt;b&gt;too long&lt;/b&gt;" in text.decode()
 
 
+def test_the_report_of_a_search_has_the_grinding_sheet() -> None:
+    study, lines, page = studied(DesignPage)
+    text = unescape(pages.report(study, lines, "").decode())
+    captions = re.findall(r"<caption>([^<]*)</caption>", text)
+    first, *_ = (place for place, title in enumerate(captions) if title == "What to grind")
+    assert captions[first : first + 3] == ["What to grind", "What it brings", "Which number is which"]
+    sheet = text.partition("<caption>What to grind</caption>")[2].partition("</table>")[0]
+    for row in rows_of(page, "What to grind"):
+        assert [cell for cell in row if f">{cell}</td>" not in sheet] == []
+
+
 def test_links_alone_lead_from_a_unit_to_its_worst_corner_and_to_what_to_grind(client: httpx.Client) -> None:
     page = unescape(client.get(small().page).text)
     for offer in study_links(BY_PATH["/v1/drive-train"]):

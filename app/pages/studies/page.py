@@ -8,7 +8,7 @@ from itertools import groupby
 from typing import Any, NamedTuple
 
 from app.calculations import Calculation
-from app.errors import InvalidBody, Unprocessable, Unreadable
+from app.errors import Unprocessable, Unreadable
 from app.figures import MEDIA_TYPES, Format, written
 from app.figures.data import Figure
 from app.pages.cases import REFUSED, Asked, Case, Fault, faults_of, solved
@@ -21,7 +21,6 @@ from app.pages.templating import examples_of, rendered
 from app.pages.views import report as case_report
 from app.pages.views import title_of
 from app.schema.fields import ITEM, Leaf, headlines, leaf_at, leaves, tree
-from app.schema.reading import validated
 from app.sources import SHORT_SOURCES
 from app.studies.engine import Line, Study
 from app.studies.fields import NUMBERS, scalar_at
@@ -129,8 +128,9 @@ class StudyPage(ABC):
         Controls of which at least one has to be filled in for a study, and the sentence that asks for it.
     plan
         The kind of study, which is made from its body, the largest number of points and the deadline of a point [s].
-    study, faults
-        The study, None until the query has been accepted, and what the query is refused for, by control.
+    case, study, faults
+        The case as far as it is known; the study, None until the query has been accepted; and what the query is refused
+        for, by control.
 
     """
 
@@ -148,6 +148,7 @@ class StudyPage(ABC):
     def __init__(self, asked: Asked) -> None:
         self.asked = asked
         self.views = asked.views
+        self.case = asked.case
         self.study: Any = None
         self.faults: list[Fault] = []
 
@@ -181,16 +182,6 @@ class StudyPage(ABC):
     def calculation(self) -> Calculation:
         """The calculation whose case is studied."""
         return self.asked.calculation
-
-    @cached_property
-    def case(self) -> dict[str, Any]:
-        """The request with its defaults; as it is given where that is refused, empty where it cannot be read."""
-        try:
-            return validated(self.calculation.request, self.asked.body).model_dump()
-        except InvalidBody:
-            return self.asked.body
-        except Unreadable:
-            return {}
 
     @property
     def usual_output(self) -> Leaf:
