@@ -78,17 +78,12 @@ class Grid:
         flat = np.nanargmax(self.values) if self.greatest else np.nanargmin(self.values)
         return tuple(int(place) for place in np.unravel_index(flat, self.values.shape))
 
-    @property
-    def is_map(self) -> bool:
-        """Whether it is drawn as a map, because it would have too many curves to tell apart."""
-        return self.y is not None and not self.y.words and self.y.values.size > MOST_CURVES
-
 
 def figures_of(grid: Grid) -> dict[str, Figure]:
     """The figures of a sweep by name."""
     if grid.y is None:
         return {"curve": curve(grid)}
-    if not grid.is_map:
+    if grid.y.words or grid.y.values.size <= MOST_CURVES:
         return {"family": family(grid, grid.y)}
     forgiven = {"worst": worst(grid, grid.y)} if grid.x.scatters else {}
     return {"map": chart(grid, grid.y), **forgiven}

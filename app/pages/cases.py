@@ -140,7 +140,7 @@ def opened(content: bytes, root: str) -> Asked:
 
 
 def key_of(path: str, pairs: Pairs) -> str:
-    """The key of a case: its endpoint and fields, whatever their order."""
+    """The key of an answer: page and fields of its case, whatever their order, or the hash of the answer as `case`."""
     return sha256(repr((path, sorted(pairs))).encode()).hexdigest()
 
 

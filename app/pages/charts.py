@@ -13,7 +13,7 @@ from app.figures import written
 from app.figures.comparison import compared
 from app.figures.data import Figure, NoFigure, Role, ThemeName, Values
 from app.figures.declaration import Declaration
-from app.figures.tables import columns_of
+from app.figures.tables import Item, columns_of
 from app.pages.cases import Case
 
 VARIANT = "variant A"
@@ -123,7 +123,7 @@ def values_of(figure: Figure) -> bytes:
 def _table(figure: Figure) -> dict[str, Any]:
     """The header of a table of the figure's numbers, its first lines, and how many more there are."""
     columns = columns_of(figure)
-    cells = [map(_cell, column.cells(MOST_LINES)) for column in columns]
+    cells = [map(_cell, column.content[:MOST_LINES]) for column in columns]
     count = max((len(column.content) for column in columns), default=0)
     return {
         "header": tuple(column.header for column in columns),
@@ -132,11 +132,10 @@ def _table(figure: Figure) -> dict[str, Any]:
     }
 
 
-def _cell(text: str) -> str:
-    try:
-        return f"{float(text):.{DIGITS}g}".replace("-", "−")
-    except ValueError:
-        return text
+def _cell(item: Item) -> str:
+    if item is None or isinstance(item, str):
+        return item or ""
+    return f"{item:.{DIGITS}g}".replace("-", "−")
 
 
 def _panels(figure: Figure) -> list[dict[str, Any]]:

@@ -120,11 +120,6 @@ def report(asked: Asked, host: str, study: dict[str, Any] | None = None) -> Show
     return Shown(content.encode(), keep=_keep(asked, case, variant))
 
 
-def case_key(path: str, case: str) -> str:
-    """What an answer of a page's calculation is kept under that is asked for by its hash."""
-    return key_of(path, [("case", case)])
-
-
 def _keep(asked: Asked, case: Case, variant: Case | None = None) -> dict[str, bytes]:
     """Answers that were not kept yet, by the keys of their fields; those of a long case also by their hashes."""
     keep = {}
@@ -132,7 +127,7 @@ def _keep(asked: Asked, case: Case, variant: Case | None = None) -> dict[str, by
         if each is not None and kept is None:
             keep[key_of(asked.path, pairs)] = each.kept
         if each is not None and asked.too_long:
-            keep[case_key(asked.path, each.response.case)] = each.kept
+            keep[key_of(asked.path, [("case", each.response.case)])] = each.kept
     return keep
 
 

@@ -188,11 +188,8 @@ async def asked_of(http: Request, calculation: Calculation) -> tuple[Asked, bool
 
 def _kept(http: Request, path: str) -> Asked:
     """The case whose hash is asked for, and its variant; 410 where an answer is not kept any more."""
-    query = http.query_params
-    kept, kept_ref = (
-        http.app.state.answers.get(views.case_key(path, query[name])) if query.get(name) else None
-        for name in ("case", "ref_case")
-    )
+    query, answers = http.query_params, http.app.state.answers
+    kept, kept_ref = (answers.get(key_of(path, [("case", query.get(name, ""))])) for name in ("case", "ref_case"))
     if kept is None or (query.get("ref_case") and kept_ref is None):
         raise HTTPException(410, "The answer of this case is no longer kept; calculate the case again")
     return Asked(path, [], {"theme": query.get("theme", "")}, kept, kept_ref)

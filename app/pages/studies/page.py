@@ -258,7 +258,7 @@ class StudyPage(ABC):
         """The address of the case at a point: its page, or with `below` a view such as its report."""
         body = with_overrides(self.calculation, self.asked.body, overrides)
         del body["detail"]
-        return link(f"{self.asked.path}{below}", pairs_of(body), theme=self.views.get("theme", ""))
+        return link(f"{self.asked.path}{below}", pairs_of(body), theme=self.asked.theme)
 
     def solved(self, overrides: Overrides) -> Case:
         """The case at a point with its answer, of which only the parts are calculated that the outputs need."""
@@ -289,7 +289,6 @@ def opened(kind: type[StudyPage], asked: Asked, most: int, deadline_s: float) ->
     show = page.menu("show", "output", page.usual_output.title, output_choices(page.calculation))
     groups = (*page.controls(), Controls("Show", show, page.shows()))
     controls = {each.name for group in groups for each in (group.menu, *group.fields) if each}
-    theme = asked.views.get("theme", "")
     content = rendered(
         "study.html",
         asked.root,
@@ -298,9 +297,9 @@ def opened(kind: type[StudyPage], asked: Asked, most: int, deadline_s: float) ->
         calculation=page.calculation,
         field_title=lambda path: title_of(page.calculation, path),
         outdated=asked.outdated,
-        theme=theme,
+        theme=asked.theme,
         groups=groups,
-        hidden=[pair for pair in (*asked.pairs, ("theme", theme)) if pair[1]],
+        hidden=[pair for pair in (*asked.pairs, ("theme", asked.theme)) if pair[1]],
         other_faults=[fault for fault in page.faults if fault.path not in controls],
         frames=FRAMES,
     )
