@@ -139,7 +139,7 @@ def _section(title: str, blocks: Iterable[Block], state: State, paths: list[str]
     given, faulty, assumed = (
         sum(_count(names, each) for each in paths) for names in (state.texts, state.faults, state.assumed)
     )
-    found = {
+    found: dict[str, Any] = {
         "path": paths[0],
         "open": known.get("needed", False) or given > 0 or faulty > 0,
         "given": given,

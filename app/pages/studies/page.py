@@ -296,8 +296,6 @@ def opened(kind: type[StudyPage], asked: Asked, most: int, deadline_s: float) ->
         asked=asked,
         calculation=page.calculation,
         field_title=lambda path: title_of(page.calculation, path),
-        outdated=asked.outdated,
-        theme=asked.theme,
         groups=groups,
         hidden=[pair for pair in (*asked.pairs, ("theme", asked.theme)) if pair[1]],
         other_faults=[fault for fault in page.faults if fault.path not in controls],
