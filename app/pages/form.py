@@ -3,12 +3,12 @@
 from collections.abc import Iterable, Iterator, Mapping
 from collections.abc import Set as AbstractSet
 from dataclasses import dataclass, field, replace
-from itertools import groupby, product
+from itertools import accumulate, groupby, product
 from typing import Any
 
 from app.pages.query import MATRIX, PICK, PRESENT, SIDE, excluded, text_of
 from app.pages.typesetting import cited, symbol, words
-from app.schema.fields import Branch, Leaf, tree
+from app.schema.fields import Branch, Leaf, branches, leaf_at, tree
 from app.schema.model import Request
 from app.schema.model import Section as Fields
 from app.schema.quantities import split_unit
@@ -114,6 +114,23 @@ Block = FieldView | Choice | Section | tuple[FieldView, ...]
 def anchor(path: str) -> str:
     """The id of a field or section on the page."""
     return f"f.{path}"
+
+
+def link_to(request: type[Request], path: str) -> str:
+    """The link to a field on the page of its case, or to the next section above it."""
+    known = branches(request)
+    while path and leaf_at(request, path) is None and path not in known:
+        path = path.rpartition(".")[0]
+    return f"#{anchor(path)}" if path else "#form"
+
+
+def title_of(request: type[Request], path: str) -> str:
+    """What people call the field; a section is called by those around it too."""
+    leaf = leaf_at(request, path)
+    if leaf is not None:
+        return leaf.title
+    known, around = branches(request), accumulate(path.split("."), "{}.{}".format)
+    return ", ".join(known[each].title for each in around if each in known) or path
 
 
 def form(request: type[Request], state: State) -> tuple[Section, ...]:

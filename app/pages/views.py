@@ -1,25 +1,24 @@
 """One view of one case, from its fields to bytes; runs in a worker."""
 
 from dataclasses import dataclass, field, replace
-from itertools import accumulate
 from typing import Any, Literal
 
-from app.calculations import BY_PATH, Calculation
+from app.calculations import BY_PATH
 from app.errors import Unreadable
 from app.evaluate import written as json_written
-from app.figures import MEDIA_TYPES, Format, written
+from app.figures import Format, written
 from app.pages import csv
 from app.pages import report as reports
 from app.pages.cases import REFUSED, Asked, Case, Fault, faults_of, key_of, solved
 from app.pages.charts import figure_of, figures_of, linked, values_of
-from app.pages.form import State, anchor, form
+from app.pages.form import State, form
 from app.pages.manual import chapter_of
 from app.pages.query import ambiguity, link
 from app.pages.results import assumptions, cards, differences, groups, resolved
 from app.pages.study_links import studies_of_case, study_links
 from app.pages.templating import example_link, examples_of, page_path, rendered
 from app.pages.typesetting import NO_VALUE
-from app.schema.fields import branches, headlines, leaf_at
+from app.schema.fields import headlines, leaf_at
 
 LOCAL = "http://localhost:8000"
 
@@ -142,11 +141,8 @@ def _page(asked: Asked, state: State, status: int = 200, keep: dict[str, bytes] 
         chapter=chapter_of(calculation).name,
         sections=form(calculation.request, state),
         examples=[(example, example_link(calculation, example)) for example in examples_of(calculation)],
-        formats=MEDIA_TYPES,
         studies=study_links(calculation),
         headlines=headlines(calculation.response),
-        field_link=lambda path: _place(calculation, path),
-        field_title=lambda path: title_of(calculation, path),
         **context,
     )
     return Shown(content.encode(), status, keep or {})
@@ -192,20 +188,3 @@ def _both(asked: Asked) -> tuple[Case, Case | None, str]:
         return case, solved(asked.calculation, asked.ref_pairs, asked.kept_ref), ""
     except REFUSED as error:
         return case, None, faults_of(error, asked.calculation)[0].message
-
-
-def _place(calculation: Calculation, path: str) -> str:
-    """Where on the page the field is, or the next section above it."""
-    known = branches(calculation.request)
-    while path and leaf_at(calculation.request, path) is None and path not in known:
-        path = path.rpartition(".")[0]
-    return f"#{anchor(path)}" if path else "#form"
-
-
-def title_of(calculation: Calculation, path: str) -> str:
-    """What people call the field; a section is called by those around it too."""
-    leaf = leaf_at(calculation.request, path)
-    if leaf is not None:
-        return leaf.title
-    known, around = branches(calculation.request), accumulate(path.split("."), "{}.{}".format)
-    return ", ".join(known[each].title for each in around if each in known) or path

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 from app.calculations import Calculation
 from app.errors import Unprocessable, Unreadable
-from app.figures import MEDIA_TYPES, Format, written
+from app.figures import Format, written
 from app.figures.data import Figure
 from app.pages.cases import REFUSED, Asked, Case, Fault, faults_of, solved
 from app.pages.charts import embedded
@@ -19,7 +19,6 @@ from app.pages.results import NOT_RESULTS
 from app.pages.study_links import Starter, StudyExample, StudyLink
 from app.pages.templating import examples_of, rendered
 from app.pages.views import report as case_report
-from app.pages.views import title_of
 from app.schema.fields import ITEM, Leaf, headlines, leaf_at, leaves, tree
 from app.sources import SHORT_SOURCES
 from app.studies.engine import Line, Study
@@ -295,7 +294,6 @@ def opened(kind: type[StudyPage], asked: Asked, most: int, deadline_s: float) ->
         page=page,
         asked=asked,
         calculation=page.calculation,
-        field_title=lambda path: title_of(page.calculation, path),
         groups=groups,
         hidden=[pair for pair in (*asked.pairs, ("theme", asked.theme)) if pair[1]],
         other_faults=[fault for fault in page.faults if fault.path not in controls],
@@ -353,7 +351,6 @@ def drawn(page: StudyPage, lines: list[Line], done: int | None = None) -> bytes:
         problem=last["message"] if ended_early else "",
         done=last["done"] if ended_early else done,
         charts=charts,
-        formats=MEDIA_TYPES,
     ).encode()
 
 
