@@ -91,10 +91,8 @@ def _densities(found: dict[str, Any], axis: Axis) -> Panel:
     curves, levels = list[tuple[str, Values, Values, Hue]](), list[Level]()
     mean, deviation, histogram = found["mean"], found["deviation"], found["histogram"]
     if edges := histogram["edges"]:
-        height = np.array(histogram["density"]) / max(histogram["density"])
-        curves.append(
-            ("worst case", np.repeat(edges, 2), np.concatenate([[0.0], np.repeat(height, 2), [0.0]]), Hue.BLUE)
-        )
+        height = np.repeat(np.array(histogram["density"]) / max(histogram["density"]), 2)
+        curves.append(("worst case", np.repeat(edges, 2), np.pad(height, 1), Hue.BLUE))
     if deviation:
         x = mean + deviation * np.linspace(-REACH, REACH, CURVE_POINTS)
         curves.append(("limit", x, np.exp(-(((x - mean) / deviation) ** 2) / 2.0), Hue.VERMILLION))

@@ -2,7 +2,6 @@
 
 import base64
 import json
-from collections.abc import Callable
 from dataclasses import dataclass, field
 from itertools import zip_longest
 from typing import Any
@@ -14,7 +13,7 @@ from app.figures.comparison import compared
 from app.figures.data import Figure, NoFigure, Role, ThemeName, Values
 from app.figures.declaration import Declaration
 from app.figures.tables import Item, columns_of
-from app.pages.cases import Case
+from app.pages.cases import Asked, Case
 
 VARIANT = "variant A"
 MOST_LINES = 200  # of a table on a page; the file has all
@@ -74,18 +73,16 @@ def figures_of(
     return found, missing
 
 
-def linked(
-    declaration: Declaration, figure: Figure | None, address: Callable[..., str], theme: ThemeName | None
-) -> Chart:
+def linked(declaration: Declaration, figure: Figure | None, asked: Asked) -> Chart:
     """A figure whose image and values are at addresses of their own, dark on dark pages unless the page has a theme."""
     return Chart(
         name=declaration.name,
         title=figure.title if figure else declaration.title,
         subtitle=figure.subtitle if figure else declaration.source,
-        image=address(declaration.name, "svg"),
-        dark="" if theme else address(declaration.name, "svg", theme="dark"),
+        image=asked.image(declaration.name, "svg"),
+        dark="" if asked.theme else asked.image(declaration.name, "svg", theme="dark"),
         size=_pixels(figure) if figure else None,
-        values=address(declaration.name, "json"),
+        values=asked.image(declaration.name, "json"),
     )
 
 

@@ -20,8 +20,6 @@ from app.pages.templating import example_link, examples_of, page_path, rendered
 from app.pages.typesetting import NO_VALUE
 from app.schema.fields import headlines, leaf_at
 
-LOCAL = "http://localhost:8000"
-
 
 @dataclass(frozen=True, slots=True)
 class Shown:
@@ -54,12 +52,12 @@ def page(asked: Asked) -> Shown:
         State(texts, {}, resolved(response), {each.field for each in response.assumptions}),
         keep=_keep(asked, case, variant),
         **found,
-        charts=[linked(each, figure, asked.image, asked.theme) for each, figure in found["figures"]],
+        charts=[linked(each, figure, asked) for each, figure in found["figures"]],
         ready=studies_of_case(asked.calculation, asked.pairs, response.inputs),
         curves=csv.curves(response),
         code={
-            "Python": reports.for_python(LOCAL + asked.root, case),
-            "curl": reports.for_shell(LOCAL + asked.root, case),
+            "Python": reports.for_python(reports.LOCAL + asked.root, case),
+            "curl": reports.for_shell(reports.LOCAL + asked.root, case),
         },
     )
 
@@ -106,15 +104,8 @@ def report(asked: Asked, host: str, study: dict[str, Any] | None = None) -> Show
         asked=asked,
         calculation=asked.calculation,
         **_answered(asked, case, variant, trouble, compute=True),
-        host=host,
         study=study,
-        **reports.context(
-            case,
-            asked.pairs,
-            asked.views,
-            address=(host or LOCAL) + asked.root,
-            link="" if asked.too_long else host + asked.root + asked.page,
-        ),
+        **reports.context(asked, case, host),
     )
     return Shown(content.encode(), keep=_keep(asked, case, variant))
 
