@@ -50,7 +50,7 @@ class InvalidBody(Exception):
 class Unprocessable(Exception):
     """Input that the schema allows and physics does not; `path` is the dotted request field at fault."""
 
-    def __init__(self, code: str, message: str, path: str | None) -> None:
+    def __init__(self, code: str, message: str, path: str | None = None) -> None:
         super().__init__(code, message, path)
         self.code = code
         self.message = message

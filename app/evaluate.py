@@ -7,9 +7,9 @@ from hashlib import sha256
 from operator import attrgetter
 from typing import Any
 
+from app import figures
 from app.calculations import BY_PATH, Calculation
 from app.errors import Fault, InvalidBody, Unprocessable, Unreadable
-from app.figures import rendering
 from app.figures.data import ThemeName
 from app.figures.declaration import Declaration
 from app.schema.fields import field_path
@@ -108,13 +108,13 @@ def drawn(
     calculation: Calculation,
     declaration: Declaration,
     request: Request,
-    image_format: rendering.Format,
+    image_format: figures.Format,
     theme: ThemeName,
 ) -> bytes:
     """Solve the request and write a figure; raises Unprocessable as `evaluate` does and where there is no figure."""
     asked = request.model_copy(update={"detail": "summary"})
     figure = declaration.figure(asked, evaluate(calculation, asked))
-    return rendering.written(figure, image_format, theme)
+    return figures.written(figure, image_format, theme)
 
 
 def evaluate(calculation: Calculation, request: Request) -> Response:

@@ -11,7 +11,7 @@ from app.calculations import CALCULATIONS
 from app.errors import Unprocessable
 from app.examples import examples
 from app.pages import views
-from app.pages.cases import solved
+from app.pages.cases import Asked, solved
 from app.pages.query import pairs_of
 from app.pages.templating import page_path
 
@@ -28,10 +28,10 @@ def main() -> None:
     for calculation in CALCULATIONS:
         example = next(each for each in examples().values() if each.endpoint == calculation.path)
         path, pairs = page_path(calculation), pairs_of(example.request)
-        shown = views.page(views.Asked(path, pairs))
-        kept = views.Asked(path, pairs, {}, *shown.keep.values())
+        shown = views.page(Asked(path, pairs))
+        kept = Asked(path, pairs, {}, *shown.keep.values())
         times = [
-            _milliseconds(lambda path=path: views.page(views.Asked(path, []))),
+            _milliseconds(lambda path=path: views.page(Asked(path, []))),
             _milliseconds(lambda calculation=calculation, pairs=pairs: solved(calculation, pairs, None)),
             _milliseconds(lambda kept=kept: views.page(kept)),
         ]
@@ -48,7 +48,7 @@ def main() -> None:
     print(f"\nmemory of the process: {before // 1024} MiB before, at most {after // 1024} MiB")
 
 
-def _draw(kept: views.Asked, name: str) -> None:
+def _draw(kept: Asked, name: str) -> None:
     """Draw a figure of a kept answer, if the case has it."""
     with suppress(Unprocessable):
         views.figure(kept, name, "svg")

@@ -244,6 +244,3 @@ class Figure:
 
 class NoFigure(Unprocessable):
     """The case lacks what the figure shows; `path` is the dotted request field that decides it."""
-
-    def __init__(self, code: str, message: str, path: str | None = None) -> None:
-        super().__init__(code, message, path)

@@ -1,7 +1,11 @@
-"""Figures of a load spectrum: the output of every case against its limit, probabilities, what decides, mean losses."""
+"""Figures of a load spectrum: the output of every case against its limit, probabilities, what decides, mean losses.
 
-from dataclasses import dataclass, field, replace
-from typing import NamedTuple
+A probability is a part of the study's lines: its `bounds`, which are equal where every draw is solved, and its
+`interval`.
+"""
+
+from dataclasses import replace
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -16,115 +20,84 @@ NAMED = 8  # tolerances
 LEAST = 1e-5  # a probability below it says nothing more: the tails that make it are not known so far out
 
 
-class Band(NamedTuple):
-    """The 5, 50 and 95 % quantiles of an output."""
+class SpectrumCase(NamedTuple):
+    """A case of the spectrum.
 
-    low: float
-    middle: float
-    high: float
-
-
-@dataclass(frozen=True, slots=True)
-class Chance:
-    """A probability between its bounds, which are equal where every draw is solved, and its interval."""
-
-    low: float
-    high: float
-    interval: tuple[float, float] | None
-
-    @property
-    def is_tiny(self) -> bool:
-        """Whether it is too small to be distinguished from zero, but not exactly zero."""
-        most: float = max((self.high, *(self.interval or ())))
-        return 0.0 < most < LEAST
-
-    @property
-    def text(self) -> str:
-        """In per cent."""
-        if self.is_tiny:
-            return f"below {percent(LEAST)}"
-        if self.low == self.high:
-            return percent(self.low)
-        return f"{percent(self.low)} to {percent(self.high)}"
-
-    def row(self, name: str, hue: Hue) -> Row:
-        """The larger bound, with the interval, in per cent."""
-        low, high = self.interval or (self.low, self.high)
-        return Row(name, 100.0 * self.high, hue, (100.0 * low, 100.0 * high))
-
-
-@dataclass(frozen=True, slots=True)
-class SpectrumCase:
-    """A case of the spectrum: its limited output, its probability as if alone, how often it is the worst."""
+    `quantiles` are those of its limited output, 5, 50 and 95 %, None where none is solved; `chance` is its probability
+    as if alone, `decides` the share of machines of which it is the worst case.
+    """
 
     name: str
-    band: Band | None
-    chance: Chance
+    quantiles: tuple[float, float, float] | None
+    chance: dict[str, Any]
     decides: float | None
 
 
-@dataclass(frozen=True, slots=True)
-class Limited:
+class Limited(NamedTuple):
     """A limited output over the spectrum.
 
-    `edges` and `density` are the histogram of the worst case, empty where it does not vary; `influences` are the rank
-    correlations of the worst case with the fields that scatter.
+    `found` is what the study says of the limit: its side, mean and deviation, the probability, and the histogram of the
+    worst case, empty where that does not vary. `influences` are the rank correlations of the worst case with the fields
+    that scatter, by their titles.
     """
 
     output: Axis
-    above: bool
-    mean: float
-    deviation: float | None
-    chance: Chance
-    risk: str
-    cases: tuple[SpectrumCase, ...]
-    edges: tuple[float, ...] = ()
-    density: tuple[float, ...] = ()
-    influences: dict[str, float] = field(default_factory=dict)
-
-    @property
-    def side(self) -> str:
-        """On which side of the limit it must not be."""
-        return "above" if self.above else "below"
-
-    @property
-    def sentence(self) -> str:
-        """The probability in words."""
-        interval = None if self.chance.is_tiny else self.chance.interval
-        reach = f", 90 % interval {percent(interval[0])} to {percent(interval[1])}" if interval else ""
-        return f"probability of being {self.side} the limit {self.chance.text}{reach}: {self.risk} risk"
+    found: dict[str, Any]
+    cases: list[SpectrumCase]
+    influences: dict[str, float]
 
 
-def overlap(found: Limited) -> Figure:
+def is_tiny(chance: dict[str, Any]) -> bool:
+    """Whether a probability is too small to be distinguished from zero, but not exactly zero."""
+    most: float = max(*chance["bounds"], *(chance["interval"] or ()))
+    return 0.0 < most < LEAST
+
+
+def chance_text(chance: dict[str, Any]) -> str:
+    """A probability in per cent."""
+    if is_tiny(chance):
+        return f"below {percent(LEAST)}"
+    low, high = chance["bounds"]
+    return percent(low) if low == high else f"{percent(low)} to {percent(high)}"
+
+
+def sentence(found: dict[str, Any]) -> str:
+    """The probability of a limit in words."""
+    interval = None if is_tiny(found) else found["interval"]
+    reach = f", 90 % interval {percent(interval[0])} to {percent(interval[1])}" if interval else ""
+    return f"probability of being {found['side']} the limit {chance_text(found)}{reach}: {found['risk']} risk"
+
+
+def overlap(limited: Limited) -> Figure:
     """The densities of the worst case and of the limit, and below them the band of every case."""
-    axis = replace(found.output, magnitude=False)
-    rows = [
-        Row(each.name, each.band.middle, Hue.BLUE, (each.band.low, each.band.high))
-        for each in found.cases
-        if each.band is not None
-    ]
+    found, axis, rows = limited.found, replace(limited.output, magnitude=False), []
+    for each in limited.cases:
+        if each.quantiles is not None:
+            low, middle, high = each.quantiles
+            rows.append(Row(each.name, middle, Hue.BLUE, (low, high)))
     if not rows:
         raise NoFigure("no_solution", "no case has a solution")
-    panels = [_densities(found, axis)] if found.deviation or found.edges else []
-    levels = [Level(found.mean, f"limit {number(found.mean, axis.unit)}", limit=True, vertical=True)]
-    reach = BAND * (found.deviation or 0.0)
-    spans = [Span(found.mean - reach, found.mean + reach, "")] if reach else []
+    mean, reach = found["mean"], BAND * (found["deviation"] or 0.0)
+    panels = [_densities(found, axis)] if reach or found["histogram"]["edges"] else []
+    levels = [Level(mean, f"limit {number(mean, axis.unit)}", limit=True, vertical=True)]
+    spans = [Span(mean - reach, mean + reach, "")] if reach else []
     panels.append(Panel(x=axis, y=Axis("case"), rows=rows, spans=spans, levels=levels))
-    title = f"{found.output.title[0].upper()}{found.output.title[1:]} against its limit"
-    return Figure(f"{found.sentence}; bars to the median, lines and shade from 5 to 95 %", panels, title=title)
+    title = f"{axis.title[0].upper()}{axis.title[1:]} against its limit"
+    return Figure(f"{sentence(found)}; bars to the median, lines and shade from 5 to 95 %", panels, title=title)
 
 
-def _densities(found: Limited, axis: Axis) -> Panel:
+def _densities(found: dict[str, Any], axis: Axis) -> Panel:
     """What the worst case reaches and what the limit is, as densities scaled to one height."""
     curves, levels = list[tuple[str, Values, Values, Hue]](), list[Level]()
-    if found.edges:
-        y = np.concatenate([[0.0], np.repeat(np.array(found.density) / max(found.density), 2), [0.0]])
-        curves.append(("worst case", np.repeat(found.edges, 2), y, Hue.BLUE))
-    if found.deviation:
-        x = found.mean + found.deviation * np.linspace(-REACH, REACH, CURVE_POINTS)
-        curves.append(("limit", x, np.exp(-(((x - found.mean) / found.deviation) ** 2) / 2.0), Hue.VERMILLION))
+    mean, deviation, histogram = found["mean"], found["deviation"], found["histogram"]
+    if edges := histogram["edges"]:
+        height = np.repeat(np.array(histogram["density"]) / max(histogram["density"]), 2)
+        curves.append(("worst case", np.repeat(edges, 2), np.pad(height, 1), Hue.BLUE))
+    if deviation:
+        x = mean + deviation * np.linspace(-REACH, REACH, CURVE_POINTS)
+        curves.append(("limit", x, np.exp(-(((x - mean) / deviation) ** 2) / 2.0), Hue.VERMILLION))
     else:
-        levels.append(Level(found.mean, "", limit=True, vertical=True))
+        levels.append(Level(mean, "", limit=True, vertical=True))
     return Panel(
         x=axis,
         y=Axis("density over its largest"),
@@ -134,26 +107,30 @@ def _densities(found: Limited, axis: Axis) -> Panel:
     )
 
 
-def chances(found: Limited) -> Figure:
+def chances(limited: Limited) -> Figure:
     """The probability of each case as if it were alone, and of the spectrum."""
-    if found.chance.is_tiny:
-        raise NoFigure("tiny", f"the probability is {found.chance.text} in every case")
-    rows = [each.chance.row(each.name, Hue.BLUE) for each in found.cases]
-    rows.append(found.chance.row(SPECTRUM, Hue.VERMILLION))
-    panel = Panel(x=Axis(f"probability of being {found.side} the limit", "%"), y=Axis("case"), rows=rows)
+    found = limited.found
+    if is_tiny(found):
+        raise NoFigure("tiny", f"the probability is {chance_text(found)} in every case")
+    known = [*((each.name, each.chance, Hue.BLUE) for each in limited.cases), (SPECTRUM, found, Hue.VERMILLION)]
+    rows = []
+    for name, chance, hue in known:
+        low, high = chance["interval"] or chance["bounds"]
+        rows.append(Row(name, 100.0 * chance["bounds"][1], hue, (100.0 * low, 100.0 * high)))
+    panel = Panel(x=Axis(f"probability of being {found['side']} the limit", "%"), y=Axis("case"), rows=rows)
     finding = "each case as if it were alone; of the spectrum the worst case of each machine counts"
-    return Figure(finding, [panel], title=f"Probability: {found.output.title} {found.side} its limit")
+    return Figure(finding, [panel], title=f"Probability: {limited.output.title} {found['side']} its limit")
 
 
-def deciding(found: Limited) -> Figure:
+def deciding(limited: Limited) -> Figure:
     """Share of machines for which each case is the worst, and how strongly each tolerance correlates with it."""
-    rows = [Row(each.name, 100.0 * each.decides) for each in found.cases if each.decides is not None]
+    rows = [Row(each.name, 100.0 * each.decides) for each in limited.cases if each.decides is not None]
     if not rows:
         raise NoFigure("no_solution", "no machine is solved in every case")
     panels = [Panel(x=Axis("machines whose worst case it is", "%"), y=Axis("case"), rows=rows)]
     most = max(rows, key=lambda row: row.value)
     finding = f"{most.name} in {number(most.value, '%')} of the machines"
-    strongest = sorted(found.influences.items(), key=lambda each: -abs(each[1]))[:NAMED]
+    strongest = sorted(limited.influences.items(), key=lambda each: -abs(each[1]))[:NAMED]
     if strongest:
         axis = Axis("rank correlation with the worst case")
         panels.append(Panel(x=axis, y=Axis("tolerance"), rows=[Row(name, value) for name, value in strongest]))

@@ -78,17 +78,12 @@ class Grid:
         flat = np.nanargmax(self.values) if self.greatest else np.nanargmin(self.values)
         return tuple(int(place) for place in np.unravel_index(flat, self.values.shape))
 
-    @property
-    def is_map(self) -> bool:
-        """Whether it is drawn as a map, because it would have too many curves to tell apart."""
-        return self.y is not None and not self.y.words and self.y.values.size > MOST_CURVES
-
 
 def figures_of(grid: Grid) -> dict[str, Figure]:
     """The figures of a sweep by name."""
     if grid.y is None:
         return {"curve": curve(grid)}
-    if not grid.is_map:
+    if grid.y.words or grid.y.values.size <= MOST_CURVES:
         return {"family": family(grid, grid.y)}
     forgiven = {"worst": worst(grid, grid.y)} if grid.x.scatters else {}
     return {"map": chart(grid, grid.y), **forgiven}
@@ -208,8 +203,7 @@ class Lead(NamedTuple):
     crowning: float
 
 
-@dataclass(frozen=True, slots=True)
-class Influence:
+class Influence(NamedTuple):
     """The change of an output by one step of an input, and whether the slopes below and above the value differ."""
 
     name: str
@@ -234,24 +228,11 @@ def influence(output: Axis, value: float, found: list[Influence]) -> Figure:
     return Figure(finding, [Panel(x=axis, y=axis, rows=rows)], title=title)
 
 
-@dataclass(frozen=True, slots=True)
-class Uncertain:
-    """An uncertain input: for each of its values the worst output with it; `decides` is that of the worst corner."""
+def corners(output: Axis, rows: list[Row], nominal: float | None) -> Figure:
+    """A row for each uncertain input, whose dots are the worst outputs with each of its values; the case as it is.
 
-    name: str
-    worst: dict[str, float]
-    decides: str
-
-
-def corners(output: Axis, found: list[Uncertain], nominal: float | None) -> Figure:
-    """A line for each input, from the worst output with one of its values to that with another; the case as it is."""
-    rows = []
-    for each in found:
-        dots = [
-            Row(text, reached, Hue.VERMILLION if text == each.decides else Hue.BLUE)
-            for text, reached in each.worst.items()
-        ]
-        rows.append(Row(each.name, each.worst[each.decides], dots=dots))
+    The value of a row is that of the worst corner, whose dot is red.
+    """
     levels = []
     if nominal is not None:
         levels = [Level(nominal, f"as described {number(nominal, output.unit)}", vertical=True)]

@@ -19,10 +19,6 @@ class Column(NamedTuple):
     header: str
     content: tuple[Item, ...]
 
-    def cells(self, most: int) -> list[str]:
-        """The first cells as texts; a number in as few digits as give it back, a missing one empty."""
-        return ["" if item is None else str(item) for item in self.content[:most]]
-
 
 def table(figure: Figure) -> bytes:
     """All columns beside each other; a missing value is an empty cell."""

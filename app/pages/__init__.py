@@ -2,13 +2,13 @@
 
 query      the query string is the case
 form       fields with what was typed, what they mean and what is wrong with them
-cases      a case from its fields to its answer, which is kept
+cases      a requested case with the addresses of its views, and its answer, which is kept
 results    headline numbers with verdicts, tables of results
 csv        an answer as a table for spreadsheets
 charts     figures as images at addresses of their own, and their values
 manual     chapters of the manual as pages, and what reports say of them
 report     what reports say beside the result, and the case as code
-views      a requested case with the addresses of its views, and one view of it, made in a worker
+views      one view of a case, made in a worker
 overview   pages that belong to no case
 studies    pages of studies, whose results are drawn while they are calculated; study_links: the links to them
 

@@ -1,27 +1,147 @@
-"""A case from its fields to its answer, which is kept: figure, report and download of it need no second solve."""
+"""A case from its query to its answer, which is kept: figure, report and download of it need no second solve."""
 
 import pickle
 import re
 import zlib
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from hashlib import sha256
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, get_args
 
-from app.calculations import Calculation
-from app.errors import InvalidBody, Unprocessable
-from app.evaluate import response_to, solve
-from app.pages.query import Pairs, body_of
+from app.calculations import BY_PATH, Calculation
+from app.errors import InvalidBody, Unprocessable, Unreadable
+from app.evaluate import content_of, response_to, solve
+from app.figures.data import ThemeName
+from app.pages.query import LONGEST_QUERY, Pairs, body_of, link, normalised, pairs_of, pairs_of_query, split_views
 from app.schema.fields import Branch, leaf_at, leaves, tree
 from app.schema.model import Request
 from app.schema.reading import validated
+from app.sources import SHORT_SOURCES, changes_since
 from solvers.quantity import Detail
 
 NAME = r"[a-z]\w*(?:[._]\w+)+"  # of a field: words joined by points and underscores
 COMPRESSION = 1  # the fastest level of zlib
+REFUSED = (Unreadable, InvalidBody, Unprocessable)
+
+
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """A case to look at, and the addresses of its views.
+
+    Addresses that people keep name the solvers' sources, so that a later reader is told whether numbers may differ.
+    `kept` and `kept_ref` are the answers of it and of its variant, if they are still known. `root` is the prefix that
+    a proxy puts before the addresses of the service. A case too long for a link has to be posted; its figures are
+    addressed by `answered`, the hashes in its answer and in that of the variant, while both answers are kept.
+    """
+
+    path: str
+    pairs: Pairs
+    views: dict[str, str] = field(default_factory=dict)
+    kept: bytes | None = None
+    kept_ref: bytes | None = None
+    root: str = ""
+    answered: tuple[str, str] = ("", "")
+
+    @property
+    def calculation(self) -> Calculation:
+        """What it is a case of."""
+        return BY_PATH[f"/v1{self.path}"]
+
+    @property
+    def body(self) -> dict[str, Any]:
+        """The request body that the fields make; raises Unreadable."""
+        return body_of(self.calculation.request, self.pairs)
+
+    @property
+    def case(self) -> dict[str, Any]:
+        """The request with its defaults; as far as it is given where that is refused, empty where it is unreadable."""
+        try:
+            return validated(self.calculation.request, self.body).model_dump()
+        except InvalidBody:
+            return self.body
+        except Unreadable:
+            return {}
+
+    @property
+    def theme(self) -> ThemeName | None:
+        """The theme asked for; a page without one follows the reader's system."""
+        return next((theme for theme in get_args(ThemeName) if theme == self.views.get("theme")), None)
+
+    @property
+    def title(self) -> str:
+        """What its author calls the case."""
+        return self.views.get("title", "")
+
+    @property
+    def ref(self) -> str:
+        """The query of the variant to compare with."""
+        return self.views.get("ref", "")
+
+    @property
+    def ref_pairs(self) -> Pairs:
+        """The fields of the variant to compare with."""
+        return split_views(normalised(self.calculation.request, pairs_of_query(self.ref)))[0]
+
+    @property
+    def outdated(self) -> list[str]:
+        """What has changed since the link was made, as far as it names the solvers' sources."""
+        return changes_since(self.views.get("sources", ""))
+
+    @property
+    def query(self) -> str:
+        """The case alone."""
+        return link("", self.pairs).removeprefix("?")
+
+    @property
+    def too_long(self) -> bool:
+        """Whether a link cannot hold the case."""
+        return len(self.query) + len(self.ref) > LONGEST_QUERY
+
+    @property
+    def page(self) -> str:
+        """The page of the case, beside the case that it is compared with."""
+        return self.beside(self.ref)
+
+    def beside(self, ref: str) -> str:
+        """The page of the case, compared with the case of another query unless that is empty."""
+        return link(self.path, self.pairs, ref=ref, theme=self.theme, title=self.title, sources=SHORT_SOURCES)
+
+    def view(self, name: str, **views: str | None) -> str:
+        """One view."""
+        return link(f"{self.path}/{name}", self.pairs, **views)
+
+    @property
+    def report(self) -> str:
+        """The report of the case, beside the case that it is compared with."""
+        return self.view("report", ref=self.ref, title=self.title, sources=SHORT_SOURCES)
+
+    def study(self, name: str) -> str:
+        """A study of the case that has a page of its own."""
+        return self.view(name, theme=self.theme, title=self.title)
+
+    def image(self, figure: str, image_format: str, theme: ThemeName | None = None) -> str:
+        """One figure as a file."""
+        name, theme = f"figures/{figure}.{image_format}", theme or self.theme
+        if self.too_long:
+            case, ref_case = self.answered
+            return link(f"{self.path}/{name}", [], case=case, ref_case=ref_case, theme=theme)
+        return self.view(name, ref=self.ref, theme=theme)
+
+
+def opened(content: bytes, root: str) -> Asked:
+    """The case that a file holds; raises Unreadable where it holds none."""
+    try:
+        case = content_of(content)
+        endpoint, title = str(case["endpoint"]), str(case.get("title", ""))
+        pairs = pairs_of_query(link("", pairs_of(dict(case["request"]))).removeprefix("?"))  # as the form sends them
+    except (InvalidBody, Unreadable, AttributeError, KeyError, RecursionError, TypeError, ValueError):
+        raise Unreadable("The file holds no case: JSON with an endpoint and a request") from None
+    if endpoint not in BY_PATH:
+        raise Unreadable(f"The endpoint of the case is none of {', '.join(BY_PATH)}")
+    return Asked(endpoint.removeprefix("/v1"), pairs, {"title": title} if title else {}, root=root)
 
 
 def key_of(path: str, pairs: Pairs) -> str:
-    """The key of a case: its endpoint and fields, whatever their order."""
+    """The key of an answer: page and fields of its case, whatever their order, or the hash of the answer as `case`."""
     return sha256(repr((path, sorted(pairs))).encode()).hexdigest()
 
 

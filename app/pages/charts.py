@@ -2,19 +2,18 @@
 
 import base64
 import json
-from collections.abc import Callable
 from dataclasses import dataclass, field
 from itertools import zip_longest
 from typing import Any
 
 import numpy as np
 
+from app.figures import written
 from app.figures.comparison import compared
 from app.figures.data import Figure, NoFigure, Role, ThemeName, Values
 from app.figures.declaration import Declaration
-from app.figures.rendering import written
-from app.figures.tables import columns_of
-from app.pages.cases import Case
+from app.figures.tables import Item, columns_of
+from app.pages.cases import Asked, Case
 
 VARIANT = "variant A"
 MOST_LINES = 200  # of a table on a page; the file has all
@@ -74,18 +73,16 @@ def figures_of(
     return found, missing
 
 
-def linked(
-    declaration: Declaration, figure: Figure | None, address: Callable[..., str], theme: ThemeName | None
-) -> Chart:
+def linked(declaration: Declaration, figure: Figure | None, asked: Asked) -> Chart:
     """A figure whose image and values are at addresses of their own, dark on dark pages unless the page has a theme."""
     return Chart(
         name=declaration.name,
         title=figure.title if figure else declaration.title,
         subtitle=figure.subtitle if figure else declaration.source,
-        image=address(declaration.name, "svg"),
-        dark="" if theme else address(declaration.name, "svg", theme="dark"),
+        image=asked.image(declaration.name, "svg"),
+        dark="" if asked.theme else asked.image(declaration.name, "svg", theme="dark"),
         size=_pixels(figure) if figure else None,
-        values=address(declaration.name, "json"),
+        values=asked.image(declaration.name, "json"),
     )
 
 
@@ -123,7 +120,7 @@ def values_of(figure: Figure) -> bytes:
 def _table(figure: Figure) -> dict[str, Any]:
     """The header of a table of the figure's numbers, its first lines, and how many more there are."""
     columns = columns_of(figure)
-    cells = [map(_cell, column.cells(MOST_LINES)) for column in columns]
+    cells = [map(_cell, column.content[:MOST_LINES]) for column in columns]
     count = max((len(column.content) for column in columns), default=0)
     return {
         "header": tuple(column.header for column in columns),
@@ -132,11 +129,10 @@ def _table(figure: Figure) -> dict[str, Any]:
     }
 
 
-def _cell(text: str) -> str:
-    try:
-        return f"{float(text):.{DIGITS}g}".replace("-", "−")
-    except ValueError:
-        return text
+def _cell(item: Item) -> str:
+    if item is None or isinstance(item, str):
+        return item or ""
+    return f"{item:.{DIGITS}g}".replace("-", "−")
 
 
 def _panels(figure: Figure) -> list[dict[str, Any]]:

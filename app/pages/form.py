@@ -3,12 +3,12 @@
 from collections.abc import Iterable, Iterator, Mapping
 from collections.abc import Set as AbstractSet
 from dataclasses import dataclass, field, replace
-from itertools import groupby, product
+from itertools import accumulate, groupby, product
 from typing import Any
 
 from app.pages.query import MATRIX, PICK, PRESENT, SIDE, excluded, text_of
 from app.pages.typesetting import cited, symbol, words
-from app.schema.fields import Branch, Leaf, tree
+from app.schema.fields import Branch, Leaf, branches, leaf_at, tree
 from app.schema.model import Request
 from app.schema.model import Section as Fields
 from app.schema.quantities import split_unit
@@ -116,6 +116,23 @@ def anchor(path: str) -> str:
     return f"f.{path}"
 
 
+def link_to(request: type[Request], path: str) -> str:
+    """The link to a field on the page of its case, or to the next section above it."""
+    known = branches(request)
+    while path and leaf_at(request, path) is None and path not in known:
+        path = path.rpartition(".")[0]
+    return f"#{anchor(path)}" if path else "#form"
+
+
+def title_of(request: type[Request], path: str) -> str:
+    """What people call the field; a section is called by those around it too."""
+    leaf = leaf_at(request, path)
+    if leaf is not None:
+        return leaf.title
+    known, around = branches(request), accumulate(path.split("."), "{}.{}".format)
+    return ", ".join(known[each].title for each in around if each in known) or path
+
+
 def form(request: type[Request], state: State) -> tuple[Section, ...]:
     """The sections of the form: those with required fields first, model options last."""
     root, loose = tree(request), list[Block]()
@@ -129,24 +146,26 @@ def form(request: type[Request], state: State) -> tuple[Section, ...]:
             sections.append(replace(block, blocks=(block,), kind="section", id=f"{anchor(block.path)}-", fault=None))
     if loose:
         names = [leaf.path for leaf in root.leaves if leaf.path != DETAIL]
+        known: dict[str, Any] = {"path": "general", "id": anchor("general"), "fault": None}
         needed = any(leaf.required for leaf in root.leaves)
-        sections.append(_section("general", "general", names, loose, state, needed=needed))
+        sections.append(_section("general", loose, state, names, needed=needed, **known))
     return tuple(sorted(sections, key=lambda each: (not each.needed, each.advanced)))
 
 
-def _section(path: str, title: str, below: list[str], blocks: Iterable[Block], state: State, **known: Any) -> Section:
+def _section(title: str, blocks: Iterable[Block], state: State, paths: list[str], **known: Any) -> Section:
     """A section with the fields at or below some paths; open where one of them is required, given or wrong."""
     given, faulty, assumed = (
-        sum(_count(names, each) for each in below) for names in (state.texts, state.faults, state.assumed)
+        sum(_count(names, each) for each in paths) for names in (state.texts, state.faults, state.assumed)
     )
-    return Section(
-        path=path,
-        title=title,
-        blocks=tuple(blocks),
-        open=known.get("needed", False) or given > 0 or faulty > 0,
-        assumed=assumed,
-        **{"id": anchor(path), "given": given, **known},
-    )
+    found: dict[str, Any] = {
+        "path": paths[0],
+        "open": known.get("needed", False) or given > 0 or faulty > 0,
+        "given": given,
+        "assumed": assumed,
+        "id": anchor(paths[0]),
+        "fault": "; ".join(state.faults[path] for path in paths if path in state.faults) or None,
+    }
+    return Section(title=title, blocks=tuple(blocks), **found | known)
 
 
 def _count(names: Iterable[str], path: str) -> int:
@@ -169,13 +188,11 @@ def _branch(branch: Branch, path: str, state: State, item: int | None = None) ->
         )
     unused = (branch.optional or branch.repeated or state.required == IF_USED) and not given
     return _section(
-        path,
         branch.title if item is None else f"{branch.title} {item + 1}",
-        [path],
         _blocks(branch, f"{path}.", replace(state, required=IF_USED if unused else REQUIRED)),
         state,
+        [path],
         description=branch.description if item is None else "",
-        fault=state.faults.get(path),
         switch=switch,
         needed=branch.required and not branch.optional and item is None,
         advanced=branch.advanced,
@@ -186,17 +203,8 @@ def _rows(branch: Branch, path: str, state: State) -> Section:
     below = (name.removeprefix(f"{path}.") for name in state.texts if name.startswith(f"{path}."))
     indices = (name.partition(".")[0] for name in below)
     count = 1 + max((int(index) for index in indices if index.isdecimal() and index.isascii()), default=-1)
-    return _section(
-        path,
-        branch.title,
-        [path],
-        [_branch(branch, f"{path}.{index}", state, item=index) for index in range(count + 1)],
-        state,
-        given=count,
-        description=branch.description,
-        fault=state.faults.get(path),
-        kind="rows",
-    )
+    items = [_branch(branch, f"{path}.{index}", state, item=index) for index in range(count + 1)]
+    return _section(branch.title, items, state, [path], given=count, description=branch.description, kind="rows")
 
 
 def _twins(group: tuple[Branch, ...], prefix: str, state: State) -> Section:
@@ -208,17 +216,8 @@ def _twins(group: tuple[Branch, ...], prefix: str, state: State) -> Section:
         )
         for line in zip(*(branch.leaves for branch in group), strict=True)
     ]
-    return _section(
-        next(iter(columns)),
-        " and ".join(columns.values()),
-        [*columns],
-        lines,
-        state,
-        fault="; ".join(state.faults[path] for path in columns if path in state.faults) or None,
-        needed=any(each.required for line in lines for each in line),
-        columns=columns,
-        kind="twins",
-    )
+    needed, title = any(each.required for line in lines for each in line), " and ".join(columns.values())
+    return _section(title, lines, state, [*columns], needed=needed, columns=columns, kind="twins")
 
 
 def _blocks(branch: Branch, prefix: str, state: State) -> Iterator[Block]:

@@ -10,13 +10,14 @@ from typing import Any, NamedTuple
 from unicodedata import category
 
 from app.errors import Unprocessable
-from app.pages.cases import Case
+from app.pages.cases import Asked, Case
 from app.pages.manual import method_of
 from app.pages.query import REPORT_NAMES, Pairs
 from app.pages.results import flattened, resolved, texts_of
 from app.pages.typesetting import cited
 from app.schema.fields import Leaf, leaf_at
 
+LOCAL = "http://localhost:8000"
 LONGEST_LINK = 240  # as text; what it leads to is the whole
 _element = re.compile(r"(\.\d+){1,2}$")  # of a list or a matrix of numbers
 
@@ -28,18 +29,20 @@ class Cell(NamedTuple):
     origin: str
 
 
-def context(case: Case, pairs: Pairs, views: dict[str, str], *, address: str, link: str) -> dict[str, Any]:
-    """What the template needs beside the result; `address` is that of the service, `link` that of the case.
+def context(asked: Asked, case: Case, host: str) -> dict[str, Any]:
+    """What the template needs beside the result; without a host the link is relative.
 
     Raises Unprocessable for a name or note that is too long.
     """
+    views, link = asked.views, "" if asked.too_long else host + asked.root + asked.page
     return {
+        "host": host,
         "longest": REPORT_NAMES,
         "names": {name: _said(name, views.get(name, ""), longest) for name, longest in REPORT_NAMES.items()},
         "paper": "letter" if views.get("paper") == "letter" else "A4",
         "date": datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC"),
-        "inputs": _inputs(case, pairs),
-        "command": for_shell(address, case),
+        "inputs": _inputs(case, asked.pairs),
+        "command": for_shell((host or LOCAL) + asked.root, case),
         "link": link,
         "link_text": link if len(link) <= LONGEST_LINK else f"{link[:LONGEST_LINK]}…",
         "method": method_of(case.calculation),

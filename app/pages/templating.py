@@ -9,8 +9,9 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from app.calculations import CALCULATIONS, Calculation
 from app.examples import Example, examples
+from app.figures import MEDIA_TYPES
 from app.pages.charts import data_address
-from app.pages.form import anchor
+from app.pages.form import anchor, link_to, title_of
 from app.pages.query import link, pairs_of
 from app.pages.typesetting import cited, shown, symbol, typeset, words
 from app.schema.model import MODEL_VERSION
@@ -76,6 +77,9 @@ def _environment(root: str) -> Environment:
         "version": MODEL_VERSION,
         "asset": asset_address,
         "anchor": anchor,
+        "field_link": link_to,
+        "field_title": title_of,
+        "formats": MEDIA_TYPES,
     }
     environment.filters |= {"cited": cited, "shown": shown, "symbol": symbol, "typeset": typeset, "words": words}
     environment.filters |= {"image": data_address, "url": url}

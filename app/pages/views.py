@@ -1,158 +1,24 @@
 """One view of one case, from its fields to bytes; runs in a worker."""
 
 from dataclasses import dataclass, field, replace
-from itertools import accumulate
-from typing import Any, Literal, get_args
+from typing import Any, Literal
 
-from app.calculations import BY_PATH, CALCULATIONS, Calculation
-from app.errors import InvalidBody, Unprocessable, Unreadable
-from app.evaluate import content_of
+from app.calculations import BY_PATH
+from app.errors import Unreadable
 from app.evaluate import written as json_written
-from app.figures.data import ThemeName
-from app.figures.rendering import MEDIA_TYPES, Format, written
+from app.figures import Format, written
 from app.pages import csv
 from app.pages import report as reports
-from app.pages.cases import Case, Fault, faults_of, key_of, solved
+from app.pages.cases import REFUSED, Asked, Case, Fault, faults_of, key_of, solved
 from app.pages.charts import figure_of, figures_of, linked, values_of
-from app.pages.form import State, anchor, form
+from app.pages.form import State, form
 from app.pages.manual import chapter_of
-from app.pages.query import (
-    LONGEST_QUERY,
-    Pairs,
-    ambiguity,
-    body_of,
-    link,
-    normalised,
-    pairs_of,
-    pairs_of_query,
-    split_views,
-)
+from app.pages.query import ambiguity, link
 from app.pages.results import assumptions, cards, differences, groups, resolved
 from app.pages.study_links import studies_of_case, study_links
 from app.pages.templating import example_link, examples_of, page_path, rendered
 from app.pages.typesetting import NO_VALUE
-from app.schema.fields import branches, headlines, leaf_at
-from app.schema.reading import validated
-from app.sources import SHORT_SOURCES, changes_since
-
-BY_PAGE = {page_path(calculation): calculation for calculation in CALCULATIONS}
-LOCAL = "http://localhost:8000"
-REFUSED = (Unreadable, InvalidBody, Unprocessable)
-
-
-@dataclass(frozen=True, slots=True)
-class Asked:
-    """A case to look at, and the addresses of its views.
-
-    Addresses that people keep name the solvers' sources, so that a later reader is told whether numbers may differ.
-    `kept` and `kept_ref` are the answers of it and of its variant, if they are still known. `root` is the prefix that
-    a proxy puts before the addresses of the service. A case too long for a link has to be posted; its figures are
-    addressed by `answered`, the hashes in its answer and in that of the variant, while both answers are kept.
-    """
-
-    path: str
-    pairs: Pairs
-    views: dict[str, str] = field(default_factory=dict)
-    kept: bytes | None = None
-    kept_ref: bytes | None = None
-    root: str = ""
-    answered: tuple[str, str] = ("", "")
-
-    @property
-    def calculation(self) -> Calculation:
-        """What it is a case of."""
-        return BY_PAGE[self.path]
-
-    @property
-    def body(self) -> dict[str, Any]:
-        """The request body that the fields make; raises Unreadable."""
-        return body_of(self.calculation.request, self.pairs)
-
-    @property
-    def case(self) -> dict[str, Any]:
-        """The request with its defaults; as far as it is given where it is incomplete or refused."""
-        try:
-            return validated(self.calculation.request, self.body).model_dump()
-        except InvalidBody:
-            return self.body
-
-    @property
-    def theme(self) -> ThemeName | None:
-        """The theme asked for; a page without one follows the reader's system."""
-        return next((theme for theme in get_args(ThemeName) if theme == self.views.get("theme")), None)
-
-    @property
-    def title(self) -> str:
-        """What its author calls the case."""
-        return self.views.get("title", "")
-
-    @property
-    def ref(self) -> str:
-        """The query of the variant to compare with."""
-        return self.views.get("ref", "")
-
-    @property
-    def ref_pairs(self) -> Pairs:
-        """The fields of the variant to compare with."""
-        return split_views(normalised(self.calculation.request, pairs_of_query(self.ref)))[0]
-
-    @property
-    def outdated(self) -> list[str]:
-        """What has changed since the link was made, as far as it names the solvers' sources."""
-        return changes_since(self.views.get("sources", ""))
-
-    @property
-    def query(self) -> str:
-        """The case alone."""
-        return link("", self.pairs).removeprefix("?")
-
-    @property
-    def too_long(self) -> bool:
-        """Whether a link cannot hold the case."""
-        return len(self.query) + len(self.ref) > LONGEST_QUERY
-
-    @property
-    def page(self) -> str:
-        """The page of the case, beside the case that it is compared with."""
-        return self.beside(self.ref)
-
-    def beside(self, ref: str) -> str:
-        """The page of the case, compared with the case of another query unless that is empty."""
-        return link(self.path, self.pairs, ref=ref, theme=self.theme, title=self.title, sources=SHORT_SOURCES)
-
-    def view(self, name: str, **views: str | None) -> str:
-        """One view."""
-        return link(f"{self.path}/{name}", self.pairs, **views)
-
-    @property
-    def report(self) -> str:
-        """The report of the case, beside the case that it is compared with."""
-        return self.view("report", ref=self.ref, title=self.title, sources=SHORT_SOURCES)
-
-    def study(self, name: str) -> str:
-        """A study of the case that has a page of its own."""
-        return self.view(name, theme=self.theme, title=self.title)
-
-    def image(self, figure: str, image_format: str, theme: ThemeName | None = None) -> str:
-        """One figure as a file."""
-        name, theme = f"figures/{figure}.{image_format}", theme or self.theme
-        if self.too_long:
-            case, ref_case = self.answered
-            return link(f"{self.path}/{name}", [], case=case, ref_case=ref_case, theme=theme)
-        return self.view(name, ref=self.ref, theme=theme)
-
-
-def opened(content: bytes, root: str) -> Asked:
-    """The case that a file holds; raises Unreadable where it holds none."""
-    try:
-        case = content_of(content)
-        endpoint, title = str(case["endpoint"]), str(case.get("title", ""))
-        pairs = pairs_of_query(link("", pairs_of(dict(case["request"]))).removeprefix("?"))  # as the form sends them
-    except (InvalidBody, Unreadable, AttributeError, KeyError, RecursionError, TypeError, ValueError):
-        raise Unreadable("The file holds no case: JSON with an endpoint and a request") from None
-    if endpoint not in BY_PATH:
-        raise Unreadable(f"The endpoint of the case is none of {', '.join(BY_PATH)}")
-    return Asked(page_path(BY_PATH[endpoint]), pairs, {"title": title} if title else {}, root=root)
+from app.schema.fields import headlines, leaf_at
 
 
 @dataclass(frozen=True, slots=True)
@@ -186,12 +52,12 @@ def page(asked: Asked) -> Shown:
         State(texts, {}, resolved(response), {each.field for each in response.assumptions}),
         keep=_keep(asked, case, variant),
         **found,
-        charts=[linked(each, figure, asked.image, asked.theme) for each, figure in found["figures"]],
+        charts=[linked(each, figure, asked) for each, figure in found["figures"]],
         ready=studies_of_case(asked.calculation, asked.pairs, response.inputs),
         curves=csv.curves(response),
         code={
-            "Python": reports.for_python(LOCAL + asked.root, case),
-            "curl": reports.for_shell(LOCAL + asked.root, case),
+            "Python": reports.for_python(reports.LOCAL + asked.root, case),
+            "curl": reports.for_shell(reports.LOCAL + asked.root, case),
         },
     )
 
@@ -238,22 +104,10 @@ def report(asked: Asked, host: str, study: dict[str, Any] | None = None) -> Show
         asked=asked,
         calculation=asked.calculation,
         **_answered(asked, case, variant, trouble, compute=True),
-        host=host,
         study=study,
-        **reports.context(
-            case,
-            asked.pairs,
-            asked.views,
-            address=(host or LOCAL) + asked.root,
-            link="" if asked.too_long else host + asked.root + asked.page,
-        ),
+        **reports.context(asked, case, host),
     )
     return Shown(content.encode(), keep=_keep(asked, case, variant))
-
-
-def case_key(path: str, case: str) -> str:
-    """What an answer of a page's calculation is kept under that is asked for by its hash."""
-    return key_of(path, [("case", case)])
 
 
 def _keep(asked: Asked, case: Case, variant: Case | None = None) -> dict[str, bytes]:
@@ -263,7 +117,7 @@ def _keep(asked: Asked, case: Case, variant: Case | None = None) -> dict[str, by
         if each is not None and kept is None:
             keep[key_of(asked.path, pairs)] = each.kept
         if each is not None and asked.too_long:
-            keep[case_key(asked.path, each.response.case)] = each.kept
+            keep[key_of(asked.path, [("case", each.response.case)])] = each.kept
     return keep
 
 
@@ -277,14 +131,9 @@ def _page(asked: Asked, state: State, status: int = 200, keep: dict[str, bytes] 
         calculation=calculation,
         chapter=chapter_of(calculation).name,
         sections=form(calculation.request, state),
-        outdated=asked.outdated,
-        theme=asked.theme,
         examples=[(example, example_link(calculation, example)) for example in examples_of(calculation)],
-        formats=MEDIA_TYPES,
         studies=study_links(calculation),
         headlines=headlines(calculation.response),
-        field_link=lambda path: _place(calculation, path),
-        field_title=lambda path: title_of(calculation, path),
         **context,
     )
     return Shown(content.encode(), status, keep or {})
@@ -330,20 +179,3 @@ def _both(asked: Asked) -> tuple[Case, Case | None, str]:
         return case, solved(asked.calculation, asked.ref_pairs, asked.kept_ref), ""
     except REFUSED as error:
         return case, None, faults_of(error, asked.calculation)[0].message
-
-
-def _place(calculation: Calculation, path: str) -> str:
-    """Where on the page the field is, or the next section above it."""
-    known = branches(calculation.request)
-    while path and leaf_at(calculation.request, path) is None and path not in known:
-        path = path.rpartition(".")[0]
-    return f"#{anchor(path)}" if path else "#form"
-
-
-def title_of(calculation: Calculation, path: str) -> str:
-    """What people call the field; a section is called by those around it too."""
-    leaf = leaf_at(calculation.request, path)
-    if leaf is not None:
-        return leaf.title
-    known, around = branches(calculation.request), accumulate(path.split("."), "{}.{}".format)
-    return ", ".join(known[each].title for each in around if each in known) or path

@@ -22,7 +22,7 @@ from app.examples import Example, examples
 from app.figures.data import Axis, Figure, Hue, Level, Line, Map, Mark, NoFigure, Panel, Row, ThemeName, values
 from app.figures.drawing.image import draw, laid_out, places
 from app.figures.drawing.style import WIDTH, themed, written
-from app.figures.studies import Influence, Uncertain, corners, influence
+from app.figures.studies import Influence, corners, influence
 
 X = np.linspace(0.0, 1.0, 41)
 PEAK = 4.0 * X * (1.0 - X)
@@ -159,8 +159,8 @@ def test_rows_of_long_names_are_whole_and_in_the_hue_of_their_sign() -> None:
     assert not list(faults(bars))
     (panel,) = bars.panels
     assert [row.hue for row in panel.rows] == [Hue.BLUE, Hue.VERMILLION, Hue.BLUE, Hue.VERMILLION]
-    found = [Uncertain(each.name, {"165, 135 µm": 1.62, "135, 165 µm": 1.87}, "165, 135 µm") for each in steps]
-    assert not list(faults(corners(output, found, 2.19)))
+    dots = [Row("165, 135 µm", 1.62, Hue.VERMILLION), Row("135, 165 µm", 1.87)]
+    assert not list(faults(corners(output, [Row(each.name, 1.62, dots=dots) for each in steps], 2.19)))
 
 
 ONES = values([1.0, 1.0, 1.0])

@@ -9,6 +9,7 @@ import pytest
 from app.calculations import BY_PATH
 from app.examples import examples
 from app.pages import views
+from app.pages.cases import Asked
 from app.pages.query import PICK, Pairs, body_of, normalised, pairs_of
 from app.pages.results import flattened
 from app.pages.templating import page_path
@@ -33,7 +34,7 @@ def form_of(name: str) -> tuple[Pairs, dict[str, list[str]]]:
     """The form of an example, filled in; nothing is solved."""
     example = examples()[name]
     calculation = BY_PATH[example.endpoint]
-    asked = views.Asked(page_path(calculation), pairs_of(example.request))
+    asked = Asked(page_path(calculation), pairs_of(example.request))
     return read_form(views.form_page(asked).content.decode())
 
 

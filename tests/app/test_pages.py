@@ -17,6 +17,7 @@ from app.errors import Unprocessable, Unreadable
 from app.evaluate import evaluate, written
 from app.examples import examples
 from app.pages import views
+from app.pages.cases import Asked
 from app.pages.form import State, form
 from app.pages.query import MATRIX, body_of, link, normalised, pairs_of, pairs_of_query
 from app.pages.results import NOT_RESULTS
@@ -51,7 +52,7 @@ def page(name: str) -> str:
 @cache
 def empty(calculation: Calculation) -> str:
     """The page of a calculation before anything is typed."""
-    return html_of(views.Asked(page_path(calculation), []))
+    return html_of(Asked(page_path(calculation), []))
 
 
 @pytest.mark.parametrize("name", sorted(examples()))
@@ -154,7 +155,7 @@ def test_a_fault_stands_at_its_field_and_on_top_and_what_was_typed_stays() -> No
         ("gears.module_mm", "3,5"),
         ("bogus.<b>", "<script>alert(1)</script>"),
     ]
-    html = html_of(views.Asked("/scuffing", pairs), 422)
+    html = html_of(Asked("/scuffing", pairs), 422)
     for text in ('value="abc"', 'value="3,5"', '<a href="#f.gears.pinion.teeth">', 'aria-invalid="true"'):
         assert text in html
     for text in ("<script>alert", "<b>"):
@@ -164,7 +165,7 @@ def test_a_fault_stands_at_its_field_and_on_top_and_what_was_typed_stays() -> No
 
 def test_a_fault_of_the_solver_stands_at_its_field() -> None:
     pairs = [*pairs_of(examples()["xue-pair-1-scuffing"].request), ("gears.centre_distance_mm", "70")]
-    assert fault_at(html_of(views.Asked("/scuffing", pairs), 422), "gears.centre_distance_mm")
+    assert fault_at(html_of(Asked("/scuffing", pairs), 422), "gears.centre_distance_mm")
 
 
 def test_exclusive_fields_are_a_choice_and_the_chosen_one_counts() -> None:
@@ -252,7 +253,7 @@ def test_contradicting_names_are_refused(query: str) -> None:
 @given(st.lists(st.tuples(st.text(max_size=12), st.text(max_size=12)), max_size=8))
 def test_whatever_is_sent_gives_a_page_and_runs_nothing(sent: list[tuple[str, str]]) -> None:
     pairs = normalised(SCUFFING, [*sent, ("<i>x</i>", "<i>y</i>")])
-    shown = views.page(views.Asked("/scuffing", pairs))
+    shown = views.page(Asked("/scuffing", pairs))
     assert shown.status in {400, 422}
     assert "<i>y</i>" not in shown.content.decode()
 
@@ -260,13 +261,13 @@ def test_whatever_is_sent_gives_a_page_and_runs_nothing(sent: list[tuple[str, st
 def test_compare_shows_both_cases() -> None:
     ref = link("", pairs_of(examples()["xue-pair-1-scuffing"].request)).removeprefix("?")
     crowned = changed(examples()["xue-pair-1-scuffing"].request, {"modifications": {"profile_crowning_um": 10}})
-    shown = views.page(views.Asked("/scuffing", pairs_of(crowned), {"ref": ref}))
+    shown = views.page(Asked("/scuffing", pairs_of(crowned), {"ref": ref}))
     html = shown.content.decode()
     assert len(shown.keep) == 2
     assert "variant A" in html
     assert "End comparison" in html
     assert re.search(r"this case: <strong>[+−][\d.]+ %</strong>", html)
-    same = views.page(views.Asked("/scuffing", pairs_of(crowned), {"ref": ref}, *shown.keep.values()))
+    same = views.page(Asked("/scuffing", pairs_of(crowned), {"ref": ref}, *shown.keep.values()))
     assert same.content == shown.content
     assert same.keep == {}
 
@@ -283,7 +284,7 @@ def test_a_page_with_a_theme_has_figures_of_that_theme_alone(theme: str) -> None
 def test_figures_of_a_page_are_drawn_from_the_kept_answer() -> None:
     case = asked("xue-pair-1-scuffing")
     (kept,) = views.page(case).keep.values()
-    again = views.Asked(case.path, case.pairs, {}, kept)
+    again = Asked(case.path, case.pairs, {}, kept)
     for declaration in BY_PATH["/v1/scuffing"].figures:
         if declaration.name in {"friction", "modification", "modification-traces"}:  # of a film, of modified flanks
             continue
@@ -340,7 +341,7 @@ def test_a_case_that_is_not_kept_any_more_is_gone(client: httpx.Client) -> None:
 
 def test_missing_headline_says_what_it_needs() -> None:
     request = changed(examples()["xue-pair-1-scuffing"].request, {"temperatures.scuffing_c": GONE})
-    html = html_of(views.Asked("/scuffing", pairs_of(request)))
+    html = html_of(Asked("/scuffing", pairs_of(request)))
     assert 'needs the <a href="#f.temperatures.scuffing_c">scuffing temperature</a>' in html
 
 
@@ -599,7 +600,7 @@ def test_a_required_field_of_no_section_stands_before_the_optional_sections() ->
 
 
 def test_a_missing_section_is_told_by_its_fields() -> None:
-    shown = html_of(views.Asked("/scuffing", [("gears.pinion.teeth", "23")]), 422)
+    shown = html_of(Asked("/scuffing", [("gears.pinion.teeth", "23")]), 422)
     problem = shown[shown.index('<div class="problem"') :].partition("</div>")[0]
     assert "number of teeth, wheel is required" in problem
     assert "pinion speed is required" in problem

@@ -12,11 +12,11 @@ import httpx
 import pytest
 
 from app.http.routes import study_pages
+from app.pages.cases import Asked
 from app.pages.studies import page as pages
 from app.pages.studies.sensitivity import MOST_ROWS, SensitivityPage
 from app.pages.studies.sweep import SweepPage
 from app.pages.typesetting import shown
-from app.pages.views import Asked
 from tests.support.pages import asked, asked_by, checked, lines_of, opened, whole
 
 COUPLING = "pahl-axial-displacement"

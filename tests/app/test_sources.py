@@ -9,6 +9,7 @@ from markupsafe import escape
 
 from app.examples import examples
 from app.pages import views
+from app.pages.cases import Asked
 from app.pages.query import pairs_of, pairs_of_query, split_views
 from app.sources import SOURCES, changes_since, recent_changes, sources_of
 
@@ -87,9 +88,9 @@ def test_a_link_of_other_sources_is_told_the_changelog() -> None:
     assert changes_since("0" * 16) == recent_changes()
 
 
-def asked(**looks: str) -> views.Asked:
+def asked(**looks: str) -> Asked:
     example = examples()["pahl-z-arrangement"]
-    return views.Asked("/coupling", pairs_of(example.request), looks)
+    return Asked("/coupling", pairs_of(example.request), looks)
 
 
 def test_links_name_the_sources_which_are_no_part_of_the_case() -> None:
@@ -102,7 +103,7 @@ def test_links_name_the_sources_which_are_no_part_of_the_case() -> None:
 
 @pytest.mark.usefixtures("without_images")
 @pytest.mark.parametrize("view", [views.page, partial(views.report, host="http://host")])
-def test_a_page_of_other_sources_says_that_numbers_may_differ(view: Callable[[views.Asked], views.Shown]) -> None:
+def test_a_page_of_other_sources_says_that_numbers_may_differ(view: Callable[[Asked], views.Shown]) -> None:
     page, outdated = (view(asked(**looks)).content.decode() for looks in ({}, {"sources": "0" * 16}))
     assert SOURCES[:16] in page
     assert "numbers may differ" not in page

@@ -16,10 +16,11 @@ from matplotlib.image import imread
 from app.calculations import BY_PATH, CALCULATIONS, Calculation
 from app.errors import InvalidBody, Unprocessable
 from app.examples import examples
+from app.figures import MEDIA_TYPES
 from app.figures.data import Axis, values
 from app.figures.drawing.image import draw, places
-from app.figures.rendering import MEDIA_TYPES
 from app.figures.studies import MOST_CURVES, Coordinate, Grid, figures_of
+from app.pages.cases import Asked
 from app.pages.query import STUDY_NAMES, VIEW_NAMES, body_of
 from app.pages.studies import page as pages
 from app.pages.studies.design import DesignPage
@@ -27,7 +28,6 @@ from app.pages.studies.page import output_choices
 from app.pages.studies.spectrum import SpectrumPage
 from app.pages.studies.sweep import SweepPage, field_choices
 from app.pages.study_links import STUDIES, StudyExample
-from app.pages.views import Asked
 from app.schema.fields import leaf_at, leaves
 from app.sources import SHORT_SOURCES
 from app.studies.engine import Line, point_line

@@ -11,7 +11,7 @@ import pytest
 
 from app.calculations import BY_PATH
 from app.figures.data import Hue
-from app.pages.cases import solved
+from app.pages.cases import Asked, solved
 from app.pages.studies import page as pages
 from app.pages.studies.corners import CornersPage
 from app.pages.studies.design import DesignPage
@@ -19,7 +19,6 @@ from app.pages.studies.page import StudyPage
 from app.pages.studies.sensitivity import SensitivityPage
 from app.pages.study_links import study_links
 from app.pages.typesetting import shown
-from app.pages.views import Asked
 from tests.support.pages import asked, asked_by, checked, lines_of, opened, whole
 
 UNIT = "starter-generator-gear-drive-train"
@@ -200,6 +199,17 @@ def test_a_study_that_breaks_off_says_why(page: type[StudyPage]) -> None:
     study = checked(page, asked(UNIT))
     text = pages.drawn(study, [{"type": "error", "code": "study_deadline", "message": "<b>too long</b>", "done": 3}])
     assert "&lt;b&gt;too long&lt;/b&gt;" in text.decode()
+
+
+def test_the_report_of_a_search_has_the_grinding_sheet() -> None:
+    study, lines, page = studied(DesignPage)
+    text = unescape(pages.report(study, lines, "").decode())
+    captions = re.findall(r"<caption>([^<]*)</caption>", text)
+    first, *_ = (place for place, title in enumerate(captions) if title == "What to grind")
+    assert captions[first : first + 3] == ["What to grind", "What it brings", "Which number is which"]
+    sheet = text.partition("<caption>What to grind</caption>")[2].partition("</table>")[0]
+    for row in rows_of(page, "What to grind"):
+        assert [cell for cell in row if f">{cell}</td>" not in sheet] == []
 
 
 def test_links_alone_lead_from_a_unit_to_its_worst_corner_and_to_what_to_grind(client: httpx.Client) -> None:

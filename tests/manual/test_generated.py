@@ -18,10 +18,10 @@ from app.examples import examples
 from app.main import app
 from app.manual import NAMES, chapters
 from app.manual.equations import anchor
+from app.pages.cases import Asked
 from app.pages.manual import shown_studies
 from app.pages.studies import PAGES
 from app.pages.studies.page import checked, file
-from app.pages.views import Asked
 from app.settings import Settings
 from app.studies.engine import Clock, Line
 from solvers.published import STATEMENTS, Row

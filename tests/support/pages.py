@@ -7,11 +7,11 @@ from typing import Any
 from app.calculations import BY_PATH
 from app.examples import examples
 from app.pages import views
+from app.pages.cases import Asked
 from app.pages.query import pairs_of, pairs_of_query, split_views
 from app.pages.studies import page as pages
 from app.pages.studies.page import StudyPage
 from app.pages.templating import page_path
-from app.pages.views import Asked
 from tests.support import studies
 
 MOST, DEADLINE_S = 2500, 30.0

@@ -10,8 +10,8 @@ from pydantic import BaseModel
 from app.calculations import BY_PATH, CALCULATIONS, Calculation
 from app.evaluate import drawn, json_answer, refuse_endless
 from app.examples import examples
+from app.figures import MEDIA_TYPES, Format
 from app.figures.data import ThemeName
-from app.figures.rendering import MEDIA_TYPES, Format
 from app.http.json_route import JsonRoute
 from app.http.problems import documented
 from app.schema.model import Request as Model

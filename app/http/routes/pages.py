@@ -18,11 +18,11 @@ from starlette.exceptions import HTTPException
 from app.calculations import BY_PATH, CALCULATIONS, Calculation
 from app.errors import Unreadable, kind_of
 from app.examples import examples
-from app.figures.rendering import MEDIA_TYPES
+from app.figures import MEDIA_TYPES
 from app.http.problems import answer
 from app.manual import NAMES
 from app.pages import views
-from app.pages.cases import key_of
+from app.pages.cases import Asked, key_of, opened
 from app.pages.manual import chapter_page, contents_page, functions_page
 from app.pages.overview import start_page
 from app.pages.query import link, normalised, pairs_of_query, split_views
@@ -65,7 +65,7 @@ async def open_case(http: Request) -> Response:
         sent = form.get("file")
         if sent is None or isinstance(sent, str):
             raise Unreadable("The form needs a part named file")
-        asked = views.opened(await sent.read(), root_of(http))
+        asked = opened(await sent.read(), root_of(http))
     if not asked.too_long:
         return redirected(asked.path, asked)
     http.app.state.start_up.require(asked.calculation.path)
@@ -160,13 +160,13 @@ async def _answer(
     return Response(shown.content, shown.status, media_type=media, headers={"Content-Security-Policy": policy})
 
 
-def redirected(place: str, asked: views.Asked) -> Response:
+def redirected(place: str, asked: Asked) -> Response:
     """Redirect to the shortest address of the same case, with the hash of the solvers' sources."""
     looks = {**asked.views, "sources": asked.views.get("sources", SHORT_SOURCES)} if asked.pairs else asked.views
     return RedirectResponse(quote(asked.root + link(place, asked.pairs, **looks), safe="/?&=%,:.*+-_~"), 303)
 
 
-async def asked_of(http: Request, calculation: Calculation) -> tuple[views.Asked, bool]:
+async def asked_of(http: Request, calculation: Calculation) -> tuple[Asked, bool]:
     """The case asked for, and whether its query was in the shortest form, without empty fields."""
     text = http.url.query
     if http.scope["method"] == "POST":
@@ -179,26 +179,23 @@ async def asked_of(http: Request, calculation: Calculation) -> tuple[views.Asked
         if example.endpoint != calculation.path:
             raise Unreadable(f"{example.name} is an example of {page_path(BY_PATH[example.endpoint])}")
         sent = pairs_of_query(example_link(calculation, example).partition("?")[2])
-        return views.Asked(page_path(calculation), sent, given, root=root_of(http)), False
+        return Asked(page_path(calculation), sent, given, root=root_of(http)), False
     pairs = normalised(calculation.request, sent)
-    asked = views.Asked(page_path(calculation), pairs, given, root=root_of(http))
+    asked = Asked(page_path(calculation), pairs, given, root=root_of(http))
     kept, kept_ref = (http.app.state.answers.get(key_of(asked.path, each)) for each in (pairs, asked.ref_pairs))
     return replace(asked, kept=kept, kept_ref=kept_ref), pairs == sent and given == looks
 
 
-def _kept(http: Request, path: str) -> views.Asked:
+def _kept(http: Request, path: str) -> Asked:
     """The case whose hash is asked for, and its variant; 410 where an answer is not kept any more."""
-    query = http.query_params
-    kept, kept_ref = (
-        http.app.state.answers.get(views.case_key(path, query[name])) if query.get(name) else None
-        for name in ("case", "ref_case")
-    )
+    query, answers = http.query_params, http.app.state.answers
+    kept, kept_ref = (answers.get(key_of(path, [("case", query.get(name, ""))])) for name in ("case", "ref_case"))
     if kept is None or (query.get("ref_case") and kept_ref is None):
         raise HTTPException(410, "The answer of this case is no longer kept; calculate the case again")
-    return views.Asked(path, [], {"theme": query.get("theme", "")}, kept, kept_ref)
+    return Asked(path, [], {"theme": query.get("theme", "")}, kept, kept_ref)
 
 
-async def _shown(http: Request, asked: views.Asked, view: Callable[..., views.Shown], *arguments: Any) -> views.Shown:
+async def _shown(http: Request, asked: Asked, view: Callable[..., views.Shown], *arguments: Any) -> views.Shown:
     """A view of a case, made in a worker; the answers that it needed are kept for other views of the case."""
     shown: views.Shown = await http.app.state.pool.calculate(http, view, asked, *arguments)
     for key, content in shown.keep.items():

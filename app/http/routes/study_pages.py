@@ -10,22 +10,22 @@ from typing import Any
 from fastapi import APIRouter, Depends, HTTPException, Request, Response
 from fastapi.responses import HTMLResponse
 
+from app import figures
 from app.calculations import CALCULATIONS, Calculation
 from app.errors import ClientGone, DeadlineExceeded, StudyEnded, WorkerLost
-from app.figures import rendering
 from app.http.routes import pages
 from app.http.routes.studies import MEDIA_TYPES, begun, encoder, planned, streamed
+from app.pages.cases import Asked
 from app.pages.studies import PAGES
 from app.pages.studies import page as study_page
 from app.pages.studies.page import StudyPage
 from app.pages.study_links import study_links
 from app.pages.templating import page_path
-from app.pages.views import Asked
 from app.studies.engine import Clock, Line, Lines, encoded, twice_if_lost
 from app.workers.pool import disconnected
 
 LINE_TYPES = {str(name): media for name, media in MEDIA_TYPES.items()}
-IMAGE_TYPES = {str(name): media for name, media in rendering.MEDIA_TYPES.items()}
+IMAGE_TYPES = {str(name): media for name, media in figures.MEDIA_TYPES.items()}
 FIRST_FRAME_S = 0.3  # until a page shows its first points
 FRAME_SHARE = 0.3  # of the time a study has run passes until its page is drawn again
 LONGEST_PAUSE_S = 4.0  # between two drawings of a page, however long the study runs

@@ -5,18 +5,17 @@ from functools import cached_property
 from typing import Any
 
 from app.figures.comparison import compared
-from app.figures.data import Figure, NoFigure
+from app.figures.data import Figure, Hue, NoFigure, Row
 from app.figures.models.drive_train import LOAD_ALONE
-from app.figures.studies import Uncertain, corners
+from app.figures.studies import corners
 from app.figures.units import axis_of
 from app.figures.wording import listed, number
 from app.pages import study_links
-from app.pages.cases import Case
+from app.pages.cases import REFUSED, Case
 from app.pages.query import CORNER, number_of, text_of
 from app.pages.studies.page import Controls, Link, Number, Result, StudyPage, Table, titled
 from app.pages.studies.sweep import numbered
 from app.pages.typesetting import shown
-from app.pages.views import REFUSED
 from app.schema.fields import headlines
 from app.studies.engine import Line
 from app.studies.fields import value_at
@@ -134,7 +133,7 @@ class CornersPage(UnitPage):
             return Result(progress, remarks=tuple(remarks))
         worst = extremes[output.path]["min" if output.view.greatest_is_best else "max"]["at"]
         case, other = self.solved({}), self.solved(worst)
-        found = corners(axis_of(output), self._uncertain(lines, worst), value_at(case.response, output.path))
+        found = corners(axis_of(output), self._rows(lines, worst), value_at(case.response, output.path))
         load = load_figure(other, case, "worst corner", "worst corner and, dashed, as described: ")
         leads = (
             Link("Open the worst corner", self.address(worst)),
@@ -144,25 +143,24 @@ class CornersPage(UnitPage):
         tables = (self._extremes(extremes, case), self.corner_table("The worst corner", case, worst))
         return Result(progress, {"corners": found, **load}, tables, tuple(remarks), leads)
 
-    def _uncertain(self, lines: list[Line], worst: Overrides) -> list[Uncertain]:
+    def _rows(self, lines: list[Line], worst: Overrides) -> list[Row]:
         """For each value of each uncertain input, the worst output among the corners with that value."""
         points = [line for line in lines if line["type"] == "point" and line["out"][0] is not None]
         pick = min if self.output.view.greatest_is_best else max
         found = []
         for place, axis in enumerate(self.study.points.axes):
-            reached, decides = dict[str, float](), ""
+            dots = []
             for value in axis.values or ():
                 each = value if isinstance(value, list) else [value] * len(axis.leaves)
                 texts = [number(own) if isinstance(own, int | float) else str(own) for own in each]
                 text = ", ".join(texts[:1] if len(set(each)) == 1 else texts)
                 if unit := axis.header()["unit"]:
                     text = f"{text} {unit}"
+                decides = [worst[leaf.path] for leaf in axis.leaves] == each
                 if known := [line["out"][0] for line in points if line["at"][place] == value]:
-                    reached[text] = pick(known)
-                if [worst[leaf.path] for leaf in axis.leaves] == each:
-                    decides = text
+                    dots.append(Row(text, pick(known), Hue.VERMILLION if decides else Hue.BLUE))
             titles = dict.fromkeys(leaf.title for leaf in axis.leaves)
-            found.append(Uncertain(listed(list(titles)), reached, decides))
+            found.append(Row(listed(list(titles)), pick(dot.value for dot in dots), dots=dots))
         return found
 
     def _extremes(self, extremes: dict[str, Line], case: Case) -> Table:

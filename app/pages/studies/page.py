@@ -9,16 +9,15 @@ from typing import Any, NamedTuple
 
 from app.calculations import Calculation
 from app.errors import Unprocessable, Unreadable
+from app.figures import Format, written
 from app.figures.data import Figure
-from app.figures.rendering import MEDIA_TYPES, Format, written
-from app.pages.cases import Case, Fault, faults_of, solved
+from app.pages.cases import REFUSED, Asked, Case, Fault, faults_of, solved
 from app.pages.charts import embedded
 from app.pages.form import FieldView
 from app.pages.query import LONGEST_QUERY, STUDY_NAMES, link, number_of, pairs_of, text_of
 from app.pages.results import NOT_RESULTS
 from app.pages.study_links import Starter, StudyExample, StudyLink
 from app.pages.templating import examples_of, rendered
-from app.pages.views import REFUSED, Asked, title_of
 from app.pages.views import report as case_report
 from app.schema.fields import ITEM, Leaf, headlines, leaf_at, leaves, tree
 from app.sources import SHORT_SOURCES
@@ -128,8 +127,9 @@ class StudyPage(ABC):
         Controls of which at least one has to be filled in for a study, and the sentence that asks for it.
     plan
         The kind of study, which is made from its body, the largest number of points and the deadline of a point [s].
-    study, faults
-        The study, None until the query has been accepted, and what the query is refused for, by control.
+    case, study, faults
+        The case as far as it is known; the study, None until the query has been accepted; and what the query is refused
+        for, by control.
 
     """
 
@@ -147,6 +147,7 @@ class StudyPage(ABC):
     def __init__(self, asked: Asked) -> None:
         self.asked = asked
         self.views = asked.views
+        self.case = asked.case
         self.study: Any = None
         self.faults: list[Fault] = []
 
@@ -180,14 +181,6 @@ class StudyPage(ABC):
     def calculation(self) -> Calculation:
         """The calculation whose case is studied."""
         return self.asked.calculation
-
-    @cached_property
-    def case(self) -> dict[str, Any]:
-        """The request with its defaults; empty where it cannot be read."""
-        try:
-            return self.asked.case
-        except Unreadable:
-            return {}
 
     @property
     def usual_output(self) -> Leaf:
@@ -264,7 +257,7 @@ class StudyPage(ABC):
         """The address of the case at a point: its page, or with `below` a view such as its report."""
         body = with_overrides(self.calculation, self.asked.body, overrides)
         del body["detail"]
-        return link(f"{self.asked.path}{below}", pairs_of(body), theme=self.views.get("theme", ""))
+        return link(f"{self.asked.path}{below}", pairs_of(body), theme=self.asked.theme)
 
     def solved(self, overrides: Overrides) -> Case:
         """The case at a point with its answer, of which only the parts are calculated that the outputs need."""
@@ -295,18 +288,14 @@ def opened(kind: type[StudyPage], asked: Asked, most: int, deadline_s: float) ->
     show = page.menu("show", "output", page.usual_output.title, output_choices(page.calculation))
     groups = (*page.controls(), Controls("Show", show, page.shows()))
     controls = {each.name for group in groups for each in (group.menu, *group.fields) if each}
-    theme = asked.views.get("theme", "")
     content = rendered(
         "study.html",
         asked.root,
         page=page,
         asked=asked,
         calculation=page.calculation,
-        field_title=lambda path: title_of(page.calculation, path),
-        outdated=asked.outdated,
-        theme=theme,
         groups=groups,
-        hidden=[pair for pair in (*asked.pairs, ("theme", theme)) if pair[1]],
+        hidden=[pair for pair in (*asked.pairs, ("theme", asked.theme)) if pair[1]],
         other_faults=[fault for fault in page.faults if fault.path not in controls],
         frames=FRAMES,
     )
@@ -362,7 +351,6 @@ def drawn(page: StudyPage, lines: list[Line], done: int | None = None) -> bytes:
         problem=last["message"] if ended_early else "",
         done=last["done"] if ended_early else done,
         charts=charts,
-        formats=MEDIA_TYPES,
     ).encode()
 
 

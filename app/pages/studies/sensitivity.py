@@ -41,7 +41,7 @@ class SensitivityPage(StudyPage):
                 path, known = line["path"], inputs[line["path"]]
                 name, unit = numbered(known["title"], path), known["unit"] or ""
                 step = f"+{shown(line['step'], 3)} {unit}".rstrip()
-                varied = {"x": path, "show": output.path, "theme": self.views.get("theme", "")}
+                varied = {"x": path, "show": output.path, "theme": self.asked.theme}
                 row = (
                     Link(name, link(f"{self.asked.path}/vary", self.asked.pairs, **varied)),
                     shown(float(known["value"])),

@@ -8,7 +8,7 @@ from typing import Any
 from app.calculations import Calculation
 from app.errors import Unprocessable
 from app.figures.data import Figure, NoFigure
-from app.figures.spectrum import Band, Chance, Limited, SpectrumCase, chances, deciding, losses, overlap
+from app.figures.spectrum import Limited, SpectrumCase, chance_text, chances, deciding, losses, overlap, sentence
 from app.figures.units import axis_of
 from app.figures.wording import percent
 from app.pages import study_links
@@ -259,8 +259,8 @@ class SpectrumPage(StudyPage):
         figures, notes = dict[str, Figure](), [*end["notes"]]
         found = next((each for each in end["limits"] if each["output"] == output.path), None)
         if found is not None:
-            limited = self._limited(end, found)
-            progress = f"{limited.sentence[0].upper()}{limited.sentence[1:]}; {progress}"
+            limited, said = self._limited(end, found), sentence(found)
+            progress = f"{said[0].upper()}{said[1:]}; {progress}"
             for name, draw in (("limit", overlap), ("probability", chances), ("decides", deciding)):
                 try:
                     figures[name] = draw(limited)
@@ -286,27 +286,17 @@ class SpectrumPage(StudyPage):
 
     def _limited(self, end: Line, found: Line) -> Limited:
         """The limit shown, with its most probable cases where there are many."""
-        output, place = self.output, end["limits"].index(found)
+        place = end["limits"].index(found)
         decides = found["decides"] or [None] * len(end["cases"])
-        cases = []
-        for each, share in zip(end["cases"], decides, strict=True):
-            band = each["quantiles"][output.path]
-            cases.append(SpectrumCase(each["name"], band and Band(*band), _chance(each["limits"][place]), share))
-        worst = sorted(cases, key=lambda case: -case.chance.high)[:MOST_BARS]
+        cases = [
+            SpectrumCase(each["name"], each["quantiles"][self.output.path], each["limits"][place], share)
+            for each, share in zip(end["cases"], decides, strict=True)
+        ]
+        worst = sorted(cases, key=lambda case: -case.chance["bounds"][1])[:MOST_BARS]
         titles = {leaf.path: leaf.title for leaf in self.study.scattering}
         ranks = found["rank_correlation"] or {}
-        return Limited(
-            output=axis_of(output),
-            above=found["side"] == "above",
-            mean=found["mean"],
-            deviation=found["deviation"],
-            chance=_chance(found),
-            risk=found["risk"],
-            cases=tuple(case for case in cases if case in worst),
-            edges=tuple(found["histogram"]["edges"]),
-            density=tuple(found["histogram"]["density"]),
-            influences={titles[path]: value for path, value in ranks.items() if value is not None},
-        )
+        influences = {titles[path]: value for path, value in ranks.items() if value is not None}
+        return Limited(axis_of(self.output), found, [case for case in cases if case in worst], influences)
 
     def _losses(self, end: Line) -> dict[str, Figure]:
         """Mean losses of the cases [kW]; nothing where none of them is known."""
@@ -342,7 +332,7 @@ class SpectrumPage(StudyPage):
         for index, (case, each) in enumerate(zip(self.study.cases, end["cases"], strict=True)):
             row: list[str | Link] = [Link(each["name"], self.address(case.set)), percent(each["share"])]
             if found:
-                row.append(_chance(each["limits"][end["limits"].index(found)]).text)
+                row.append(chance_text(each["limits"][end["limits"].index(found)]))
                 row.append(percent(found["decides"][index]) if found["decides"] else "–")
             row += [shown(value, 4) for value in each["quantiles"][output.path] or [None] * 3]
             rows.append((*row, percent(each["unsolved"])))
@@ -374,11 +364,6 @@ def _suggested(case: dict[str, Any]) -> str:
     known = {path: value for path in USUAL if isinstance(value := value_at(case, path), int | float)}
     half = {path: value / 2 if "power" in path or "torque" in path else value for path, value in known.items()}
     return table_of([{NAME: "full load", SHARE: 0.8, "set": known}, {NAME: "half load", SHARE: 0.2, "set": half}])
-
-
-def _chance(found: Line) -> Chance:
-    low, high = found["bounds"]
-    return Chance(low, high, found["interval"] and tuple(found["interval"]))
 
 
 def _tolerances_table(header: Line, found: Line | None) -> Table:
