@@ -13,7 +13,7 @@ from matplotlib.text import Text
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullLocator
 from matplotlib.transforms import Bbox, BboxBase, ScaledTranslation
 
-from app.figures.data import Line, Map, Panel, Role, Row, Scale
+from app.figures.data import Line, Map, Panel, Role, Row, Scale, Values
 from app.figures.drawing.style import DASHES, LIMIT, TEXT, patch, written
 from app.figures.wording import NOISE, number, without_rounding
 
@@ -222,8 +222,8 @@ def _draw_map(axes: Axes, panel: Panel, chart: Map) -> None:
         for along, axis in ((chart.x, panel.x), (chart.y, panel.y))
     )
     shown = np.ma.masked_invalid(np.broadcast_to(chart.values, (y.size, x.size)))
-    colors = axes.pcolormesh(x, y, shown, cmap=cmap, norm=norm, shading="nearest", rasterized=True)
-    axes.set(xlim=x[[0, -1]], ylim=y[[0, -1]])
+    edges = _edges(x, panel.x.log), _edges(y, panel.y.log)
+    colors = axes.pcolormesh(*edges, shown, cmap=cmap, norm=norm, rasterized=True)
     axes.grid(visible=False)
     critical = {each.value: each.name for each in chart.critical if low <= each.value <= high}
     bar = axes.figure.colorbar(colors, axes.inset_axes((1.04, 0.0, 0.035, 1.0)), format=NUMBERS)
@@ -246,6 +246,13 @@ def _draw_map(axes: Axes, panel: Panel, chart: Map) -> None:
     bar.ax.tick_params(which="minor", labelcolor=LIMIT)
     for value in critical:
         bar.ax.axhline(value, color=LIMIT, linewidth=1.6, linestyle=(0, (2, 1)))
+
+
+def _edges(along: Values, log: bool) -> Values:
+    """Ends of the cells of points along an axis: halfway between them as they are drawn, and the first and last."""
+    drawn = np.log(along) if log else along
+    edges = np.concatenate([drawn[:1], (drawn[1:] + drawn[:-1]) / 2, drawn[-1:]])
+    return np.exp(edges) if log else edges
 
 
 def _draw_levels(axes: Axes, panel: Panel) -> None:
