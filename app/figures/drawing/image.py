@@ -25,8 +25,8 @@ HEIGHTS = {1: 2.6, 2: 1.6, 3: 1.25}  # inches, of panels above each other
 PLANE, PLANE_BESIDE = 3.3, 1.8  # inches, height of a field over two axes, and of one beside others
 ROW_HEIGHT = 0.3  # inches, of a row of bars with a name of up to two lines
 ABSCISSA = 0.45  # inches, ticks and name below axes
-TICKS = 0.4  # inches, least width of the names of ticks left of axes
-LEGEND, BAR, END = 1.5, 1.1, 0.2  # inches right of axes: with a legend, with a colour bar, with neither
+TICKS = 0.35  # inches, least width of the names of ticks left of axes
+LEGEND, BAR, END = 1.5, 1.1, 0.15  # inches right of axes: with a legend, with a colour bar, with neither
 CANVASES = {"svg": FigureCanvasSVG, "png": FigureCanvasAgg, "pdf": FigureCanvasPdf}
 # Neither date nor version, so that equal figures give equal bytes.
 METADATA: dict[str, dict[str, str | None]] = {

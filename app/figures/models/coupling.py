@@ -76,7 +76,7 @@ def _band(low: float | None, high: float | None) -> str:
         return "" if high is None else f"μ < {high:g}"
     if high is None:
         return f"μ > {low:g}"
-    return f"μ ≈ {low:g}" if low == high else f"μ {low:g} to {high:g}"
+    return f"μ ≈ {low:g}" if low == high else f"μ {low:g}–{high:g}"
 
 
 def _to_boundary(overlap: float, capacity: float, distance: float) -> Line:
