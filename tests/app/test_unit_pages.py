@@ -210,6 +210,7 @@ def test_the_report_of_a_search_has_the_grinding_sheet() -> None:
     sheet = text.partition("<caption>What to grind</caption>")[2].partition("</table>")[0]
     for row in rows_of(page, "What to grind"):
         assert [cell for cell in row if f">{cell}</td>" not in sheet] == []
+    assert "<p>Working flanks only; deeper: more material removed." in text
 
 
 def test_links_alone_lead_from_a_unit_to_its_worst_corner_and_to_what_to_grind(client: httpx.Client) -> None:
