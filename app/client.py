@@ -291,11 +291,7 @@ class Tribodrive(_Endpoints[Json, Study]):
 
     def example(self, name: str) -> Json:
         """The request of a ready example."""
-        response = self._http.get(f"/v1/examples/{name}")
-        if not response.is_success:
-            raise ProblemError(response)
-        request: Json = response.json()["request"]
-        return request
+        return _request_of(self._http.get(f"/v1/examples/{name}"))
 
 
 class AsyncTribodrive(_Endpoints[Awaitable[Json], AsyncStudy]):
@@ -328,6 +324,17 @@ class AsyncTribodrive(_Endpoints[Awaitable[Json], AsyncStudy]):
     def study(self, endpoint: str, request: Json, *, progress: bool = False) -> AsyncStudy:
         """Open a study, which runs while its lines are read."""
         return AsyncStudy(self._http, endpoint, request, self._patience_s, progress=progress)
+
+    async def example(self, name: str) -> Json:
+        """The request of a ready example."""
+        return _request_of(await self._http.get(f"/v1/examples/{name}"))
+
+
+def _request_of(example: httpx.Response) -> Json:
+    if not example.is_success:
+        raise ProblemError(example)
+    request: Json = example.json()["request"]
+    return request
 
 
 def _wait_s(response: httpx.Response, give_up: float) -> float:

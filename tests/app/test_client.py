@@ -44,14 +44,29 @@ def test_every_endpoint_has_its_method(server: str) -> None:
         return httpx.Response(200, json={"type": "end"})
 
     client = Tribodrive(transport=httpx.MockTransport(note))
-    public = [name for name in dir(client) if not name.startswith("_")]
-    for name in sorted({*public} - {"close", "example", "solve", "study"}):
+    for name in sorted(public(Tribodrive) - {"close", "example", "solve", "study"}):
         answer = getattr(client, name)({})
         if isinstance(answer, Study):
             list(answer)
     paths = httpx.get(f"{server}/openapi.json").json()["paths"]
     solved = {path for path, methods in paths.items() if "post" in methods and "{" not in path}
     assert set(asked) == solved - {"/v1/rexs", "/v1/rexs/results", "/rexs"}
+
+
+def public(client: type) -> set[str]:
+    return {name for name in dir(client) if not name.startswith("_")}
+
+
+def test_both_clients_have_the_same_methods(server: str) -> None:
+    assert public(AsyncTribodrive) == public(Tribodrive)
+    name = "pahl-axial-displacement"
+
+    async def requested() -> object:
+        async with AsyncTribodrive(server) as client:
+            return await client.example(name)
+
+    with Tribodrive(server) as service:
+        assert asyncio.run(requested()) == service.example(name)
 
 
 def test_an_answer_is_that_of_the_interface(service: Tribodrive, post: Callable[..., httpx.Response]) -> None:
