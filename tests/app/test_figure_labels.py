@@ -206,3 +206,9 @@ def test_limits_far_from_the_values_are_named_at_the_edge() -> None:
     (place,) = places(Figure("", (panel,), title="two peaks"))
     assert 3.0 < place.y[1] < 4.0
     assert {"yield point ↑", "endurance limit"} <= {text.replace("\n", " ") for text in texts(panel)}
+
+
+def test_a_logarithmic_axis_within_a_decade_has_numbers_to_read() -> None:
+    x = values(np.geomspace(3.0, 30.0, 9))
+    found = texts(Panel(x=Axis("speed", log=True, limits=(3.0, 30.0)), y=PANEL.y, lines=(Line("a", x, x),)))
+    assert {"5", "10", "20"} <= {*found}

@@ -25,6 +25,7 @@ RING = 5  # pixels
 SIDES = {"above": 1, "below": -1}  # of a point, on which its text is tried first; other texts stay where they are
 # Of a decade of ratios, and up to which ratio the ticks are evenly spaced instead.
 RATIO_TICKS, LINEAR_RATIO = (1.0, 1.5, 2.0, 3.0, 5.0, 7.0), 1.5
+FEW_DECADES = 100.0  # up to this ratio of its ends a logarithmic axis has ticks between its powers of ten
 CROWDED = 0.08  # of the colour bar: a tick nearer to a critical value gives way
 BESIDE_ROWS = 0.4  # of the reach of rows, for texts at their ends
 WIDE = 0.15  # of the longest bar: bounds farther apart have their values at their ends
@@ -98,6 +99,10 @@ def _end(axes: Axes, panel: Panel) -> None:
         axes.set_ylim(low - noise, high + noise)
     if panel.x.limits:
         axes.set_xlim(panel.x.limits)
+    for axis, quantity in ((axes.xaxis, panel.x), (axes.yaxis, panel.y)):
+        low, high = axis.get_view_interval()
+        if quantity.log and quantity.ticks is None and high < FEW_DECADES * low:
+            axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
 
 
 def _draw_fills(axes: Axes, panel: Panel) -> None:
