@@ -177,7 +177,7 @@ def _draw_dots(axes: Axes, place: int, row: Row) -> None:
     for dot in dots:
         axes.plot(dot.value, place, "o", color=dot.hue, markersize=7)
     for dot, offset in ((dots[0], -7), (dots[-1], 7)):
-        _write(axes, dot.name, (dot.value, place), offset, color=written(dot.hue))
+        _write(axes, dot.name, (dot.value, place), offset, color=written(dot.hue), gid="dot")
 
 
 def _draw_row(axes: Axes, place: int, row: Row) -> None:
