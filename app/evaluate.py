@@ -100,7 +100,7 @@ def json_answer(calculation: Calculation, request: Request) -> bytes:
 
 
 def written(response: Response) -> bytes:
-    """The response as JSON."""
+    """The response as JSON; fields that are not set are left out."""
     return response.model_dump_json(exclude_unset=True).encode()
 
 

@@ -54,7 +54,7 @@ def is_tiny(chance: dict[str, Any]) -> bool:
 
 
 def chance_text(chance: dict[str, Any]) -> str:
-    """A probability in per cent."""
+    """A probability in per cent, or its bounds where they differ."""
     if is_tiny(chance):
         return f"below {percent(LEAST)}"
     low, high = chance["bounds"]
@@ -62,7 +62,7 @@ def chance_text(chance: dict[str, Any]) -> str:
 
 
 def sentence(found: dict[str, Any]) -> str:
-    """The probability of a limit in words."""
+    """A sentence that states the probability of being above or below a limit."""
     interval = None if is_tiny(found) else found["interval"]
     reach = f", 90 % interval {percent(interval[0])} to {percent(interval[1])}" if interval else ""
     return f"probability of being {found['side']} the limit {chance_text(found)}{reach}: {found['risk']} risk"

@@ -229,9 +229,10 @@ def influence(output: Axis, value: float, found: list[Influence]) -> Figure:
 
 
 def corners(output: Axis, rows: list[Row], nominal: float | None) -> Figure:
-    """A row for each uncertain input, whose dots are the worst outputs with each of its values; the case as it is.
+    """A row for each uncertain input: a dot for each of its values, at the worst output found with that value.
 
-    The value of a row is that of the worst corner, whose dot is red.
+    The value of a row is the output at the worst corner, whose dot is red; `nominal` is the output of the case as
+    described.
     """
     levels = []
     if nominal is not None:
@@ -272,7 +273,7 @@ def lead_chart(
 
 
 def search(output: Axis, objectives: Sequence[float | None], *, greatest: bool) -> Figure:
-    """The objective at the worst corner of each correction tried, in order; None where a corner has no solution."""
+    """The objective at the worst corner of each correction, in the order tried; None if a corner has no solution."""
     reached = values(objectives)
     so_far = np.fmax.accumulate(reached) if greatest else np.fmin.accumulate(reached)
     order = np.arange(1, reached.size + 1, dtype=np.float64)

@@ -43,12 +43,12 @@ class Asked:
 
     @property
     def calculation(self) -> Calculation:
-        """What it is a case of."""
+        """The calculation of the case."""
         return BY_PATH[f"/v1{self.path}"]
 
     @property
     def body(self) -> dict[str, Any]:
-        """The request body that the fields make; raises Unreadable."""
+        """The request body made of the fields; raises Unreadable where names contradict each other."""
         return body_of(self.calculation.request, self.pairs)
 
     @property
@@ -106,16 +106,16 @@ class Asked:
         return link(self.path, self.pairs, ref=ref, theme=self.theme, title=self.title, sources=SHORT_SOURCES)
 
     def view(self, name: str, **views: str | None) -> str:
-        """One view."""
+        """The address of a view of the case."""
         return link(f"{self.path}/{name}", self.pairs, **views)
 
     @property
     def report(self) -> str:
-        """The report of the case, beside the case that it is compared with."""
+        """The address of the report of the case, which shows the compared case too if there is one."""
         return self.view("report", ref=self.ref, title=self.title, sources=SHORT_SOURCES)
 
     def study(self, name: str) -> str:
-        """A study of the case that has a page of its own."""
+        """The address of the page of a study of the case."""
         return self.view(name, theme=self.theme, title=self.title)
 
     def image(self, figure: str, image_format: str, theme: ThemeName | None = None) -> str:

@@ -108,7 +108,7 @@ class Modifications:
             self._stage.put(path, exponent, component, "shape_of_relief")
 
     def _relief_length(self, component: Component, kind: str, place: int) -> float | None:
-        """Length of a relief along the line of action [mm], from its length or from the diameter where it begins."""
+        """Length of a relief along the line of action [mm]: as given, or found from the diameter where it begins."""
         length = self._reading.number(component, f"{kind}_datum_length", "mm")
         if length is not None:
             return length

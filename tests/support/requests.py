@@ -103,7 +103,7 @@ def warned(answer: dict[str, Any]) -> dict[str, Any]:
 
 
 def refused(endpoint: str, body: dict[str, Any], changes: Mapping[str, Any]) -> str:
-    """The message of the first fault of a changed request."""
+    """The message of the first fault of a request with these changes."""
     return all_faults(endpoint, body, changes)[0].message
 
 

@@ -101,14 +101,14 @@ def _heading(figure: Figure) -> float:
     return LINE * TEXT * (names + any(panel.title for panel in figure.panels)) + EDGE / 2
 
 
-def _share(figure: Figure) -> bool:
-    """Whether the panels stand above each other over one abscissa."""
+def _shares_abscissa(figure: Figure) -> bool:
+    """Whether the panels stand above each other and have the same abscissa."""
     return not figure.beside and all(panel.x == figure.panels[0].x for panel in figure.panels)
 
 
 def _gap(figure: Figure) -> float:
     """Distance between axes above each other in inches."""
-    return _heading(figure) + (EDGE / 2 if _share(figure) else ABSCISSA)
+    return _heading(figure) + (EDGE / 2 if _shares_abscissa(figure) else ABSCISSA)
 
 
 def laid_out(figure: Figure) -> tuple[Sheet, list[Axes]]:
@@ -138,11 +138,11 @@ def _axes(sheet: Sheet, figure: Figure) -> list[Axes]:
     """Axes with their contents, and room around them for the names of ticks, legends and colour bars."""
     heights, (width, height) = [_height(panel, figure) for panel in figure.panels], size(figure)
     rows, columns = (1, len(heights)) if figure.beside else (len(heights), 1)
-    ratios = None if figure.beside else heights
-    axes = list(sheet.subplots(rows, columns, squeeze=False, sharex=_share(figure), height_ratios=ratios).flat)
+    ratios, share = None if figure.beside else heights, _shares_abscissa(figure)
+    axes = list(sheet.subplots(rows, columns, squeeze=False, sharex=share, height_ratios=ratios).flat)
     for each, panel in zip(axes, figure.panels, strict=True):
         draw_panel(each, panel, BESIDE_LENGTH if figure.beside else LENGTH)
-        each.xaxis.label.set_visible(each is axes[-1] or not _share(figure))
+        each.xaxis.label.set_visible(each is axes[-1] or not share)
     for each, (before, panel) in zip(axes[1:], pairwise(figure.panels), strict=True):
         each.yaxis.label.set_visible(not figure.beside or panel.y.label != before.y.label)
     ticks = max(text.get_window_extent().width for each in axes for text in each.get_yticklabels())

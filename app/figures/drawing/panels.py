@@ -36,10 +36,10 @@ Style = dict[str, Any]  # of matplotlib's artists
 
 
 def draw_panel(axes: Axes, panel: Panel, length: int) -> None:
-    """Everything of a panel, with so many characters in a line of the names of its axes.
+    """Draw a panel; names of axes have at most `length` characters a line.
 
-    The ordinate is named above the axes, where its name can be read without turning the head. The texts of points and
-    areas stay for `place_texts`.
+    The name of the ordinate is a horizontal text above the axes. `place_texts` draws the texts of areas and moves
+    those of points.
     """
     name = "" if panel.rows else fill(panel.y.label, length)
     axes.set(xscale="log" if panel.x.log else "linear", yscale="log" if panel.y.log else "linear")
@@ -181,7 +181,7 @@ def _draw_dots(axes: Axes, place: int, row: Row) -> None:
 
 
 def _draw_row(axes: Axes, place: int, row: Row) -> None:
-    """A bar, or one bar for each part, end to end, and a line between the bounds."""
+    """The bar of a row, or its parts joined end to end, and a line between its bounds."""
     left = 0.0
     for part in row.parts or [replace(row, name="", value=float(np.nan_to_num(row.value)))]:
         label = fill(part.name, NAME_LENGTH)
@@ -254,7 +254,7 @@ def _draw_map(axes: Axes, panel: Panel, chart: Map) -> None:
 
 
 def _edges(along: Values, log: bool) -> Values:
-    """Ends of the cells of points along an axis: halfway between them as they are drawn, and the first and last."""
+    """Edges of the cells around points: midway between them on the scale of the axis; outer edges at the end points."""
     drawn = np.log(along) if log else along
     edges = np.concatenate([drawn[:1], (drawn[1:] + drawn[:-1]) / 2, drawn[-1:]])
     return np.exp(edges) if log else edges

@@ -221,7 +221,7 @@ def failed(http: Request, error: Exception) -> Response:
 def problem_page(
     http: Request, status: int, title: str, detail: str, headers: dict[str, str] | None = None
 ) -> Response:
-    """The page that says why there is nothing to show."""
+    """A page that states why the request was not answered."""
     return html(rendered("problem.html", root_of(http), title=title, detail=detail), status, headers)
 
 

@@ -78,9 +78,8 @@ async def show_unit(http: Request) -> Response:
     """The unit as a page: stages, findings, and a link to every calculation."""
     try:
         content, _ = await _upload(http)
-        return html(
-            await http.app.state.pool.calculate(http, answer.unit_html, root_of(http), content, _most_bytes(http))
-        )
+        arguments = (root_of(http), content, _most_bytes(http))
+        return html(await http.app.state.pool.calculate(http, answer.unit_html, *arguments))
     except Unprocessable as error:
         return problem_page(http, 422, "The file cannot be read", error.message)
 

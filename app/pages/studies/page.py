@@ -55,7 +55,7 @@ class Menu(NamedTuple):
 
 
 class Controls(NamedTuple):
-    """A group of controls in the form of a study; where `about` explains them, each has a line of its own."""
+    """A group of controls in the form of a study; with a text `about`, each control has its own line."""
 
     title: str
     menu: Menu | None = None
@@ -64,7 +64,7 @@ class Controls(NamedTuple):
 
 
 class Number(str):
-    """The heading of a column of numbers, which is aligned to the right."""
+    """The heading of a column of numbers, which are aligned to the right."""
 
     __slots__ = ()
 
@@ -164,7 +164,7 @@ class StudyPage(ABC):
         return ()
 
     def shows(self) -> tuple[FieldView, ...]:
-        """The fields beside the menu of outputs."""
+        """The form fields placed beside the menu of outputs."""
         return ()
 
     def places(self) -> dict[str, str]:
@@ -204,7 +204,7 @@ class StudyPage(ABC):
         return number_of(text) if text else usual
 
     def menu(self, name: str, label: str, empty: str, choices: list[Choice]) -> Menu:
-        """A menu with these entries, and with the choice of the query if that is not among them."""
+        """A menu of these choices; one that the query names and that is not among them is added."""
         chosen = self.views.get(name, "")
         labels = {choice.path: choice.label for choice in choices}
         groups = [(group, list(items)) for group, items in groupby(choices, key=lambda choice: choice.group)]
@@ -214,7 +214,7 @@ class StudyPage(ABC):
         return Menu(name, label, empty, chosen, shown, groups, dict(self.faults).get(name))
 
     def field(self, name: str, label: str, usual: Scalar = None, unit: str = "", options: Options = ()) -> FieldView:
-        """A field with what was typed, and with the usual value as placeholder; a menu where there are options."""
+        """A form field with the text typed and the usual value as placeholder; a menu if there are options."""
         return FieldView(
             name=name,
             label=label,
@@ -267,7 +267,7 @@ class StudyPage(ABC):
 
 
 class Opened(NamedTuple):
-    """A page in two halves, between which the result of the study is sent; without a study nothing is."""
+    """A study page in two parts; the result of the study, if it runs, is sent between them."""
 
     page: StudyPage
     status: int

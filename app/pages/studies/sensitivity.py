@@ -32,7 +32,7 @@ class SensitivityPage(StudyPage):
         return {"endpoint": self.calculation.path, "request": self.asked.body, "outputs": outputs}
 
     def result(self, lines: list[Line]) -> Result:
-        """The change of the output by one step of each input, as bars and as a table, the largest first."""
+        """The change of the output by one step of each input, largest first, as a bar chart and a table."""
         end, output = lines[-1], self.output
         inputs = {each["path"]: each for each in end["inputs"]}
         steps, rows = list[Influence](), []

@@ -180,7 +180,7 @@ class SpectrumPage(StudyPage):
         return scuffing is not None and (self.views.get("show") or self.usual_output.path) == scuffing.contact
 
     def _limits(self) -> list[dict[str, Any]] | None:
-        """The limit as typed, else that of the output; None where the scuffing temperature stands for it."""
+        """The limit typed, or else the usual limit of the output; None if the scuffing temperature is the limit."""
         view, scatter, value = self.output.view, self.number("limit.by"), self.number("limit")
         if value is None and view.bound and isinstance(view.limit, int | float) and not self._assumes_limit:
             value = view.limit

@@ -72,7 +72,7 @@ def _has_numbers(leaf: Leaf) -> bool:
 
 
 class SweepPage(StudyPage):
-    """A sweep of a case over one field or two."""
+    """A sweep of a case over one or two fields."""
 
     link = study_links.VARY
     question = "vary an input"
@@ -178,7 +178,7 @@ class SweepPage(StudyPage):
         return places
 
     def controls(self) -> tuple[Controls, ...]:
-        """For each axis a menu of fields, and its range with the usual ends as placeholders."""
+        """For each axis a menu of fields and the controls of its range, whose placeholders are the usual ends."""
         fields = dict(zip(AXES, self.study.points.varied, strict=False)) if self.study else {}
         groups = []
         for name, title, empty in (("x", "Vary", "choose …"), ("y", "and, as curves or a map", "nothing else")):
@@ -225,7 +225,7 @@ class SweepPage(StudyPage):
         )
 
     def _grid(self, received: list[Line]) -> Grid:
-        """The data of the figures; NaN for points that have not arrived."""
+        """The data of the figures; points without solution, and those that have not arrived, are NaN."""
         points = self.study.points
         found = np.full(points.total, nan)
         found[: len(received)] = [nan if line["out"][0] is None else float(line["out"][0]) for line in received]
