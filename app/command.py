@@ -12,12 +12,13 @@ from typing import Any
 from app.settings import MEBIBYTE, Settings, settings
 from app.workers.processes import Template
 
-EXIT_STATUS = {"ok": 0, "ok_with_warnings": 3, "no_solution": 4}  # 1: the request is refused, 2: wrong arguments
+EXIT_STATUS = {"ok": 0, "ok_with_warnings": 3, "no_solution": 4}  # 1: refused or not written, 2: wrong arguments
 
 
 def main() -> None:
     """Serve until told to stop, or print what a command asks for."""
     open_standard_streams()
+    os.environ.pop("WEB_CONCURRENCY", None)  # which is for servers of several processes, whatever it says
     parser = argparse.ArgumentParser(
         prog="python -m app",
         description="Serve the tribodrive calculations.",
@@ -80,10 +81,18 @@ def print_answer(endpoint: str, file: Path) -> None:
 
 
 def _print_json(content: dict[str, Any]) -> None:
+    """Print JSON, with escapes if the standard output has no bytes for a character; exits if it cannot be written."""
+    text = json.dumps(content, indent=1, ensure_ascii=False)
     try:
-        print(json.dumps(content, indent=1, ensure_ascii=False), flush=True)  # noqa: T201  a command's output
-    except BrokenPipeError:  # whoever reads has seen enough
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        text.encode(sys.stdout.encoding)
+    except UnicodeEncodeError:
+        text = json.dumps(content, indent=1)
+    try:
+        print(text, flush=True)  # noqa: T201  a command's output
+    except OSError as error:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # for what is flushed at the end
+        if not isinstance(error, BrokenPipeError):  # whoever reads a pipe has seen enough
+            sys.exit(f"tribodrive: cannot write the answer: {error.strerror}")
 
 
 def serve(application: str) -> None:
@@ -91,7 +100,6 @@ def serve(application: str) -> None:
 
     The port is open before anything is loaded, and the template loads what it needs beside the service.
     """
-    os.environ.pop("WEB_CONCURRENCY", None)  # which is for servers of several processes
     limits = settings()
     try:
         listeners = _listeners(limits)

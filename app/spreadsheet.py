@@ -1,11 +1,13 @@
 """Rows as CSV that spreadsheets open without running anything."""
 
 import csv
+import re
 from collections.abc import Iterable
 from io import StringIO
 from typing import Any
 
-FORMULA_SIGNS = ("=", "+", "-", "@", "\t", "\r")
+FORMULA_SIGNS = ("=", "+", "-", "@", "\t", "\r", "\n")
+_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)  # whose sign begins no formula
 
 
 def csv_of(rows: Iterable[Iterable[Any]], digits: int | None = None) -> bytes:
@@ -21,6 +23,6 @@ def _cell(value: Any, digits: int | None) -> Any:
         return "true" if value else "false"
     if isinstance(value, float) and digits is not None:
         return f"{value:.{digits}g}"
-    if isinstance(value, str) and value.startswith(FORMULA_SIGNS):
+    if isinstance(value, str) and value.startswith(FORMULA_SIGNS) and not _NUMBER.fullmatch(value):
         return f"'{value}"
     return value

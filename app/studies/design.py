@@ -12,7 +12,7 @@ from app.errors import Unprocessable
 from app.schema.fields import Leaf
 from app.studies import engine
 from app.studies.engine import Clock, Line, Lines, Pool, Study, output_header, paths_of
-from app.studies.fields import NUMBERS, check_value, value_at
+from app.studies.fields import NUMBERS, check_value, not_a_number, value_at
 from app.studies.point_sets import common_unit, grid, listed
 from app.studies.points import BaseRequest, check_count, check_distinct
 from app.studies.requests import DesignRequest, Overrides, Variable
@@ -142,7 +142,8 @@ def _unit(variable: Variable, base: BaseRequest, place: str) -> str | None:
     leaves = [base.leaf(path, f"{place}.path") for path in variable.paths]
     for leaf in leaves:
         if leaf.kind != "number":
-            raise Unprocessable("not_continuous", f"{leaf.path} is not a continuous number", f"{place}.path")
+            message = not_a_number(leaf) or f"{leaf.path} takes whole numbers; the search needs a continuous one"
+            raise Unprocessable("not_continuous", message, f"{place}.path")
         for name, end in {"min": variable.min, "max": variable.max}.items():
             check_value(leaf, end, f"{place}.{name}")
     if not variable.min < variable.max:

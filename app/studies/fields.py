@@ -32,8 +32,21 @@ def scalar_at(model: type[Documented], path: str, place: str, unknown: str) -> L
     if leaf.kind == "other":
         raise Unprocessable("not_scalar", f"{path} is not a single value", place)
     if not leaf.is_scalar:
-        raise Unprocessable("not_scalar", f"{path} is a list, not a single value", place)
+        message = f"{path} is a list, not a single value"
+        if leaf.dimensions == 1:
+            message += f"; name one of its places, {path}.0"
+        raise Unprocessable("not_scalar", message, place)
     return replace(leaf, path=path)
+
+
+def not_a_number(leaf: Leaf) -> str | None:
+    """Say what a field holds that has no number; None if it has one."""
+    if leaf.options:
+        return f"{leaf.path} is an option ({', '.join(map(str, leaf.options))}), not a number"
+    if leaf.kind in NUMBERS:
+        return None
+    holds = "either true or false" if leaf.kind == "boolean" else "text"
+    return f"{leaf.path} is {holds}, not a number"
 
 
 def did_you_mean(path: str, known: Iterable[str]) -> str:

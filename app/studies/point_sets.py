@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from itertools import pairwise, product
-from math import log, prod
+from math import inf, log, nextafter, prod
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -11,13 +11,15 @@ from app.errors import Unprocessable
 from app.schema.fields import Leaf, field_path
 from app.schema.model import Request
 from app.schema.quantities import split_unit
-from app.studies.fields import check_value
+from app.studies.fields import check_value, not_a_number
 from app.studies.points import BaseRequest, check_count, check_distinct
 from app.studies.requests import LARGEST, Axis, Lognormal, Method, Normal, Overrides, Range, Scalar, Scatter, Triangular
 from solvers.arrays import FloatArray
 from solvers.drive_train.uncertainty import uncertain_inputs
+from solvers.quantity import allowed
 
 CUT = 4.0  # deviations
+LEAST_SHARE = 1e-9  # of a distribution inside its field's range: six digits of what is drawn, as tables show
 
 
 def common_unit(leaves: Sequence[Leaf]) -> str | None:
@@ -148,6 +150,9 @@ def scattering(scatters: Sequence[Range | Scatter], base: BaseRequest, place: st
     for number, each in enumerate(scatters):
         here = f"{place}.{number}"
         leaf = base.leaf(each.path, f"{here}.path")
+        message = not_a_number(leaf)
+        if message is not None:
+            raise Unprocessable("not_continuous", f"{message}; vary it or list cases", f"{here}.path")
         if leaf.kind == "integer":
             raise Unprocessable("not_integer", f"{each.path} takes whole numbers; vary it or list cases", here)
         for name, value in anchors(each).items():
@@ -155,8 +160,19 @@ def scattering(scatters: Sequence[Range | Scatter], base: BaseRequest, place: st
         for (low, least), (high, greatest) in pairwise(anchors(each).items()):
             if least > greatest:
                 raise Unprocessable("out_of_range", f"{each.path}: {low} is above {high}", here)
+        _check_digits(each, leaf, here)
         leaves.append(leaf)
     return tuple(leaves)
+
+
+def _check_digits(scatter: Range | Scatter, leaf: Leaf, place: str) -> None:
+    """Refuse a normal distribution so wide that its shares do not tell the values inside the field's range apart."""
+    if isinstance(scatter, Normal) and 1.0 - cut(scatter, leaf).cut_off < LEAST_SHARE:
+        message = (
+            f"{scatter.path}: a deviation of {scatter.deviation:.6g} leaves no digits of the values inside the field's "
+            f"range; permissible {allowed(leaf.declared)}; give a smaller one, or a uniform distribution"
+        )
+        raise Unprocessable("out_of_range", message, f"{place}.deviation")
 
 
 def anchors(scatter: Range | Scatter) -> dict[str, float]:
@@ -207,8 +223,8 @@ def cut(scatter: Range | Scatter, leaf: Leaf) -> Cut:
             if isinstance(scatter, Triangular) and high > low:
                 law = stats.triang((scatter.mode - low) / width, low, width)
     bounds = leaf.declared.bounds
-    low = max(low, bounds.get("ge", -LARGEST), bounds.get("gt", -LARGEST))
-    high = min(high, bounds.get("le", LARGEST), bounds.get("lt", LARGEST))
+    low = max(low, bounds.get("ge", -LARGEST), nextafter(bounds.get("gt", -LARGEST), inf))
+    high = min(high, bounds.get("le", LARGEST), nextafter(bounds.get("lt", LARGEST), -inf))
     return Cut(law, low, high)
 
 

@@ -12,7 +12,7 @@ from app.errors import Unprocessable
 from app.schema.fields import ITEM, Leaf, leaves
 from app.studies import engine
 from app.studies.engine import Clock, Line, Lines, Pool, Study, output_header
-from app.studies.fields import NUMBERS, fault, scalar_at, value_at
+from app.studies.fields import NUMBERS, fault, not_a_number, scalar_at, value_at
 from app.studies.points import BaseRequest, Point, check_count, check_distinct
 from app.studies.requests import Overrides, SensitivityRequest
 
@@ -184,6 +184,9 @@ def _named(base: BaseRequest, case: dict[str, Any], paths: list[str]) -> list[Le
     model = base.calculation.request
     named = [scalar_at(model, path, f"inputs.{place}", "unknown_path") for place, path in enumerate(paths)]
     for place, leaf in enumerate(named):
-        if leaf.kind not in NUMBERS or value_at(case, leaf.path) is None:
+        message = not_a_number(leaf)
+        if message is not None:
+            raise Unprocessable("not_scalar", f"{message}; a sweep compares its values", f"inputs.{place}")
+        if value_at(case, leaf.path) is None:
             raise Unprocessable("not_scalar", f"{leaf.path} has no number in this case", f"inputs.{place}")
     return named

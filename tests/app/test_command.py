@@ -1,13 +1,16 @@
 """The answer without a server: from Python and from a shell."""
 
+import io
 import json
+import os
 import subprocess
 import sys
 from pathlib import Path
-from typing import Any
+from typing import Any, TextIO
 
 import pytest
 
+from app.command import main
 from app.errors import InvalidBody, Unprocessable
 from app.evaluate import answer
 from tests.support.server import ROOT
@@ -39,6 +42,60 @@ def test_a_refusal_in_process_names_the_field() -> None:
     with pytest.raises(InvalidBody) as caught:
         answer("/v1/coupling", {**COUPLING, "coupling": {"teeth": 3, "module_mm": 3}})
     assert [fault.pointer for fault in caught.value.faults] == ["/coupling/teeth"]
+
+
+def printed(case: Path, monkeypatch: pytest.MonkeyPatch, stream: TextIO) -> int | str | None:
+    """How `solve` ends in this process, with a standard output of another kind."""
+    monkeypatch.setattr(sys, "argv", ["tribodrive", "solve", "/v1/coupling", str(case)])
+    monkeypatch.setattr(sys, "stdout", stream)
+    with pytest.raises(SystemExit) as ended:
+        main()
+    return ended.value.code
+
+
+@pytest.fixture(name="case")
+def case_file(tmp_path: Path) -> Path:
+    file = tmp_path / "case.json"
+    file.write_text(json.dumps(COUPLING))
+    return file
+
+
+def test_a_full_disk_is_told_in_a_line(case: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    with Path("/dev/full").open("w") as full:
+        assert printed(case, monkeypatch, full) == "tribodrive: cannot write the answer: No space left on device"
+
+
+@pytest.mark.parametrize("encoding", ["ascii", "latin-1", "cp1252", "utf-8"])
+def test_the_answer_is_json_in_every_locale(case: Path, monkeypatch: pytest.MonkeyPatch, encoding: str) -> None:
+    written = io.BytesIO()
+    assert printed(case, monkeypatch, io.TextIOWrapper(written, encoding)) == 0
+    assert json.loads(written.getvalue().decode(encoding)) == answer("/v1/coupling", COUPLING)
+
+
+@pytest.mark.parametrize("processes", ["auto", "", "4"])
+def test_processes_of_servers_do_not_matter(case: Path, monkeypatch: pytest.MonkeyPatch, processes: str) -> None:
+    monkeypatch.setenv("WEB_CONCURRENCY", processes)
+    assert printed(case, monkeypatch, io.TextIOWrapper(io.BytesIO(), "utf-8")) == 0
+
+
+@pytest.mark.parametrize("path", ["/v1/coupling", "/v1/nothing"])
+def test_what_cannot_be_printed_ends_with_a_line(path: str) -> None:
+    """The whole process: at its end Python flushes what is left, and complains if it cannot."""
+    environment = {**os.environ, "LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0", "WEB_CONCURRENCY": "a"}
+    with Path("/dev/full").open("w") as full:
+        ended = subprocess.run(
+            [sys.executable, "-m", "app", "solve", path, "-"],
+            check=False,
+            input=json.dumps(COUPLING),
+            stdout=full,
+            stderr=subprocess.PIPE,
+            text=True,
+            cwd=ROOT,
+            env=environment,
+        )
+    assert ended.returncode == 1
+    assert len(ended.stderr.splitlines()) == 1
+    assert ended.stderr.startswith("tribodrive: ")
 
 
 @pytest.mark.slow

@@ -324,6 +324,18 @@ REFUSED: dict[str, tuple[tuple[Planner, dict[str, Any]], str, str]] = {
 }
 
 
+def test_what_holds_no_number_says_what_it_is() -> None:
+    """The search needs numbers: options, flags and counts are told to be such, each with its own words."""
+    told = {
+        "gears.hand": "gears.hand is an option (right, left), not a number",
+        "effects.shafts": "effects.shafts is either true or false, not a number",
+        "gears.pinion.teeth": "gears.pinion.teeth takes whole numbers; the search needs a continuous one",
+    }
+    for path, message in told.items():
+        planner, parts = search_over(path=path)
+        assert fault_of(planner, {"request": CLOSED, **parts})[2] == message
+
+
 @pytest.mark.parametrize("case", REFUSED)
 def test_refused_with_place_and_code(case: str) -> None:
     (planner, parts), pointer, code = REFUSED[case]

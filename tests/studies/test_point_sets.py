@@ -7,8 +7,11 @@ from typing import Any
 import numpy as np
 import pytest
 
+from app.calculations import CALCULATIONS, Calculation
 from app.examples import examples
+from app.schema.fields import leaves
 from app.studies.sensitivity import Sensitivity
+from app.studies.spectrum import Spectrum
 from app.studies.sweep import Sweep
 from tests.support.requests import changed
 from tests.support.studies import fault_of, study_of
@@ -111,7 +114,7 @@ REFUSED: dict[str, tuple[dict[str, Any], str, str]] = {
     "value in a case": (sweep(cases=[{TEETH: 1.5}]), "/cases/0", "not_integer"),
     "sobol of seven": (sample(7, "sobol"), "/sample/count", "not_power_of_two"),
     "sample of whole numbers": (sample(8, "sobol", (TEETH, 40, 60)), "/sample/ranges/0", "not_integer"),
-    "sample of words": (sample(8, "sobol", ("model.inlet", 0, 1)), "/sample/ranges/0/min", "out_of_range"),
+    "sample of words": (sample(8, "sobol", ("model.inlet", 0, 1)), "/sample/ranges/0/path", "not_continuous"),
     "sample twice": (sample(8, "sobol", (RPM, 1, 2), (RPM, 1, 2)), "/sample/ranges", "duplicate_path"),
     "sample backwards": (sample(8, "sobol", (RPM, 2, 1)), "/sample/ranges/0", "out_of_range"),
     "base misspelt": (changed(GRID, {"request.colour": 1}), "/request/colour", "extra_forbidden"),
@@ -235,6 +238,37 @@ def test_equal_sweeps_are_one_case_and_others_are_not() -> None:
 )
 def test_inputs_of_a_sensitivity(inputs: list[str], pointer: str, code: str) -> None:
     assert fault_of(Sensitivity, sweep(inputs=inputs))[:2] == (pointer, code)
+
+
+@pytest.mark.parametrize(
+    ("path", "words"),
+    [
+        ("model.kinematics", "model.kinematics is an option (tangential, spatial), not a number"),
+        (
+            "coupling.pitch_errors_um",
+            "is a list, not a single value; name one of its places, coupling.pitch_errors_um.0",
+        ),
+        ("coupling", "coupling is a section, not a single value"),
+    ],
+)
+def test_what_holds_no_number_says_what_it_is(path: str, words: str) -> None:
+    assert words in fault_of(Sensitivity, sweep(inputs=[path]))[2]
+    scatter = {"path": path, "distribution": "normal", "mean": 1, "deviation": 1}
+    assert words in fault(sweep(sample={"count": 8, "inputs": [scatter]}))[2]
+    assert words in fault_of(Spectrum, sweep(cases=[{}], tolerances={"inputs": [scatter]}))[2]
+
+
+@pytest.mark.parametrize("calculation", CALCULATIONS, ids=lambda each: each.path)
+def test_every_field_without_number_is_told_so(calculation: Calculation) -> None:
+    """Options, flags and texts of every endpoint; a field of a list that the example lacks is not there."""
+    name = next(each.name for each in examples().values() if each.endpoint == calculation.path)
+    for leaf in leaves(calculation.request):
+        if leaf.is_scalar and (leaf.kind == "boolean" or leaf.options):
+            path = leaf.path.replace("*", "0")
+            _, code, message = fault_of(Sensitivity, study_of(name, inputs=[path]))
+            assert code == "not_scalar"
+            assert message.startswith(f"{path} is "), message
+            assert ("an option (" if leaf.options else "either true or false") in message
 
 
 def test_a_sensitivity_counts_its_points_too() -> None:

@@ -1,14 +1,17 @@
 """Probabilities against laws that are known in closed form."""
 
 from dataclasses import replace
+from itertools import product
 from math import exp, inf, log, sqrt
 
 import numpy as np
 import pytest
 from scipy.stats import binom, norm
 
-from app.schema.fields import Leaf
+from app.calculations import CALCULATIONS, Calculation
+from app.schema.fields import Leaf, leaves
 from app.schema.quantities import Input
+from app.studies.fields import fault
 from app.studies.point_sets import cut, drawn
 from app.studies.probability import (
     Limit,
@@ -23,7 +26,9 @@ from app.studies.probability import (
     weighted_mean,
 )
 from app.studies.requests import Lognormal, Method, Normal, Range, Triangular, Uniform
+from app.studies.sweep import Sweep
 from tests.support.coverage import FRICTION, coverage
+from tests.support.studies import fault_of, study_of
 
 
 def array(*cases: list[float]) -> np.ndarray:
@@ -194,6 +199,39 @@ class TestDistributions:
         scatter = Uniform(path="x", distribution="uniform", min=0.1, max=0.3)
         assert self.value(scatter, 0.25) == pytest.approx(0.15)
         assert self.value(Uniform(path="x", distribution="uniform", min=0.1, max=0.1), 0.7) == 0.1
+
+    @pytest.mark.parametrize("deviation", [1e-300, 1e-3, 1.0, 1e6, 1e8, 1e10, 1e300])
+    def test_values_have_six_digits_or_are_refused(self, deviation: float) -> None:
+        """A wide normal distribution is even inside a narrow range; what its shares cannot tell apart is refused."""
+        scatter = {"path": "friction.coefficient", "distribution": "normal", "mean": 0.2, "deviation": deviation}
+        body = study_of("pahl-axial-displacement", sample={"count": 4096, "seed": 3, "inputs": [scatter]})
+        if deviation > 1e8:
+            pointer, code, message = fault_of(Sweep, body, 10_000)
+            assert (pointer, code) == ("/sample/inputs/0/deviation", "out_of_range")
+            assert "permissible 0 to 2;" in message
+            return
+        values = np.array(Sweep(body, 10_000, 30.0).points.rows)[:, 0]
+        if deviation < 1e-12:
+            assert set(values) == {0.2}
+            return
+        assert len(set(values)) == values.size
+        if deviation > 10.0:
+            assert np.sort(values) == pytest.approx(np.linspace(0.0, 2.0, values.size), abs=1e-3)
+
+    @pytest.mark.parametrize("calculation", CALCULATIONS, ids=lambda each: each.path)
+    def test_every_value_is_one_that_its_field_takes(self, calculation: Calculation) -> None:
+        shares = np.linspace(0.0, 1.0, 65)
+        for leaf in leaves(calculation.request):
+            if leaf.kind != "number":
+                continue
+            bounds = leaf.declared.bounds
+            low, high = bounds.get("ge", bounds.get("gt")), bounds.get("le", bounds.get("lt"))
+            assert low is not None, leaf.path
+            assert high is not None, leaf.path
+            for mean, deviation in product((low, (low + high) / 2, high), (1e-300, high - low, 1e300)):
+                scatter = Normal(path="x", distribution="normal", mean=mean, deviation=deviation)
+                values = drawn([scatter], [leaf], shares[:, None])[:, 0].tolist()
+                assert all(fault(leaf, value) is None for value in values), leaf.path
 
     def test_nothing_endless(self) -> None:
         huge = Lognormal(path="x", distribution="lognormal", median=1e300, factor=1e6)

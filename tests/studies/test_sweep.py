@@ -196,7 +196,7 @@ def test_table() -> None:
     ]
 
 
-@pytest.mark.parametrize("text", ["=cmd()", "+1", "-1", "@sum", "\tx", "\rx"])
+@pytest.mark.parametrize("text", ["=cmd()", "+1+1", "-x", "@sum", "\tx", "\rx"])
 def test_words_that_a_spreadsheet_would_compute_are_quoted(text: str) -> None:
     points = PointSet([], (), [{}])
     line = {"type": "point", "index": 0, "status": "ok", "out": [text, -1.5, True, None], "warnings": []}
