@@ -71,6 +71,12 @@ def _thermal_path(request: Any) -> Cost:
     return Cost(4e-3 * model.path_points * price(film, model.nodes), "model.path_points")
 
 
+def _checked_lines(request: Any) -> Cost:
+    """The film along the feature line, and along the hottest profile where the whole flank is checked."""
+    one = _thermal_path(request)
+    return Cost((2 if request.model.line == "flank" else 1) * one.seconds, one.field)
+
+
 def _two_thermal_paths(request: Any) -> Cost:
     """A drive train's films along two lines, in each of its states."""
     one = _thermal_path(request)
@@ -174,7 +180,7 @@ CALCULATIONS = (
         response=scuffing_schema.ScuffingResponse,
         stage=LINE_CONTACT,
         figures=scuffing_figures.FIGURES,
-        cost=_thermal_path,
+        cost=_checked_lines,
     ),
     Calculation(
         path="/v1/scuffing/line-contact",

@@ -19,8 +19,8 @@ from app.schema.scuffing import (
     FlankModifications,
     MeshDerived,
     MeshInOil,
+    MeshModel,
     ScuffingLoad,
-    ScuffingModel,
 )
 from solvers.coupling.inputs import Coupling, CouplingDesign, CouplingOil
 from solvers.drive_train import derived, results
@@ -67,7 +67,7 @@ class TrainModifications(FlankModifications, of=mesh.Modifications):
     """Modifications as ground, positive where material is missing."""
 
 
-class TrainModel(ScuffingModel, PumpingOptions, of=si.DriveTrainInputs, only=("face_stations", "coupling_friction")):
+class TrainModel(MeshModel, PumpingOptions, of=si.DriveTrainInputs, only=("face_stations", "coupling_friction")):
     """Choices where the papers leave room, and the resolution."""
 
 

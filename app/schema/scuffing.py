@@ -133,12 +133,13 @@ groups(
             "blok_factor": View(
                 headline=1, limit=1.0, bound="lower", needs="temperatures.scuffing_c", verdict=".verdict"
             ),
+            "feature_line_factor": View(limit=1.0, bound="lower"),
             "thermal_ehl_factor": View(limit=1.0, bound="lower"),
         },
     ),
     ScuffingPathCurves=(
         (safety_results.ScuffingPath, safety_results.ThermalPath),
-        "Along the feature line; what only the thermal EHL solution knows is null in closed form.",
+        "Along a line from A to E; what only the thermal EHL solution knows is null in closed form.",
         {"thickness_ratio": View(limit=1.0, bound="lower")},
     ),
 )
@@ -200,10 +201,14 @@ class ScuffingTemperatures(ContactTemperatures):
         return self
 
 
-class ScuffingModel(LoadDistributionModel, FilmModel, of=si.ScuffingInputs):
+class MeshModel(LoadDistributionModel, FilmModel, of=si.ScuffingInputs, without=("line",)):
     """Choices where the paper leaves room, and physics and resolution of the film."""
 
     friction: si.FrictionMethod = "iso_tr_13989"
+
+
+class ScuffingModel(MeshModel, of=si.ScuffingInputs, only=("line",)):
+    """Choices where the paper leaves room, the part of the flank that is checked, and the film."""
 
 
 PRACTICAL_FRICTION = Input.of(
@@ -332,7 +337,12 @@ class ScuffingOilDerived(ScuffingDerived, of=(safety_results.ScuffingDerived, Oi
     """Load and lengths, and the oil as it enters the contact."""
 
 
+class HeatedFlankFields(Group, of=safety_results.HeatedFlank):
+    """Over the flank, `[profile][face]`."""
+
+
 class ScuffingResponse(LoadDistributionResponse, of=safety_results.Scuffing):
     """Load distribution and scuffing check; sections are missing where there is no solution."""
 
+    flank: HeatedFlankFields | None
     derived: ScuffingOilDerived

@@ -112,7 +112,7 @@ def solve(inputs: DriveTrainInputs, start: FloatArray | None = None) -> DriveTra
             *spread.warnings,
             *coupling_notices(inputs, couplings, warnings_of(system, found)),
             *shaft_notices(inputs, shafts),
-            *load_notices(inputs, load, heat.safety),
+            *load_notices(inputs, load),
             *loss_notices(inputs, losses),
             *oil_notices(inputs.mesh, spread.path_of_contact),
             *heat.warnings,

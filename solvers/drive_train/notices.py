@@ -12,7 +12,6 @@ from solvers.drive_train.results import (
     FaceLoad,
     ShaftResult,
     TrainLosses,
-    TrainSafety,
 )
 from solvers.notices import Notice
 from solvers.scuffing.notices import unusual_modifications
@@ -22,7 +21,6 @@ ROUNDING = 1e-9  # of lengths that come from other units
 THIN_FILM = 15e-6  # m
 LARGE_ECCENTRICITY = 0.9  # a tenth of the clearance is left: customary limit of design
 LIFTED = 0.9  # contact fraction
-CORNER = 0.98  # safety over the flank against the feature line's
 
 
 def shaft_notices(inputs: DriveTrainInputs, shafts: tuple[ShaftResult, ShaftResult]) -> Iterator[Notice]:
@@ -62,17 +60,14 @@ def _film_notices(
         yield Notice("thin_film", message, f"{field}.radial_clearance")
 
 
-def load_notices(inputs: DriveTrainInputs, load: FaceLoad, safety: TrainSafety | None) -> Iterator[Notice]:
-    """Load at an end of the face or lifted off, the feature line's blind corners, what is assumed of the heat."""
+def load_notices(inputs: DriveTrainInputs, load: FaceLoad) -> Iterator[Notice]:
+    """Load at an end of the face or lifted off, what is assumed of the heat."""
     if load.face_load_at in {0.0, 1.0}:
         message = f"the face carries most at its end y/b = {load.face_load_at:.0f}"
         yield Notice("edge_load", message, "mesh.distribution.modifications.helix_slope")
     if load.contact_fraction < LIFTED:
         message = f"only {load.contact_fraction:.2f} of the contact length is loaded"
         yield Notice("lift_off", message, "mesh.distribution.modifications")
-    if safety is not None and (safety.blok_flank or 0.0) < CORNER * (safety.blok_feature or 0.0):
-        message = "the hottest point lies off the feature line, whose safety alone would be too high"
-        yield Notice("corner_missed", message, rank="note")
     if inputs.effects.thermal and inputs.heat.wall_response is None:
         message = "the wall response is assumed (0.5); only measurements give it, between 0.2 and 1"
         yield Notice("wall_response_assumed", message, "heat.wall_response", rank="note")

@@ -1,23 +1,27 @@
-"""Scuffing over the whole flank: with the load at one end the hottest point lies in a corner, off the feature line."""
+"""Scuffing over the whole flank of a unit: bulk temperatures that vary along the face, flash temperature, safety."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from solvers.arrays import FloatArray
-from solvers.contact.hertz import reduced_modulus
 from solvers.drive_train.gap.thermal_lead import ThermalLead
 from solvers.drive_train.inputs import DriveTrainInputs
 from solvers.drive_train.results import FlashPlaces, TrainSafety
 from solvers.notices import Notice
-from solvers.scuffing.flank_results import contact_points
+from solvers.scuffing.contact_slices import Peak
 from solvers.scuffing.inputs import ScuffingInputs
-from solvers.scuffing.load_balance import line_loads
-from solvers.scuffing.results import ContactPoints, LoadDistribution, Place
-from solvers.scuffing.safety import SURVEY_POINTS, safety_factor
+from solvers.scuffing.results import LoadDistribution, Place
+from solvers.scuffing.safety import safety_factor
+from solvers.scuffing.safety_results import ThermalPath
 from solvers.scuffing.thermal.blok import blok_flash
-from solvers.scuffing.thermal.thermal_path import thermal_path
+from solvers.scuffing.thermal.flank import SURVEY_POINTS, contact_at_points, find_hottest, map_flash
+from solvers.scuffing.thermal.thermal_path import thermal_paths
 from solvers.scuffing.thermal.verdict import unknown_points
+
+FaceFunction = Callable[[FloatArray], FloatArray]
+"""A value at the distance y [m] from the end that meshes first."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,95 +45,76 @@ def contact_of(inputs: DriveTrainInputs) -> ScuffingInputs:
 
 
 def flank_heat(inputs: DriveTrainInputs, mesh: LoadDistribution, thermal: ThermalLead) -> FlankHeat:
-    """Flash temperature on the feature line and over the flank, thermal EHL on the two lines that matter (Eq. D15).
+    """Compute Blok's temperatures on the feature line and over the flank, and thermal EHL on both lines (Eq. D15).
 
-    Loaded next to a base circle neither has a largest value; without an oil there is no contact temperature.
+    Next to a base circle the temperature has no limit and is left out; without an oil there is no contact temperature.
     """
-    plane = mesh.path_of_contact.plane
-    x, y = np.meshgrid(
-        mesh.flank.profile_fraction * plane.path_length, mesh.flank.face_fraction * plane.face_width, indexing="ij"
-    )
-    psi = _feature_points(inputs, mesh, thermal)
+    given, plane = inputs.mesh.distribution, mesh.path_of_contact.plane
+
+    def bulk(y: FloatArray) -> FloatArray:
+        return _bulk(inputs, thermal, y)
+
+    psi = _feature_points(inputs, mesh, bulk)
     along, across = psi * plane.path_length, psi * plane.face_width
-    feature = _points(inputs, mesh, along, line_loads(mesh.balance, along, across))
-    flank = _points(inputs, mesh, x, mesh.flank.line_load)
-    on_feature, on_flank = (blok_flash(inputs.mesh.distribution, points) for points in (feature, flank))
-    warm_feature = on_feature + _bulk(inputs, thermal, across)
-    warm_flank = on_flank + _bulk(inputs, thermal, y)
-    defined = not np.any(mesh.balance.survey.undefined > 0.0)
+    feature = contact_at_points(given, mesh, along, across)
+    on_feature = blok_flash(given, feature)
+    flash = map_flash(given, mesh)
+    hottest = strongest = _with_line(find_hottest(given, mesh, flash), along, across, on_feature)
+    contacts = list[float | None]([None, None])
     known = inputs.mesh.temperatures.bulk is not None
-    worst = np.unravel_index(int(np.argmax(warm_flank if known else on_flank)), warm_flank.shape)
-    hottest = [_largest(warm) if defined else None for warm in (warm_feature, warm_flank)]
-    unsolved, warnings = 0, list[Notice]()
-    for line, where in _thermal_lines(inputs, mesh, feature, across, (float(x[worst]), float(y[worst]))):
-        found, missing, notices = _thermal(inputs, line, _bulk(inputs, thermal, where))
-        hottest.append(found if defined else None)
-        unsolved += missing
-        warnings += notices
-    place = _place(mesh, flank, worst) if defined and (_largest(on_flank) or 0.0) > 0.0 else None
+    if known:
+        warm_feature = on_feature + bulk(across)
+        hottest = _with_line(find_hottest(given, mesh, flash, bulk), along, across, warm_feature)
+        contacts = [None, None] if hottest is None else [float(warm_feature.max()), hottest.value]
+    unsolved, warnings = 0, tuple[Notice, ...]()
+    if inputs.mesh.lubrication == "thermal_ehl" and known and hottest is not None:
+        paths, bulks, warnings = _thermal_lines(inputs, mesh, (along, across), hottest, bulk)
+        contacts += [_hottest_surface(*line) for line in zip(paths, bulks, strict=True)]
+        unsolved = sum(path.status.count(status) for path in paths for status in ("no_solution", "refused"))
+    place = None
+    if strongest is not None and hottest is not None and strongest.value > 0.0:
+        place = _place(mesh, hottest)
     return FlankHeat(
-        temperature=warm_flank,
+        temperature=(flash.flash + bulk(flash.y))[flash.mapped],
         flash=FlashPlaces(
-            feature=_largest(on_feature) if defined else None,
-            flank=_largest(on_flank) if defined else None,
+            feature=None if strongest is None else float(on_feature.max()),
+            flank=None if strongest is None else strongest.value,
             flank_at=place,
-            contact_max=max((contact for contact in hottest[:2] if contact is not None), default=None),
+            contact_max=contacts[1],
         ),
-        safety=_safety(inputs, hottest, place),
+        safety=_safety(inputs, contacts, place),
         unsolved_points=unsolved,
-        warnings=tuple({notice.code: notice for notice in warnings}.values()),
+        warnings=warnings,
     )
 
 
-def _feature_points(inputs: DriveTrainInputs, mesh: LoadDistribution, thermal: ThermalLead) -> FloatArray:
+def _feature_points(inputs: DriveTrainInputs, mesh: LoadDistribution, bulk: FaceFunction) -> FloatArray:
     """Psi of the feature line's points: equidistant, and where flash and contact temperature by Blok are largest.
 
     Without the latter, the maxima would depend on the number of points.
     """
-    plane, psi = mesh.path_of_contact.plane, np.linspace(0.0, 1.0, SURVEY_POINTS)
-    along, across = psi * plane.path_length, psi * plane.face_width
-    line = _points(inputs, mesh, along, line_loads(mesh.balance, along, across))
-    flash = blok_flash(inputs.mesh.distribution, line)
-    hottest = [int(np.argmax(flash)), int(np.argmax(flash + _bulk(inputs, thermal, across)))]
+    given, plane, psi = inputs.mesh.distribution, mesh.path_of_contact.plane, np.linspace(0.0, 1.0, SURVEY_POINTS)
+    across = psi * plane.face_width
+    flash = blok_flash(given, contact_at_points(given, mesh, psi * plane.path_length, across))
+    hottest = [int(np.argmax(flash)), int(np.argmax(flash + bulk(across)))]
     return np.unique([*np.linspace(0.0, 1.0, inputs.mesh.path_points), *psi[hottest]])
 
 
-def _largest(values: FloatArray) -> float | None:
-    """The largest of all; None if one is not known."""
-    return None if np.isnan(values).any() else float(values.max())
+def _with_line(peak: Peak | None, along: FloatArray, across: FloatArray, on_line: FloatArray) -> Peak | None:
+    """Return the peak over the flank, or that of the feature line where it is higher; None if one is not known."""
+    if peak is None or np.isnan(on_line).any():
+        return None
+    top = int(np.argmax(on_line))
+    return max(peak, Peak(float(on_line[top]), float(along[top]), float(across[top])), key=lambda place: place.value)
 
 
-def _place(mesh: LoadDistribution, flank: ContactPoints, index: tuple[np.intp, ...]) -> Place:
+def _place(mesh: LoadDistribution, peak: Peak) -> Place:
+    plane = mesh.path_of_contact.plane
     return Place(
-        gamma=float(flank.gamma[index]),
-        profile_fraction=float(mesh.flank.profile_fraction[index[0]]),
-        face_fraction=float(mesh.flank.face_fraction[index[1]]),
+        gamma=mesh.path_of_contact.profile_parameter(peak.x),
+        profile_fraction=peak.x / plane.path_length,
+        face_fraction=peak.y / plane.face_width,
     )
-
-
-def _thermal_lines(
-    inputs: DriveTrainInputs,
-    mesh: LoadDistribution,
-    feature: ContactPoints,
-    across: FloatArray,
-    worst: tuple[float, float],
-) -> list[tuple[ContactPoints, FloatArray]]:
-    """Lines for the thermal film and their y [m]: the feature line, and the profile through the flank's worst point.
-
-    `worst` holds that point's x and y [m].
-    """
-    if inputs.mesh.lubrication == "closed_form" or inputs.mesh.temperatures.bulk is None:
-        return []
-    even = np.linspace(0.0, mesh.path_of_contact.plane.path_length, inputs.mesh.path_points)
-    profile = np.unique([*even, worst[0]])
-    there = np.full(profile.size, worst[1])
-    return [(feature, across), (_points(inputs, mesh, profile, line_loads(mesh.balance, profile, there)), there)]
-
-
-def _points(inputs: DriveTrainInputs, mesh: LoadDistribution, x: FloatArray, load: FloatArray) -> ContactPoints:
-    given = inputs.mesh.distribution
-    modulus = reduced_modulus(given.pinion_material, given.wheel_material)
-    return contact_points(mesh.path_of_contact, mesh.balance, x, load, given.load.pinion_speed, modulus)
 
 
 def _bulk(inputs: DriveTrainInputs, thermal: ThermalLead, y: FloatArray) -> FloatArray:
@@ -142,17 +127,28 @@ def _bulk(inputs: DriveTrainInputs, thermal: ThermalLead, y: FloatArray) -> Floa
     return bulk
 
 
-def _thermal(
-    inputs: DriveTrainInputs, points: ContactPoints, bulk: FloatArray
-) -> tuple[float | None, int, tuple[Notice, ...]]:
-    """Hottest flank surface [K] along a line by thermal EHL, None where points not solved may decide; how many are."""
-    if not np.any(points.in_contact):
-        return None, 0, ()
-    path = thermal_path(inputs.mesh, points, points.in_contact)
-    unsolved = sum(status in {"no_solution", "refused"} for status in path.status)
-    if unknown_points(path, bulk):
-        return None, unsolved, path.warnings
-    return float(np.nanmax(np.fmax(path.pinion_flash, path.wheel_flash) + bulk)), unsolved, path.warnings
+def _thermal_lines(
+    inputs: DriveTrainInputs,
+    mesh: LoadDistribution,
+    feature: tuple[FloatArray, FloatArray],
+    hottest: Peak,
+    bulk: FaceFunction,
+) -> tuple[tuple[ThermalPath, ...], list[FloatArray], tuple[Notice, ...]]:
+    """Solve the feature line (x, y) and the profile line through the hottest point; both with their bulk [K]."""
+    even = np.linspace(0.0, mesh.path_of_contact.plane.path_length, inputs.mesh.path_points)
+    profile = np.unique([*even, hottest.x])
+    places = [feature, (profile, np.full(profile.size, hottest.y))]
+    paths, warnings = thermal_paths(
+        inputs.mesh, [contact_at_points(inputs.mesh.distribution, mesh, *line) for line in places]
+    )
+    return paths, [bulk(y) for _, y in places], warnings
+
+
+def _hottest_surface(path: ThermalPath, bulk: FloatArray) -> float | None:
+    """Return the hottest flank surface [K] along a line by thermal EHL; None if points not solved may decide."""
+    if set(path.status) == {"unloaded"} or unknown_points([path], [bulk]):
+        return None
+    return float(np.nanmax(np.fmax(path.pinion_flash, path.wheel_flash) + bulk))
 
 
 def _safety(inputs: DriveTrainInputs, hottest: list[float | None], worst: Place | None) -> TrainSafety | None:

@@ -34,9 +34,10 @@ def face_load_factor(balance: LoadBalance, y: float) -> float:
     """
     plane = balance.mesh.plane
     places = _apart([*np.linspace(0.0, plane.face_width, FACE_POINTS), *kinks_along_face(balance.mesh.gap), y])
-    tops = _tops(face_loads(balance, places, 1))[-TOPS if _in_part(balance) else -1 :]
-    largest = max(_largest_around(balance, places, top) for top in tops)
-    return largest * plane.face_width / (balance.force * plane.cos_base_helix)
+    highest = tops(face_loads(balance, places, 1))[-TOPS if _in_part(balance) else -1 :]
+    largest = max(_largest_around(balance, places, top) for top in highest)
+    factor = largest * plane.face_width / (balance.force * plane.cos_base_helix)
+    return max(factor, 1.0)  # a largest value below the mean is the error of the trapezia
 
 
 def _in_part(balance: LoadBalance) -> bool:
@@ -44,11 +45,11 @@ def _in_part(balance: LoadBalance) -> bool:
     return bool(np.any(balance.survey.loaded_length < (1 - SAME) * balance.survey.length))
 
 
-def _tops(shares: FloatArray) -> list[int]:
-    """Local maxima that are nearly as large as the largest, in ascending order."""
-    edged = np.pad(shares, 1, constant_values=-np.inf)
-    local = np.flatnonzero((shares > edged[:-2]) & (shares >= edged[2:]) & (shares >= NEARLY * shares.max()))
-    return sorted(local.tolist(), key=lambda k: float(shares[k]))
+def tops(values: FloatArray) -> list[int]:
+    """Return the local maxima that are nearly as large as the largest, in ascending order of their values."""
+    edged = np.pad(values, 1, constant_values=-np.inf)
+    local = np.flatnonzero((values > edged[:-2]) & (values >= edged[2:]) & (values >= NEARLY * values.max()))
+    return sorted(local.tolist(), key=lambda k: float(values[k]))
 
 
 def _largest_around(balance: LoadBalance, places: FloatArray, top: int) -> float:

@@ -25,6 +25,7 @@ ContactModel = Literal["hertzian", "linear"]
 ToothSection = Literal["normal", "transverse"]
 LoadConvention = Literal["exact", "paper"]
 Lubrication = Literal["thermal_ehl", "closed_form"]
+CheckedPart = Literal["flank", "feature_line"]
 
 
 @record
@@ -447,7 +448,9 @@ class Temperatures:
 
 @record
 class ScuffingInputs:
-    """What scuffing depends on; `path_points` along the feature line.
+    """What scuffing depends on; `path_points` along each line of the flank that is solved.
+
+    line: "flank" checks the whole flank, "feature_line" the paper's diagonal from A1 to E2 alone.
 
     An `oil` takes the place of the lubricant, as it is at the bulk temperature; with neither there are no film, contact
     temperature and safety. friction: "given" is the coefficient of the distribution,
@@ -484,7 +487,15 @@ class ScuffingInputs:
         default=50,
         ge=2,
         le=500,
-        text="points of the check along the feature line",
+        text="points of the check along each line",
+        advanced=True,
+    )
+    line: CheckedPart = quantity(
+        "part of the flank that is checked",
+        None,
+        XUE,
+        default="flank",
+        text="the whole flank, or the paper's feature line alone, which misses hot corners",
         advanced=True,
     )
 

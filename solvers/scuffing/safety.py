@@ -1,23 +1,22 @@
-"""Scuffing of a loaded pair along the feature line: contact temperature and film thickness against their limits.
+"""Scuffing of a loaded pair over the whole flank: contact temperature and film thickness against their limits.
 
-The closed forms are Blok's flash temperature (Eq. 25) and Dowson and Higginson's film (Eq. 27); the thermal EHL
-solution of every point stands beside them where it is asked for.
+The closed forms are Blok's flash temperature (Eq. 25) and Dowson and Higginson's film (Eq. 27). The thermal EHL
+solution is asked for along two lines: the paper's feature line, and the profile line through the hottest point.
 """
 
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
 from solvers.arrays import FloatArray, frozen
-from solvers.contact.film import dowson_higginson_minimum, thickness_ratio
-from solvers.contact.hertz import reduced_modulus
+from solvers.contact.film import thickness_ratio
 from solvers.lubricants import OilInUse, oil_in_use
 from solvers.oils import OilSheet
-from solvers.scuffing.contact_slices import reaches_base_circle
-from solvers.scuffing.flank_results import feature_line
+from solvers.scuffing.contact_slices import Peak, reaches_base_circle
 from solvers.scuffing.inputs import ScuffingInputs, Temperatures
 from solvers.scuffing.model import solve
-from solvers.scuffing.results import Derived, FeatureLine, LoadDistribution
+from solvers.scuffing.results import ContactPoints, Derived, LoadDistribution
 from solvers.scuffing.safety_results import (
     ContactTemperature,
     Film,
@@ -29,12 +28,27 @@ from solvers.scuffing.safety_results import (
     ThermalPath,
 )
 from solvers.scuffing.thermal.blok import blok_flash
+from solvers.scuffing.thermal.flank import (
+    SURVEY_POINTS,
+    contact_at_points,
+    find_hottest,
+    find_thinnest,
+    formula_film,
+    map_flash,
+)
 from solvers.scuffing.thermal.practice import scuffing_risk
 from solvers.scuffing.thermal.temperatures import in_force, oil_notices
-from solvers.scuffing.thermal.thermal_path import thermal_path
-from solvers.scuffing.thermal.verdict import largest_flash, path_notices, thinnest_film, unknown_points, without_thermal
+from solvers.scuffing.thermal.thermal_path import thermal_paths
+from solvers.scuffing.thermal.verdict import (
+    CheckedLine,
+    largest_flash,
+    path_notices,
+    thinnest_film,
+    unknown_points,
+    without_thermal,
+)
 
-SURVEY_POINTS = 4001  # of the formulas along the feature line, to find where they are largest and smallest
+AS_HOT = 0.02  # of the flash temperature: a hottest point no hotter than this above the line needs no line of its own
 
 
 def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
@@ -44,34 +58,81 @@ def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
     `model.solve` and `in_force` raise, and what the thermal EHL solver raises if it refuses every point.
     """
     inputs, distribution = in_force(inputs, solve(inputs.distribution))
-    bulk = inputs.temperatures.bulk
-    line = _checked_line(inputs, distribution)
-    path = _closed_form_path(inputs, line)
-    thermal: ThermalPath | None = None
-    warnings = (*distribution.warnings, *oil_notices(inputs, distribution.path_of_contact))
+    given, bulk = inputs.distribution, inputs.temperatures.bulk
+    flash_map = map_flash(given, distribution)
+    whole = inputs.line == "flank"
+    hottest = find_hottest(given, distribution, flash_map) if whole else None
+    thinnest = find_thinnest(inputs, distribution, flash_map) if whole else None
+    lines = _lines(inputs, distribution, hottest)
+    warnings, unknown = (*distribution.warnings, *oil_notices(inputs, distribution.path_of_contact)), 0
+    paths = [_closed_form_path(inputs, line) for line in lines]
     if inputs.lubrication == "thermal_ehl" and bulk is not None:
-        thermal = thermal_path(inputs, line, np.isin(path.status, "ok"))
-        path = _with_thermal(inputs, path, thermal)
-        warnings += thermal.warnings
-    unknown = 0 if thermal is None or bulk is None else unknown_points(thermal, bulk)
-    flash, film = largest_flash(path), thinnest_film(path)
+        thermal, notices = thermal_paths(inputs, [line.points for line in lines])
+        paths = [_with_thermal(inputs, *both) for both in zip(paths, thermal, strict=True)]
+        warnings += notices
+        unknown = unknown_points(thermal, [np.full(line.face.size, bulk) for line in lines])
+    checked = [CheckedLine(path, line.face) for path, line in zip(paths, lines, strict=True)]
+    length = distribution.path_of_contact.length
+    flash, film = largest_flash(checked, hottest, length), thinnest_film(checked, thinnest, length, given)
     if reaches_base_circle(distribution.balance.survey):
         flash, film = Flash(None, None), Film()
     elif unknown:
         flash, film = without_thermal(flash, film)
-    hottest = None if bulk is None else _contact_temperature(bulk, flash)
-    safety = None if hottest is None else _safety(inputs.temperatures, hottest)
+    contact = None if bulk is None else _contact_temperature(bulk, flash)
+    safety = None if contact is None else _safety(inputs.temperatures, contact, flash)
     return Scuffing(
         distribution=distribution,
         flash=flash,
-        contact_temperature=hottest,
+        contact_temperature=contact,
         film=None if bulk is None else film,
         safety=safety,
-        path=path,
+        path=paths[0],
+        hottest_path=paths[1] if len(paths) > 1 else None,
+        flank_flash=frozen(flash_map.flash[flash_map.mapped]),
         derived=_derived(inputs, distribution.derived),
-        warnings=warnings + path_notices(distribution, path, hottest, safety, unknown),
-        unsolved_points=path.status.count("no_solution") + path.status.count("refused"),
+        warnings=warnings + path_notices(distribution, paths, contact, safety, unknown),
+        unsolved_points=sum(path.status.count(status) for path in paths for status in ("no_solution", "refused")),
     )
+
+
+class _Line(NamedTuple):
+    """Points of a line over the flank: fraction of the path from A, distance from the end that meshes first [m]."""
+
+    psi: FloatArray
+    face: FloatArray
+    points: ContactPoints
+
+
+def _line_at(
+    inputs: ScuffingInputs, distribution: LoadDistribution, psi: FloatArray, face: float | None = None
+) -> _Line:
+    """Return the points of the profile line at a face position [m], or of the feature line."""
+    plane = distribution.path_of_contact.plane
+    across = psi * plane.face_width if face is None else np.full(psi.size, face)
+    points = contact_at_points(inputs.distribution, distribution, psi * plane.path_length, across)
+    return _Line(frozen(psi), frozen(across), points)
+
+
+def _lines(inputs: ScuffingInputs, distribution: LoadDistribution, hottest: Peak | None) -> list[_Line]:
+    """Return the feature line, and the profile line through the hottest point if that is hotter than the line.
+
+    Both are equidistant but for the places where Blok's flash temperature is largest and the film of the formula
+    thinnest. Without these, a maximum would depend on the number of points.
+    """
+    even = np.linspace(0.0, 1.0, inputs.path_points)
+    survey = _line_at(inputs, distribution, np.linspace(0.0, 1.0, SURVEY_POINTS))
+    flash, film = blok_flash(inputs.distribution, survey.points), formula_film(inputs, survey.points)
+    psi = [*even]
+    for curve, extreme in ((flash, np.nanargmax), (film, np.nanargmin)):
+        if np.isfinite(curve[survey.points.in_contact]).any():
+            psi.append(survey.psi[extreme(curve)])
+    if survey.points.undefined.any():
+        psi.append(survey.psi[np.argmax(survey.points.undefined)])
+    lines = [_line_at(inputs, distribution, np.unique(psi))]
+    if hottest is not None and hottest.value > (1.0 + AS_HOT) * np.max(flash):
+        place = hottest.x / distribution.path_of_contact.length
+        lines.append(_line_at(inputs, distribution, np.unique([*even, place]), hottest.y))
+    return lines
 
 
 def _contact_temperature(bulk: float, flash: Flash) -> ContactTemperature:
@@ -81,34 +142,6 @@ def _contact_temperature(bulk: float, flash: Flash) -> ContactTemperature:
         blok_max=None if flash.blok_max is None else bulk + flash.blok_max,
         thermal_ehl_max=None if flash.thermal_ehl_max is None else bulk + flash.thermal_ehl_max,
     )
-
-
-def _checked_line(inputs: ScuffingInputs, distribution: LoadDistribution) -> FeatureLine:
-    """The feature line at equidistant points and where the formulas are largest and smallest.
-
-    Without the latter, a maximum would depend on the number of points.
-    """
-    given = inputs.distribution
-    modulus = reduced_modulus(given.pinion_material, given.wheel_material)
-
-    def line_at(psi: FloatArray) -> FeatureLine:
-        return feature_line(
-            distribution.path_of_contact,
-            distribution.balance,
-            given.load.pinion_speed,
-            distribution.load.tangential_force,
-            modulus,
-            psi,
-        )
-
-    survey = line_at(np.linspace(0.0, 1.0, SURVEY_POINTS))
-    psi = [*np.linspace(0.0, 1.0, inputs.path_points)]
-    for curve, extreme in ((blok_flash(given, survey), np.nanargmax), (_film(inputs, survey), np.nanargmin)):
-        if np.isfinite(curve[survey.in_contact]).any():
-            psi.append(survey.psi[extreme(curve)])
-    if survey.undefined.any():
-        psi.append(survey.psi[np.argmax(survey.undefined)])
-    return line_at(np.unique(psi))
 
 
 def _derived(inputs: ScuffingInputs, mesh: Derived) -> ScuffingDerived:
@@ -127,49 +160,39 @@ def safety_factor(scuffing: float, oil: float, contact: float) -> float | None:
     return (scuffing - oil) / (contact - oil) if contact > oil else None
 
 
-def _safety(temperatures: Temperatures, contact: ContactTemperature) -> Safety | None:
+def _safety(temperatures: Temperatures, contact: ContactTemperature, flash: Flash) -> Safety | None:
+    """Return the factors of the flank, of the feature line and by thermal EHL; None without a scuffing temperature."""
     if temperatures.scuffing is None:
         return None
     limit, oil = temperatures.scuffing, temperatures.oil
-    blok, thermal = (
+    on_line = None if flash.feature_line_max is None else contact.bulk + flash.feature_line_max
+    blok, feature, thermal = (
         None if hottest is None else safety_factor(limit, oil, hottest)
-        for hottest in (contact.blok_max, contact.thermal_ehl_max)
+        for hottest in (contact.blok_max, on_line, contact.thermal_ehl_max)
     )
-    verdict = None if blok is None else scuffing_risk(blok)
-    return Safety(scuffing=limit, blok_factor=blok, thermal_ehl_factor=thermal, verdict=verdict)
+    return Safety(
+        scuffing=limit,
+        blok_factor=blok,
+        feature_line_factor=feature,
+        thermal_ehl_factor=thermal,
+        verdict=None if blok is None else scuffing_risk(blok),
+    )
 
 
-def _closed_form_path(inputs: ScuffingInputs, line: FeatureLine) -> ScuffingPath:
-    """Flash temperature (Eq. 25) and film (Eqs. 27, 28) along the feature line.
+def _closed_form_path(inputs: ScuffingInputs, line: _Line) -> ScuffingPath:
+    """Flash temperature (Eq. 25) and film (Eqs. 27, 28) along a line.
 
     A loaded point too near a base circle has neither: it is "refused". Without an oil there is no film.
     """
-    pinion, wheel = inputs.distribution.pinion_material, inputs.distribution.wheel_material
-    film = _film(inputs, line)
+    pinion, wheel, points = inputs.distribution.pinion_material, inputs.distribution.wheel_material, line.points
+    film = formula_film(inputs, points)
     return ScuffingPath(
         psi=line.psi,
-        status=tuple(np.where(line.in_contact, "ok", np.where(line.undefined, "refused", "unloaded")).tolist()),
-        blok_flash=frozen(blok_flash(inputs.distribution, line)),
+        status=tuple(np.where(points.in_contact, "ok", np.where(points.undefined, "refused", "unloaded")).tolist()),
+        blok_flash=frozen(blok_flash(inputs.distribution, points)),
         dowson_higginson=frozen(film),
         thickness_ratio=frozen(thickness_ratio(film, pinion.roughness, wheel.roughness)),
     )
-
-
-def _film(inputs: ScuffingInputs, line: FeatureLine) -> FloatArray:
-    """Minimum film [m] along the feature line (Eq. 27); NaN without an oil and where nothing is in contact."""
-    given, lubricant, bulk = inputs.distribution, inputs.lubricant, inputs.temperatures.bulk
-    film = np.full(line.psi.size, np.nan)
-    if lubricant is not None and bulk is not None:
-        defined = line.in_contact
-        film[defined] = dowson_higginson_minimum(
-            viscosity=lubricant.viscosity_at(0.0, bulk),
-            pressure_viscosity=lubricant.pressure_viscosity,
-            mean_speed=(line.pinion_speed[defined] + line.wheel_speed[defined]) / 2,
-            radius=line.radius[defined],
-            line_load=line.line_load[defined],
-            modulus=reduced_modulus(given.pinion_material, given.wheel_material),
-        )
-    return film
 
 
 def _with_thermal(inputs: ScuffingInputs, path: ScuffingPath, thermal: ThermalPath) -> ScuffingPath:

@@ -6,8 +6,8 @@ from solvers.arrays import FloatArray
 from solvers.contact.film import Regime
 from solvers.lubricants import OilInUse
 from solvers.notices import Notice
-from solvers.quantity import quantity, record
-from solvers.scuffing.results import Derived, LoadDistribution
+from solvers.quantity import computed, quantity, record
+from solvers.scuffing.results import Derived, Flank, LoadDistribution
 from solvers.scuffing.thermal.practice import ScuffingRisk
 from solvers.sources import XUE
 
@@ -18,7 +18,8 @@ PointStatus = Literal["ok", "ok_with_warnings", "no_solution", "refused", "unloa
 class Flash:
     """Largest flash temperature [K] and where; no place without load, no thermal EHL value in closed form.
 
-    Neither is stated where loaded points that may decide have no value.
+    `..._at_psi` is the place on the feature line of the largest value there, `..._at_profile` and `..._at_face` [m] the
+    place on the flank. Neither value nor place is stated if a loaded point that may decide has no value.
     """
 
     blok_max: float | None = quantity(
@@ -26,13 +27,56 @@ class Flash:
         "Δθ_fl,B",
         f"{XUE}, Eq. 25",
         unit="k",
-        text="by Blok; null where a loaded point has none, as all do without a coefficient of friction",
+        text="by Blok over the flank; null where a loaded point has none, as all do without a coefficient of friction",
     )
-    blok_at_psi: float | None = quantity("place of the largest flash by Blok", "Ψ_B", text="where; null without load")
+    blok_at_psi: float | None = quantity(
+        "place of the largest flash by Blok on the feature line", "Ψ_B", text="null without load there"
+    )
+    feature_line_max: float | None = quantity(
+        "largest flash temperature by Blok on the feature line",
+        "Δθ_fl,Ψ",
+        f"{XUE}, Eq. 25",
+        unit="k",
+        text="along the paper's line A1 to E2; null where a loaded point has none",
+        default=None,
+    )
+    blok_at_profile: float | None = quantity(
+        "profile position of the largest flash by Blok",
+        "ξ_B",
+        text="fraction of the path from A to E; null without load",
+        default=None,
+    )
+    blok_at_face: float | None = quantity(
+        "face position of the largest flash by Blok",
+        "y_B",
+        unit="mm",
+        text="from the end that meshes first; null without load",
+        default=None,
+    )
     thermal_ehl_max: float | None = quantity(
-        "largest flash temperature by thermal EHL", "Δθ_fl", f"{XUE}, Fig. 22", unit="k", default=None
+        "largest flash temperature by thermal EHL",
+        "Δθ_fl",
+        f"{XUE}, Fig. 22",
+        unit="k",
+        text="on the lines that are solved; null in closed form",
+        default=None,
     )
-    thermal_ehl_at_psi: float | None = quantity("place of the largest flash by thermal EHL", "Ψ_fl", default=None)
+    thermal_ehl_at_psi: float | None = quantity(
+        "place of the largest flash by thermal EHL on the feature line", "Ψ_fl", default=None
+    )
+    thermal_ehl_at_profile: float | None = quantity(
+        "profile position of the largest flash by thermal EHL",
+        "ξ_fl",
+        text="fraction of the path from A to E",
+        default=None,
+    )
+    thermal_ehl_at_face: float | None = quantity(
+        "face position of the largest flash by thermal EHL",
+        "y_fl",
+        unit="mm",
+        text="from the end that meshes first",
+        default=None,
+    )
 
 
 @record
@@ -58,12 +102,28 @@ class ContactTemperature:
 
 @record
 class Film:
-    """Thinnest film [m], where, and against roughness; None if no point is loaded, or one without a film may decide."""
+    """Thinnest film [m], where, and against roughness; None if no point is loaded, or one without a film may decide.
+
+    The formula's film is that of the flank, the film by thermal EHL that of the lines that are solved. The thinner one
+    is not asked for: the thermal film is judged if there is one. `min_at_psi` is the place of the thinnest film on the
+    feature line, the other two are the place of the film that is judged.
+    """
 
     dowson_higginson_min: float | None = quantity(
-        "thinnest film by Dowson and Higginson", "h_min,DH", f"{XUE}, Eq. 27", unit="um", default=None
+        "thinnest film by Dowson and Higginson",
+        "h_min,DH",
+        f"{XUE}, Eq. 27",
+        unit="um",
+        text="over the flank",
+        default=None,
     )
-    min_at_psi: float | None = quantity("place of the thinnest film", "Ψ_h", default=None)
+    min_at_psi: float | None = quantity("place of the thinnest film on the feature line", "Ψ_h", default=None)
+    min_at_profile: float | None = quantity(
+        "profile position of the thinnest film", "ξ_h", text="fraction of the path from A to E", default=None
+    )
+    min_at_face: float | None = quantity(
+        "face position of the thinnest film", "y_h", unit="mm", text="from the end that meshes first", default=None
+    )
     thickness_ratio: float | None = quantity(
         "specific film thickness",
         "λ",
@@ -100,6 +160,13 @@ class Safety:
         "S_B",
         f"{XUE}, Eq. 26",
         text="scuffing safety by Blok; null where the teeth stay as cool as the oil",
+    )
+    feature_line_factor: float | None = quantity(
+        "safety factor on the feature line (flash temperature method)",
+        "S_B,Ψ",
+        f"{XUE}, Eq. 26",
+        text="by Blok along the paper's line A1 to E2; null where it stays as cool as the oil",
+        default=None,
     )
     thermal_ehl_factor: float | None = quantity(
         "safety factor (thermal EHL)",
@@ -142,7 +209,6 @@ class ThermalPath:
     """
 
     status: tuple[PointStatus, ...]
-    warnings: tuple[Notice, ...]
     flash_bound: FloatArray
     film_bound: FloatArray
     pinion_flash: FloatArray = quantity(
@@ -160,8 +226,9 @@ class ThermalPath:
 
 @record
 class ScuffingPath:
-    """Along the feature line: Blok's flash temperature [K], film [m] and its ratio to roughness.
+    """Along a line from A to E: Blok's flash temperature [K], film [m] and its ratio to roughness.
 
+    The feature line runs diagonally, y = psi b; the profile line lies at the face position of the hottest point.
     psi is equidistant but for the places where Blok's flash temperature is largest and the film of the formula
     thinnest. Where nothing is loaded or nothing moves the status is "unloaded", film and ratio are NaN and Blok's flash
     temperature is 0; where the reduced radius vanishes under load it is "refused" and all is NaN. `thermal` is None in
@@ -169,7 +236,9 @@ class ScuffingPath:
     is that of its film if there is one.
     """
 
-    psi: FloatArray = quantity("position of the check", "Ψ", text="fraction of the feature line, A1 to E2")
+    psi: FloatArray = quantity(
+        "position of the check", "Ψ", text="fraction of the path from A to E, and of the feature line"
+    )
     status: tuple[PointStatus, ...] = quantity(
         "outcome at the point",
         text="outcome at the point; refused: outside the range of the thermal EHL solver",
@@ -204,11 +273,27 @@ class ScuffingPath:
     thermal: ThermalPath | None = None
 
 
+@record
+class HeatedFlank(Flank):
+    """Maps [profile, face] of the load distribution, and Blok's flash temperature [K] (NaN where it has no limit)."""
+
+    flash_temperature: FloatArray = quantity(
+        "flash temperature over the flank",
+        "Δθ_fl,B",
+        f"{XUE}, Eq. 25",
+        unit="k",
+        text="by Blok; null where the reduced radius vanishes and without a coefficient of friction",
+        axis=("profile_fraction", "face_fraction"),
+        gaps=True,
+    )
+
+
 @record(kw_only=True)
 class Scuffing:
     """The scuffing check on a load distribution; `safety` is None without a scuffing temperature.
 
-    Without an oil, contact temperature, film and safety are None.
+    Without an oil, contact temperature, film and safety are None. `flank_flash` is Blok's flash temperature [K] at the
+    points of the flank's maps [profile, face], NaN where it has no limit or no coefficient of friction is known.
     `warnings` are those of the load distribution and of the check.
     """
 
@@ -220,6 +305,26 @@ class Scuffing:
     film: Film | None = quantity("film", text="film thickness; null without an oil or a bulk temperature")
     safety: Safety | None = quantity("safety", text="safety factors; null without a scuffing temperature or an oil")
     path: ScuffingPath = quantity("scuffing check along the feature line", detail="curves")
+    hottest_path: ScuffingPath | None = quantity(
+        "scuffing check along the hottest profile",
+        text="at `flash.blok_at_face_mm`; null where the feature line is as hot to 2 %",
+        detail="curves",
+    )
+    flank_flash: FloatArray
     derived: ScuffingDerived = quantity("load, lengths and oil used")
     warnings: tuple[Notice, ...]
     unsolved_points: int = quantity("unsolved points", text="points of the path without a solution or refused")
+
+    @property
+    @computed("over the flank", detail="fields")
+    def flank(self) -> HeatedFlank:
+        """Over the flank."""
+        flank = self.distribution.flank
+        return HeatedFlank(
+            flank.profile_fraction,
+            flank.face_fraction,
+            flank.modification,
+            flank.line_load,
+            flank.pressure,
+            self.flank_flash,
+        )

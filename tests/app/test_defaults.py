@@ -113,7 +113,7 @@ def test_a_hotter_oil_is_never_safer() -> None:
     paper = {"temperatures.bulk_c": 86.85, "friction_coefficient": 0.06}
     answers = [solved(SCUFFING, STAGE, {"temperatures.oil_c": oil, **paper}) for oil in oils]
     given = [answer["safety"]["blok_factor"] for answer in answers]
-    assert given == [pytest.approx(value, abs=0.01) for value in (4.42, 5.73, 8.68)]
+    assert given == [pytest.approx(value, abs=0.01) for value in (4.41, 5.72, 8.67)]
     assert all("safety rises" in reasons(answer)["temperatures.bulk_method"] for answer in answers)
 
 

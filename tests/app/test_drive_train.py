@@ -135,9 +135,10 @@ def test_levels_of_detail(post: Post) -> None:
         assert np.shape(flank[name]) == (len(flank["profile_fraction"]), len(flank["face_fraction"]))
     hottest = np.unravel_index(np.argmax(flank["contact_temperature_c"]), np.shape(flank["contact_temperature_c"]))
     place = fields["safety"]["blok_at"]
-    assert place["profile_fraction"] == flank["profile_fraction"][hottest[0]]
-    assert place["face_fraction"] == flank["face_fraction"][hottest[1]]
-    assert np.max(flank["contact_temperature_c"]) == pytest.approx(95 + fields["flash"]["flank_k"])
+    assert place["profile_fraction"] == pytest.approx(flank["profile_fraction"][hottest[0]], abs=1 / 200)
+    assert place["face_fraction"] == pytest.approx(flank["face_fraction"][hottest[1]], abs=1 / 100)
+    largest = np.max(flank["contact_temperature_c"])
+    assert largest <= 95 + fields["flash"]["flank_k"] == pytest.approx(largest, abs=0.05)
 
 
 @pytest.mark.parametrize("name", [TURBO, GENERATOR])

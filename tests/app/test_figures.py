@@ -183,6 +183,8 @@ def test_curves_and_maps_are_the_answers_numbers_in_the_unit_of_their_axis(name:
                 unit = panel.map.unit if panel.map is not None else panel.y.unit
                 if (which == "contact-temperature" and panel.map is None) or title in COMPUTED - {"pinion", "wheel"}:
                     continue
+                if which == "flank-temperature":  # bulk and flash, with lines over the flank: see below
+                    continue
                 if which == "film-temperature":
                     shown = shown.T  # noqa: PLW2901  the answer's field is [x][film]
                 assert answered(answer, unit, np.asarray(shown)), (which, title)
@@ -292,7 +294,6 @@ def partly_unsolved() -> tuple[Any, Any]:
     known = answer.result
     thermal = ThermalPath(
         status=tuple(status),
-        warnings=(),
         flash_bound=np.full(count, np.nan),
         film_bound=np.full(count, np.nan),
         film_max_temperature=300.0 + flash,
@@ -503,12 +504,31 @@ def test_the_face_is_in_mm_from_the_same_end_everywhere() -> None:
 
 
 @pytest.mark.parametrize("name", ["starter-industrial-scuffing", "xue-pair-1-scuffing"])
+def test_the_flank_is_as_hot_as_the_answer_says_and_shows_the_lines_that_are_checked(name: str) -> None:
+    _, answer = solved(name)
+    (panel,) = figure(name, "flank-temperature").panels
+    shown = panel.map.values
+    assert shown == pytest.approx(answer.contact_temperature.bulk_c + np.array(answer.flank.flash_temperature_k))
+    (mark,) = panel.marks
+    assert panel.x.limits is not None
+    assert mark.x == pytest.approx(answer.flash.blok_at_face_mm, abs=panel.x.limits[1] / 100)
+    lines = {line.title: line for line in panel.lines}
+    assert (lines["feature line"].x[-1], lines["feature line"].y[-1]) == (panel.x.limits[1], 1.0)
+    assert ("hottest profile" in lines) == (answer.hottest_path is not None)
+    if answer.hottest_path is not None:
+        assert lines["hottest profile"].x[0] == answer.flash.blok_at_face_mm
+
+
+@pytest.mark.parametrize("name", ["starter-industrial-scuffing", "xue-pair-1-scuffing"])
 def test_the_least_safety_along_the_path_is_that_of_the_answer(name: str) -> None:
     _, answer = solved(name)
-    (panel,) = figure(name, "safety").panels
-    blok = next(line for line in panel.lines if line.title == "Blok")
-    assert np.nanmin(blok.y) == pytest.approx(answer.safety.blok_factor, rel=1e-9)
-    assert [level.value for level in panel.levels if level.limit] == [1.0]
+    panels = figure(name, "safety").panels
+    bloks = [next(line for line in panel.lines if line.title == "Blok") for panel in panels]
+    assert min(np.nanmin(blok.y) for blok in bloks) == pytest.approx(answer.safety.blok_factor, rel=1e-9)
+    assert np.nanmin(bloks[0].y) == pytest.approx(answer.safety.feature_line_factor, rel=1e-9)
+    for panel in panels:
+        assert [level.value for level in panel.levels if level.limit] == [1.0]
+        assert panel.y == panels[0].y, "both on one scale"
 
 
 def test_the_worst_contact_line_has_the_largest_load_and_leans_at_the_base_helix_angle() -> None:

@@ -46,7 +46,7 @@ def test_a_flash_temperature_without_a_server() -> None:
     (snippet,) = (each for each in SNIPPETS if "GearPairInputs" in each)
     mpl.use("agg")  # a window would wait to be closed
     found = run(snippet, ADDRESS)["found"]
-    assert found.path.blok_flash.max() == found.flash.blok_max
+    assert found.path.blok_flash.max() == found.flash.feature_line_max
     assert 20.0 < found.flash.blok_max < 60.0
     (drawn,) = plt.gca().lines
-    assert drawn.get_ydata().max() == found.flash.blok_max
+    assert drawn.get_ydata().max() == found.flash.feature_line_max

@@ -147,7 +147,7 @@ def _axes(sheet: Sheet, figure: Figure) -> list[Axes]:
         each.yaxis.label.set_visible(not figure.beside or panel.y.label != before.y.label)
     ticks = max(text.get_window_extent().width for each in axes for text in each.get_yticklabels())
     left = EDGE + max(TICKS, ticks / sheet.dpi) + EDGE / 2
-    ends = [LEGEND if each.get_legend() else BAR if each.child_axes else END + _widest_value(each) for each in axes]
+    ends = [BAR if each.child_axes else LEGEND if each.get_legend() else END + _widest_value(each) for each in axes]
     right, between = (ends[-1], left + max(ends[:-1], default=0.0)) if figure.beside else (max(ends), 0.0)
     sheet.subplots_adjust(
         left=left / width,

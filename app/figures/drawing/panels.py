@@ -78,7 +78,9 @@ def draw_panel(axes: Axes, panel: Panel, length: int) -> None:
         top = (span.start + span.stop) / 2, 1.0
         _name(axes, span.name, top, axes.get_xaxis_transform(), gid="below", color=rcParams["axes.labelcolor"])
     known = {str(each.get_label()): each for each in axes.get_legend_handles_labels()[0]}  # a name may be of several
-    if known:
+    if known and panel.map is not None:  # above, because the colour bar stands at the side
+        axes.legend(known.values(), known, loc="lower right", bbox_to_anchor=(1.0, 1.01), ncols=len(known))
+    elif known:
         axes.legend(known.values(), known, bbox_to_anchor=(1.02, 1.0))
 
 

@@ -10,6 +10,7 @@ from app.figures import parts
 from app.figures.data import Axis, Figure, Hue, Level, Line, Mark, NoFigure, Panel, Role, Row, Span, Values, values
 from app.figures.declaration import Declaration
 from app.figures.models.load_distribution import face, over_flank, section
+from app.figures.models.scuffing import heat_over_flank
 from app.figures.sketches import shafts
 from app.figures.units import MM, axis
 from app.figures.wording import number, percent, without_rounding
@@ -57,17 +58,11 @@ def contact_temperature(inputs: DriveTrainInputs, result: DriveTrainResult) -> F
     grid, shown = flank.contact_temperature, axis(flank, "contact_temperature", "contact temperature")
     if temperatures.bulk is None:
         raise NoFigure("no_oil", "Without an oil and a bulk temperature there is no contact temperature", "lubricant")
-    if not np.isfinite(grid).all():
-        message = "The loaded path of contact reaches a base circle, where no temperature is defined"
-        raise NoFigure("no_temperature", message, "gears")
-    low, high, limit = float(grid.min()), float(grid.max()), temperatures.scuffing
-    panel = over_flank(face_width(inputs), flank, shown, grid, high if high > low else None, None)
-    assert panel.map is not None
-    critical = [Level(limit, "scuffing")] if limit is not None and low < limit < high else []
-    colours = replace(panel.map, critical=critical, range=(low, high if high > low else low + 1.0))
+    panel = heat_over_flank(face_width(inputs), flank, shown, grid, temperatures.scuffing)
+    high = float(grid.max())
     safety = result.safety.blok_flank if result.safety is not None else None
     finding = "" if safety is None else f", safety factor S_B = {number(safety)}"
-    return Figure(f"up to {number(high, '°C', digits=4)}{finding}", [replace(panel, map=colours)])
+    return Figure(f"up to {number(high, '°C', digits=4)}{finding}", [panel])
 
 
 def shaft_lines(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:

@@ -1,31 +1,73 @@
-"""Figures of the check against scuffing along the path of contact."""
+"""Figures of the check against scuffing: over the flank and along the lines that are checked."""
 
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from itertools import groupby
 
 import numpy as np
 
 from app.figures import parts
-from app.figures.data import Axis, Figure, Hue, Level, Line, NoFigure, Panel, Role, Span
+from app.figures.data import Axis, Figure, Hue, Level, Line, NoFigure, Panel, Role, Span, Values, values
 from app.figures.declaration import Build, Declaration, present
 from app.figures.models import load_distribution
 from app.figures.models.load_distribution import PATH, path_points
-from app.figures.units import UM, axis
+from app.figures.units import MM, UM, axis
 from app.figures.wording import number
+from solvers.drive_train.results import FlankMaps
 from solvers.quantity import UNITS
 from solvers.scuffing.inputs import ScuffingInputs
-from solvers.scuffing.safety_results import Safety, Scuffing, ThermalPath
+from solvers.scuffing.results import Flank
+from solvers.scuffing.safety_results import Safety, Scuffing, ScuffingPath, ThermalPath
 
 UNSOLVED = {"no_solution", "refused"}
 WARNED = "outside validity"
+ROOM = 0.06  # of the range, above and below the lines of panels on one scale
+FARTHEST = 4.0  # times the range of the lines: a level beyond is named at the edge instead of flattening them
 SHOWN_SAFETIES = 4.0  # times the least, up to which safeties are shown: at the pitch point nothing slides
+
+
+def temperature_on_flank(inputs: ScuffingInputs, result: Scuffing) -> Figure:
+    """Contact temperature by Blok over the flank, or its flash temperature without an oil, and the lines checked."""
+    flank, width = result.flank, inputs.distribution.gears.face_width
+    contact, largest = result.contact_temperature, result.flash.blok_max
+    shown = axis(flank, "flash_temperature", "flash temperature")
+    grid, limit = flank.flash_temperature, None
+    if contact is not None:
+        grid, limit = contact.bulk + grid, result.safety.scuffing if result.safety is not None else None
+        shown = axis(contact, "blok_max", "contact temperature")
+    panel = heat_over_flank(width, flank, shown, grid, limit)
+    lines = [Line("feature line", values([0.0, width / MM]), values([0.0, 1.0]), Hue.SKY)]
+    if result.hottest_path is not None and result.flash.blok_at_face is not None:
+        across = values([result.flash.blok_at_face] * 2)
+        lines.append(Line("hottest profile", across, values([0.0, 1.0]), Hue.SKY, Role.REFERENCE))
+    if not largest:
+        return Figure("no flash temperature", [replace(panel, lines=lines)])
+    finding = f"{number(largest, 'K')} above the bulk"
+    if contact is not None and contact.blok_max is not None:
+        finding = f"up to {number(contact.blok_max, '°C', digits=4)}, {finding}"
+    on_line = result.flash.feature_line_max
+    if on_line is not None and on_line < largest:
+        finding = f"{finding}; {number(on_line, 'K')} on the feature line"
+    return Figure(finding, [replace(panel, lines=lines)])
+
+
+def heat_over_flank(width: float, flank: Flank | FlankMaps, shown: Axis, grid: Values, limit: float | None) -> Panel:
+    """A map of a temperature over the flank of a face width [m]; the critical one stands in it as a line."""
+    if not np.isfinite(grid).all():
+        message = "The loaded path of contact reaches a base circle, where no temperature is defined"
+        raise NoFigure("no_temperature", message, "gears")
+    low, high = float(grid.min()), float(grid.max())
+    panel = load_distribution.over_flank(width, flank, shown, grid, high if high > low else None, None)
+    assert panel.map is not None
+    critical = [Level(limit, "scuffing")] if limit is not None and low < limit < high else []
+    return replace(panel, map=replace(panel.map, critical=critical, range=(low, high if high > low else low + 1.0)))
 
 
 def contact_temperature(inputs: ScuffingInputs, result: Scuffing) -> Figure:
     """Bulk and flash of both flanks by thermal EHL beside Blok, against the scuffing temperature."""
     _with_oil(result)
     contact, safety = present(result.contact_temperature), result.safety
-    lines = [replace(line, y=contact.bulk + line.y) for line in _flashes(result)]
+    y = Axis("contact temperature, bulk and flash", "°C", magnitude=False, symbol="θ_B")
     levels = [Level(contact.bulk, f"bulk {number(contact.bulk, '°C', digits=4)}")]
     finding = "" if contact.blok_max is None else f"up to {number(contact.blok_max, '°C')} by Blok"
     if contact.thermal_ehl_max is not None:
@@ -35,14 +77,18 @@ def contact_temperature(inputs: ScuffingInputs, result: Scuffing) -> Figure:
         factors = {"thermal EHL": safety.thermal_ehl_factor, "Blok": safety.blok_factor}
         texts = [f"{number(factor)} by {method}" for method, factor in factors.items() if factor is not None]
         finding = f"safety factor {', '.join(texts)}" if texts else finding
-    y = Axis("contact temperature, bulk and flash", "°C", magnitude=False, symbol="θ_B")
-    marks = parts.extreme(lines[:-1] or lines, y.unit)
-    return _along(inputs, result, finding, Panel(x=PATH, y=y, lines=lines, levels=levels, marks=marks))
+
+    def panel(path: ScuffingPath) -> Panel:
+        lines = [replace(line, y=contact.bulk + line.y) for line in _flashes(path)]
+        marks = parts.extreme(lines[:-1] or lines, y.unit)
+        return Panel(x=PATH, y=y, lines=lines, levels=levels, marks=marks)
+
+    return _along(inputs, result, finding, panel)
 
 
-def _flashes(result: Scuffing) -> list[Line]:
-    """Flash temperatures along the path: of both flanks where they are known, and by Blok."""
-    path, lines = result.path, list[Line]()
+def _flashes(path: ScuffingPath) -> list[Line]:
+    """Flash temperatures along a path: of both flanks where they are known, and by Blok."""
+    lines = list[Line]()
     if path.thermal is not None:
         lines.append(Line("pinion", path.psi, path.thermal.pinion_flash, Hue.BLUE))
         lines.append(Line("wheel", path.psi, path.thermal.wheel_flash, Hue.VERMILLION))
@@ -50,10 +96,45 @@ def _flashes(result: Scuffing) -> list[Line]:
     return [*lines, Line("Blok", path.psi, path.blok_flash, hue, role)]
 
 
-def _along(inputs: ScuffingInputs, result: Scuffing, finding: str, panel: Panel) -> Figure:
-    """A panel along the path of contact with its points, and the range in which the check does not hold."""
-    known = replace(panel, levels=[*panel.levels, *_points(inputs, result)], spans=_warned(result))
-    return Figure(finding, [known], unsolved=_unsolved(result))
+def _paths(result: Scuffing) -> dict[str, ScuffingPath]:
+    """Return the lines of the flank that are checked, by their names."""
+    if result.hottest_path is None:
+        return {"feature line": result.path}
+    across = number(present(result.flash.blok_at_face), "mm")
+    return {"feature line": result.path, f"profile at y = {across}": result.hottest_path}
+
+
+def _along(inputs: ScuffingInputs, result: Scuffing, finding: str, panel: Callable[[ScuffingPath], Panel]) -> Figure:
+    """A panel along each line checked, on one scale, with the points of the path and where the check does not hold."""
+    points, panels = _points(inputs, result), list[Panel]()
+    for path in _paths(result).values():
+        drawn = panel(path)
+        levels, spans = [*drawn.levels, *points], _warned(path)
+        if panels:
+            levels, spans = parts.unnamed(levels), parts.unnamed(spans)
+        panels.append(replace(drawn, levels=levels, spans=spans))
+    if len(panels) > 1:
+        limits = _common_limits(panels)
+        panels = [
+            replace(drawn, y=replace(drawn.y, limits=limits), title=f"along the {name}")
+            for name, drawn in zip(_paths(result), panels, strict=True)
+        ]
+    return Figure(finding, panels, unsolved=_unsolved(result))
+
+
+def _common_limits(panels: Sequence[Panel]) -> tuple[float, float]:
+    """Return the ends of an ordinate that shows the lines of all panels and the levels that are not far off."""
+    axes = panels[0].y
+    if axes.limits is not None:
+        return axes.limits
+    shown = np.concatenate([line.y[np.isfinite(line.y)] for panel in panels for line in panel.lines])
+    low, high = float(shown.min()), float(shown.max())
+    reach = FARTHEST * (high - low)
+    levels = [level.value for panel in panels for level in panel.levels if not level.vertical]
+    near = [value for value in levels if low - reach <= value <= high + reach]
+    low, high = min([low, *near]), max([high, *near])
+    room = ROOM * (high - low)
+    return (0.0 if axes.magnitude else low - room), high + room
 
 
 def _with_oil(result: Scuffing) -> None:
@@ -72,34 +153,41 @@ def safety_along(inputs: ScuffingInputs, result: Scuffing) -> Figure:
         raise NoFigure("no_scuffing_temperature", "Safety needs a scuffing temperature", "temperatures")
     oil = inputs.temperatures.oil - UNITS["c"].offset
     above_oil, reserve = present(result.contact_temperature).bulk - oil, result.safety.scuffing - oil
-    *flanks, blok = _flashes(result)
+    drawn = {name: _safeties(path, above_oil, reserve) for name, path in _paths(result).items()}
+    lines = [line for along in drawn.values() for line in along]
+    if not lines:
+        raise NoFigure("no_rise", "The contact is nowhere hotter than the oil, so no safety is defined", "temperatures")
+    least = parts.extreme(lines, least=True)[0]
+    top = max(1.5, min(SHOWN_SAFETIES * least.y, *(1.1 * float(np.nanmax(line.y)) for line in lines)))
+    name, method = next(
+        (name, line.title) for name, along in drawn.items() for line in along if np.nanmin(line.y) == least.y
+    )
+    y = axis(Safety, "blok_factor", "safety factor against scuffing", limits=(0.0, top))
+    limit = Level(1.0, "scuffing below 1", limit=True)
+
+    def panel(path: ScuffingPath) -> Panel:
+        own = _safeties(path, above_oil, reserve)
+        return Panel(x=PATH, y=y, lines=own, levels=[limit], marks=parts.extreme(own, least=True))
+
+    place = f"Ψ = {number(least.x)}" if name == "feature line" else f"{number(least.x)} of the {name}"
+    return _along(inputs, result, f"least {number(least.y)} by {method}, at {place}", panel)
+
+
+def _safeties(path: ScuffingPath, above_oil: float, reserve: float) -> list[Line]:
+    """Safety factors along a path, by thermal EHL and by Blok, where the contact is hotter than the oil."""
+    *flanks, blok = _flashes(path)
     flashes = [replace(blok, role=Role.RESULT)]
     if flanks:
         hotter = np.fmax(*(line.y for line in flanks))
         flashes.insert(0, Line("thermal EHL", blok.x, hotter, Hue.VERMILLION))
     rises = [(line, np.where(above_oil + line.y > 0.0, above_oil + line.y, np.nan)) for line in flashes]
-    lines = [replace(line, y=reserve / rise) for line, rise in rises if np.isfinite(rise).any()]
-    if not lines:
-        raise NoFigure("no_rise", "The contact is nowhere hotter than the oil, so no safety is defined", "temperatures")
-    marks = parts.extreme(lines, least=True)
-    least = marks[0]
-    top = max(1.5, min(SHOWN_SAFETIES * least.y, *(1.1 * float(np.nanmax(line.y)) for line in lines)))
-    method = next(line.title for line in lines if line.hue is least.hue)
-    y = axis(Safety, "blok_factor", "safety factor against scuffing", limits=(0.0, top))
-    limit = Level(1.0, "scuffing below 1", limit=True)
-    finding = f"least {number(least.y)} by {method}, at Ψ = {number(least.x)}"
-    return _along(inputs, result, finding, Panel(x=PATH, y=y, lines=lines, levels=[limit], marks=marks))
+    return [replace(line, y=reserve / rise) for line, rise in rises if np.isfinite(rise).any()]
 
 
 def film(inputs: ScuffingInputs, result: Scuffing) -> Figure:
     """Minimum and central film, the formula, and the film that is as thick as the roughness."""
     _with_oil(result)
-    path, thinnest, pair, lines = result.path, present(result.film), inputs.distribution, list[Line]()
-    if path.thermal is not None:
-        lines.append(Line("minimum", path.psi, path.thermal.minimum_film))
-        lines.append(Line("central", path.psi, path.thermal.central_film, Hue.SKY))
-    hue, role = (Hue.GREY, Role.REFERENCE) if lines else (Hue.BLUE, Role.RESULT)
-    lines.append(Line("Dowson-Higginson", path.psi, path.dowson_higginson, hue, role))
+    thinnest, pair = present(result.film), inputs.distribution
     if thinnest.thickness_ratio is None:
         finding = "no film is known everywhere" if _unsolved(result) else "no load"
     else:
@@ -108,28 +196,48 @@ def film(inputs: ScuffingInputs, result: Scuffing) -> Figure:
     roughness = float(np.hypot(pair.pinion_material.roughness, pair.wheel_material.roughness)) / UM  # Eq. 28
     limit = Level(roughness, "λ = 1, film as thick as the roughness", limit=True)
     y = Axis("film thickness", "µm", symbol="h")
-    marks = parts.extreme(lines[:1], y.unit, least=True)
-    return _along(inputs, result, finding, Panel(x=PATH, y=y, lines=lines, levels=[limit], marks=marks))
+
+    def panel(path: ScuffingPath) -> Panel:
+        lines = list[Line]()
+        if path.thermal is not None:
+            lines.append(Line("minimum", path.psi, path.thermal.minimum_film))
+            lines.append(Line("central", path.psi, path.thermal.central_film, Hue.SKY))
+        hue, role = (Hue.GREY, Role.REFERENCE) if lines else (Hue.BLUE, Role.RESULT)
+        lines.append(Line("Dowson-Higginson", path.psi, path.dowson_higginson, hue, role))
+        return Panel(x=PATH, y=y, lines=lines, levels=[limit], marks=parts.extreme(lines[:1], y.unit, least=True))
+
+    return _along(inputs, result, finding, panel)
 
 
 def friction(inputs: ScuffingInputs, result: Scuffing) -> Figure:
-    """Coefficient of friction and film pressure along the path, from thermal EHL, beside the mean one in force."""
+    """Coefficient of friction and film pressure along the lines, from thermal EHL, beside the mean one in force."""
     _with_oil(result)
-    psi, thermal, mean = result.path.psi, result.path.thermal, result.distribution.friction_loss.coefficient
-    if thermal is None:
+    mean = result.distribution.friction_loss.coefficient
+    solved = {name: (path.psi, path.thermal) for name, path in _paths(result).items() if path.thermal is not None}
+    if not solved:
         message = "Friction along the path comes from the thermal EHL solution only"
         raise NoFigure("closed_form", message, "model.lubrication")
-    points, warned, coefficient = _points(inputs, result), _warned(result), thermal.friction_coefficient
+    points, warned = _points(inputs, result), _warned(result.path)
     # The coefficient that Blok's flash temperature and the losses take.
     levels = points if mean is None else [*points, Level(mean, f"mean of the formulas {number(mean)}")]
-    plain = {"levels": parts.unnamed(points), "spans": parts.unnamed(warned)}
+
+    def panel(y: Axis, curve: str, hues: tuple[Hue, Hue]) -> Panel:
+        lines = [
+            Line(name, psi, getattr(thermal, curve), hue, named=len(solved) > 1)
+            for (name, (psi, thermal)), hue in zip(solved.items(), hues, strict=False)
+        ]
+        marks = [mark for mark in parts.extreme(lines, y.unit) if mark.y > 0.0]
+        return Panel(x=PATH, y=y, lines=lines, marks=marks)
+
     local = axis(ThermalPath, "friction_coefficient", "coefficient of friction")
-    pressure = axis(ThermalPath, "max_pressure")
+    coefficient = panel(local, "friction_coefficient", (Hue.BLUE, Hue.SKY))
+    pressure = panel(axis(ThermalPath, "max_pressure"), "max_pressure", (Hue.VERMILLION, Hue.ORANGE))
     panels = [
-        parts.curve(PATH, local, psi, coefficient, marked=True, levels=levels, spans=warned),
-        parts.curve(PATH, pressure, psi, thermal.max_pressure, Hue.VERMILLION, marked=True, **plain),
+        replace(coefficient, levels=levels, spans=warned),
+        replace(pressure, levels=parts.unnamed(points), spans=parts.unnamed(warned)),
     ]
-    known = coefficient[np.isfinite(coefficient)]
+    coefficients = np.concatenate([thermal.friction_coefficient for _, thermal in solved.values()])
+    known = coefficients[np.isfinite(coefficients)]
     finding = f"μ from {number(float(known.min()))} to {number(float(known.max()))}" if known.size else "nowhere known"
     return Figure(finding, panels, unsolved=_unsolved(result))
 
@@ -139,14 +247,14 @@ def _points(inputs: ScuffingInputs, result: Scuffing) -> list[Level]:
 
 
 def _unsolved(result: Scuffing) -> int:
-    return sum(status in UNSOLVED for status in result.path.status)
+    return sum(status in UNSOLVED for path in _paths(result).values() for status in path.status)
 
 
-def _warned(result: Scuffing) -> list[Span]:
-    """Stretches of the path whose points carry warnings, to the middle between points; the first is named."""
-    psi, spans = result.path.psi, list[Span]()
+def _warned(path: ScuffingPath) -> list[Span]:
+    """Stretches of a path whose points carry warnings, to the middle between points; the first is named."""
+    psi, spans = path.psi, list[Span]()
     edges = np.concatenate([psi[:1], (psi[:-1] + psi[1:]) / 2.0, psi[-1:]])
-    for status, group in groupby(range(psi.size), key=lambda place: result.path.status[place]):
+    for status, group in groupby(range(psi.size), key=lambda place: path.status[place]):
         if status == "ok_with_warnings":
             places = list(group)
             start, stop = float(edges[places[0]]), float(edges[places[-1] + 1])
@@ -161,6 +269,7 @@ def _of_distribution(build: Build) -> Build:
 
 OWN = ("section", "flank-pressure")  # of the figures of the load distribution: where the pair can scuff
 FIGURES = (
+    Declaration("flank-temperature", "Contact temperature on the flank", "Xue 2020, Eq. 25", temperature_on_flank),
     Declaration(
         "contact-temperature", "Contact temperature along the path of contact", "Xue 2020, Fig. 22", contact_temperature
     ),

@@ -6,9 +6,6 @@ bound of 150 N/mm on the line load is quoted from memory.
 
 from typing import Literal
 
-import numpy as np
-
-from solvers.arrays import FloatArray
 from solvers.gears.pair import PathOfContact
 from solvers.lubricants import OilKind
 from solvers.scuffing.inputs import LoadDistributionInputs, OilSupply
@@ -68,10 +65,9 @@ def scuffing_temperature(stage: int, structure_factor: float, factor: float) -> 
     return 80.0 + (0.85 + 1.4 * structure_factor) * factor * stage**2 + 273.15
 
 
-def bulk_temperature(oil: float, supply: OilSupply, psi: FloatArray, flash: FloatArray) -> float:
-    """Bulk = oil + 0.47 X_S times the mean flash temperature along the path [K] (Eq. R8)."""
-    mean = float(np.trapezoid(flash, psi)) / float(psi[-1] - psi[0])
-    return oil + FLASH_SHARE * OIL_SUPPLY_FACTOR[supply] * mean
+def bulk_temperature(oil: float, supply: OilSupply, mean_flash: float) -> float:
+    """Bulk = oil + 0.47 X_S times the mean flash temperature [K] (Eq. R8)."""
+    return oil + FLASH_SHARE * OIL_SUPPLY_FACTOR[supply] * mean_flash
 
 
 def scuffing_risk(safety: float) -> ScuffingRisk:

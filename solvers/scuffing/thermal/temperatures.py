@@ -8,17 +8,16 @@ from dataclasses import replace
 
 import numpy as np
 
-from solvers.contact.hertz import reduced_modulus
 from solvers.errors import InvalidInput
 from solvers.gears.pair import PathOfContact
 from solvers.lubricants import Lubricant
 from solvers.notices import Notice
 from solvers.oils import OilSheet, lubricant_at
-from solvers.scuffing.flank_results import feature_line
 from solvers.scuffing.inputs import ScuffingInputs
 from solvers.scuffing.mesh_results import friction_loss
 from solvers.scuffing.results import LoadDistribution
 from solvers.scuffing.thermal.blok import blok_flash
+from solvers.scuffing.thermal.flank import contact_at_points, map_flash, mean_flash
 from solvers.scuffing.thermal.practice import (
     FLOODED_UP_TO,
     TEST_TEMPERATURE,
@@ -30,7 +29,7 @@ from solvers.scuffing.thermal.practice import (
 )
 
 COLDEST_OIL, HOTTEST_OIL = 223.15, 573.15  # K, the range of reference temperatures
-MEAN_POINTS = 1001  # of the mean flash temperature along the path
+MEAN_POINTS = 1001  # of the mean flash temperature along the feature line
 
 
 def in_force(inputs: ScuffingInputs, distribution: LoadDistribution) -> tuple[ScuffingInputs, LoadDistribution]:
@@ -122,17 +121,16 @@ def _oil_factor(oil: OilSheet | Lubricant, temperature: float) -> float:
 
 
 def _estimated_bulk(inputs: ScuffingInputs, distribution: LoadDistribution) -> float | None:
-    """Bulk temperature [K] by the mean flash temperature along the path; None where that is not defined."""
+    """Return the bulk temperature [K] by the mean flash temperature; None where that is not defined.
+
+    The mean is that of the part that is checked. A tooth has one bulk temperature, whichever end of its face carries:
+    the mean of the whole flank is the same for a pair and its mirror image, that of the feature line is not.
+    """
     given = inputs.distribution
-    line = feature_line(
-        distribution.path_of_contact,
-        distribution.balance,
-        given.load.pinion_speed,
-        distribution.load.tangential_force,
-        reduced_modulus(given.pinion_material, given.wheel_material),
-        np.linspace(0.0, 1.0, MEAN_POINTS),
-    )
-    if np.any(line.undefined):
-        return None
-    flash = blok_flash(given, line)
-    return bulk_temperature(inputs.temperatures.oil, inputs.temperatures.oil_supply, line.psi, flash)
+    if inputs.line == "flank":
+        mean = mean_flash(map_flash(given, distribution))
+    else:
+        psi, plane = np.linspace(0.0, 1.0, MEAN_POINTS), distribution.path_of_contact.plane
+        along_line = contact_at_points(given, distribution, psi * plane.path_length, psi * plane.face_width)
+        mean = None if np.any(along_line.undefined) else float(np.trapezoid(blok_flash(given, along_line), psi))
+    return None if mean is None else bulk_temperature(inputs.temperatures.oil, inputs.temperatures.oil_supply, mean)

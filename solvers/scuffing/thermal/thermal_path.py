@@ -1,11 +1,11 @@
-"""The thermal EHL solution along a line of the flank: film, flash temperatures and friction under the local load."""
+"""The thermal EHL solution along lines of the flank: film, flash temperatures and friction under the local load."""
 
 from collections.abc import Sequence
 from dataclasses import fields, replace
 
 import numpy as np
 
-from solvers.arrays import BoolArray, frozen
+from solvers.arrays import frozen
 from solvers.contact import ehl
 from solvers.errors import InvalidInput
 from solvers.notices import Notice
@@ -21,27 +21,44 @@ FIELDS = {
     "temperatures": "temperatures.bulk",
 }
 
-CURVES = tuple(item.name for item in fields(ThermalPath) if item.name not in {"status", "warnings"})
+CURVES = tuple(item.name for item in fields(ThermalPath) if item.name != "status")
 
 
-def thermal_path(inputs: ScuffingInputs, points: ContactPoints, loaded: BoolArray) -> ThermalPath:
-    """Solve every loaded point of a line, each from its neighbour; oil enters at bulk temperature.
+def thermal_paths(
+    inputs: ScuffingInputs, lines: Sequence[ContactPoints]
+) -> tuple[tuple[ThermalPath, ...], tuple[Notice, ...]]:
+    """Solve every point in contact of the lines, each from its neighbour on its line; oil enters at bulk temperature.
 
     A point outside the range of the solver is "refused", one without convergence "no_solution"; neither stops the
-    others. Raises the solver's InvalidInput where it refuses every point.
+    others. The warnings are those of all lines. Raises the solver's InvalidInput if it refuses every point.
     """
-    contacts = {point: contact_at(inputs, points, point) for point in np.flatnonzero(loaded).tolist()}
-    refusals = {point: refusal for point, contact in contacts.items() if (refusal := _refusal(contact)) is not None}
-    if refusals and len(refusals) == len(contacts):
-        first = next(iter(refusals.values()))
-        raise InvalidInput(first.code, first.message, _field(first.field))
+    contacts = [
+        {point: contact_at(inputs, points, point) for point in np.flatnonzero(points.in_contact).tolist()}
+        for points in lines
+    ]
+    refusals = [
+        {point: refusal for point, contact in along.items() if (refusal := _refusal(contact)) is not None}
+        for along in contacts
+    ]
+    refused = [refusal for along in refusals for refusal in along.values()]
+    if refused and len(refused) == sum(map(len, contacts)):
+        raise InvalidInput(refused[0].code, refused[0].message, _field(refused[0].field))
+    solved = [_solve_line(*along) for along in zip(lines, contacts, refusals, strict=True)]
+    own = [result for _, results in solved for result in results]
+    return tuple(path for path, _ in solved), _notices(own, refused)
+
+
+def _solve_line(
+    points: ContactPoints, contacts: dict[int, ehl.LineContactInputs], refusals: dict[int, InvalidInput]
+) -> tuple[ThermalPath, list[ehl.LineContactResult]]:
+    """Solve one line; the results are those of its points under their own load."""
     light = {point: ehl.lightest(contacts[point]) for point, why in refusals.items() if why.code == "load_range"}
     solvable = {
         point: contact for point, contact in (contacts | light).items() if point in light or point not in refusals
     }
     results = dict(zip(solvable, ehl.solve_path(list(solvable.values())), strict=True))
-    status: list[PointStatus] = ["unloaded"] * loaded.size
-    curves = {name: np.full(loaded.size, np.nan) for name in CURVES}
+    status: list[PointStatus] = ["unloaded"] * points.line_load.size
+    curves = {name: np.full(points.line_load.size, np.nan) for name in CURVES}
     for point, result in results.items():
         status[point] = result.status
         if result.status != "no_solution":
@@ -49,9 +66,8 @@ def thermal_path(inputs: ScuffingInputs, points: ContactPoints, loaded: BoolArra
                 curves[name][point] = value
     for point in refusals:
         status[point] = "refused"
-    solved = [result for point, result in results.items() if point not in light]
-    warnings = _notices(solved, list(refusals.values()))
-    return ThermalPath(tuple(status), warnings, **{name: frozen(values) for name, values in curves.items()})
+    path = ThermalPath(tuple(status), **{name: frozen(values) for name, values in curves.items()})
+    return path, [result for point, result in results.items() if point not in light]
 
 
 def contact_at(inputs: ScuffingInputs, points: ContactPoints, point: int) -> ehl.LineContactInputs:

@@ -1,67 +1,158 @@
-"""Largest flash temperature and thinnest film of a path, or the reason why they are not stated.
+"""Largest flash temperature and thinnest film of the lines and of the flank, or the reason why they are not stated.
 
 They are stated only if points without a solution cannot be hotter or thinner; bounds at these points show that.
 """
 
+from collections.abc import Sequence
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
 from solvers.arrays import FloatArray
-from solvers.contact.film import thickness_regime
+from solvers.contact.film import thickness_ratio, thickness_regime
 from solvers.notices import Notice
+from solvers.scuffing.contact_slices import Peak
+from solvers.scuffing.inputs import LoadDistributionInputs
 from solvers.scuffing.results import LoadDistribution
 from solvers.scuffing.safety_results import ContactTemperature, Film, Flash, Safety, ScuffingPath, ThermalPath
+from solvers.scuffing.thermal.practice import scuffing_risk
 
 
-def unknown_points(thermal: ThermalPath, bulk: float | FloatArray) -> int:
-    """Number of unsolved points that may be the hottest or the thinnest by their bounds; bulk temperature [K]."""
-    missing = np.isin(thermal.status, ("no_solution", "refused"))
-    if not _any_number(thermal.minimum_film):
+class CheckedLine(NamedTuple):
+    """The check along a line of the flank, and the distance of its points from the end that meshes first [m]."""
+
+    path: ScuffingPath
+    face: FloatArray
+
+
+def unknown_points(paths: Sequence[ThermalPath], bulks: Sequence[FloatArray]) -> int:
+    """Count the unsolved points of the paths that may be the hottest or the thinnest; bulk temperatures [K]."""
+    status = np.concatenate([path.status for path in paths])
+    film, film_bound, flank, flash_bound = (
+        np.concatenate(values)
+        for values in (
+            [path.minimum_film for path in paths],
+            [path.film_bound for path in paths],
+            [np.fmax(path.pinion_flash, path.wheel_flash) + bulk for path, bulk in zip(paths, bulks, strict=True)],
+            [path.flash_bound + bulk for path, bulk in zip(paths, bulks, strict=True)],
+        )
+    )
+    missing = np.isin(status, ("no_solution", "refused"))
+    if not _any_number(film):
         return int(missing.sum())
-    hottest = np.nanmax(np.fmax(thermal.pinion_flash, thermal.wheel_flash) + bulk)
-    harmless = (thermal.flash_bound + bulk <= hottest) & (thermal.film_bound >= np.nanmin(thermal.minimum_film))
+    harmless = (flash_bound <= np.nanmax(flank)) & (film_bound >= np.nanmin(film))
     return int((missing & ~harmless).sum())
 
 
-def largest_flash(path: ScuffingPath) -> Flash:
-    """Largest flash temperature of the points that have one, by Blok and by the thermal EHL solution (either flank)."""
+def largest_flash(lines: Sequence[CheckedLine], hottest: Peak | None, path_length: float) -> Flash:
+    """Return the largest flash temperatures by Blok and by the thermal EHL solution (either flank of the teeth).
+
+    Parameters
+    ----------
+    lines : sequence of CheckedLine
+        The feature line, and the profile line if it was checked.
+    hottest : Peak or None
+        Largest flash temperature over the flank [K], if the flank was checked.
+    path_length : float
+        Length of the path of contact [m].
+
+    """
+    path, face = lines[0]
     if not _any_number(path.blok_flash):
         return Flash(None, None)
-    hottest = int(np.nanargmax(path.blok_flash))
-    flash = Flash(
-        blok_max=float(path.blok_flash[hottest]),
-        blok_at_psi=float(path.psi[hottest]) if path.blok_flash[hottest] > 0.0 else None,
-    )
-    if path.thermal is None or not _any_number(path.thermal.pinion_flash):
+    place = int(np.nanargmax(path.blok_flash))
+    largest, psi = float(path.blok_flash[place]), float(path.psi[place])
+    flash = Flash(largest, psi, largest, psi, float(face[place])) if largest > 0.0 else Flash(largest, None, largest)
+    if hottest is not None and hottest.value > largest:
+        at_profile = hottest.x / path_length
+        flash = replace(flash, blok_max=hottest.value, blok_at_profile=at_profile, blok_at_face=hottest.y)
+    curves = [
+        np.full(line.face.size, np.nan)
+        if line.path.thermal is None
+        else np.fmax(line.path.thermal.pinion_flash, line.path.thermal.wheel_flash)
+        for line in lines
+    ]
+    found = _extreme(lines, curves, largest=True)
+    if found is None:
         return flash
-    either = np.fmax(path.thermal.pinion_flash, path.thermal.wheel_flash)
-    hottest = int(np.nanargmax(either))
-    return replace(flash, thermal_ehl_max=float(either[hottest]), thermal_ehl_at_psi=float(path.psi[hottest]))
+    value, profile, across = found
+    return replace(
+        flash,
+        thermal_ehl_max=value,
+        thermal_ehl_at_psi=_place_on(path, curves[0], largest=True),
+        thermal_ehl_at_profile=profile,
+        thermal_ehl_at_face=across,
+    )
 
 
-def thinnest_film(path: ScuffingPath) -> Film:
-    """The thinnest film of all points that have one, judged by the thermal EHL solution where there is one."""
-    if not _any_number(path.dowson_higginson):
+def thinnest_film(
+    lines: Sequence[CheckedLine], thinnest: Peak | None, path_length: float, given: LoadDistributionInputs
+) -> Film:
+    """Return the thinnest film of the points that have one, judged by the thermal EHL solution if there is one.
+
+    Parameters
+    ----------
+    lines : sequence of CheckedLine
+        The feature line, and the profile line if it was checked.
+    thinnest : Peak or None
+        Thinnest film of the formula over the flank [m], if the flank was checked.
+    path_length : float
+        Length of the path of contact [m].
+    given : LoadDistributionInputs
+        The pair, whose roughness the film is compared with.
+
+    """
+    formula = [line.path.dowson_higginson for line in lines]
+    judged = _extreme(lines, formula, largest=False)
+    if thinnest is not None and (judged is None or thinnest.value < judged[0]):
+        judged = thinnest.value, thinnest.x / path_length, thinnest.y
+    if judged is None:
         return Film()
-    formula = float(np.nanmin(path.dowson_higginson))
-    judged = path.dowson_higginson if path.thermal is None else path.thermal.minimum_film
-    if not _any_number(judged):
-        return Film(dowson_higginson_min=formula)
-    thinnest = int(np.nanargmin(judged))
-    ratio = float(path.thickness_ratio[thinnest])
-    return Film(
-        dowson_higginson_min=formula,
-        min_at_psi=float(path.psi[thinnest]),
+    film, curves = Film(dowson_higginson_min=judged[0]), formula
+    if lines[0].path.thermal is not None:
+        curves = [line.path.thermal.minimum_film for line in lines if line.path.thermal is not None]
+        judged = _extreme(lines, curves, largest=False)
+        if judged is None:
+            return film
+        film = replace(film, thermal_ehl_min=judged[0])
+    ratio = thickness_ratio(judged[0], given.pinion_material.roughness, given.wheel_material.roughness)
+    return replace(
+        film,
+        min_at_psi=_place_on(lines[0].path, curves[0], largest=False),
+        min_at_profile=judged[1],
+        min_at_face=judged[2],
         thickness_ratio=ratio,
         thickness_regime=thickness_regime(ratio),
-        thermal_ehl_min=None if path.thermal is None else float(judged[thinnest]),
     )
 
 
 def without_thermal(flash: Flash, film: Film) -> tuple[Flash, Film]:
-    """The extremes by formula alone, for a path on which unsolved points may be the hottest or thinnest."""
-    return Flash(flash.blok_max, flash.blok_at_psi), Film(dowson_higginson_min=film.dowson_higginson_min)
+    """Return the extremes by formula alone, for lines on which unsolved points may be the hottest or thinnest."""
+    by_formula = replace(
+        flash, thermal_ehl_max=None, thermal_ehl_at_psi=None, thermal_ehl_at_profile=None, thermal_ehl_at_face=None
+    )
+    return by_formula, Film(dowson_higginson_min=film.dowson_higginson_min)
+
+
+def _extreme(
+    lines: Sequence[CheckedLine], curves: Sequence[FloatArray], *, largest: bool
+) -> tuple[float, float, float] | None:
+    """Return the extreme value of all lines, and its profile (fraction) and face position [m]; None if all are NaN."""
+    values = np.concatenate(curves)
+    if not _any_number(values):
+        return None
+    place = int(np.nanargmax(values) if largest else np.nanargmin(values))
+    profile = np.concatenate([line.path.psi for line in lines])
+    face = np.concatenate([line.face for line in lines])
+    return float(values[place]), float(profile[place]), float(face[place])
+
+
+def _place_on(path: ScuffingPath, values: FloatArray, *, largest: bool) -> float | None:
+    """Return psi of a path's extreme value; None if all are NaN."""
+    if not _any_number(values):
+        return None
+    return float(path.psi[np.nanargmax(values) if largest else np.nanargmin(values)])
 
 
 def _any_number(values: FloatArray) -> bool:
@@ -77,22 +168,26 @@ def _what_leaves_no_film(distribution: LoadDistribution) -> str:
 
 def path_notices(
     distribution: LoadDistribution,
-    path: ScuffingPath,
+    paths: Sequence[ScuffingPath],
     hottest: ContactTemperature | None,
     safety: Safety | None,
     unknown: int,
 ) -> tuple[Notice, ...]:
-    """Warnings: points without a film, unsolved points that may decide, a safety factor without a meaning."""
+    """Warnings: points without a film, unsolved points that may decide, a safety factor without a meaning.
+
+    A note says so if the feature line alone would have another risk than the flank.
+    """
     notices = []
-    if "unloaded" in path.status:
+    status = [one for path in paths for one in path.status]
+    if "unloaded" in paths[0].status:
         message = "there is no film where the feature line is not loaded or does not move"
         notices.append(Notice("no_film", message, _what_leaves_no_film(distribution), rank="note"))
     if unknown:
         notices.append(
             Notice(
                 "unsolved_points",
-                f"{path.status.count('no_solution')} of {len(path.status)} points have no solution and "
-                f"{path.status.count('refused')} are outside the range of the model; {unknown} of them may decide: no "
+                f"{status.count('no_solution')} of {len(status)} points have no solution and "
+                f"{status.count('refused')} are outside the range of the model; {unknown} of them may decide: no "
                 "largest flash temperature, thinnest film or safety is stated from the others",
                 rank="invalid",
             )
@@ -106,4 +201,15 @@ def path_notices(
                 rank="note",
             )
         )
+    if safety is not None and safety.blok_factor is not None:
+        notices += _other_verdict(safety.blok_factor, safety.feature_line_factor)
     return tuple(notices)
+
+
+def _other_verdict(flank: float, feature_line: float | None) -> list[Notice]:
+    """A note if the feature line, which alone was judged before version 0.3, has another risk than the flank."""
+    if feature_line is not None and scuffing_risk(feature_line) == scuffing_risk(flank):
+        return []
+    along = "nothing there gets warmer than the oil" if feature_line is None else f"{feature_line:.2f}"
+    message = f"judged over the whole flank since 0.3: {flank:.2f}; along the feature line: {along}"
+    return [Notice("whole_flank", message, "model.line", rank="note")]

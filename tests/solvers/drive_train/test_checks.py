@@ -86,7 +86,7 @@ def fields(inputs: DriveTrainInputs) -> dict[str, str | None]:
 def test_warnings_of_the_example() -> None:
     found = fields(PLAIN_UNIT)
     assert found["thrust_reversal"] == THRUST
-    assert {"edge_load", "corner_missed"} <= set(found)
+    assert "edge_load" in found
     absent = "wall_response_assumed thrust_overload misalignment_limit thin_film lift_off long_overhang"
     assert not set(absent.split()) & set(found)
     assert "short_bearing_range" not in found, "140 over 200 mm is the limit itself"

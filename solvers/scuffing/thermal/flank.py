@@ -1,0 +1,228 @@
+"""Blok's flash temperature and the film of the formula over the whole flank, and where they are largest and thinnest.
+
+The feature line of the paper is a diagonal. It misses the hot corner of a flank that carries at one end, and of a
+crowned flank it meets the loaded middle only at the pitch point, where nothing slides. At one place along the path the
+contacts differ in their load alone. Maxima over the face are therefore found row by row, and then looked for closer.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from solvers.arrays import BoolArray, FloatArray, IntArray
+from solvers.contact.film import dowson_higginson_minimum
+from solvers.contact.hertz import reduced_modulus
+from solvers.scuffing.contact_lines import line_count
+from solvers.scuffing.contact_slices import Peak
+from solvers.scuffing.flank_results import TOPS, contact_points, tops
+from solvers.scuffing.inputs import LoadDistributionInputs, ScuffingInputs
+from solvers.scuffing.load_balance import LoadBalance, line_loads
+from solvers.scuffing.results import ContactPoints, LoadDistribution
+from solvers.scuffing.thermal.blok import blok_flash
+
+SURVEY_POINTS = 4001  # of the formulas along the feature line, to find where they are largest and smallest
+ZOOMS = 2  # each narrows the place of a maximum by a factor of 6
+ZOOM_POINTS = 13  # points between the neighbours of a top, along the path and across the face, at each zoom
+BESIDE = 1e-12  # of the path: how far beside a jump of the load its two sides are looked at, above rounding
+
+FlankFunction = Callable[[FloatArray, FloatArray], FloatArray]
+"""A value at points x, y [m] of the flank, arrays of one shape."""
+
+
+@dataclass(frozen=True, slots=True)
+class FlashMap:
+    """Blok's flash temperature [K] at x (n,) and y (m,) [m] of the flank, shape (n, m); NaN where it has no limit.
+
+    `load` is the line load [N/m] there. The rows `mapped` are those of the flank's maps. Between them stand the places
+    at which the load jumps along the path, once for each side.
+    """
+
+    x: FloatArray
+    y: FloatArray
+    load: FloatArray
+    flash: FloatArray
+    mapped: BoolArray
+
+
+def contact_at_points(
+    given: LoadDistributionInputs, distribution: LoadDistribution, x: FloatArray, y: FloatArray
+) -> ContactPoints:
+    """Return the contact at points x, y [m] of the flank, arrays of one shape."""
+    return _under(given, distribution, x, line_loads(distribution.balance, x, y))
+
+
+def _under(
+    given: LoadDistributionInputs, distribution: LoadDistribution, x: FloatArray, load: FloatArray
+) -> ContactPoints:
+    modulus = reduced_modulus(given.pinion_material, given.wheel_material)
+    return contact_points(distribution.path_of_contact, distribution.balance, x, load, given.load.pinion_speed, modulus)
+
+
+def map_flash(given: LoadDistributionInputs, distribution: LoadDistribution) -> FlashMap:
+    """Compute Blok's flash temperature over the points of the flank's maps and on both sides of jumps of the load.
+
+    At one place along the path it grows with the load to the power 3/4: with the load over the root of the half-width,
+    which grows with the root of the load.
+    """
+    plane, flank = distribution.path_of_contact.plane, distribution.flank
+    x, y = flank.profile_fraction * plane.path_length, flank.face_fraction * plane.face_width
+    load, mapped, jumps = flank.line_load, np.full(x.size, True), _jumps(distribution.balance)
+    if jumps.size:
+        rows = np.searchsorted(x, jumps)
+        beside = line_loads(distribution.balance, *np.meshgrid(jumps, y, indexing="ij"))
+        x, load, mapped = (
+            np.insert(x, rows, jumps),
+            np.insert(load, rows, beside, axis=0),
+            np.insert(mapped, rows, False),
+        )
+    heaviest = load.max(axis=1)
+    share = load / np.where(heaviest > 0.0, heaviest, 1.0)[:, None]
+    largest = blok_flash(given, _under(given, distribution, x, heaviest))
+    with np.errstate(invalid="ignore"):  # where it has no limit
+        flash = np.where(share > 0.0, largest[:, None] * np.sqrt(share * np.sqrt(share)), 0.0)
+    return FlashMap(x, y, load, flash, mapped)
+
+
+def _jumps(balance: LoadBalance) -> FloatArray:
+    """Return x [m] just before and just behind the places at which a spur gear's load jumps, in ascending order.
+
+    There another pair comes into contact or leaves it, along its whole face at once.
+    """
+    plane, phase = balance.mesh.plane, balance.rolls.phase
+    if plane.tan_base_helix > 0.0:
+        return np.empty(0)
+    phases = np.append(phase[1:][np.diff(phase) == 0.0], 0.0)
+    places = np.add.outer(phases, plane.base_pitch * np.arange(line_count(plane) + 1)).ravel()
+    width = BESIDE * plane.path_length
+    inner = places[(places > 2 * width) & (places < plane.path_length - 2 * width)]
+    return np.unique(np.concatenate([inner - width, inner + width]))
+
+
+def mean_flash(flash: FlashMap) -> float | None:
+    """Return the mean flash temperature over the flank [K]; None if it has no limit somewhere, or is not known."""
+    if np.isnan(flash.flash).any():
+        return None
+    over_face = np.trapezoid(flash.flash, flash.y, axis=1) / flash.y[-1]
+    return float(np.trapezoid(over_face, flash.x) / flash.x[-1])
+
+
+def find_hottest(
+    given: LoadDistributionInputs,
+    distribution: LoadDistribution,
+    flash: FlashMap,
+    bulk: Callable[[FloatArray], FloatArray] | None = None,
+) -> Peak | None:
+    """Find where flash temperature, or bulk and flash together, are largest over the flank.
+
+    Parameters
+    ----------
+    given : LoadDistributionInputs
+        The pair, with its coefficient of friction.
+    distribution : LoadDistribution
+        Its load distribution.
+    flash : FlashMap
+        What `map_flash` returns for both.
+    bulk : callable, optional
+        Bulk temperature [K] at the distance y [m] from the end that meshes first.
+
+    Returns
+    -------
+    Peak or None
+        Largest value [K] and its place [m]; None if the flash temperature is not known everywhere.
+
+    """
+    if np.isnan(flash.flash).any():
+        return None
+
+    def value(x: FloatArray, y: FloatArray) -> FloatArray:
+        temperature = blok_flash(given, contact_at_points(given, distribution, x, y))
+        return temperature if bulk is None else temperature + bulk(y)
+
+    peak = find_largest(flash, flash.flash if bulk is None else flash.flash + bulk(flash.y), value)
+    return _or_on_mirrored_line(distribution, peak, value)
+
+
+def find_thinnest(inputs: ScuffingInputs, distribution: LoadDistribution, flash: FlashMap) -> Peak | None:
+    """Find where the film of the formula is thinnest over the flank.
+
+    Returns
+    -------
+    Peak or None
+        Thinnest film [m] and its place [m]; None if no film is known anywhere.
+
+    """
+    given = inputs.distribution
+
+    def thinness(x: FloatArray, y: FloatArray) -> FloatArray:
+        film = formula_film(inputs, contact_at_points(given, distribution, x, y))
+        return np.divide(1.0, film, out=np.zeros(film.shape), where=~np.isnan(film))
+
+    heaviest = np.argmax(flash.load, axis=1)
+    known = np.zeros(flash.load.shape)
+    known[np.arange(flash.x.size), heaviest] = thinness(flash.x, flash.y[heaviest])
+    if not known.any():
+        return None
+    peak = _or_on_mirrored_line(distribution, find_largest(flash, known, thinness), thinness)
+    return Peak(1.0 / peak.value, peak.x, peak.y)
+
+
+def formula_film(inputs: ScuffingInputs, points: ContactPoints) -> FloatArray:
+    """Compute the minimum film [m] by the formula at points; NaN without an oil and where nothing is in contact."""
+    given, lubricant, bulk = inputs.distribution, inputs.lubricant, inputs.temperatures.bulk
+    film = np.full(points.line_load.shape, np.nan)
+    if lubricant is not None and bulk is not None:
+        touching = points.in_contact
+        film[touching] = dowson_higginson_minimum(
+            viscosity=lubricant.viscosity_at(0.0, bulk),
+            pressure_viscosity=lubricant.pressure_viscosity,
+            mean_speed=(points.pinion_speed[touching] + points.wheel_speed[touching]) / 2,
+            radius=points.radius[touching],
+            line_load=points.line_load[touching],
+            modulus=reduced_modulus(given.pinion_material, given.wheel_material),
+        )
+    return film
+
+
+def _or_on_mirrored_line(distribution: LoadDistribution, peak: Peak, function: FlankFunction) -> Peak:
+    """Return the peak, or that of the other diagonal of a spur pair's flank if it is higher.
+
+    The points of the feature line count as well as what is found over the flank. In its mirror image a spur pair's
+    feature line is the other diagonal: with both, a pair and its image have one largest value.
+    """
+    plane = distribution.path_of_contact.plane
+    if plane.tan_base_helix > 0.0:
+        return peak
+    x, y = np.linspace(0.0, plane.path_length, SURVEY_POINTS), np.linspace(plane.face_width, 0.0, SURVEY_POINTS)
+    values = function(x, y)
+    top = int(np.argmax(values))
+    return max(peak, Peak(float(values[top]), float(x[top]), float(y[top])), key=lambda place: place.value)
+
+
+def find_largest(grid: FlashMap, values: FloatArray, function: FlankFunction) -> Peak:
+    """Find the largest value of a function over the flank, from its values (n, m) on the grid.
+
+    The largest of each row along the path is a ridge. Around the highest tops of the ridge the function is evaluated on
+    finer and finer grids, each of which holds the largest place before: no value is lost.
+    """
+    across = np.argmax(values, axis=1)
+    highest = np.array(tops(values[np.arange(grid.x.size), across])[-TOPS:])
+    each, (i, k) = np.arange(highest.size), (highest, across[highest])
+    x, y = np.tile(grid.x, (highest.size, 1)), np.tile(grid.y, (highest.size, 1))
+    found = values[i, k], x[each, i], y[each, k]
+    for _ in range(ZOOMS):
+        x, y = _around(x, i), _around(y, k)
+        near = function(np.repeat(x[:, :, None], y.shape[1], axis=2), np.repeat(y[:, None, :], x.shape[1], axis=1))
+        i, k = np.divmod(np.argmax(near.reshape(highest.size, -1), axis=1), y.shape[1])
+        found = near[each, i, k], x[each, i], y[each, k]
+    return Peak(*(float(numbers[np.argmax(found[0])]) for numbers in found))
+
+
+def _around(places: FloatArray, top: IntArray) -> FloatArray:
+    """Return equidistant places between the neighbours of one in each row, with that one in place of the nearest."""
+    each, last = np.arange(top.size), places.shape[1] - 1
+    held = places[each, top]
+    low, high = places[each, np.maximum(top - 1, 0)], places[each, np.minimum(top + 1, last)]
+    near = np.linspace(low, high, ZOOM_POINTS, axis=1)
+    near[each, np.argmin(np.abs(near - held[:, None]), axis=1)] = held
+    return near
