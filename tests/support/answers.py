@@ -70,7 +70,7 @@ def differences(
     before, after = leaves(one), leaves(other)
     names = [name for name in before if not re.search(without, name)]
     missing = [f"{name} only in one answer" for name in before.keys() ^ after.keys() if not re.search(without, name)]
-    told = []
+    told: list[str] = []
     for name in names:
         if name in after:
             allowed = next((share for key, share in (loose or {}).items() if re.search(key, name)), tolerance)

@@ -75,7 +75,7 @@ def in_other_units(inputs: Inputs, units: Units) -> Inputs:
     for each in fields(kind):
         unit = declared[each.name].unit if each.name in declared else None
         values[each.name] = _converted(getattr(inputs, each.name), unit, units)
-    return replace(inputs, **values)  # type: ignore[type-var]
+    return replace(inputs, **values)
 
 
 def _converted(value: Any, unit: str | None, units: Units) -> Any:

@@ -47,7 +47,7 @@ def test_grooves_of_a_spur_pair_counted_from_its_other_end(random: Generator) ->
     inputs = draw_case(random)
     inputs = changed(inputs, {"setup.gears.helix_angle": 0.0, "setup.gears.centre_distance": None})
     width = inputs.setup.gears.face_width
-    grooves = (Groove(width * random.uniform(0.2, 0.45), width * random.uniform(0.03, 0.1)),)
+    grooves: tuple[Groove, ...] = (Groove(width * random.uniform(0.2, 0.45), width * random.uniform(0.03, 0.1)),)
     if random.random() < 0.5:
         grooves += (Groove(width * random.uniform(0.6, 0.8), width * random.uniform(0.03, 0.1)),)
     turned = tuple(Groove(width - groove.position, groove.width) for groove in reversed(grooves))
@@ -55,7 +55,7 @@ def test_grooves_of_a_spur_pair_counted_from_its_other_end(random: Generator) ->
     before = leaves(one)
 
     def expected(name: str, values: FloatArray, _: str | None) -> FloatArray:
-        *_, last = name.split(".")
+        last = name.rpartition(".")[2]
         for end, opposite in ENDS.items():
             if re.match(rf"{end}(_|$)", last):
                 found = before[name.replace(end, opposite)].values
