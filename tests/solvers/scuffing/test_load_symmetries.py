@@ -7,7 +7,7 @@ import pytest
 
 from solvers.arrays import FloatArray
 from solvers.scuffing.contact_lines import line_count, line_ends
-from solvers.scuffing.inputs import LeadCurve, LoadDistributionInputs, Resolution
+from solvers.scuffing.inputs import LeadCurve, Load, LoadDistributionInputs, Modifications, Resolution
 from solvers.scuffing.model import mesh_of, solve
 from tests.support.answers import differences
 from tests.support.changes import changed
@@ -95,3 +95,16 @@ def test_the_next_pitch_is_like_the_one_before(random: np.random.Generator) -> N
         for error in (balance.transmission_error, balance.unloaded_error):
             scale = np.abs(balance.transmission_error).max()
             assert error[-1] == pytest.approx(error[0], abs=PARTLY_LOADED * scale)
+
+
+def test_a_crest_narrower_than_a_slice_carries_a_light_load_alone() -> None:
+    """It lies between the places where the loaded parts of a line were looked for: no solution, or a lower crest."""
+    inputs = changed(draw_flank(np.random.default_rng(0)), {"gears.helix_angle": 0.0, "resolution": COARSE})
+    width = inputs.gears.face_width
+    middle, half = 12.5 / 25 * width, 0.45 / 25 * width
+    crest = LeadCurve((0.2 * width, middle - half, middle, middle + half), (0.0, 3e-6, -1e-6, 3e-6))
+    torque = 2e-5 * width * inputs.gears.normal_module * 1e9
+    shape = {"modifications": Modifications(lead_curve=crest), "load": Load(torque, 200.0)}
+    result = solve(changed(inputs, shape))
+    assert result.load.max_at is not None
+    assert result.load.max_at.face_fraction == pytest.approx(0.5, abs=0.02)
