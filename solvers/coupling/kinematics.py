@@ -17,8 +17,10 @@ from solvers.coupling.results import Geometry, KinematicCurves, Kinematics
 
 _LEAST_ROTOR_POSITIONS = 208  # rotor positions a revolution: 4 a pitch for the paper's 52 teeth
 _CURVE_ANGLE = frozen(np.linspace(0.0, 2.0 * pi, 181))  # curves in steps of 2°
-_PITCH_PARTS = 3  # chosen: parts of a pitch, with a Gauss rule of _PITCH_NODES each
-_PITCH_NODES = 8  # chosen: 24 angles a pitch, and exact for polynomials up to degree 15 in each part
+# Parts of a pitch with a Gauss rule of _PITCH_NODES each; chosen even, so that half a turn, which is half a pitch of an
+# odd number of teeth, maps the parts onto themselves.
+_PITCH_PARTS = 4
+_PITCH_NODES = 8  # chosen: 32 angles a pitch, and exact for polynomials up to degree 15 in each part
 _gauss_rule = cache(np.polynomial.legendre.leggauss)
 
 

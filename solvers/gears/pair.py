@@ -83,7 +83,7 @@ def gear_pair(inputs: GearPairInputs) -> GearPair:
         wheel=wheel,
         transverse_module=transverse_module,
         transverse_pressure_angle=transverse_pressure_angle,
-        base_helix_angle=asin(sin(inputs.helix_angle) * cos(inputs.normal_pressure_angle)),
+        base_helix_angle=asin(sin(abs(inputs.helix_angle)) * cos(inputs.normal_pressure_angle)),
         transverse_base_pitch=pi * transverse_module * cos(transverse_pressure_angle),
         backlash_free_centre_distance=backlash_free,
         centre_distance=centre_distance,

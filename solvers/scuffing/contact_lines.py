@@ -110,7 +110,8 @@ def roll_positions(
 def line_ends(plane: ContactPlane, phase: float, side: float) -> tuple[float, float]:
     """First and last y [m] of the contact line x = phase - y tan beta_b; equal where there is none (Eq. L3).
 
-    A spur line at the end of the path counts as in contact on the `side` that lies inside.
+    A spur line at the end of the path counts as in contact on the `side` that lies inside. A helical line that meets
+    the rectangle in a corner is none: rounding would decide whether it leads the teeth without load.
     """
     if plane.tan_base_helix == 0.0:
         nudged = phase + side * COINCIDENT * plane.base_pitch
@@ -119,7 +120,7 @@ def line_ends(plane: ContactPlane, phase: float, side: float) -> tuple[float, fl
         return 0.0, 0.0
     low = max(0.0, (phase - plane.path_length) / plane.tan_base_helix)
     high = min(plane.face_width, phase / plane.tan_base_helix)
-    return low, max(low, high)
+    return (low, high) if high - low > COINCIDENT * plane.face_width else (low, low)
 
 
 @kernel

@@ -121,7 +121,8 @@ def _parts(
             zones[count] = low, high
             found = 1
         else:
-            samples = max(LEAST_SAMPLES, ceil(slices * (high - low) / (last_y - first_y)))
+            pieces = ceil(slices * (high - low) / (last_y - first_y) - 1e-9)
+            samples = 2 * pieces * ceil(LEAST_SAMPLES / (2 * pieces))  # middles of whole lines' slices are among them
             found = loaded_zones(mesh.gap, mesh.plane, line, (low, high), samples, reach, zones[count:])
         for start, end in zones[count : count + found]:
             length += end - start

@@ -51,7 +51,7 @@ def _range_notices(inputs: GearPairInputs) -> list[Notice]:
     for teeth, name in ((inputs.pinion, "pinion"), (inputs.wheel, "wheel")):
         if teeth.teeth < LEAST_TEETH:
             notices.append(Notice("teeth_range", "the model is meant for 8 teeth and more", f"{name}.teeth"))
-    pressure_angle, helix_angle = degrees(inputs.normal_pressure_angle), degrees(inputs.helix_angle)
+    pressure_angle, helix_angle = degrees(inputs.normal_pressure_angle), degrees(abs(inputs.helix_angle))
     if not PRESSURE_ANGLES[0] - 1e-9 <= pressure_angle <= PRESSURE_ANGLES[1] + 1e-9:
         notices.append(
             Notice(
@@ -79,7 +79,7 @@ def model_notices(path: PathOfContact, model: Model) -> list[Notice]:
                 rank="note",
             )
         )
-    if model.section == "transverse" and degrees(path.pair.inputs.helix_angle) > TRANSVERSE_HELIX:
+    if model.section == "transverse" and degrees(abs(path.pair.inputs.helix_angle)) > TRANSVERSE_HELIX:
         notices.append(
             Notice(
                 "transverse_section",

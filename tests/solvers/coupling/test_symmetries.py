@@ -1,0 +1,122 @@
+"""Mirror images of random couplings of users' kind: every number of the answer, not those that one thinks of."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from math import pi
+
+import numpy as np
+
+from solvers.arrays import FloatArray
+from solvers.coupling.inputs import CouplingInputs
+from solvers.coupling.model import solve
+from solvers.coupling.orbit import solve_orbit
+from solvers.coupling.results import AxialThrust
+from tests.support.answers import Expected, differences, unchanged
+from tests.support.changes import changed, scaled
+from tests.support.couplings import random_inputs
+from tests.support.properties import seeds
+
+SLIDING = "kinematics.curves.sliding_velocity"
+TRAVEL = "kinematics.curves.contact_position"
+PLACE = "load_distribution.sleeve_displacement"
+
+
+def unlike(
+    inputs: CouplingInputs,
+    image: CouplingInputs,
+    expected: Expected,
+    answer: Callable[[CouplingInputs], object] = solve,
+) -> list[str]:
+    """What differs between a coupling and its image."""
+    return differences(answer(inputs), answer(image), expected)
+
+
+@seeds(25, 1000)
+def test_a_coupling_that_tilts_the_other_way(random: np.random.Generator) -> None:
+    """With its rotor half a turn further it is the same coupling seen from behind."""
+    inputs = random_inputs(random)
+    image = scaled(inputs, -1.0, "operation.misalignment")
+    image = changed(image, {"model.rotor_angle": inputs.model.rotor_angle + pi})
+
+    def expected(name: str, values: FloatArray, _: str | None) -> FloatArray:
+        if name == "load_distribution.curves.angle":
+            return values + pi
+        return -values if name in {SLIDING, TRAVEL, PLACE} else values
+
+    assert not unlike(inputs, image, expected)
+
+
+@seeds(25, 1000)
+def test_a_coupling_that_turns_the_other_way(random: np.random.Generator) -> None:
+    inputs = random_inputs(random)
+
+    def expected(name: str, values: FloatArray, _: str | None) -> FloatArray:
+        return -values if name == SLIDING else values
+
+    assert not unlike(inputs, scaled(inputs, -1.0, "operation.speed"), expected)
+
+
+@seeds(25, 1000)
+def test_a_hub_that_moves_the_other_way(random: np.random.Generator) -> None:
+    """Its thrust turns, and the bounds of the thrust change places; two meshes would also pull by themselves."""
+    inputs = random_inputs(random, single=True)
+
+    def expected(name: str, values: FloatArray, _: str | None) -> FloatArray:
+        turned = ("axial_thrust.force", "axial_thrust.fraction_of_limit", "axial_thrust.uniform_load_force")
+        return -values if name in turned else values
+
+    def with_bounds_exchanged(inputs: CouplingInputs) -> object:
+        result = solve(inputs)
+        if inputs.operation.axial_velocity >= 0.0:
+            return result
+        return replace(result, axial_thrust=_exchanged(result.axial_thrust))
+
+    if inputs.operation.axial_velocity:
+        image = scaled(inputs, -1.0, "operation.axial_velocity")
+        assert not unlike(inputs, image, expected, with_bounds_exchanged)
+
+
+def _exchanged(thrust: AxialThrust) -> AxialThrust:
+    return replace(thrust, lower_bound=-thrust.upper_bound, upper_bound=-thrust.lower_bound)
+
+
+@seeds(25, 1000)
+def test_hubs_that_are_tilted_alike_may_be_exchanged_for_hubs_that_turn_back(random: np.random.Generator) -> None:
+    """Seen from the other end of the sleeve the speed is the other, and so is the tilt of two hubs that tilt alike."""
+    inputs = changed(random_inputs(random), {"operation.arrangement": "parallel_offset"})
+    image = scaled(inputs, -1.0, "operation.speed", "operation.misalignment")
+
+    def expected(name: str, values: FloatArray, _: str | None) -> FloatArray:
+        return -values if name == TRAVEL else values
+
+    turned = changed(image, {"model.rotor_angle": inputs.model.rotor_angle + pi})
+    assert not differences(solve(inputs).axial_thrust, solve(turned).axial_thrust, expected)
+
+
+@seeds(25, 1000)
+def test_tooth_numbers_may_start_anywhere(random: np.random.Generator) -> None:
+    """The tooth with number 0 is a choice; what is told per tooth moves with the numbers."""
+    inputs = random_inputs(random, errors=True)
+    teeth = inputs.coupling.teeth
+    steps = int(random.integers(1, teeth))
+    errors = inputs.coupling.pitch_errors or ()
+    moved = {
+        "coupling.pitch_errors": errors[-steps:] + errors[:-steps],
+        "model.rotor_angle": inputs.model.rotor_angle - 2 * pi * steps / teeth,
+    }
+
+    def expected(name: str, values: FloatArray, _: str | None) -> FloatArray:
+        if name == "load_distribution.curves.angle":
+            return values - 2 * pi * steps / teeth
+        return np.roll(values, steps) if name == "load_distribution.curves.tangential_force" else values
+
+    without = r"^derived\.pitch_errors"
+    assert not differences(solve(inputs), solve(changed(inputs, moved)), expected, without=without)
+
+
+@seeds(4, 100)
+def test_an_orbit_begins_where_the_rotor_is_said_to_stand(random: np.random.Generator) -> None:
+    """The same sleeve under the other sense of rotation: the path is gone through as often, and by the same forces."""
+    inputs = random_inputs(random, errors=True, single=True)
+    image = scaled(inputs, -1.0, "operation.speed")
+    assert not differences(solve_orbit(inputs), solve_orbit(image), unchanged)

@@ -1,0 +1,103 @@
+"""The same machine in other units of length, mass and time: every declared number of every answer by its own unit.
+
+A constant with a dimension that hides in an equation, and a tolerance in metres that decides something, would show.
+"""
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from hypothesis import strategies as st
+from numpy.random import Generator
+
+from solvers.coupling.model import solve as solve_coupling
+from solvers.coupling.orbit import solve_orbit
+from solvers.drive_train.inputs import Bearing, DriveTrainInputs, JournalBearing, LinearBearing
+from solvers.drive_train.states import solve as solve_drive_train
+from solvers.pumping import PumpingInputs, PumpingModel
+from solvers.pumping.model import solve as solve_pumping
+from solvers.scuffing.model import solve as solve_load_distribution
+from tests.support.answers import differences
+from tests.support.changes import changed
+from tests.support.couplings import random_inputs
+from tests.support.dimensions import Units, factor, in_other_units, rescaled
+from tests.support.flanks import draw_flank
+from tests.support.properties import examples, seeds
+from tests.support.pumping_cases import random_setup, random_speed
+from tests.support.random_units import units
+
+# Limits of handbooks and of checks, in metres per second: an answer says which side of them it is on.
+ABSOLUTE = r"^warnings$"
+
+
+def other_units(random: Generator) -> Units:
+    return Units(*np.exp(random.uniform(-1.0, 1.0, 3)).tolist())
+
+
+@seeds(25, 1000)
+def test_coupling(random: Generator) -> None:
+    """The sliding velocity of the Tribology Handbook and weight have their own units."""
+    inputs, units = random_inputs(random), other_units(random)
+    without = rf"{ABSOLUTE}|^limits\.(sliding_velocity_limit|allowable_misalignment|sleeve_centring_torque)$"
+    one, other = solve_coupling(inputs), solve_coupling(in_other_units(inputs, units))
+    assert not differences(one, other, rescaled(units), without=without)
+
+
+@seeds(5, 100)
+def test_sleeve_orbit(random: Generator) -> None:
+    """An orbit repeats to 1e-12 m, which is 1e-5 of a small one and decides how many sweeps are made."""
+    inputs, units = random_inputs(random, errors=True, single=True), other_units(random)
+    one, other = solve_orbit(inputs), solve_orbit(in_other_units(inputs, units))
+    without = rf"{ABSOLUTE}|^sweeps$|^change$|uncertainty$"
+    assert not differences(one, other, rescaled(units), without=without, tolerance=1e-5)
+
+
+@seeds(4, 200)
+def test_pumping(random: Generator) -> None:
+    """A slice that enters its stroke at the very time of a picture may be drawn there at rest or not."""
+    setup = random_setup(random, PumpingModel(slices=int(random.integers(10, 50))))
+    inputs, units = PumpingInputs(setup, random_speed(random, setup)), other_units(random)
+    one, other = solve_pumping(inputs), solve_pumping(in_other_units(inputs, units))
+    assert not differences(one, other, rescaled(units), without=rf"{ABSOLUTE}|\.field\.")
+
+
+@seeds(25, 1000)
+def test_load_distribution(random: Generator) -> None:
+    """The stiffness of ISO 6336-1 is a number for steel and falls below 100 N/mm, which have their own units."""
+    inputs, units = draw_flank(random), other_units(random)
+    one, other = solve_load_distribution(inputs), solve_load_distribution(in_other_units(inputs, units))
+    without = rf"{ABSOLUTE}|^stiffness\.standard_"
+    assert not differences(one, other, rescaled(units), without=without)
+
+
+def unit_in_other_units(inputs: DriveTrainInputs, units: Units) -> DriveTrainInputs:
+    """A gear unit, with its bearings, whose numbers carry no units, and with gravity, which is a factor."""
+    length, viscosity, stiffness = (factor(units, unit) for unit in ("mm", "pa_s", "n_per_um"))
+
+    def bearing(one: Bearing) -> Bearing:
+        x, y = one.offset
+        known: dict[str, Any] = {"position": length * one.position, "offset": (length * x, length * y)}
+        if isinstance(one, JournalBearing):
+            known |= {name: length * getattr(one, name) for name in ("diameter", "width", "radial_clearance")}
+            known["viscosity"] = viscosity * one.viscosity
+        elif isinstance(one, LinearBearing):
+            known["stiffness"] = tuple(tuple(stiffness * value for value in row) for row in one.stiffness)
+        return replace(one, **known)
+
+    shafts = [replace(shaft, bearings=tuple(bearing(one) for one in shaft.bearings)) for shaft in inputs.shafts]
+    converted = in_other_units(replace(inputs, pinion_shaft=shafts[0], wheel_shaft=shafts[1]), units)
+    gravity = inputs.arrangement.gravity_factor * units.length / units.time**2
+    return changed(converted, {"arrangement.gravity_factor": gravity})
+
+
+@st.composite
+def unit_systems(draw: st.DrawFn) -> Units:
+    return Units(*(draw(st.floats(0.4, 2.5)) for _ in range(3)))
+
+
+@examples(5, 200, units(), unit_systems())
+def test_drive_train(inputs: DriveTrainInputs, system: Units) -> None:
+    """The gap of shafts and mesh is settled to 1e-12 m."""
+    one, other = solve_drive_train(inputs), solve_drive_train(unit_in_other_units(inputs, system))
+    without = rf"{ABSOLUTE}|^convergence\.|^derived\."
+    assert not differences(one, other, rescaled(system), without=without, tolerance=1e-6)
