@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from playwright.sync_api import Page, expect
+from playwright.sync_api import Page, Route, expect
 
 from app.calculations import BY_PATH
 from app.examples import examples
@@ -109,6 +109,23 @@ def test_nothing_is_wrong_before_the_first_calculation(visit: Callable[..., Page
     expect(page.locator(".wrong")).to_have_count(0)
     expect(page.locator(".problem")).to_have_count(0)
     page.get_by_role("button", name="Calculate", exact=True).click()
+    expect(page.locator(".problem")).to_be_visible()
+    expect(page.locator('[name="coupling.module_mm"]')).to_be_focused()
+
+
+def test_calculate_pressed_while_a_request_runs_is_remembered(visit: Callable[..., Page]) -> None:
+    page = visit("/coupling")
+    held: list[Route] = []
+
+    def hold(route: Route) -> None:
+        held.append(route)
+
+    page.route("**/coupling?*", hold, times=1)
+    with page.expect_request("**/coupling?*"):
+        page.locator('[name="coupling.teeth"]').fill("40")
+    page.get_by_role("button", name="Calculate", exact=True).click()
+    expect(page.locator("#state")).to_have_text("calculating …")
+    held[0].continue_()
     expect(page.locator(".problem")).to_be_visible()
     expect(page.locator('[name="coupling.module_mm"]')).to_be_focused()
 

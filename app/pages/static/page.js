@@ -6,6 +6,7 @@ const form = document.getElementById("form");
 const long = Number(document.querySelector(".work").dataset.long);
 let timer = 0;
 let running = null;
+let pressed = false; // Calculate, while a request ran
 let shown = caseOf(form);
 
 function pairsOf(element) {
@@ -31,7 +32,7 @@ function schedule() {
 async function update(force = false) {
   const wanted = caseOf(form);
   if (wanted === shown && !force) return;
-  if (running) { schedule(); return; }
+  if (running !== null) { pressed ||= force; return; }
   running = wanted;
   const result = document.getElementById("result");
   result.classList.add("old");
@@ -51,7 +52,10 @@ async function update(force = false) {
     say("The service does not answer; the result is that of before.");
   }
   running = null;
-  if (caseOf(form) !== wanted) schedule();
+  const again = pressed;
+  pressed = false;
+  if (again) update(true);
+  else if (caseOf(form) !== wanted) schedule();
 }
 
 async function ask(wanted) {
