@@ -1,4 +1,4 @@
-"""From a query string to a request body and back: dotted names, list indices, numbers as people type them."""
+"""From a query string or a form to a request body and back: dotted names and list indices."""
 
 import re
 from collections.abc import Iterable
@@ -6,6 +6,7 @@ from typing import Any
 from urllib.parse import parse_qsl, urlencode
 
 from app.errors import Unreadable
+from app.pages.typed import DOUBT, in_link, list_in_link, number_of, plain_number_of, text_of
 from app.schema.fields import ITEM, Leaf, branches, leaf_at
 from app.schema.model import Documented
 
@@ -28,6 +29,9 @@ REPORT_NAMES = {"title": 200, "project": 200, "part": 200, "author": 200, "check
 VIEW_NAMES = STUDY_NAMES | REPORT_NAMES.keys() | {"paper", "ref", "theme", "sources", "curve"}
 PICK = "pick:"
 """Before the name of a choice between fields that exclude each other; its value is the field that counts."""
+WRITTEN = "written"
+"""The name of the hidden field by which a form is known; it holds, as a query, what the server wrote into the form and
+would read otherwise if it were typed."""
 MOST_FIELDS = 1000  # chosen: far beyond the longest form
 DEEPEST = 12  # parts of a name; no field lies as deep
 LONGEST_QUERY = 6000  # characters: common proxies refuse a request line beyond 8 KiB
@@ -36,12 +40,6 @@ MATRIX = 2  # dimensions
 SIDE = 2  # of a matrix: the two directions across a shaft
 PRESENT = "on"
 
-_NUMBER = re.compile(r"[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?")
-_SPACED = re.compile(r"[+-]?\d{1,3}([ '\u00a0\u2009\u202f]\d{3})+([.,]\d*)?")
-_ENGLISH = re.compile(r"[+-]?\d{1,3}(,\d{3})+\.\d*|[+-]?\d{1,3}(,\d{3}){2,}")
-_GERMAN = re.compile(r"[+-]?\d{1,3}(\.\d{3})+,\d*|[+-]?\d{1,3}(\.\d{3}){2,}")
-_AMBIGUOUS = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}")
-_INTEGER = re.compile(r"[+-]?\d{1,18}")
 _PASTED = re.compile(r"[\s;]+")
 
 
@@ -56,6 +54,30 @@ def pairs_of_query(query: str) -> Pairs:
 def split_views(pairs: Pairs) -> tuple[Pairs, dict[str, str]]:
     """The case, and what only concerns how it is looked at."""
     return [pair for pair in pairs if pair[0] not in VIEW_NAMES], {n: text for n, text in pairs if n in VIEW_NAMES}
+
+
+def from_form(model: type[Documented], pairs: Pairs) -> Pairs:
+    """The fields as a link has them: where a form sent them, typed texts are read; what the server wrote stands."""
+    written = next((text for name, text in pairs if name == WRITTEN), None)
+    if written is None:
+        return pairs
+    own = set(pairs_of_query(written))
+    plain = [(name, text.replace("\r\n", "\n").strip()) for name, text in pairs if name != WRITTEN]
+    return [(name, text if (name, text) in own else _in_link(model, name, text)) for name, text in plain]
+
+
+def written_of(model: type[Documented], pairs: Pairs) -> str:
+    """What the server says that it has written where it fills a form with these texts of a link."""
+    kept = [(name, text) for name, text in pairs if not text.endswith(DOUBT) and _in_link(model, name, text) != text]
+    return urlencode(kept, safe=",:", errors="replace")
+
+
+def _in_link(model: type[Documented], name: str, text: str) -> str:
+    """The text of a link for what was typed in a field."""
+    leaf = leaf_at(model, name) or leaf_at(model, name.rpartition(".")[0].rpartition(".")[0])
+    if leaf is None or leaf.options or leaf.kind not in {"number", "integer"}:
+        return text
+    return list_in_link(text, leaf.unit) if leaf.dimensions == 1 else in_link(text, leaf.unit)
 
 
 def normalised(model: type[Documented], pairs: Pairs) -> Pairs:
@@ -155,38 +177,11 @@ def _value(model: type[Documented], name: str, text: str) -> Any:
     return number_of(text) if leaf.kind in {"number", "integer"} else text
 
 
-def number_of(text: str) -> Any:
-    """The number that a single field holds, with a decimal point or comma; what is none stays text.
-
-    Digits may stand in groups of three, where that leaves no doubt which mark is the decimal one.
-    """
-    plain = re.sub(r"[ '\u00a0\u2009\u202f]", "", text) if _SPACED.fullmatch(text) else text
-    if _ENGLISH.fullmatch(plain):
-        plain = plain.replace(",", "")
-    elif _GERMAN.fullmatch(plain):
-        plain = plain.replace(".", "")
-    number = text if _AMBIGUOUS.fullmatch(plain) else _number(plain.replace(",", ".", 1))
-    return text if isinstance(number, str) else number
-
-
-def ambiguity(text: str) -> str:
-    """Why a text with a comma is no number, if both readings of the comma make one."""
-    if not _AMBIGUOUS.fullmatch(text):
-        return ""
-    return f"{text} may mean {text.replace(',', '.')} or {text.replace(',', '')}; write one of these"
-
-
 def _listed(leaf: Leaf, text: str) -> list[Any]:
     """A list in a link has commas; a pasted one blanks, lines or semicolons, and perhaps commas before them."""
     items = _PASTED.split(text.strip(" \t\r\n;"))
     items = text.split(",") if len(items) == 1 else [item.removesuffix(",") for item in items]
-    return [item.strip() if leaf.kind == "text" else _number(item.strip()) for item in items]
-
-
-def _number(text: str) -> Any:
-    if _INTEGER.fullmatch(text):
-        return int(text)
-    return float(text) if _NUMBER.fullmatch(text) and "," not in text else text
+    return [item.strip() if leaf.kind == "text" else plain_number_of(item.strip()) for item in items]
 
 
 def _with_lists(model: type[Documented], content: Any, path: str = "") -> Any:
@@ -213,12 +208,3 @@ def _matrix(elements: dict[str, Any]) -> Any:
     matrix = [[row.get(place) for place in places] for row in rows]
     alone = matrix[0][0]
     return alone if elements == {"0": {"0": alone}} else matrix
-
-
-def text_of(value: Any) -> str:
-    """A value as it is typed: integers without a point, other numbers in as few digits as give them back."""
-    if isinstance(value, bool):
-        return "true" if value else "false"
-    if isinstance(value, float) and value.is_integer() and abs(value) < 1e15:
-        return str(int(value))
-    return str(value)

@@ -12,6 +12,7 @@ from app.calculations import BY_PATH
 from app.examples import examples
 from app.pages.query import link, pairs_of
 from tests.support.browsing import DESK, PHONE, address_of, overflow, violations
+from tests.support.lists import LISTS
 
 pytestmark = pytest.mark.service
 
@@ -90,7 +91,7 @@ def test_after_an_error_the_last_good_result_stays(visit: Callable[..., Page]) -
     page = visit(address_of(COUPLING))
     field = page.locator('[name="operation.torque_n_m"]')
     field.fill("200,000")
-    expect(page.locator(".problem")).to_contain_text("200,000 may mean 200.000 or 200000")
+    expect(page.locator(".problem")).to_contain_text("200,000 may mean 200000 or 200")
     expect(page.locator(".problem")).to_contain_text("transmitted torque")
     expect(page.locator(".card").first).to_be_visible()
     expect(page.locator("#result")).to_have_class(re.compile("old"))
@@ -128,6 +129,48 @@ def test_calculate_pressed_while_a_request_runs_is_remembered(visit: Callable[..
     held[0].continue_()
     expect(page.locator(".problem")).to_be_visible()
     expect(page.locator('[name="coupling.module_mm"]')).to_be_focused()
+
+
+def test_calculate_on_an_empty_form_says_what_is_missing(visit: Callable[..., Page]) -> None:
+    page = visit("/coupling")
+    page.get_by_role("button", name="Calculate", exact=True).click()
+    expect(page.locator(".problem")).to_contain_text("number of teeth")
+    expect(page.locator('[name="coupling.teeth"]')).to_be_focused()
+    assert page.url.endswith("/coupling")
+
+
+def test_typed_numbers_are_read_as_meant_or_asked_back(visit: Callable[..., Page]) -> None:
+    page = visit(address_of(COUPLING))
+    field = page.locator('[name="operation.torque_n_m"]')
+    field.fill("3,5 kNm")
+    expect(page).to_have_url(re.compile("torque_n_m=3500&"))
+    assert field.input_value() == "3,5 kNm"
+    field.fill("3.500")
+    expect(page.locator('[id="f.operation.torque_n_m-fault"]')).to_have_text(re.compile("may mean 3500 or 3.5;"))
+    page.reload()
+    assert field.input_value() == "3.500"
+    expect(page.locator('[id="f.operation.torque_n_m-fault"]')).to_have_text(re.compile("may mean 3500 or 3.5;"))
+    field.fill("3 500")
+    expect(page.locator(".card").first).to_be_visible()
+
+
+def test_numbers_of_a_link_are_not_asked_back(visit: Callable[..., Page]) -> None:
+    link_of_case = re.sub(r"torque_n_m=[\d.]+", "torque_n_m=999.125", address_of(COUPLING))
+    page = visit(link_of_case)
+    assert page.locator('[name="operation.torque_n_m"]').input_value() == "999.125"
+    page.locator('[name="operation.speed_rpm"]').fill("1 920")
+    expect(page).to_have_url(re.compile("torque_n_m=999.125&.*speed_rpm=1920"))
+    expect(page.locator(".problem")).to_have_count(0)
+
+
+def test_values_of_a_list_are_counted_as_they_are_read(visit: Callable[..., Page]) -> None:
+    page = visit("/coupling")
+    page.locator('[data-section="coupling"]').evaluate("part => { part.open = true; }")
+    for text, values in LISTS:
+        if values is not None and "°" not in text:
+            page.locator('[name="coupling.pitch_errors_um"]').fill(text)
+            shown = page.locator('[id="f.coupling.pitch_errors_um-count"]')
+            expect(shown).to_have_text(f"{len(values)} values")
 
 
 def test_cards_stay_in_sight(visit: Callable[..., Page]) -> None:

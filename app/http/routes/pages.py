@@ -25,7 +25,7 @@ from app.pages import views
 from app.pages.cases import Asked, key_of, opened
 from app.pages.manual import chapter_page, contents_page, functions_page
 from app.pages.overview import start_page
-from app.pages.query import link, normalised, pairs_of_query, split_views
+from app.pages.query import WRITTEN, from_form, link, normalised, pairs_of_query, split_views
 from app.pages.templating import ASSETS, example_link, page_path, rendered
 from app.settings import Settings
 from app.sources import SHORT_SOURCES
@@ -151,7 +151,7 @@ async def _answer(
 ) -> Response:
     """One view of the case in the query or the form; a query with empty fields is redirected to one without."""
     asked, clean = await asked_of(http, calculation)
-    if not clean and http.scope["method"] == "GET":
+    if not clean and http.scope["method"] == "GET" and (asked.pairs or not asked.pressed):
         return redirected(get_route_path(http.scope), asked)
     if asked.pairs:
         http.app.state.start_up.require(calculation.path)
@@ -167,7 +167,7 @@ def redirected(place: str, asked: Asked) -> Response:
 
 
 async def asked_of(http: Request, calculation: Calculation) -> tuple[Asked, bool]:
-    """The case asked for, and whether its query was in the shortest form, without empty fields."""
+    """The case asked for, and whether its query was a link in the shortest form, without empty fields."""
     text = http.url.query
     if http.scope["method"] == "POST":
         if http.headers.get("content-type", "").partition(";")[0].strip() != FORM:
@@ -180,10 +180,11 @@ async def asked_of(http: Request, calculation: Calculation) -> tuple[Asked, bool
             raise Unreadable(f"{example.name} is an example of {page_path(BY_PATH[example.endpoint])}")
         sent = pairs_of_query(example_link(calculation, example).partition("?")[2])
         return Asked(page_path(calculation), sent, given, root=root_of(http)), False
-    pairs = normalised(calculation.request, sent)
+    pairs, pressed = normalised(calculation.request, from_form(calculation.request, sent)), WRITTEN in dict(sent)
     asked = Asked(page_path(calculation), pairs, given, root=root_of(http))
     kept, kept_ref = (http.app.state.answers.get(key_of(asked.path, each)) for each in (pairs, asked.ref_pairs))
-    return replace(asked, kept=kept, kept_ref=kept_ref), pairs == sent and given == looks
+    asked = replace(asked, kept=kept, kept_ref=kept_ref, pressed=pressed)
+    return asked, pairs == sent and given == looks
 
 
 def _kept(http: Request, path: str) -> Asked:

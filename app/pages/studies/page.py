@@ -14,10 +14,11 @@ from app.figures.data import Figure
 from app.pages.cases import REFUSED, Asked, Case, Fault, faults_of, solved
 from app.pages.charts import embedded
 from app.pages.form import FieldView
-from app.pages.query import LONGEST_QUERY, STUDY_NAMES, link, number_of, pairs_of, text_of
+from app.pages.query import LONGEST_QUERY, STUDY_NAMES, link, pairs_of
 from app.pages.results import NOT_RESULTS
 from app.pages.study_links import Starter, StudyExample, StudyLink
 from app.pages.templating import examples_of, rendered
+from app.pages.typed import number_of, text_of
 from app.pages.views import report as case_report
 from app.schema.fields import ITEM, Leaf, headlines, leaf_at, leaves, tree
 from app.sources import SHORT_SOURCES

@@ -13,10 +13,11 @@ from app.figures.units import axis_of
 from app.figures.wording import percent
 from app.pages import study_links
 from app.pages.form import FieldView
-from app.pages.query import SCATTERING, Pairs, link, number_of, pairs_of, text_of
+from app.pages.query import SCATTERING, Pairs, link, pairs_of
 from app.pages.studies.page import Controls, Link, Number, Result, StudyPage, Table
 from app.pages.studies.sweep import field_choices, is_number
 from app.pages.templating import page_path
+from app.pages.typed import number_of, text_of
 from app.pages.typesetting import cited, shown
 from app.schema.fields import leaf_at
 from app.studies.engine import Line
