@@ -6,14 +6,23 @@ from typing import Any
 from urllib.parse import parse_qsl, urlencode
 
 from app.errors import Unreadable
-from app.pages.typed import DOUBT, in_link, list_in_link, number_of, plain_number_of, text_of
+from app.pages.typed import (
+    as_typed,
+    in_link,
+    items_in_link,
+    list_in_link,
+    number_of,
+    plain_number_of,
+    table_in_link,
+    text_of,
+)
 from app.schema.fields import ITEM, Leaf, branches, leaf_at
 from app.schema.model import Documented
 
 Pairs = list[tuple[str, str]]
 
 # What a study of a case varies or may choose, how often, and which output it shows.
-LOWER, UPPER, TRIALS, CORNER = "low.", "high.", "trials", "corner."
+LOWER, UPPER, TRIALS, CORNER, CASES = "low.", "high.", "trials", "corner.", "cases"
 UNCERTAIN = ("wall response", "pinion clearance", "wheel clearance", "friction", "offset", "thrust fraction")
 CHOSEN = 3  # ranges of a search
 SCATTERING = 12  # fields of a load spectrum
@@ -22,11 +31,11 @@ STUDY_NAMES = frozenset(
     | {f"{end}{place}" for end in (LOWER, UPPER) for place in range(CHOSEN)}
     | {f"{CORNER}{quantity.replace(' ', '_')}" for quantity in UNCERTAIN}
     | {f"t{place}{part}" for place in range(SCATTERING) for part in ("", ".law", ".by", ".about")}
-    | {"show", "best", TRIALS, "cases", "hours", "machines", "limit", "limit.by", "limit.side"}
+    | {"show", "best", TRIALS, CASES, "hours", "machines", "limit", "limit.by", "limit.side"}
 )
 REPORT_NAMES = {"title": 200, "project": 200, "part": 200, "author": 200, "checker": 200, "notes": 2000}
 """What a report says of its occasion, and how many characters of it at most."""
-VIEW_NAMES = STUDY_NAMES | REPORT_NAMES.keys() | {"paper", "ref", "theme", "sources", "curve"}
+VIEW_NAMES = STUDY_NAMES | REPORT_NAMES.keys() | {"paper", "ref", "theme", "sources", "curve", "unlinked"}
 PICK = "pick:"
 """Before the name of a choice between fields that exclude each other; its value is the field that counts."""
 WRITTEN = "written"
@@ -61,19 +70,33 @@ def from_form(model: type[Documented], pairs: Pairs) -> Pairs:
     written = next((text for name, text in pairs if name == WRITTEN), None)
     if written is None:
         return pairs
-    own = set(pairs_of_query(written))
-    plain = [(name, text.replace("\r\n", "\n").strip()) for name, text in pairs if name != WRITTEN]
-    return [(name, text if (name, text) in own else _in_link(model, name, text)) for name, text in plain]
+    own = set(_plain(pairs_of_query(written)))
+    plain = _plain(pair for pair in pairs if pair[0] != WRITTEN)
+    all_of = dict(plain)
+    return [(name, text if (name, text) in own else _in_link(model, name, text, all_of)) for name, text in plain]
+
+
+def _plain(pairs: Iterable[tuple[str, str]]) -> Pairs:
+    """Texts without the blanks and line ends that a browser adds; tabs part the cells of a table."""
+    return [(name, text.replace("\r\n", "\n").strip(" \n")) for name, text in pairs]
 
 
 def written_of(model: type[Documented], pairs: Pairs) -> str:
     """What the server says that it has written where it fills a form with these texts of a link."""
-    kept = [(name, text) for name, text in pairs if not text.endswith(DOUBT) and _in_link(model, name, text) != text]
+    all_of = dict(pairs)
+    kept = [(name, text) for name, text in pairs if as_typed(text) == text != _in_link(model, name, text, all_of)]
     return urlencode(kept, safe=",:", errors="replace")
 
 
-def _in_link(model: type[Documented], name: str, text: str) -> str:
-    """The text of a link for what was typed in a field."""
+def _in_link(model: type[Documented], name: str, text: str, others: dict[str, str]) -> str:
+    """The text of a link for what was typed in a field, or in a control of a study beside `others`."""
+    if name == CASES:
+        return table_in_link(text)
+    if name.startswith(CORNER):
+        return items_in_link(text)
+    if name in STUDY_NAMES:
+        leaf = leaf_at(model, others.get(name.partition(".")[0], ""))  # which is varied, or scatters
+        return in_link(text, leaf.unit if leaf else None)
     leaf = leaf_at(model, name) or leaf_at(model, name.rpartition(".")[0].rpartition(".")[0])
     if leaf is None or leaf.options or leaf.kind not in {"number", "integer"}:
         return text

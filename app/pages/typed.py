@@ -6,6 +6,7 @@ a question mark, with which it is no number, and `question` says what to ask.
 """
 
 import re
+from decimal import Decimal
 from typing import Any
 
 DOUBT = "?"
@@ -62,7 +63,7 @@ def plain_number_of(text: str) -> Any:
 def in_link(text: str, unit: str | None = None) -> str:
     """Return the text of a link for a number typed in a field with this unit; text that is no number is unchanged."""
     parts = _parts(text)
-    power = _power_between(parts[3], unit) if parts else None
+    power = power_between(parts[3], unit) if parts else None
     if parts is None or power is None:
         return text
     if (_DOUBTFUL.fullmatch(parts[1]) and not parts[2]) or _unit_in_doubt(parts):
@@ -88,14 +89,55 @@ def list_in_link(text: str, unit: str | None = None) -> str:
     return ",".join(numbers) if all(map(_NUMBER.fullmatch, numbers)) else text
 
 
+def items_in_link(text: str) -> str:
+    """Return the text of a link for numbers in rows, each as it is read."""
+    return re.sub(r"[^;\s]+", lambda item: in_link(item[0]), text)
+
+
+def table_in_link(text: str) -> str:
+    """Return the text of a link for a table whose first line names the columns: its cells are read as numbers."""
+    separator = separator_of(text)
+    heading, *rows = text.split("\n")
+    named = [cell.strip().lower() == "name" for cell in heading.split(separator)]
+    cells = ([*enumerate(row.split(separator))] for row in rows)
+    read = [
+        separator.join(cell if place < len(named) and named[place] else in_link(cell.strip()) for place, cell in row)
+        for row in cells
+    ]
+    return "\n".join([heading, *read])
+
+
+def separator_of(text: str) -> str:
+    """Return what parts the columns of a table: tabs, as a spreadsheet copies them, or semicolons."""
+    first = next((line for line in text.splitlines() if line.strip()), "")
+    return next((each for each in "\t;" if each in first), "\t")
+
+
+def scaled(value: Any, power: int) -> Any:
+    """Return a number times a power of ten, rounded once; what is no number is unchanged."""
+    return float(Decimal(str(value)).scaleb(power)) if power and isinstance(value, int | float) else value
+
+
 def as_typed(text: str) -> str:
-    """Return the text as it was typed, without the mark of a doubt."""
-    return text.removesuffix(DOUBT)
+    """Return the text as it was typed, without the marks of doubts."""
+
+    def unmarked(item: str) -> str:
+        return item.removesuffix(DOUBT) if question(item) else item
+
+    return unmarked(re.sub(r"[^;\s]+", lambda item: unmarked(item[0]), text))
+
+
+def power_between(typed: str | None, own: str | None) -> int | None:
+    """Return the power of ten that converts numbers from a typed unit to a field's own; None for another quantity."""
+    if not typed or _packed(typed) == _packed(own or ""):
+        return 0
+    here, there = _factors(typed), _factors(own or "")
+    return here[1] - there[1] if here and there and here[0] == there[0] else None
 
 
 def question(text: str) -> str:
     """Return what to ask about a text with two readings, as it stands in a link; empty if it has only one."""
-    asked = as_typed(text)
+    asked = text.removesuffix(DOUBT)
     if asked == text and not _AMBIGUOUS.fullmatch(text):
         return ""
     for item in (asked, *re.split(r"[\s;]+", asked)):
@@ -108,6 +150,8 @@ def question(text: str) -> str:
             return f"{item} may mean {whole}{decimals} or {decimal}{unit}; write one of these"
     if (parts := _parts(asked)) and _unit_in_doubt(parts):
         return f"the unit of {asked} may be 1{parts[3]} or {parts[3]}; leave the unit out"
+    if not list_in_link(asked).endswith(DOUBT):
+        return ""
     return f"{asked} may be one number or several; write decimal points, and semicolons between numbers"
 
 
@@ -163,14 +207,6 @@ def _settled(item: str, decimal: set[str]) -> str:
     """A doubtful number with a fourth decimal where other numbers of its list tell that its mark is the decimal one."""
     found = _DOUBTFUL.match(item)
     return f"{item[: found.end()]}0{item[found.end() :]}" if found and found[2] in decimal else item
-
-
-def _power_between(typed: str | None, own: str | None) -> int | None:
-    """The power of ten by which numbers in a typed unit are multiplied in a field's own; None for another quantity."""
-    if not typed or _packed(typed) == _packed(own or ""):
-        return 0
-    here, there = _factors(typed), _factors(own or "")
-    return here[1] - there[1] if here and there and here[0] == there[0] else None
 
 
 def _packed(unit: str) -> str:

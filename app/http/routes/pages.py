@@ -173,18 +173,20 @@ async def asked_of(http: Request, calculation: Calculation) -> tuple[Asked, bool
         if http.headers.get("content-type", "").partition(";")[0].strip() != FORM:
             raise HTTPException(415, f"The content type must be {FORM}")
         text = (await http.body()).decode("ascii", "replace")
-    sent, looks = split_views(pairs_of_query(text))
+    fields = pairs_of_query(text)
+    pressed = WRITTEN in dict(fields)
+    sent, looks = split_views(from_form(calculation.request, fields))
     given = {name: value for name, value in looks.items() if value}
     if (example := examples().get(dict(sent).get("example", ""))) is not None:
         if example.endpoint != calculation.path:
             raise Unreadable(f"{example.name} is an example of {page_path(BY_PATH[example.endpoint])}")
         sent = pairs_of_query(example_link(calculation, example).partition("?")[2])
         return Asked(page_path(calculation), sent, given, root=root_of(http)), False
-    pairs, pressed = normalised(calculation.request, from_form(calculation.request, sent)), WRITTEN in dict(sent)
+    pairs = normalised(calculation.request, sent)
     asked = Asked(page_path(calculation), pairs, given, root=root_of(http))
     kept, kept_ref = (http.app.state.answers.get(key_of(asked.path, each)) for each in (pairs, asked.ref_pairs))
     asked = replace(asked, kept=kept, kept_ref=kept_ref, pressed=pressed)
-    return asked, pairs == sent and given == looks
+    return asked, not pressed and pairs == sent and given == looks
 
 
 def _kept(http: Request, path: str) -> Asked:
@@ -222,8 +224,9 @@ def failed(http: Request, error: Exception) -> Response:
 def problem_page(
     http: Request, status: int, title: str, detail: str, headers: dict[str, str] | None = None
 ) -> Response:
-    """A page that states why the request was not answered."""
-    return html(rendered("problem.html", root_of(http), title=title, detail=detail), status, headers)
+    """A page that states why the request was not answered; where a file was sent, with the field for another one."""
+    place = get_route_path(http.scope).split("/")[1]
+    return html(rendered("problem.html", root_of(http), title=title, detail=detail, place=place), status, headers)
 
 
 def root_of(http: Request) -> str:
