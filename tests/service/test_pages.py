@@ -338,8 +338,33 @@ def test_a_long_case_is_posted(visit: Callable[..., Page]) -> None:
     loaded = page.locator(".chart img").evaluate_all(LOADED)
     assert len(loaded) == len(BY_PATH["/v1/coupling"].figures)
     assert all(width > 400 for width, _ in loaded)
+    assert page.url.endswith("/coupling?unlinked=on")  # no longer the case from which this one was made
+    with page.expect_download() as download:
+        page.get_by_role("button", name="Save as a file").click()
     page.get_by_role("button", name="Report").click()
     expect(page.locator("h2").first).to_contain_text("Verdict")
+    page.goto("/coupling?unlinked=on")
+    expect(page.locator(".warning")).to_contain_text("does not hold the case")
+    page.locator(".open-file input").set_input_files(download.value.path())
+    page.get_by_role("button", name="Open", exact=True).click()
+    assert page.locator('[name="coupling.teeth"]').input_value() == "400"
+    expect(page.locator(".card").first).to_be_visible()
+    page.goto(address_of(COUPLING))
+    page.locator('[name="operation.torque_n_m"]').fill("3000")
+    expect(page).to_have_url(re.compile("torque_n_m=3000"))
+
+
+def test_a_comparison_too_long_for_a_link_leaves_no_address_of_another_case(visit: Callable[..., Page]) -> None:
+    page = visit(address_of(COUPLING))
+    page.locator('[name="coupling.teeth"]').fill("400")
+    errors = " ".join(f"{1.12345 + 0.1 * (index % 7):.5f}" for index in range(400))
+    page.locator('[name="coupling.pitch_errors_um"]').fill(errors)
+    expect(page).to_have_url(re.compile("pitch_errors_um"))
+    page.locator("#pin").click()
+    expect(page.locator(".before").first).to_be_visible()
+    page.locator('[name="operation.torque_n_m"]').fill("3000")
+    expect(page.locator(".differences")).to_contain_text("3000")
+    assert page.url.endswith("/coupling?unlinked=on")
 
 
 def test_keyboard_alone(visit: Callable[..., Page]) -> None:

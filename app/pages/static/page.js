@@ -46,7 +46,7 @@ async function update(force = false) {
     else if (caseOf(form) === wanted || page.ok) take(page.document, page.ok);
     if (force && !page.ok) form.querySelector(".wrong :is(input:not([type=radio]), select, textarea)")?.focus();
     shown = wanted;
-    if (wanted.length <= long) history.replaceState(null, "", page.address);
+    history.replaceState(null, "", page.address);
   } catch {
     say("The service does not answer; the result is that of before.");
   }
@@ -65,7 +65,8 @@ async function ask(wanted, force) {
   const options = post ? { method: "POST", body: new URLSearchParams(sent) } : {};
   const answer = await fetch(post || !wanted ? form.action : `${form.action}?${sent}`, options);
   const page = new DOMParser().parseFromString(await answer.text(), "text/html");
-  return { ok: answer.ok, address: answer.url.replace(/[?&]written=[^&]*/, ""), document: page };
+  const linked = post && wanted ? page.getElementById("copy")?.href : answer.url.replace(/[?&]written=[^&]*/, "");
+  return { ok: answer.ok, address: linked ?? `${form.action}?unlinked=on`, document: page };
 }
 
 function say(text) {
