@@ -17,6 +17,7 @@ _TIDY = str.maketrans({"−": "-", "’": "'", "\u00a0": " ", "\u2007": " ", "\u
 _SUPERSCRIPTS = str.maketrans("⁻⁺⁰¹²³⁴⁵⁶⁷⁸⁹", "-+0123456789")
 _INTEGER = re.compile(r"[+-]?\d{1,18}")
 _NUMBER = re.compile(r"[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?")
+_PLAIN = re.compile(r"[+-]?\d+(\.\d*)?")
 _BLANKS = re.compile("[ '\u00a0\u2009\u202f]")
 _SPACED = re.compile(rf"[+-]?\d{{1,3}}({_BLANKS.pattern}\d{{3}})+([.,]\d*)?")
 _ENGLISH = re.compile(r"[+-]?\d{1,3}(,\d{3})+\.\d*|[+-]?\d{1,3}(,\d{3}){2,}")
@@ -62,6 +63,8 @@ def plain_number_of(text: str) -> Any:
 
 def in_link(text: str, unit: str | None = None) -> str:
     """Return the text of a link for a number typed in a field with this unit; text that is no number is unchanged."""
+    if _PLAIN.fullmatch(text) and not _DOUBTFUL.fullmatch(text):
+        return text
     parts = _parts(text)
     power = power_between(parts[3], unit) if parts else None
     if parts is None or power is None:
@@ -124,7 +127,7 @@ def as_typed(text: str) -> str:
     def unmarked(item: str) -> str:
         return item.removesuffix(DOUBT) if question(item) else item
 
-    return unmarked(re.sub(r"[^;\s]+", lambda item: unmarked(item[0]), text))
+    return unmarked(re.sub(r"[^;\s]{1,60}\?(?=[;\s]|$)", lambda item: unmarked(item[0]), text))
 
 
 def power_between(typed: str | None, own: str | None) -> int | None:

@@ -109,10 +109,10 @@ def report(asked: Asked, host: str, study: dict[str, Any] | None = None) -> Show
 
 
 def _asked_back(pairs: Pairs, faults: list[Fault]) -> list[Fault]:
-    """The faults, with a question in the place of those of each text that has two readings."""
-    asked = [Fault(name, question(text)) for name, text in pairs if question(text)]
-    others = (each for each in faults if not any(f"{each.path}.".startswith(f"{name}.") for name, _ in asked))
-    return [*asked, *others]
+    """The faults; those of a text that has two readings are replaced by the question which is meant."""
+    asked = {name: question(text) for name, text in pairs if question(text)}
+    named = ((next((name for name in asked if f"{each.path}.".startswith(f"{name}.")), ""), each) for each in faults)
+    return [*dict.fromkeys(Fault(name, asked[name]) if name else each for name, each in named)]
 
 
 def _keep(asked: Asked, case: Case, variant: Case | None = None) -> dict[str, bytes]:

@@ -11,6 +11,7 @@ import pytest
 
 from app.calculations import BY_PATH
 from app.examples import examples
+from app.pages.cases import Asked
 from app.pages.query import WRITTEN, body_of, from_form, pairs_of, written_of
 from app.pages.templating import page_path
 from app.pages.typed import DOUBT, in_link, list_in_link, number_of, question
@@ -263,6 +264,14 @@ def test_two_values_may_have_decimal_commas(client: httpx.Client) -> None:
     doubtful = sent(client, CROWNING, **{name: "0,400"})
     assert doubtful.status_code == 422
     assert "one number or several" in fault_at(doubtful.text, name)
+
+
+def test_only_what_is_refused_is_asked_back() -> None:
+    """In the list of a link a comma parts values: 100,200 is no question although another field is wrong."""
+    pairs = [("coupling.pitch_errors_um", "100,200"), (TORQUE, "x")]
+    html = html_of(Asked("/coupling", pairs), 422)
+    assert "may mean" not in html
+    assert fault_at(html, TORQUE)
 
 
 @pytest.mark.parametrize("method", ["GET", "POST"])

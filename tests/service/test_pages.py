@@ -350,8 +350,8 @@ def test_a_long_case_is_posted(visit: Callable[..., Page]) -> None:
     assert page.locator('[name="coupling.teeth"]').input_value() == "400"
     expect(page.locator(".card").first).to_be_visible()
     page.goto(address_of(COUPLING))
-    page.locator('[name="operation.torque_n_m"]').fill("3000")
-    expect(page).to_have_url(re.compile("torque_n_m=3000"))
+    page.locator('[name="operation.torque_n_m"]').fill("3100")
+    expect(page).to_have_url(re.compile("torque_n_m=3100"))
 
 
 def test_a_comparison_too_long_for_a_link_leaves_no_address_of_another_case(visit: Callable[..., Page]) -> None:
@@ -362,8 +362,8 @@ def test_a_comparison_too_long_for_a_link_leaves_no_address_of_another_case(visi
     expect(page).to_have_url(re.compile("pitch_errors_um"))
     page.locator("#pin").click()
     expect(page.locator(".before").first).to_be_visible()
-    page.locator('[name="operation.torque_n_m"]').fill("3000")
-    expect(page.locator(".differences")).to_contain_text("3000")
+    page.locator('[name="operation.torque_n_m"]').fill("3100")
+    expect(page.locator(".differences")).to_contain_text("3100")
     assert page.url.endswith("/coupling?unlinked=on")
 
 
