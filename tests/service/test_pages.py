@@ -11,6 +11,7 @@ from playwright.sync_api import Page, Route, expect
 from app.calculations import BY_PATH
 from app.examples import examples
 from app.pages.query import link, pairs_of
+from tests.rexs.units import turbo_unit
 from tests.support.browsing import DESK, PHONE, address_of, overflow, violations
 from tests.support.lists import LISTS
 
@@ -494,3 +495,17 @@ def test_a_named_case_is_saved_as_a_file_and_opened_from_the_start_page(
     start.get_by_role("button", name="Open").last.click()
     expect(start.get_by_label("Title of the case")).to_have_value("Mill 7")
     expect(start.locator(".card").first).to_be_visible()
+
+
+def test_back_from_a_calculation_returns_to_the_gear_unit(visit: Callable[..., Page]) -> None:
+    page = visit("/")
+    file = {"name": "unit.rexs", "mimeType": "application/xml", "buffer": turbo_unit().xml()}
+    page.locator("#rexs-file").set_input_files(file)
+    page.locator("form", has=page.locator("#rexs-file")).get_by_role("button", name="Open").click()
+    expect(page.get_by_role("heading", name="Stages")).to_be_visible()
+    page.get_by_role("link", name="Load distribution").first.click()
+    expect(page.locator('[name="gears.pinion.teeth"]')).to_be_visible()
+    page.go_back()
+    expect(page.get_by_role("heading", name="Stages")).to_be_visible()
+    page.reload()
+    expect(page.get_by_role("heading", name="Stages")).to_be_visible()
