@@ -1,5 +1,6 @@
 """What people look at: every page is a view of a case, generated from the schema.
 
+typed      numbers as people type them, and their texts in links
 query      the query string is the case
 form       fields with what was typed, what they mean and what is wrong with them
 cases      a requested case with the addresses of its views, and its answer, which is kept

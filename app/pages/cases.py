@@ -11,7 +11,17 @@ from app.calculations import BY_PATH, Calculation
 from app.errors import InvalidBody, Unprocessable, Unreadable
 from app.evaluate import content_of, response_to, solve
 from app.figures.data import ThemeName
-from app.pages.query import LONGEST_QUERY, Pairs, body_of, link, normalised, pairs_of, pairs_of_query, split_views
+from app.pages.query import (
+    LONGEST_QUERY,
+    Pairs,
+    body_of,
+    link,
+    normalised,
+    pairs_of,
+    pairs_of_query,
+    split_views,
+    written_of,
+)
 from app.schema.fields import Branch, leaf_at, leaves, tree
 from app.schema.model import Request
 from app.schema.reading import validated
@@ -30,7 +40,8 @@ class Asked:
     Addresses that people keep name the solvers' sources, so that a later reader is told whether numbers may differ.
     `kept` and `kept_ref` are the answers of it and of its variant, if they are still known. `root` is the prefix that
     a proxy puts before the addresses of the service. A case too long for a link has to be posted; its figures are
-    addressed by `answered`, the hashes in its answer and in that of the variant, while both answers are kept.
+    addressed by `answered`, the hashes in its answer and in that of the variant, while both answers are kept. `pressed`
+    says that the form was sent, if with no field.
     """
 
     path: str
@@ -40,6 +51,7 @@ class Asked:
     kept_ref: bytes | None = None
     root: str = ""
     answered: tuple[str, str] = ("", "")
+    pressed: bool = False
 
     @property
     def calculation(self) -> Calculation:
@@ -90,6 +102,11 @@ class Asked:
     def query(self) -> str:
         """The case alone."""
         return link("", self.pairs).removeprefix("?")
+
+    @property
+    def written(self) -> str:
+        """What a form that is filled with the case says of its texts."""
+        return written_of(self.calculation.request, self.pairs)
 
     @property
     def too_long(self) -> bool:

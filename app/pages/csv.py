@@ -8,8 +8,8 @@ from typing import Any
 
 from app.errors import Unprocessable
 from app.pages.cases import Case
-from app.pages.query import text_of
 from app.pages.results import entries, flattened
+from app.pages.typed import text_of
 from app.schema.fields import Leaf, leaf_at, leaves
 from app.schema.model import Response
 from app.spreadsheet import csv_of

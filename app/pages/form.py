@@ -6,7 +6,8 @@ from dataclasses import dataclass, field, replace
 from itertools import accumulate, groupby, product
 from typing import Any
 
-from app.pages.query import MATRIX, PICK, PRESENT, SIDE, excluded, text_of
+from app.pages.query import MATRIX, PICK, PRESENT, SIDE, excluded
+from app.pages.typed import text_of
 from app.pages.typesetting import cited, symbol, words
 from app.schema.fields import Branch, Leaf, branches, leaf_at, tree
 from app.schema.model import Request

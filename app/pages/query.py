@@ -1,4 +1,4 @@
-"""From a query string to a request body and back: dotted names, list indices, numbers as people type them."""
+"""From a query string or a form to a request body and back: dotted names and list indices."""
 
 import re
 from collections.abc import Iterable
@@ -6,13 +6,23 @@ from typing import Any
 from urllib.parse import parse_qsl, urlencode
 
 from app.errors import Unreadable
+from app.pages.typed import (
+    as_typed,
+    in_link,
+    items_in_link,
+    list_in_link,
+    number_of,
+    plain_number_of,
+    table_in_link,
+    text_of,
+)
 from app.schema.fields import ITEM, Leaf, branches, leaf_at
 from app.schema.model import Documented
 
 Pairs = list[tuple[str, str]]
 
 # What a study of a case varies or may choose, how often, and which output it shows.
-LOWER, UPPER, TRIALS, CORNER = "low.", "high.", "trials", "corner."
+LOWER, UPPER, TRIALS, CORNER, CASES = "low.", "high.", "trials", "corner.", "cases"
 UNCERTAIN = ("wall response", "pinion clearance", "wheel clearance", "friction", "offset", "thrust fraction")
 CHOSEN = 3  # ranges of a search
 SCATTERING = 12  # fields of a load spectrum
@@ -21,13 +31,16 @@ STUDY_NAMES = frozenset(
     | {f"{end}{place}" for end in (LOWER, UPPER) for place in range(CHOSEN)}
     | {f"{CORNER}{quantity.replace(' ', '_')}" for quantity in UNCERTAIN}
     | {f"t{place}{part}" for place in range(SCATTERING) for part in ("", ".law", ".by", ".about")}
-    | {"show", "best", TRIALS, "cases", "hours", "machines", "limit", "limit.by", "limit.side"}
+    | {"show", "best", TRIALS, CASES, "hours", "machines", "limit", "limit.by", "limit.side"}
 )
 REPORT_NAMES = {"title": 200, "project": 200, "part": 200, "author": 200, "checker": 200, "notes": 2000}
 """What a report says of its occasion, and how many characters of it at most."""
-VIEW_NAMES = STUDY_NAMES | REPORT_NAMES.keys() | {"paper", "ref", "theme", "sources", "curve"}
+VIEW_NAMES = STUDY_NAMES | REPORT_NAMES.keys() | {"paper", "ref", "theme", "sources", "curve", "unlinked"}
 PICK = "pick:"
 """Before the name of a choice between fields that exclude each other; its value is the field that counts."""
+WRITTEN = "written"
+"""The name of the hidden field by which a form is known; it holds, as a query, what the server wrote into the form and
+would read otherwise if it were typed."""
 MOST_FIELDS = 1000  # chosen: far beyond the longest form
 DEEPEST = 12  # parts of a name; no field lies as deep
 LONGEST_QUERY = 6000  # characters: common proxies refuse a request line beyond 8 KiB
@@ -36,12 +49,6 @@ MATRIX = 2  # dimensions
 SIDE = 2  # of a matrix: the two directions across a shaft
 PRESENT = "on"
 
-_NUMBER = re.compile(r"[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?")
-_SPACED = re.compile(r"[+-]?\d{1,3}([ '\u00a0\u2009\u202f]\d{3})+([.,]\d*)?")
-_ENGLISH = re.compile(r"[+-]?\d{1,3}(,\d{3})+\.\d*|[+-]?\d{1,3}(,\d{3}){2,}")
-_GERMAN = re.compile(r"[+-]?\d{1,3}(\.\d{3})+,\d*|[+-]?\d{1,3}(\.\d{3}){2,}")
-_AMBIGUOUS = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}")
-_INTEGER = re.compile(r"[+-]?\d{1,18}")
 _PASTED = re.compile(r"[\s;]+")
 
 
@@ -56,6 +63,44 @@ def pairs_of_query(query: str) -> Pairs:
 def split_views(pairs: Pairs) -> tuple[Pairs, dict[str, str]]:
     """The case, and what only concerns how it is looked at."""
     return [pair for pair in pairs if pair[0] not in VIEW_NAMES], {n: text for n, text in pairs if n in VIEW_NAMES}
+
+
+def from_form(model: type[Documented], pairs: Pairs) -> Pairs:
+    """The fields as a link has them: where a form sent them, typed texts are read; what the server wrote stands."""
+    written = next((text for name, text in pairs if name == WRITTEN), None)
+    if written is None:
+        return pairs
+    own = set(_plain(pairs_of_query(written)))
+    plain = _plain(pair for pair in pairs if pair[0] != WRITTEN)
+    all_of = dict(plain)
+    return [(name, text if (name, text) in own else _in_link(model, name, text, all_of)) for name, text in plain]
+
+
+def _plain(pairs: Iterable[tuple[str, str]]) -> Pairs:
+    """Texts without the blanks and line ends that a browser adds; tabs part the cells of a table."""
+    return [(name, text.replace("\r\n", "\n").strip(" \n")) for name, text in pairs]
+
+
+def written_of(model: type[Documented], pairs: Pairs) -> str:
+    """What the server says that it has written where it fills a form with these texts of a link."""
+    all_of = dict(pairs)
+    kept = [(name, text) for name, text in pairs if as_typed(text) == text != _in_link(model, name, text, all_of)]
+    return urlencode(kept, safe=",:", errors="replace")
+
+
+def _in_link(model: type[Documented], name: str, text: str, others: dict[str, str]) -> str:
+    """The text of a link for what was typed in a field, or in a control of a study beside `others`."""
+    if name == CASES:
+        return table_in_link(text)
+    if name.startswith(CORNER):
+        return items_in_link(text)
+    if name in STUDY_NAMES:
+        leaf = leaf_at(model, others.get(name.partition(".")[0], ""))  # which is varied, or scatters
+        return in_link(text, leaf.unit if leaf else None)
+    leaf = leaf_at(model, name) or leaf_at(model, name.rpartition(".")[0].rpartition(".")[0])
+    if leaf is None or leaf.options or leaf.kind not in {"number", "integer"}:
+        return text
+    return list_in_link(text, leaf.unit) if leaf.dimensions == 1 else in_link(text, leaf.unit)
 
 
 def normalised(model: type[Documented], pairs: Pairs) -> Pairs:
@@ -155,38 +200,11 @@ def _value(model: type[Documented], name: str, text: str) -> Any:
     return number_of(text) if leaf.kind in {"number", "integer"} else text
 
 
-def number_of(text: str) -> Any:
-    """The number that a single field holds, with a decimal point or comma; what is none stays text.
-
-    Digits may stand in groups of three, where that leaves no doubt which mark is the decimal one.
-    """
-    plain = re.sub(r"[ '\u00a0\u2009\u202f]", "", text) if _SPACED.fullmatch(text) else text
-    if _ENGLISH.fullmatch(plain):
-        plain = plain.replace(",", "")
-    elif _GERMAN.fullmatch(plain):
-        plain = plain.replace(".", "")
-    number = text if _AMBIGUOUS.fullmatch(plain) else _number(plain.replace(",", ".", 1))
-    return text if isinstance(number, str) else number
-
-
-def ambiguity(text: str) -> str:
-    """Why a text with a comma is no number, if both readings of the comma make one."""
-    if not _AMBIGUOUS.fullmatch(text):
-        return ""
-    return f"{text} may mean {text.replace(',', '.')} or {text.replace(',', '')}; write one of these"
-
-
 def _listed(leaf: Leaf, text: str) -> list[Any]:
     """A list in a link has commas; a pasted one blanks, lines or semicolons, and perhaps commas before them."""
     items = _PASTED.split(text.strip(" \t\r\n;"))
     items = text.split(",") if len(items) == 1 else [item.removesuffix(",") for item in items]
-    return [item.strip() if leaf.kind == "text" else _number(item.strip()) for item in items]
-
-
-def _number(text: str) -> Any:
-    if _INTEGER.fullmatch(text):
-        return int(text)
-    return float(text) if _NUMBER.fullmatch(text) and "," not in text else text
+    return [item.strip() if leaf.kind == "text" else plain_number_of(item.strip()) for item in items]
 
 
 def _with_lists(model: type[Documented], content: Any, path: str = "") -> Any:
@@ -213,12 +231,3 @@ def _matrix(elements: dict[str, Any]) -> Any:
     matrix = [[row.get(place) for place in places] for row in rows]
     alone = matrix[0][0]
     return alone if elements == {"0": {"0": alone}} else matrix
-
-
-def text_of(value: Any) -> str:
-    """A value as it is typed: integers without a point, other numbers in as few digits as give them back."""
-    if isinstance(value, bool):
-        return "true" if value else "false"
-    if isinstance(value, float) and value.is_integer() and abs(value) < 1e15:
-        return str(int(value))
-    return str(value)

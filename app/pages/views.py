@@ -13,10 +13,11 @@ from app.pages.cases import REFUSED, Asked, Case, Fault, faults_of, key_of, solv
 from app.pages.charts import figure_of, figures_of, linked, values_of
 from app.pages.form import State, form
 from app.pages.manual import chapter_of
-from app.pages.query import ambiguity, link
+from app.pages.query import Pairs, link
 from app.pages.results import assumptions, cards, differences, groups, resolved
 from app.pages.study_links import studies_of_case, study_links
 from app.pages.templating import example_link, examples_of, page_path, rendered
+from app.pages.typed import as_typed, question
 from app.pages.typesetting import NO_VALUE
 from app.schema.fields import headlines, leaf_at
 
@@ -32,16 +33,13 @@ class Shown:
 
 def page(asked: Asked) -> Shown:
     """The page of a case: form and result, or the form and what is wrong with it."""
-    if not asked.pairs:
+    if not asked.pairs and not asked.pressed:
         return form_page(asked)
-    texts = dict(asked.pairs)
+    texts = {name: as_typed(text) for name, text in asked.pairs}
     try:
         case, variant, trouble = _both(asked)
     except REFUSED as error:
-        faults = [
-            Fault(path, ambiguity(texts.get(path, "")) or message)
-            for path, message in faults_of(error, asked.calculation)
-        ]
+        faults = _asked_back(asked.pairs, faults_of(error, asked.calculation))
         said = {path: "; ".join(each.message for each in faults if each.path == path) for path, _ in faults}
         return _page(asked, State(texts, said), 400 if isinstance(error, Unreadable) else 422, faults=faults)
     response = case.response
@@ -64,7 +62,7 @@ def page(asked: Asked) -> Shown:
 
 def form_page(asked: Asked) -> Shown:
     """The page with the form as it was filled in, and no answer."""
-    return _page(asked, State(dict(asked.pairs)))
+    return _page(asked, State({name: as_typed(text) for name, text in asked.pairs}))
 
 
 def result(asked: Asked, media: Literal["json", "csv"]) -> Shown:
@@ -108,6 +106,13 @@ def report(asked: Asked, host: str, study: dict[str, Any] | None = None) -> Show
         **reports.context(asked, case, host),
     )
     return Shown(content.encode(), keep=_keep(asked, case, variant))
+
+
+def _asked_back(pairs: Pairs, faults: list[Fault]) -> list[Fault]:
+    """The faults; those of a text that has two readings are replaced by the question which is meant."""
+    asked = {name: question(text) for name, text in pairs if question(text)}
+    named = ((next((name for name in asked if f"{each.path}.".startswith(f"{name}.")), ""), each) for each in faults)
+    return [*dict.fromkeys(Fault(name, asked[name]) if name else each for name, each in named)]
 
 
 def _keep(asked: Asked, case: Case, variant: Case | None = None) -> dict[str, bytes]:

@@ -9,13 +9,14 @@ from urllib.parse import urlencode
 import httpx
 import pytest
 
-from app.calculations import BY_PATH
+from app.calculations import BY_PATH, CALCULATIONS, Calculation
 from app.errors import Unprocessable
 from app.examples import examples
 from app.pages.query import pairs_of
 from app.pages.studies import page as pages
 from app.pages.studies.page import StudyPage
 from app.pages.studies.spectrum import SpectrumPage, address_of, cases_of, table_of
+from app.schema.fields import ITEM, leaves
 from app.studies.requests import EXAMPLES
 from app.studies.spectrum import Spectrum
 from tests.support.pages import DEADLINE_S, asked, asked_by, checked, fault_at, lines_of, whole
@@ -59,6 +60,76 @@ def test_a_table_that_cannot_be_read(text: str, message: str) -> None:
         cases_of(SCUFFING, text)
     assert caught.value.path == "cases"
     assert message in caught.value.message
+
+
+@pytest.mark.parametrize(
+    ("heading", "cell", "path", "value"),
+    [
+        ("pinion speed", "1500", "load.pinion_speed_rpm", 1500),
+        ("Pinion speed, 1/min", "1500", "load.pinion_speed_rpm", 1500),
+        ("pinion speed [rpm]", "1500", "load.pinion_speed_rpm", 1500),
+        ("pinion speed (U/min)", "1500", "load.pinion_speed_rpm", 1500),
+        ("pinion_speed_rpm", "1500", "load.pinion_speed_rpm", 1500),
+        ("power", "2,5", "load.power_kw", 2.5),
+        ("power [MW]", "2,3", "load.power_kw", 2300.0),
+        ("pinion torque kN m", "0.7", "load.pinion_torque_n_m", 700.0),
+        ("oil temperature °C", "40", "temperatures.oil_c", 40),
+        ("number of teeth, pinion", "23", "gears.pinion.teeth", 23),
+    ],
+)
+def test_headings_are_labels_of_the_form_with_or_without_unit(heading: str, cell: str, path: str, value: float) -> None:
+    assert cases_of(SCUFFING, f"Name\tShare [%]\t{heading}\none\t20\t{cell}") == [
+        {"name": "one", "share": 0.2, "set": {path: value}}
+    ]
+
+
+@pytest.mark.parametrize("calculation", CALCULATIONS, ids=[each.path for each in CALCULATIONS])
+def test_every_label_of_the_form_is_a_heading(calculation: Calculation) -> None:
+    for leaf in leaves(calculation.request):
+        if leaf.is_scalar and ITEM not in leaf.path:
+            for heading in (leaf.title, leaf.path, f"{leaf.title}, {leaf.unit}" if leaf.unit else leaf.title):
+                (case,) = cases_of(calculation, f"{heading}\n1")
+                assert [*case["set"]] == [leaf.path], heading
+
+
+def test_a_heading_of_several_fields_is_asked_back() -> None:
+    with pytest.raises(Unprocessable, match="number of teeth, pinion or number of teeth, wheel"):
+        cases_of(SCUFFING, "number of teeth\n23")
+
+
+@pytest.mark.parametrize("heading", ["pinion sped", "pinion speed, Hz", "pinion speed limit"])
+def test_a_heading_of_no_field_is_left_to_the_study(heading: str) -> None:
+    assert cases_of(SCUFFING, f"{heading}\n1") == [{"set": {heading: 1}}]
+
+
+def test_doubtful_cells_are_asked_back_where_they_are_typed(client: httpx.Client) -> None:
+    table = "name\tshare\toperation.torque_n_m\n3.500\t1\t3.500"
+    linked = client.get("/coupling/spectrum", params=[*CASE, ("cases", table), ("machines", "16")])
+    assert linked.status_code == 200
+    typed = [*CASE, ("cases", table), ("written", "")]
+    asked_back = client.get("/coupling/spectrum", params=typed, follow_redirects=True)
+    assert asked_back.status_code == 422
+    assert fault_at(asked_back.text, "cases") == "line 2: 3.500 may mean 3500 or 3.5; write one of these"
+    assert f"{table}</textarea>" in asked_back.text
+    assert 'name="written" value=""' in asked_back.text  # the table that was typed is not the server's
+    kept = re.search(r'name="written" value="([^"]*)"', linked.text)
+    assert kept
+    typed[-1] = ("written", unescape(kept[1]))
+    again = client.get("/coupling/spectrum", params=typed)
+    assert again.status_code == 303
+    assert "3.500%3F" not in again.headers["location"]
+
+
+def test_controls_of_a_study_are_read_as_fields_are(client: httpx.Client) -> None:
+    views = {"x": "operation.torque_n_m", "x.from": "3 kNm", "x.to": "4 500", "x.count": "3", "written": ""}
+    answer = client.get("/coupling/vary", params=[*CASE, *views.items()], follow_redirects=True)
+    assert answer.status_code == 200
+    assert "x.from=3000&x.to=4500" in str(answer.url)
+    doubt = client.get("/coupling/vary", params=[*CASE, *(views | {"x.to": "4.500"}).items()], follow_redirects=True)
+    assert doubt.status_code == 422
+    assert fault_at(doubt.text, "x.to") == "4.500 may mean 4500 or 4.5; write one of these"
+    assert 'name="x.to" type="text"' in doubt.text
+    assert 'value="4.500"' in doubt.text
 
 
 @pytest.mark.parametrize("name", EXAMPLES["/v1/spectrum"])

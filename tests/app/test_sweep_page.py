@@ -21,7 +21,7 @@ from app.figures.data import Axis, values
 from app.figures.drawing.image import draw, places
 from app.figures.studies import MOST_CURVES, Coordinate, Grid, figures_of
 from app.pages.cases import Asked
-from app.pages.query import STUDY_NAMES, VIEW_NAMES, body_of
+from app.pages.query import STUDY_NAMES, VIEW_NAMES, WRITTEN, body_of
 from app.pages.studies import page as pages
 from app.pages.studies.design import DesignPage
 from app.pages.studies.page import output_choices
@@ -383,7 +383,7 @@ def test_the_names_of_a_study_are_those_of_its_form() -> None:
     found = [set(re.findall(pattern, opened(page, case))) for page, case in studies]
     assert set.union(*found) >= STUDY_NAMES
     for names, case in zip(found, (varied_one, unit, scattering), strict=True):
-        assert names - STUDY_NAMES == set(dict(case.pairs))
+        assert names - STUDY_NAMES == {WRITTEN, *dict(case.pairs)}
 
 
 def test_a_curve_is_shaded_where_it_is_invalid_and_ringed_where_it_is_doubtful() -> None:

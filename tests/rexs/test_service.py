@@ -80,8 +80,11 @@ def test_results_come_back_in_the_file(client: httpx.Client) -> None:
     assert results(client, stage["id"], {"gears": {}}).status_code == 422
 
 
+FIELD = '<input id="rexs-file" name="file" type="file"'
+
+
 def test_the_page_leads_to_every_calculation(client: httpx.Client) -> None:
-    page = client.post("/rexs", files={"file": ("unit.rexs", turbo_unit().xml())})
+    page = client.post("/rexs", files={"file": ("unit.rexs", turbo_unit().xml())}, follow_redirects=True)
     assert page.status_code == 200
     addresses = [part.split('"')[0] for part in page.text.split('href="')[1:]]
     cases = [each.replace("&amp;", "&") for each in addresses if "gears.pinion.teeth=" in each]
@@ -90,7 +93,40 @@ def test_the_page_leads_to_every_calculation(client: httpx.Client) -> None:
         assert client.get(address, follow_redirects=True).status_code == 200
 
 
-def test_the_page_reloaded_asks_for_the_file_again(client: httpx.Client) -> None:
+def test_the_page_of_a_unit_has_an_address_while_it_is_kept(client: httpx.Client) -> None:
+    sent = client.post("/rexs", files={"file": ("unit.rexs", turbo_unit().xml())})
+    assert sent.status_code == 303
+    kept = client.get(sent.headers["location"])
+    assert kept.status_code == 200
+    assert client.get(sent.headers["location"]).text == kept.text
+    assert "Stages" in kept.text
+
+
+@pytest.mark.parametrize("name", ["0" * 64, "x", "%2e%2e"])
+def test_a_unit_that_is_gone_is_asked_for_again(client: httpx.Client, name: str) -> None:
+    gone = client.get(f"/rexs/{name}")
+    assert gone.status_code == 410
+    assert "this one is gone" in gone.text
+    assert FIELD in gone.text
+
+
+@pytest.mark.parametrize(
+    ("sent", "status"),
+    [
+        ({"files": {"file": ("a.rexs", b"<a")}}, 422),
+        ({"files": {"other": ("a.rexs", b"<a")}}, 422),
+        ({"content": b"x", "headers": {"Content-Type": "text/plain"}}, 415),
+    ],
+)
+def test_a_page_of_an_error_has_the_file_field(client: httpx.Client, sent: dict[str, Any], status: int) -> None:
+    sent["headers"] = {"Accept": "text/html", **sent.get("headers", {})}
+    answer = client.post("/rexs", **sent)
+    assert answer.status_code == status
+    assert FIELD in answer.text
+    assert FIELD not in client.get("/none", headers={"Accept": "text/html"}).text
+
+
+def test_where_a_file_is_chosen(client: httpx.Client) -> None:
     answer = client.get("/rexs")
     assert (answer.status_code, answer.headers["location"]) == (303, "/#rexs-file")
 
@@ -99,7 +135,7 @@ def test_the_page_leads_to_the_load_spectrum(client: httpx.Client) -> None:
     unit = turbo_unit()
     load = next(each["id"] for each in unit.components if each["type"] == "external_load")
     unit.cases = [{1: {"operating_time_fraction": (50.0, "%")}, load: {"power": (kw, "kW")}} for kw in (5000.0, 9000.0)]
-    page = client.post("/rexs", files={"file": ("unit.rexs", unit.xml())})
+    page = client.post("/rexs", files={"file": ("unit.rexs", unit.xml())}, follow_redirects=True)
     addresses = [unescape(part.split('"')[0]) for part in page.text.split('href="')[1:]]
     spectra = [address for address in addresses if "/spectrum?" in address]
     assert [address.partition("?")[0] for address in spectra] == ["/scuffing/spectrum", "/drive-train/spectrum"]

@@ -6,12 +6,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from playwright.sync_api import Page, expect
+from playwright.sync_api import Page, Route, expect
 
 from app.calculations import BY_PATH
 from app.examples import examples
 from app.pages.query import link, pairs_of
+from tests.rexs.units import turbo_unit
 from tests.support.browsing import DESK, PHONE, address_of, overflow, violations
+from tests.support.lists import LISTS
 
 pytestmark = pytest.mark.service
 
@@ -90,7 +92,7 @@ def test_after_an_error_the_last_good_result_stays(visit: Callable[..., Page]) -
     page = visit(address_of(COUPLING))
     field = page.locator('[name="operation.torque_n_m"]')
     field.fill("200,000")
-    expect(page.locator(".problem")).to_contain_text("200,000 may mean 200.000 or 200000")
+    expect(page.locator(".problem")).to_contain_text("200,000 may mean 200000 or 200")
     expect(page.locator(".problem")).to_contain_text("transmitted torque")
     expect(page.locator(".card").first).to_be_visible()
     expect(page.locator("#result")).to_have_class(re.compile("old"))
@@ -111,6 +113,65 @@ def test_nothing_is_wrong_before_the_first_calculation(visit: Callable[..., Page
     page.get_by_role("button", name="Calculate", exact=True).click()
     expect(page.locator(".problem")).to_be_visible()
     expect(page.locator('[name="coupling.module_mm"]')).to_be_focused()
+
+
+def test_calculate_pressed_while_a_request_runs_is_remembered(visit: Callable[..., Page]) -> None:
+    page = visit("/coupling")
+    held: list[Route] = []
+
+    def hold(route: Route) -> None:
+        held.append(route)
+
+    page.route("**/coupling?*", hold, times=1)
+    with page.expect_request("**/coupling?*"):
+        page.locator('[name="coupling.teeth"]').fill("40")
+    page.get_by_role("button", name="Calculate", exact=True).click()
+    expect(page.locator("#state")).to_have_text("calculating …")
+    held[0].continue_()
+    expect(page.locator(".problem")).to_be_visible()
+    expect(page.locator('[name="coupling.module_mm"]')).to_be_focused()
+
+
+def test_calculate_on_an_empty_form_says_what_is_missing(visit: Callable[..., Page]) -> None:
+    page = visit("/coupling")
+    page.get_by_role("button", name="Calculate", exact=True).click()
+    expect(page.locator(".problem")).to_contain_text("number of teeth")
+    expect(page.locator('[name="coupling.teeth"]')).to_be_focused()
+    assert page.url.endswith("/coupling")
+
+
+def test_typed_numbers_are_read_as_meant_or_asked_back(visit: Callable[..., Page]) -> None:
+    page = visit(address_of(COUPLING))
+    field = page.locator('[name="operation.torque_n_m"]')
+    field.fill("3,5 kNm")
+    expect(page).to_have_url(re.compile("torque_n_m=3500&"))
+    assert field.input_value() == "3,5 kNm"
+    field.fill("3.500")
+    expect(page.locator('[id="f.operation.torque_n_m-fault"]')).to_have_text(re.compile("may mean 3500 or 3.5;"))
+    page.reload()
+    assert field.input_value() == "3.500"
+    expect(page.locator('[id="f.operation.torque_n_m-fault"]')).to_have_text(re.compile("may mean 3500 or 3.5;"))
+    field.fill("3 500")
+    expect(page.locator(".card").first).to_be_visible()
+
+
+def test_numbers_of_a_link_are_not_asked_back(visit: Callable[..., Page]) -> None:
+    link_of_case = re.sub(r"torque_n_m=[\d.]+", "torque_n_m=999.125", address_of(COUPLING))
+    page = visit(link_of_case)
+    assert page.locator('[name="operation.torque_n_m"]').input_value() == "999.125"
+    page.locator('[name="operation.speed_rpm"]').fill("1 920")
+    expect(page).to_have_url(re.compile("torque_n_m=999.125&.*speed_rpm=1920"))
+    expect(page.locator(".problem")).to_have_count(0)
+
+
+def test_values_of_a_list_are_counted_as_they_are_read(visit: Callable[..., Page]) -> None:
+    page = visit("/coupling")
+    page.locator('[data-section="coupling"]').evaluate("part => { part.open = true; }")
+    for text, values in LISTS:
+        if values is not None and "°" not in text:
+            page.locator('[name="coupling.pitch_errors_um"]').fill(text)
+            shown = page.locator('[id="f.coupling.pitch_errors_um-count"]')
+            expect(shown).to_have_text(f"{len(values)} values")
 
 
 def test_cards_stay_in_sight(visit: Callable[..., Page]) -> None:
@@ -278,8 +339,33 @@ def test_a_long_case_is_posted(visit: Callable[..., Page]) -> None:
     loaded = page.locator(".chart img").evaluate_all(LOADED)
     assert len(loaded) == len(BY_PATH["/v1/coupling"].figures)
     assert all(width > 400 for width, _ in loaded)
+    assert page.url.endswith("/coupling?unlinked=on")  # no longer the case from which this one was made
+    with page.expect_download() as download:
+        page.get_by_role("button", name="Save as a file").click()
     page.get_by_role("button", name="Report").click()
     expect(page.locator("h2").first).to_contain_text("Verdict")
+    page.goto("/coupling?unlinked=on")
+    expect(page.locator(".warning")).to_contain_text("does not hold the case")
+    page.locator(".open-file input").set_input_files(download.value.path())
+    page.get_by_role("button", name="Open", exact=True).click()
+    assert page.locator('[name="coupling.teeth"]').input_value() == "400"
+    expect(page.locator(".card").first).to_be_visible()
+    page.goto(address_of(COUPLING))
+    page.locator('[name="operation.torque_n_m"]').fill("3100")
+    expect(page).to_have_url(re.compile("torque_n_m=3100"))
+
+
+def test_a_comparison_too_long_for_a_link_leaves_no_address_of_another_case(visit: Callable[..., Page]) -> None:
+    page = visit(address_of(COUPLING))
+    page.locator('[name="coupling.teeth"]').fill("400")
+    errors = " ".join(f"{1.12345 + 0.1 * (index % 7):.5f}" for index in range(400))
+    page.locator('[name="coupling.pitch_errors_um"]').fill(errors)
+    expect(page).to_have_url(re.compile("pitch_errors_um"))
+    page.locator("#pin").click()
+    expect(page.locator(".before").first).to_be_visible()
+    page.locator('[name="operation.torque_n_m"]').fill("3100")
+    expect(page.locator(".differences")).to_contain_text("3100")
+    assert page.url.endswith("/coupling?unlinked=on")
 
 
 def test_keyboard_alone(visit: Callable[..., Page]) -> None:
@@ -409,3 +495,17 @@ def test_a_named_case_is_saved_as_a_file_and_opened_from_the_start_page(
     start.get_by_role("button", name="Open").last.click()
     expect(start.get_by_label("Title of the case")).to_have_value("Mill 7")
     expect(start.locator(".card").first).to_be_visible()
+
+
+def test_back_from_a_calculation_returns_to_the_gear_unit(visit: Callable[..., Page]) -> None:
+    page = visit("/")
+    file = {"name": "unit.rexs", "mimeType": "application/xml", "buffer": turbo_unit().xml()}
+    page.locator("#rexs-file").set_input_files(file)
+    page.locator("form", has=page.locator("#rexs-file")).get_by_role("button", name="Open").click()
+    expect(page.get_by_role("heading", name="Stages")).to_be_visible()
+    page.get_by_role("link", name="Load distribution").first.click()
+    expect(page.locator('[name="gears.pinion.teeth"]')).to_be_visible()
+    page.go_back()
+    expect(page.get_by_role("heading", name="Stages")).to_be_visible()
+    page.reload()
+    expect(page.get_by_role("heading", name="Stages")).to_be_visible()

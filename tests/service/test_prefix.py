@@ -103,7 +103,9 @@ def test_redirects_files_and_documents(proxies: dict[str, str], name: str) -> No
         assert sent.status_code == 303
         assert sent.headers["location"].startswith(f"{PREFIX}/coupling?")
         assert client.get("/openapi.json").json()["servers"] == [{"url": PREFIX}]
-        unit = client.post("/rexs", files={"file": ("unit.rexs", turbo_unit().xml())})
+        sent = client.post("/rexs", files={"file": ("unit.rexs", turbo_unit().xml())})
+        assert sent.headers["location"].startswith(f"{PREFIX}/rexs/")
+        unit = client.get(sent.headers["location"].removeprefix(PREFIX))
         assert unit.status_code == 200
         found = addresses_in(unit.text)
         assert all(each.startswith(f"{PREFIX}/") for each in found)

@@ -25,7 +25,7 @@ from app.pages import views
 from app.pages.cases import Asked, key_of, opened
 from app.pages.manual import chapter_page, contents_page, functions_page
 from app.pages.overview import start_page
-from app.pages.query import link, normalised, pairs_of_query, split_views
+from app.pages.query import WRITTEN, from_form, link, normalised, pairs_of_query, split_views
 from app.pages.templating import ASSETS, example_link, page_path, rendered
 from app.settings import Settings
 from app.sources import SHORT_SOURCES
@@ -151,7 +151,7 @@ async def _answer(
 ) -> Response:
     """One view of the case in the query or the form; a query with empty fields is redirected to one without."""
     asked, clean = await asked_of(http, calculation)
-    if not clean and http.scope["method"] == "GET":
+    if not clean and http.scope["method"] == "GET" and (asked.pairs or not asked.pressed):
         return redirected(get_route_path(http.scope), asked)
     if asked.pairs:
         http.app.state.start_up.require(calculation.path)
@@ -167,13 +167,15 @@ def redirected(place: str, asked: Asked) -> Response:
 
 
 async def asked_of(http: Request, calculation: Calculation) -> tuple[Asked, bool]:
-    """The case asked for, and whether its query was in the shortest form, without empty fields."""
+    """The case asked for, and whether its query was a link in the shortest form, without empty fields."""
     text = http.url.query
     if http.scope["method"] == "POST":
         if http.headers.get("content-type", "").partition(";")[0].strip() != FORM:
             raise HTTPException(415, f"The content type must be {FORM}")
         text = (await http.body()).decode("ascii", "replace")
-    sent, looks = split_views(pairs_of_query(text))
+    fields = pairs_of_query(text)
+    pressed = WRITTEN in dict(fields)
+    sent, looks = split_views(from_form(calculation.request, fields))
     given = {name: value for name, value in looks.items() if value}
     if (example := examples().get(dict(sent).get("example", ""))) is not None:
         if example.endpoint != calculation.path:
@@ -183,7 +185,8 @@ async def asked_of(http: Request, calculation: Calculation) -> tuple[Asked, bool
     pairs = normalised(calculation.request, sent)
     asked = Asked(page_path(calculation), pairs, given, root=root_of(http))
     kept, kept_ref = (http.app.state.answers.get(key_of(asked.path, each)) for each in (pairs, asked.ref_pairs))
-    return replace(asked, kept=kept, kept_ref=kept_ref), pairs == sent and given == looks
+    asked = replace(asked, kept=kept, kept_ref=kept_ref, pressed=pressed)
+    return asked, not pressed and pairs == sent and given == looks
 
 
 def _kept(http: Request, path: str) -> Asked:
@@ -221,8 +224,9 @@ def failed(http: Request, error: Exception) -> Response:
 def problem_page(
     http: Request, status: int, title: str, detail: str, headers: dict[str, str] | None = None
 ) -> Response:
-    """A page that states why the request was not answered."""
-    return html(rendered("problem.html", root_of(http), title=title, detail=detail), status, headers)
+    """A page that states why the request was not answered; where a file was sent, with the field for another one."""
+    place = get_route_path(http.scope).split("/")[1]
+    return html(rendered("problem.html", root_of(http), title=title, detail=detail, place=place), status, headers)
 
 
 def root_of(http: Request) -> str:

@@ -1,5 +1,6 @@
 """Gear units from REXS files: read, shown as a page, and sent back with results."""
 
+from hashlib import sha256
 from typing import Annotated, Any
 
 from fastapi import APIRouter, HTTPException, Query, Request, Response
@@ -15,6 +16,7 @@ from app.settings import MEBIBYTE, Settings
 DOCUMENTED_TYPES = ("application/xml", "application/json", "application/zip")
 TYPES = (*DOCUMENTED_TYPES, "text/xml", "application/octet-stream")
 FORM = "multipart/form-data"
+GONE = "Nothing is stored: the page of a gear unit is kept in memory for a while only, and this one is gone."
 FILE = {"type": "string", "format": "binary"}
 
 
@@ -69,19 +71,42 @@ async def write_results(
 
 @pages.get("/rexs")
 async def ask_for_unit(http: Request) -> Response:
-    """Where a file is chosen, for who reloads the page of a unit or follows its address."""
+    """Where a file is chosen."""
     return RedirectResponse(f"{root_of(http)}/#rexs-file", 303)
 
 
 @pages.post("/rexs", response_class=HTMLResponse)
-async def show_unit(http: Request) -> Response:
-    """The unit as a page: stages, findings, and a link to every calculation."""
+async def open_unit(http: Request) -> Response:
+    """Redirect to the page of the unit, to which the back button returns; a page too large to be kept is sent at once.
+
+    A file that cannot be read is answered with the reason.
+    """
+    root = root_of(http)
     try:
         content, _ = await _upload(http)
-        arguments = (root_of(http), content, _most_bytes(http))
-        return html(await http.app.state.pool.calculate(http, answer.unit_html, *arguments))
+        shown = await http.app.state.pool.calculate(http, answer.unit_html, root, content, _most_bytes(http))
     except Unprocessable as error:
         return problem_page(http, 422, "The file cannot be read", error.message)
+    name = sha256(content).hexdigest()
+    try:
+        http.app.state.answers[_key(root, name)] = shown
+    except ValueError:  # larger than all that may be kept
+        return html(shown)
+    return RedirectResponse(f"{root}/rexs/{name}", 303)
+
+
+@pages.get("/rexs/{name}", response_class=HTMLResponse)
+async def show_unit(http: Request, name: str) -> Response:
+    """The unit as a page while that is kept: stages, findings, and a link to every calculation."""
+    shown = http.app.state.answers.get(_key(root_of(http), name))
+    if shown is None:
+        return problem_page(http, 410, "The file has to be opened again", GONE)
+    return html(shown)
+
+
+def _key(root: str, name: str) -> str:
+    """The key of a unit's page, whose links have the prefix of a proxy."""
+    return f"unit {name} {root}"
 
 
 async def _upload(http: Request) -> tuple[bytes, bytes | None]:

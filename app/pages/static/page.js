@@ -3,9 +3,11 @@
 
 const WAIT_MS = 350;
 const form = document.getElementById("form");
+const written = form.elements.written; // what the server wrote into the form, with which it tells what was typed
 const long = Number(document.querySelector(".work").dataset.long);
 let timer = 0;
 let running = null;
+let pressed = false; // Calculate, while a request ran
 let shown = caseOf(form);
 
 function pairsOf(element) {
@@ -16,7 +18,7 @@ function pairsOf(element) {
     const excluded = element.querySelector(`[data-field="${CSS.escape(name)}"]`)?.dataset.excludes ?? "";
     if (element.querySelector(`[name="${CSS.escape(name)}"]`)?.value.trim()) excluded.split(" ").forEach((other) => left.add(other));
   }
-  return [...new FormData(element)].filter(([name, text]) => !name.startsWith("pick:") && text.trim() && !left.has(name));
+  return [...new FormData(element)].filter(([name, text]) => !name.startsWith("pick:") && name !== written.name && text.trim() && !left.has(name));
 }
 
 function caseOf(element) {
@@ -31,36 +33,40 @@ function schedule() {
 async function update(force = false) {
   const wanted = caseOf(form);
   if (wanted === shown && !force) return;
-  if (running) { schedule(); return; }
+  if (running !== null) { pressed ||= force; return; }
   running = wanted;
   const result = document.getElementById("result");
   result.classList.add("old");
   result.setAttribute("aria-busy", "true");
   say("calculating …");
   try {
-    const page = await ask(wanted);
+    const page = await ask(wanted, force);
     // Before the first result only Calculate tells what is wrong: a field not reached yet is no fault.
     if (!page.ok && !force && result.querySelector(":scope > .empty")) leave(result);
     else if (caseOf(form) === wanted || page.ok) take(page.document, page.ok);
     if (force && !page.ok) form.querySelector(".wrong :is(input:not([type=radio]), select, textarea)")?.focus();
     shown = wanted;
-    const copy = page.ok ? document.getElementById("copy")?.getAttribute("href") : null;
-    const address = copy ?? (wanted ? `?${wanted}` : location.pathname);
-    if (wanted.length <= long) history.replaceState(null, "", address);
+    history.replaceState(null, "", page.address);
   } catch {
     say("The service does not answer; the result is that of before.");
   }
   running = null;
-  if (caseOf(form) !== wanted) schedule();
+  const again = pressed;
+  pressed = false;
+  if (again) update(true);
+  else if (caseOf(form) !== wanted) schedule();
 }
 
-async function ask(wanted) {
-  const post = wanted.length > long;
-  const address = post || !wanted ? form.action : `${form.action}?${wanted}`;
-  const options = post ? { method: "POST", body: new URLSearchParams(wanted) } : {};
-  const answer = await fetch(address, options);
-  const text = await answer.text();
-  return { ok: answer.ok, document: new DOMParser().parseFromString(text, "text/html") };
+// The server reads what was typed and redirects to the link of the case; a case too long for a link, or an empty form
+// whose faults are asked for, is posted.
+async function ask(wanted, force) {
+  const sent = `${wanted}&${new URLSearchParams({ written: written.value })}`;
+  const post = sent.length > long || (!wanted && force);
+  const options = post ? { method: "POST", body: new URLSearchParams(sent) } : {};
+  const answer = await fetch(post || !wanted ? form.action : `${form.action}?${sent}`, options);
+  const page = new DOMParser().parseFromString(await answer.text(), "text/html");
+  const linked = post && wanted ? page.getElementById("copy")?.href : answer.url.replace(/[?&]written=[^&]*/, "");
+  return { ok: answer.ok, address: linked ?? `${form.action}?unlinked=on`, document: page };
 }
 
 function say(text) {
@@ -144,7 +150,7 @@ function clearFellows(control) {
 }
 
 function count(area) {
-  const items = area.value.split(/[\s;,]+/).filter(Boolean).length;
+  const items = area.value.trim().split(/[\s;]/.test(area.value.trim()) ? /[\s;]+/ : /,/).filter(Boolean).length;
   document.getElementById(area.dataset.count).textContent = items ? `${items} values` : "";
 }
 

@@ -12,9 +12,10 @@ from app.figures.units import axis_of
 from app.figures.wording import listed, number
 from app.pages import study_links
 from app.pages.cases import REFUSED, Case
-from app.pages.query import CORNER, number_of, text_of
+from app.pages.query import CORNER
 from app.pages.studies.page import Controls, Link, Number, Result, StudyPage, Table, titled
 from app.pages.studies.sweep import numbered
+from app.pages.typed import number_of, text_of
 from app.pages.typesetting import shown
 from app.schema.fields import headlines
 from app.studies.engine import Line

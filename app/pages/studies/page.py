@@ -14,10 +14,11 @@ from app.figures.data import Figure
 from app.pages.cases import REFUSED, Asked, Case, Fault, faults_of, solved
 from app.pages.charts import embedded
 from app.pages.form import FieldView
-from app.pages.query import LONGEST_QUERY, STUDY_NAMES, link, number_of, pairs_of, text_of
+from app.pages.query import CASES, LONGEST_QUERY, STUDY_NAMES, link, pairs_of, written_of
 from app.pages.results import NOT_RESULTS
 from app.pages.study_links import Starter, StudyExample, StudyLink
 from app.pages.templating import examples_of, rendered
+from app.pages.typed import as_typed, number_of, question, text_of
 from app.pages.views import report as case_report
 from app.schema.fields import ITEM, Leaf, headlines, leaf_at, leaves, tree
 from app.sources import SHORT_SOURCES
@@ -220,7 +221,7 @@ class StudyPage(ABC):
             label=label,
             unit=unit,
             widget="select" if options else "text" if isinstance(usual, str) else "number",
-            text=self.views.get(name, ""),
+            text=as_typed(self.views.get(name, "")),
             placeholder="" if usual is None else text_of(usual),
             options=options,
             fault=dict(self.faults).get(name),
@@ -284,10 +285,13 @@ def opened(kind: type[StudyPage], asked: Asked, most: int, deadline_s: float) ->
     except REFUSED as error:
         status = 400 if isinstance(error, Unreadable) else 422
         found = faults_of(error, page.calculation)
-        page.faults = [Fault(page.control_at(each.path), each.message) for each in found]
+        at_controls = [(page.control_at(each.path), each.message) for each in found]
+        texts = {name: text for name, text in asked.views.items() if name != CASES}  # whose fault names the line
+        page.faults = [Fault(name, question(texts.get(name, "")) or message) for name, message in at_controls]
     show = page.menu("show", "output", page.usual_output.title, output_choices(page.calculation))
     groups = (*page.controls(), Controls("Show", show, page.shows()))
     controls = {each.name for group in groups for each in (group.menu, *group.fields) if each}
+    texts = {each.name: each.text for group in groups for each in group.fields} | asked.views
     content = rendered(
         "study.html",
         asked.root,
@@ -297,6 +301,7 @@ def opened(kind: type[StudyPage], asked: Asked, most: int, deadline_s: float) ->
         groups=groups,
         hidden=[pair for pair in (*asked.pairs, ("theme", asked.theme)) if pair[1]],
         other_faults=[fault for fault in page.faults if fault.path not in controls],
+        written=written_of(asked.calculation.request, [*asked.pairs, *texts.items()]),
         frames=FRAMES,
     )
     head, _, tail = content.partition(FRAMES)

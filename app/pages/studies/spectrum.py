@@ -3,7 +3,7 @@
 import csv
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Any
+from typing import Any, NamedTuple
 
 from app.calculations import Calculation
 from app.errors import Unprocessable
@@ -13,12 +13,14 @@ from app.figures.units import axis_of
 from app.figures.wording import percent
 from app.pages import study_links
 from app.pages.form import FieldView
-from app.pages.query import SCATTERING, Pairs, link, number_of, pairs_of, text_of
+from app.pages.query import SCATTERING, Pairs, link, pairs_of
 from app.pages.studies.page import Controls, Link, Number, Result, StudyPage, Table
 from app.pages.studies.sweep import field_choices, is_number
 from app.pages.templating import page_path
-from app.pages.typesetting import cited, shown
-from app.schema.fields import leaf_at
+from app.pages.typed import as_typed, number_of, power_between, question, scaled, separator_of, text_of
+from app.pages.typesetting import cited, shown, words
+from app.schema.fields import ITEM, leaf_at, leaves
+from app.schema.quantities import split_unit
 from app.studies.engine import Line
 from app.studies.fields import NUMBERS, scalar_at, value_at
 from app.studies.points import SOLVED
@@ -30,7 +32,7 @@ REPLICATES = 8  # samples from which the page tells how certain a mean is
 MACHINES = (("", "256"), ("64", "64"), ("1024", "1024"), ("4096", "4096"))
 LAWS = (("", "normal"), ("uniform", "uniform"), ("triangular", "triangular"), ("lognormal", "lognormal"))
 SIDES = (("", "by the output"), ("above", "above is bad"), ("below", "below is bad"))
-SEPARATORS = "\t;"
+AROUND_UNIT = " ,;[]()"  # and between a label and its unit
 # Fields that a case of the spectrum usually changes, for the table to start from.
 USUAL = (
     *("load.power_kw", "load.pinion_torque_n_m", "load.pinion_speed_rpm"),
@@ -48,42 +50,74 @@ MOST_BARS = 40  # that fit a page side by side
 TOLERANCES = tuple(f"t{place}" for place in range(SCATTERING))
 
 
+class Column(NamedTuple):
+    """A column of the table: name, share, or the path of a field; its numbers are multiplied by ten to the `power`."""
+
+    path: str
+    power: int = 0
+
+
 def cases_of(calculation: Calculation, text: str) -> list[dict[str, Any]]:
-    """The cases of a table whose first line names the columns: name, share, and fields by their paths.
+    """The cases of a table whose first line names the columns: name, share, and fields by their labels or paths.
 
     Columns are parted by tabs, as a spreadsheet copies them, or by semicolons; an empty cell changes nothing. Raises
     Unprocessable.
     """
     lines = [line for line in text.splitlines() if line.strip()] or [""]
-    separator = next((each for each in SEPARATORS if each in lines[0]), "\t")
     try:
-        heading, *rows = csv.reader(lines, delimiter=separator)
+        heading, *rows = csv.reader(lines, delimiter=separator_of(text))
     except csv.Error:
         raise Unprocessable("table", "the table cannot be read", "cases") from None
-    columns = [cell.strip() for cell in heading]
+    columns = [_column(calculation, cell.strip()) for cell in heading]
     return [_case(calculation, columns, row, place) for place, row in enumerate(rows, start=2)] or [{}]
 
 
-def _case(calculation: Calculation, columns: list[str], row: list[str], line: int) -> dict[str, Any]:
+def _column(calculation: Calculation, heading: str) -> Column:
+    """The column of a heading, which may be a path, a name or a label of the form, with or without a unit.
+
+    Raises Unprocessable where the heading means several fields; one that means none stays, for the study to refuse.
+    """
+    plain = heading.lower()
+    if leaf_at(calculation.request, heading) or plain in {NAME, SHARE}:
+        return Column(heading if plain not in {NAME, SHARE} else plain)
+    if plain.startswith(SHARE) and plain.removeprefix(SHARE).strip(AROUND_UNIT) == "%":
+        return Column(SHARE, -2)
+    alike: dict[int, dict[str, Column]] = {}
+    for leaf in (leaf for leaf in leaves(calculation.request) if leaf.is_scalar and ITEM not in leaf.path):
+        name = leaf.path.rpartition(".")[2]
+        labels = {leaf.title, leaf.declared.title, name, words(split_unit(name)[0])}
+        for label in filter(plain.startswith, map(str.lower, labels)):
+            power = power_between(heading[len(label) :].strip(AROUND_UNIT), leaf.unit)
+            if power is not None:
+                alike.setdefault(len(label), {})[leaf.title] = Column(leaf.path, power)
+    meant = alike[max(alike)] if alike else {heading: Column(heading)}
+    if len(meant) > 1:
+        raise Unprocessable("table", f"the column {heading} may be {' or '.join(meant)}; write one of these", "cases")
+    return next(iter(meant.values()))
+
+
+def _case(calculation: Calculation, columns: list[Column], row: list[str], line: int) -> dict[str, Any]:
     """A line of the table; a cell that its field does not take stays text, for the study to refuse."""
     if any(cell.strip() for cell in row[len(columns) :]):
         raise Unprocessable("table", f"line {line} has more columns than the first line names", "cases")
     case: dict[str, Any] = {"set": {}}
-    for column, cell in zip(columns, map(str.strip, row), strict=False):
+    for (column, power), cell in zip(columns, map(str.strip, row), strict=False):
         leaf = leaf_at(calculation.request, column)
         if not cell:
             continue
+        if column != NAME and (asked := question(cell)):
+            raise Unprocessable("table", f"line {line}: {asked}", "cases")
         if column == NAME:
             case[NAME] = cell
         elif column == SHARE:
-            share = number_of(cell.removesuffix("%").strip())
+            share = scaled(number_of(cell.removesuffix("%").strip()), -2 if cell.endswith("%") else power)
             if isinstance(share, str):
                 raise Unprocessable("table", f"line {line}: the share is no number", "cases")
-            case[SHARE] = float(share) / (100.0 if cell.endswith("%") else 1.0)
+            case[SHARE] = float(share)
         elif leaf is not None and leaf.kind == "boolean":
             case["set"][column] = {"true": True, "false": False}.get(cell, cell)
         else:
-            case["set"][column] = number_of(cell) if leaf is None or leaf.kind in NUMBERS else cell
+            case["set"][column] = scaled(number_of(cell), power) if leaf is None or leaf.kind in NUMBERS else cell
     return case
 
 
@@ -205,9 +239,9 @@ class SpectrumPage(StudyPage):
     def controls(self) -> tuple[Controls, ...]:
         """The table of cases, and the tolerances: those given and two more."""
         case = self.case
-        text = self.views.get("cases") or _suggested(case)
+        text = as_typed(self.views.get("cases", "")) or _suggested(case)
         about = (
-            "The first line names the columns: name, share (of the time) and fields of the request.",
+            "The first line names the columns: name, share (of the time) and fields, as the form or the request does.",
             "One line a case, columns parted by tabs or semicolons, as pasted from a spreadsheet.",
             "An empty cell changes nothing.",
         )

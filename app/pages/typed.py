@@ -1,0 +1,234 @@
+"""Numbers as people type them into a form, and the texts that stand for them in links.
+
+A typed number may have thousands in groups, a decimal point or comma, a power of ten, the minus sign that pages print,
+and the unit of its field with any prefix. A text with two readings is not read but asked back: in a link it ends with
+a question mark, with which it is no number, and `question` says what to ask.
+"""
+
+import re
+from decimal import Decimal
+from typing import Any
+
+DOUBT = "?"
+LONGEST = 60  # characters of a number with its unit, chosen
+MOST_ITEMS = 2000  # more than a list may have
+
+_TIDY = str.maketrans({"−": "-", "’": "'", "\u00a0": " ", "\u2007": " ", "\u2009": " ", "\u202f": " "})
+_SUPERSCRIPTS = str.maketrans("⁻⁺⁰¹²³⁴⁵⁶⁷⁸⁹", "-+0123456789")
+_INTEGER = re.compile(r"[+-]?\d{1,18}")
+_NUMBER = re.compile(r"[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?")
+_PLAIN = re.compile(r"[+-]?\d+(\.\d*)?")
+_BLANKS = re.compile("[ '\u00a0\u2009\u202f]")
+_SPACED = re.compile(rf"[+-]?\d{{1,3}}({_BLANKS.pattern}\d{{3}})+([.,]\d*)?")
+_ENGLISH = re.compile(r"[+-]?\d{1,3}(,\d{3})+\.\d*|[+-]?\d{1,3}(,\d{3}){2,}")
+_GERMAN = re.compile(r"[+-]?\d{1,3}(\.\d{3})+,\d*|[+-]?\d{1,3}(\.\d{3}){2,}")
+_AMBIGUOUS = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}")  # in a link, where a point is the decimal one
+_DOUBTFUL = re.compile(r"([+-]?[1-9]\d{0,2})([.,])(\d{3})(?![\d.,'])")  # where it is typed
+_POWER = re.compile(r"(\d\s*[·×x*]\s*|(?<![\d.,']))10(?:\^([+-]?\d{1,4})|([⁻⁺]?[⁰¹²³⁴⁵⁶⁷⁸⁹]{1,4}))")
+_TYPED = re.compile(r"([+-]?[\d.,][\d.,' ]*?)(?:[eE]([+-]?\d{1,4}))?\s*((?:\s1/|/)?[A-Za-z°µμ(].*)?")
+
+_PREFIXES = dict(zip(("", *"pnµumcdhkMGT"), (0, -12, -9, -6, -6, -3, -2, -1, 2, 3, 6, 9, 12), strict=True))
+_BASES = ("m", "g", "s", "rad", "mol", "N", "Pa", "W", "J", "K", "Hz")
+_SYMBOLS = {f"{prefix}{base}": (base, power) for base in _BASES for prefix, power in _PREFIXES.items()}
+_SYMBOLS |= {base: (base, 0) for base in ("°C", "°", "min")}
+_FACTOR = re.compile(rf"[\s·*]*({'|'.join(sorted(_SYMBOLS, key=len, reverse=True))})(?:\^?(-?\d))?")
+_ALIASES = {"rpm": "1/min", "RPM": "1/min", "U/min": "1/min", "deg": "°", "C": "°C", "cSt": "mm²/s"}
+
+
+def text_of(value: Any) -> str:
+    """A value as it is typed: integers without a point, other numbers in as few digits as give them back."""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, float) and value.is_integer() and abs(value) < 1e15:
+        return str(int(value))
+    return str(value)
+
+
+def number_of(text: str) -> Any:
+    """The number that a single field of a link holds, with a decimal point or comma; what is none stays text.
+
+    Digits may stand in groups of three, where that leaves no doubt which mark is the decimal one.
+    """
+    plain = _ungrouped(text)
+    number = text if _AMBIGUOUS.fullmatch(plain) else plain_number_of(plain.replace(",", ".", 1))
+    return text if isinstance(number, str) else number
+
+
+def plain_number_of(text: str) -> Any:
+    """The number with a decimal point that a text is; what is none stays text."""
+    if _INTEGER.fullmatch(text):
+        return int(text)
+    return float(text) if _NUMBER.fullmatch(text) and "," not in text else text
+
+
+def in_link(text: str, unit: str | None = None) -> str:
+    """Return the text of a link for a number typed in a field with this unit; text that is no number is unchanged."""
+    if _PLAIN.fullmatch(text) and not _DOUBTFUL.fullmatch(text):
+        return text
+    parts = _parts(text)
+    power = power_between(parts[3], unit) if parts else None
+    if parts is None or power is None:
+        return text
+    if (_DOUBTFUL.fullmatch(parts[1]) and not parts[2]) or _unit_in_doubt(parts):
+        return text + DOUBT
+    plain = _ungrouped(parts[1]).replace(",", ".", 1)
+    if not _NUMBER.fullmatch(plain):
+        return text
+    power += int(parts[2] or 0)
+    return text_of(float(f"{plain}e{power}")) if power else plain
+
+
+def list_in_link(text: str, unit: str | None = None) -> str:
+    """Return the text of a link for numbers typed or pasted in a field of several; unchanged if one is no number."""
+    items = _items(text.translate(_TIDY), unit)
+    if items is None:
+        return text + DOUBT
+    if len(items) > MOST_ITEMS:
+        return text
+    decimal = {mark for item in items for mark in ".," if item.count(mark) == 1 and not _DOUBTFUL.match(item)}
+    numbers = [in_link(_settled(item, decimal), unit) for item in items]
+    if any(number.endswith(DOUBT) for number in numbers):
+        return text + DOUBT
+    return ",".join(numbers) if all(map(_NUMBER.fullmatch, numbers)) else text
+
+
+def items_in_link(text: str) -> str:
+    """Return the text of a link for numbers in rows, each as it is read."""
+    return re.sub(r"[^;\s]+", lambda item: in_link(item[0]), text)
+
+
+def table_in_link(text: str) -> str:
+    """Return the text of a link for a table whose first line names the columns: its cells are read as numbers."""
+    separator = separator_of(text)
+    heading, *rows = text.split("\n")
+    named = [cell.strip().lower() == "name" for cell in heading.split(separator)]
+    cells = ([*enumerate(row.split(separator))] for row in rows)
+    read = [
+        separator.join(cell if place < len(named) and named[place] else in_link(cell.strip()) for place, cell in row)
+        for row in cells
+    ]
+    return "\n".join([heading, *read])
+
+
+def separator_of(text: str) -> str:
+    """Return what parts the columns of a table: tabs, as a spreadsheet copies them, or semicolons."""
+    first = next((line for line in text.splitlines() if line.strip()), "")
+    return next((each for each in "\t;" if each in first), "\t")
+
+
+def scaled(value: Any, power: int) -> Any:
+    """Return a number times a power of ten, rounded once; what is no number is unchanged."""
+    return float(Decimal(str(value)).scaleb(power)) if power and isinstance(value, int | float) else value
+
+
+def as_typed(text: str) -> str:
+    """Return the text as it was typed, without the marks of doubts."""
+
+    def unmarked(item: str) -> str:
+        return item.removesuffix(DOUBT) if question(item) else item
+
+    return unmarked(re.sub(r"[^;\s]{1,60}\?(?=[;\s]|$)", lambda item: unmarked(item[0]), text))
+
+
+def power_between(typed: str | None, own: str | None) -> int | None:
+    """Return the power of ten that converts numbers from a typed unit to a field's own; None for another quantity."""
+    if not typed or _packed(typed) == _packed(own or ""):
+        return 0
+    here, there = _factors(typed), _factors(own or "")
+    return here[1] - there[1] if here and there and here[0] == there[0] else None
+
+
+def question(text: str) -> str:
+    """Return what to ask about a text with two readings, as it stands in a link; empty if it has only one."""
+    asked = text.removesuffix(DOUBT)
+    if asked == text and not _AMBIGUOUS.fullmatch(text):
+        return ""
+    for item in (asked, *re.split(r"[\s;]+", asked)):
+        parts = _parts(item)
+        if parts and (doubtful := _DOUBTFUL.fullmatch(parts[1])):
+            whole, _, decimals = doubtful.groups()
+            kept = decimals.rstrip("0")
+            decimal = f"{whole}.{kept}{'0' * (len(kept) == len(decimals))}".rstrip(".")
+            unit = f" {parts[3].strip()}" if parts[3] else ""
+            return f"{item} may mean {whole}{decimals} or {decimal}{unit}; write one of these"
+    if (parts := _parts(asked)) and _unit_in_doubt(parts):
+        return f"the unit of {asked} may be 1{parts[3]} or {parts[3]}; leave the unit out"
+    if not list_in_link(asked).endswith(DOUBT):
+        return ""
+    return f"{asked} may be one number or several; write decimal points, and semicolons between numbers"
+
+
+def _parts(text: str) -> re.Match[str] | None:
+    """Digits, exponent and unit of a typed number; None where it is none."""
+    return _TYPED.fullmatch(_POWER.sub(_exponent, text.translate(_TIDY))) if len(text) <= LONGEST else None
+
+
+def _unit_in_doubt(parts: re.Match[str]) -> bool:
+    """Whether the last digit may belong to the unit: 19101/min."""
+    return parts[1].endswith("1") and (parts[3] or "").startswith("/")
+
+
+def _ungrouped(text: str) -> str:
+    """A number without the marks between groups of three digits, where these leave no doubt."""
+    plain = _BLANKS.sub("", text) if _SPACED.fullmatch(text) else text
+    if _ENGLISH.fullmatch(plain):
+        return plain.replace(",", "")
+    return plain.replace(".", "") if _GERMAN.fullmatch(plain) else plain
+
+
+def _exponent(power: re.Match[str]) -> str:
+    """A power of ten as pages print it, as programs write it."""
+    exponent = power[2] or power[3].translate(_SUPERSCRIPTS)
+    return f"{power[1][0] if power[1] else '1'}e{exponent}"
+
+
+def _items(text: str, unit: str | None) -> list[str] | None:
+    """The numbers of a list, parted by semicolons, lines and tabs, else by blanks, else by commas; None in doubt."""
+    cells = [cell.strip() for cell in re.split(r"[;\t\r\n]+", text.strip("; \t\r\n"))]
+    items = list[str]()
+    for cell in cells:
+        if len(cells) > 1 and _SPACED.fullmatch(cell):  # thousands, or several numbers in a line
+            return None
+        whole = " " not in cell or (not _SPACED.fullmatch(cell) and _NUMBER.fullmatch(in_link(cell, unit)))
+        items += [cell] if whole else cell.split()
+    if any(re.match(r"0\d", item) for item in items[1:]):  # "1 050": the rest of a number
+        return None
+    if len(items) > 1:
+        items = [item.removesuffix(",") for item in items]
+    elif (items[0].count(",") == 1 and "." not in items[0]) or _ENGLISH.match(items[0]) or _GERMAN.match(items[0]):
+        return None
+    return [part.strip() for item in items for part in (item.split(",") if _has_several(item) else [item])]
+
+
+def _has_several(item: str) -> bool:
+    """Whether commas part numbers with decimal points, or more than two numbers."""
+    grouped = _ENGLISH.fullmatch(item) or _GERMAN.fullmatch(item)
+    return not grouped and (item.count(",") > 1 or ("," in item and "." in item))
+
+
+def _settled(item: str, decimal: set[str]) -> str:
+    """A doubtful number with a fourth decimal where other numbers of its list tell that its mark is the decimal one."""
+    found = _DOUBTFUL.match(item)
+    return f"{item[: found.end()]}0{item[found.end() :]}" if found and found[2] in decimal else item
+
+
+def _packed(unit: str) -> str:
+    """A unit without what parts its factors: W/mK may mean W/(m K), not per millikelvin."""
+    return re.sub(r"[\s()·*]", "", unit)
+
+
+def _factors(unit: str) -> tuple[frozenset[tuple[str, int]], int] | None:
+    """The base units of a unit with their exponents, and its power of ten; None where it is none."""
+    text = _ALIASES.get(unit.strip(), unit).translate(_SUPERSCRIPTS).replace("μ", "µ")
+    exponents: dict[str, int] = {}
+    power = 0
+    for place, part in enumerate(re.sub(r"°\s*C", "°C", text).replace("1/", "/").split("/")):
+        rest = part.strip("() ")
+        while factor := _FACTOR.match(rest):
+            (base, prefix), exponent = _SYMBOLS[factor[1]], int(factor[2] or 1) * (-1 if place else 1)
+            exponents[base] = exponents.get(base, 0) + exponent
+            power += prefix * exponent
+            rest = rest[factor.end() :]
+        if rest.strip():
+            return None
+    return (frozenset(exponents.items()), power) if exponents else None
