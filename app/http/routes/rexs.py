@@ -13,7 +13,7 @@ from app.rexs.document import File
 from app.settings import MEBIBYTE, Settings
 
 DOCUMENTED_TYPES = ("application/xml", "application/json", "application/zip")
-TYPES = (*DOCUMENTED_TYPES, "text/xml", "application/octet-stream")
+TYPES = (*DOCUMENTED_TYPES, "text/xml", "application/x-zip-compressed", "application/octet-stream")
 FORM = "multipart/form-data"
 FILE = {"type": "string", "format": "binary"}
 
