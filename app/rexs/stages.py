@@ -36,26 +36,31 @@ def _pair(reading: Reading, stage: Component) -> Pair | None:
     if first is None or second is None:
         reading.find("relation_missing", stage, None, "the stage has no relation to two gears; it is left out")
         return None
-    teeth = []
-    for gear in (first, second):
-        if gear.type != "cylindrical_gear":
-            what = "a ring gear; pairs with one" if gear.type == "ring_gear" else "other pairs than two external gears"
-            reading.find("stage_not_modelled", stage, None, f"{what} are not modelled; the stage is left out")
-            return None
-        number = reading.number(gear, "number_of_teeth")
-        if number is not None and number < 0.0:
-            message = "a ring gear (teeth below 0); pairs with one are not modelled; the stage is left out"
-            reading.find("ring_gear", gear, "number_of_teeth", message)
-            return None
-        if number is None or number != int(number) or not 1 <= number <= 10_000:
-            reading.find("teeth", gear, "number_of_teeth", "the gear has no possible number of teeth; stage left out")
-            return None
-        teeth.append(int(number))
+    teeth = _teeth(reading, stage, first), _teeth(reading, stage, second)
+    if teeth[0] is None or teeth[1] is None:
+        return None
     shafts = _shaft_of(reading, first), _shaft_of(reading, second)
     if shafts[0] is None or shafts[1] is None or shafts[0].id == shafts[1].id:
         reading.find("relation_missing", stage, None, "the gears do not sit on two shafts; the stage is left out")
         return None
     return Pair(stage, (first, second), (shafts[0], shafts[1]), (teeth[0], teeth[1]))
+
+
+def _teeth(reading: Reading, stage: Component, gear: Component) -> int | None:
+    """The number of teeth of an external gear; every other gear is a finding."""
+    if gear.type != "cylindrical_gear":
+        what = "a ring gear; pairs with one" if gear.type == "ring_gear" else "other pairs than two external gears"
+        reading.find("stage_not_modelled", stage, None, f"{what} are not modelled; the stage is left out")
+        return None
+    number = reading.number(gear, "number_of_teeth")
+    if number is not None and number < 0.0:
+        message = "a ring gear (teeth below 0); pairs with one are not modelled; the stage is left out"
+        reading.find("ring_gear", gear, "number_of_teeth", message)
+        return None
+    if number is None or number != int(number) or not 1 <= number <= 10_000:
+        reading.find("teeth", gear, "number_of_teeth", "the gear has no possible number of teeth; stage left out")
+        return None
+    return int(number)
 
 
 def _shaft_of(reading: Reading, gear: Component) -> Component | None:
@@ -292,7 +297,7 @@ class StageDraft(Draft):
             self.reading.find("gears_differ", self.gears[1], row.name, message)
 
     def _profile_shift(self, place: int) -> None:
-        """The nominal shift; the one after finishing holds the allowance of the teeth and stands in where it is alone."""
+        """The nominal shift, else the one after finishing, which holds the allowance of the teeth as well."""
         path = f"gears.{ROLES[place]}.profile_shift"
         if self._of_flanks(place, table.PROFILE_SHIFT, path) is not None:
             return
@@ -317,9 +322,7 @@ class StageDraft(Draft):
         return known[0][0]
 
     def _rack(self, place: int) -> None:
-        """Addendum from the tip diameter, else from the basic profile; dedendum from the tool, else from the root
-        diameter; else ISO 53 A.
-        """
+        """Take addendum and dedendum: from tip diameter or basic profile, from tool or root diameter, else ISO 53 A."""
         prefix, tool = f"gears.{ROLES[place]}.", self.tool(place)
         path, module = f"{prefix}addendum", self.fields.get(table.MODULE.field)
         if not self._from_diameter(place, table.TIP_DIAMETER):

@@ -178,8 +178,8 @@ SUPPLY_FACTOR, SUPPLY_FACTORS = (
     "lubrication_factor_scuffing_iso_6336_2022",
     {1.2: "spray", 1.0: "dip", 0.2: "submerged"},
 )
-SUPPLIES = {"splash": "dip", "dip": "dip", "bath": "dip", "spray": "spray", "injection": "spray", "circulating": "spray",
-            "submerged": "submerged"}  # fmt: skip
+SUPPLIES = {"splash": "dip", "dip": "dip", "bath": "dip", "submerged": "submerged", "spray": "spray",
+            "injection": "spray", "circulating": "spray"}  # fmt: skip
 """Parts of what files say of the way in which the oil comes to the mesh."""
 REFERENCE_TEMPERATURE = Row("thermal.reference_c", ("reference_temperature",), "C")
 TOOTH_TEMPERATURES = (
@@ -200,8 +200,9 @@ OIL_TYPES = (
     "lubricant_type_agma_925_a03",
 )
 OIL_WORDS = ("basis", "kind", "name")
-BASE_OILS = {"phosphat": None, "traction": None, "silicon": None, "polyglycol": "polyglycol", "polyglykol": "polyglycol",
-             "polyalkylen": "polyglycol", "pag_": "polyglycol", "pao": "pao", "polyalpha": "pao", "polyalfa": "pao",
+BASE_OILS = {"phosphat": None, "traction": None, "silicon": None, "polyglycol": "polyglycol",
+             "polyglykol": "polyglycol", "polyalkylen": "polyglycol", "pag_": "polyglycol", "pao": "pao",
+             "polyalpha": "pao", "polyalfa": "pao",
              "ester": "ester", "mil_l_": "ester", "miner": "mineral", "synthetic": None, "biologic": None,
              "food": None}  # fmt: skip
 """Parts of what files say of the base oil, the most particular first; None is an oil that is not modelled."""
@@ -312,12 +313,11 @@ IGNORED = (
         "gravit|reference_temperature|shear",
         "weight and thermal shape; used where a drive train is formed only",
     ),
-    ("gear_casing", "viscosity", "the viscosity follows from the oil and its temperature"),
+    ("gear_casing|cylindrical_stage", "viscosity", "the viscosity follows from the oil and its temperature"),
     (".*_(relief|crowning|slope)(_.*)?", "", "modifications count by amount, length and shape"),
     (
         ".*",
-        "chamfer|protuberance|edge_radius|topographical|facewidth_usable|roughness_(root|.*root)|peak_to_valley|"
-        "valley_height|roughness_.*(925|root)|roughness_root",
+        "chamfer|protuberance|edge_radius|topographical|facewidth_usable|peak_to_valley|valley_height|roughness.*root",
         "chamfers, undercuts, measured flanks and roots are not modelled; roughness counts as Ra",
     ),
     (

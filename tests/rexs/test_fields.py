@@ -60,7 +60,15 @@ def gear_set(version: str = "2.0", **of: dict[str, Given]) -> Unit:
 
 # component, attribute, value and unit in the file; endpoint, field and value there
 MEANINGS: list[tuple[str, str, Value, str, str, str, Any]] = [
-    ("material", "thermal_conductivity", 15.0, "W / (m K)", LOAD, "materials.wheel.thermal_conductivity_w_per_m_k", 15.0),
+    (
+        "material",
+        "thermal_conductivity",
+        15.0,
+        "W / (m K)",
+        LOAD,
+        "materials.wheel.thermal_conductivity_w_per_m_k",
+        15.0,
+    ),
     ("material", "thermal_capacity", 500.0, "J / (kg K)", SCUFFING, "materials.pinion.specific_heat_j_per_kg_k", 500.0),
     ("material", "elastic_modulus", 196000.0, "MPa", TRAIN, "materials.pinion.youngs_modulus_gpa", 196.0),
     ("material", "elastic_modulus", 196000.0, "MPa", TRAIN, "pinion_shaft.youngs_modulus_gpa", 196.0),
@@ -80,57 +88,273 @@ MEANINGS: list[tuple[str, str, Value, str, str, str, Any]] = [
     ("cylindrical_stage", "application_factor_iso_6336_2019", 1.3, "none", LOAD, "load.application_factor", 1.3),
     ("cylindrical_stage", "application_factor_iso_6336_2006", 1.3, "none", LOAD, "load.application_factor", 1.3),
     ("cylindrical_stage", "application_factor_din_3990_1987", 1.3, "none", LOAD, "load.application_factor", 1.1),
-    ("cylindrical_stage", "application_factor_scuffing_iso_6336_2022", 1.5, "none", SCUFFING, "load.application_factor", 1.5),
-    ("cylindrical_stage", "application_factor_scuffing_iso_6336_2022", 1.5, "none", LOAD, "load.application_factor", 1.1),
-    ("cylindrical_stage", "application_factor_scuffing_iso_6336_2022", 1.5, "none", TRAIN, "operation.application_factor", 1.1),
+    (
+        "cylindrical_stage",
+        "application_factor_scuffing_iso_6336_2022",
+        1.5,
+        "none",
+        SCUFFING,
+        "load.application_factor",
+        1.5,
+    ),
+    (
+        "cylindrical_stage",
+        "application_factor_scuffing_iso_6336_2022",
+        1.5,
+        "none",
+        LOAD,
+        "load.application_factor",
+        1.1,
+    ),
+    (
+        "cylindrical_stage",
+        "application_factor_scuffing_iso_6336_2022",
+        1.5,
+        "none",
+        TRAIN,
+        "operation.application_factor",
+        1.1,
+    ),
     ("cylindrical_stage", "center_distance", 517.4, "mm", LOAD, "gears.centre_distance_mm", 517.4),
     ("cylindrical_stage", "common_face_width", 180.0, "mm", LOAD, "gears.face_width_mm", 180.0),
     ("cylindrical_stage", "temperature_lubricant", 45.0, "C", SCUFFING, "temperatures.oil_c", 45.0),
-    ("cylindrical_stage", "oil_inlet_or_sump_temperature_agma_925_2003", 45.0, "C", SCUFFING, "temperatures.oil_c", 45.0),
-    ("cylindrical_stage", "oil_inlet_or_sump_temperature_agma_925_a03", 45.0, "C", SCUFFING, "temperatures.oil_c", 45.0),
+    (
+        "cylindrical_stage",
+        "oil_inlet_or_sump_temperature_agma_925_2003",
+        45.0,
+        "C",
+        SCUFFING,
+        "temperatures.oil_c",
+        45.0,
+    ),
+    (
+        "cylindrical_stage",
+        "oil_inlet_or_sump_temperature_agma_925_a03",
+        45.0,
+        "C",
+        SCUFFING,
+        "temperatures.oil_c",
+        45.0,
+    ),
     ("gear_casing", "temperature_lubricant", 45.0, "C", TRAIN, "temperatures.oil_c", 45.0),
     ("cylindrical_gear", "bulk_temperature", 95.0, "C", SCUFFING, "temperatures.bulk_c", 95.0),
     ("cylindrical_gear", "bulk_temperature", 95.0, "C", TRAIN, "thermal.pinion_bulk_c", 95.0),
     ("cylindrical_gear", "bulk_temperature", 95.0, "C", TRAIN, "thermal.wheel_bulk_c", 95.0),
     ("cylindrical_stage", "tooth_temperature_agma_925_2003", 92.0, "C", SCUFFING, "temperatures.bulk_c", 92.0),
     ("cylindrical_stage", "tooth_temperature_agma_925_a03", 365.15, "K", SCUFFING, "temperatures.bulk_c", 92.0),
-    ("cylindrical_stage", "mean_scuffing_temperature_agma_925_2003", 300.0, "C", SCUFFING, "temperatures.scuffing_c", 300.0),
-    ("cylindrical_stage", "mean_scuffing_temperature_agma_925_a03", 300.0, "C", TRAIN, "temperatures.scuffing_c", 300.0),
-    ("cylindrical_stage", "lubrication_type_agma_925_2003", "splash_lubrication", "none", SCUFFING, "temperatures.oil_supply", "dip"),
-    ("cylindrical_stage", "lubrication_type_agma_925_a03", "spray_lubrication", "none", SCUFFING, "temperatures.oil_supply", "spray"),
-    ("cylindrical_stage", "lubrication_type_vdi_2736_2014", "circulating_oil", "none", SCUFFING, "temperatures.oil_supply", "spray"),
-    ("cylindrical_stage", "determination_of_lubrication_type_vdi_2736_2014", "circulating_oil", "none", SCUFFING, "temperatures.oil_supply", "spray"),
+    (
+        "cylindrical_stage",
+        "mean_scuffing_temperature_agma_925_2003",
+        300.0,
+        "C",
+        SCUFFING,
+        "temperatures.scuffing_c",
+        300.0,
+    ),
+    (
+        "cylindrical_stage",
+        "mean_scuffing_temperature_agma_925_a03",
+        300.0,
+        "C",
+        TRAIN,
+        "temperatures.scuffing_c",
+        300.0,
+    ),
+    (
+        "cylindrical_stage",
+        "lubrication_type_agma_925_2003",
+        "splash_lubrication",
+        "none",
+        SCUFFING,
+        "temperatures.oil_supply",
+        "dip",
+    ),
+    (
+        "cylindrical_stage",
+        "lubrication_type_agma_925_a03",
+        "spray_lubrication",
+        "none",
+        SCUFFING,
+        "temperatures.oil_supply",
+        "spray",
+    ),
+    (
+        "cylindrical_stage",
+        "lubrication_type_vdi_2736_2014",
+        "circulating_oil",
+        "none",
+        SCUFFING,
+        "temperatures.oil_supply",
+        "spray",
+    ),
+    (
+        "cylindrical_stage",
+        "determination_of_lubrication_type_vdi_2736_2014",
+        "circulating_oil",
+        "none",
+        SCUFFING,
+        "temperatures.oil_supply",
+        "spray",
+    ),
     ("cylindrical_stage", "lubrication_type", "injection", "none", SCUFFING, "temperatures.oil_supply", "spray"),
     ("cylindrical_stage", "lubrication_type", "submerged", "none", SCUFFING, "temperatures.oil_supply", "submerged"),
-    ("cylindrical_stage", "lubrication_factor_scuffing_iso_6336_2022", 0.2, "none", SCUFFING, "temperatures.oil_supply", "submerged"),
-    ("cylindrical_stage", "mean_coefficient_of_friction_constant_agma_925_2003", 0.07, "none", SCUFFING, "friction_coefficient", 0.07),
-    ("cylindrical_stage", "mean_coefficient_of_friction_constant_agma_925_a03", 0.07, "none", LOAD, "friction_coefficient", 0.07),
-    ("lubricant", "viscosity_at_40_degree_celsius", 46.0, "mm^2 / s", SCUFFING, "lubricant.kinematic_viscosity_40_mm2_per_s", 46.0),
-    ("lubricant", "viscosity_at_100_degree_celsius", 6.0, "mm^2 / s", SCUFFING, "lubricant.kinematic_viscosity_100_mm2_per_s", 6.0),
+    (
+        "cylindrical_stage",
+        "lubrication_factor_scuffing_iso_6336_2022",
+        0.2,
+        "none",
+        SCUFFING,
+        "temperatures.oil_supply",
+        "submerged",
+    ),
+    (
+        "cylindrical_stage",
+        "mean_coefficient_of_friction_constant_agma_925_2003",
+        0.07,
+        "none",
+        SCUFFING,
+        "friction_coefficient",
+        0.07,
+    ),
+    (
+        "cylindrical_stage",
+        "mean_coefficient_of_friction_constant_agma_925_a03",
+        0.07,
+        "none",
+        LOAD,
+        "friction_coefficient",
+        0.07,
+    ),
+    (
+        "lubricant",
+        "viscosity_at_40_degree_celsius",
+        46.0,
+        "mm^2 / s",
+        SCUFFING,
+        "lubricant.kinematic_viscosity_40_mm2_per_s",
+        46.0,
+    ),
+    (
+        "lubricant",
+        "viscosity_at_100_degree_celsius",
+        6.0,
+        "mm^2 / s",
+        SCUFFING,
+        "lubricant.kinematic_viscosity_100_mm2_per_s",
+        6.0,
+    ),
     ("lubricant", "density_at_15_degree_celsius", 0.9, "kg / dm^3", SCUFFING, "lubricant.density_15_kg_per_m3", 900.0),
-    ("lubricant", "thermal_conductivity", 0.13, "W / (m K)", SCUFFING, "lubricant.thermal_conductivity_w_per_m_k", 0.13),
+    (
+        "lubricant",
+        "thermal_conductivity",
+        0.13,
+        "W / (m K)",
+        SCUFFING,
+        "lubricant.thermal_conductivity_w_per_m_k",
+        0.13,
+    ),
     ("lubricant", "thermal_capacity", 1900.0, "J / (kg K)", TRAIN, "lubricant.specific_heat_j_per_kg_k", 1900.0),
-    ("lubricant", "pressure_viscosity_coefficient_agma_925_2003", 0.0219, "mm^2 / N", SCUFFING, "lubricant.pressure_viscosity_per_gpa", 21.9),
-    ("lubricant", "pressure_viscosity_coefficient_agma_925_a03", 0.0219, "mm^2 / N", SCUFFING, "lubricant.pressure_viscosity_per_gpa", 21.9),
-    ("lubricant", "pressure_viscosity_coefficient_at_38_degrees_celsius", 0.02, "mm^2 / N", SCUFFING, "lubricant.pressure_viscosity_per_gpa", 20.0),
+    (
+        "lubricant",
+        "pressure_viscosity_coefficient_agma_925_2003",
+        0.0219,
+        "mm^2 / N",
+        SCUFFING,
+        "lubricant.pressure_viscosity_per_gpa",
+        21.9,
+    ),
+    (
+        "lubricant",
+        "pressure_viscosity_coefficient_agma_925_a03",
+        0.0219,
+        "mm^2 / N",
+        SCUFFING,
+        "lubricant.pressure_viscosity_per_gpa",
+        21.9,
+    ),
+    (
+        "lubricant",
+        "pressure_viscosity_coefficient_at_38_degrees_celsius",
+        0.02,
+        "mm^2 / N",
+        SCUFFING,
+        "lubricant.pressure_viscosity_per_gpa",
+        20.0,
+    ),
     ("cylindrical_gear", "normal_module", 6.5, "mm", LOAD, "gears.module_mm", 6.5),
     ("cylindrical_gear", "face_width", 190.0, "mm", LOAD, "gears.face_width_mm", 190.0),
     ("cylindrical_gear", "addendum_basic_profile", 5.4, "mm", LOAD, "gears.pinion.addendum", 0.9),
     ("cylindrical_gear_flank", "addendum_coefficient_basic_profile", 0.95, "none", LOAD, "gears.wheel.addendum", 0.95),
-    ("cylindrical_gear_flank", "addendum_modification_coefficient", 0.1, "none", LOAD, "gears.wheel.profile_shift", 0.1),
-    ("cylindrical_gear_flank", "addendum_modification_coefficient_after_finishing", 0.1, "none", LOAD, "gears.wheel.profile_shift", 0.1),
+    (
+        "cylindrical_gear_flank",
+        "addendum_modification_coefficient",
+        0.1,
+        "none",
+        LOAD,
+        "gears.wheel.profile_shift",
+        0.1,
+    ),
+    (
+        "cylindrical_gear_flank",
+        "addendum_modification_coefficient_after_finishing",
+        0.1,
+        "none",
+        LOAD,
+        "gears.wheel.profile_shift",
+        0.1,
+    ),
     ("cylindrical_gear_flank", "addendum_modification", 0.6, "mm", LOAD, "gears.pinion.profile_shift", 0.1),
     ("cylindrical_gear_flank", "normal_pressure_angle", 22.5, "deg", LOAD, "gears.pressure_angle_deg", 22.5),
-    ("cylindrical_gear", "arithmetic_mean_roughness_flank_iso_4287_1997", 0.5, "mum", LOAD, "materials.pinion.roughness_um", 0.5),
+    (
+        "cylindrical_gear",
+        "arithmetic_mean_roughness_flank_iso_4287_1997",
+        0.5,
+        "mum",
+        LOAD,
+        "materials.pinion.roughness_um",
+        0.5,
+    ),
     ("gear_unit", "reference_temperature", 22.0, "C", TRAIN, "thermal.reference_c", 22.0),
     ("gear_unit", "gravitational_acceleration", 4.903325, "m / s^2", TRAIN, "operation.gravity_factor", 0.5),
     ("gear_unit", "account_for_gravity", False, "none", TRAIN, "operation.gravity_factor", 0.0),
-    ("hydrodynamic_radial_plain_bearing", "inner_diameter", 150.0, "mm", TRAIN, "wheel_shaft.bearings.0.diameter_mm", 150.0),
+    (
+        "hydrodynamic_radial_plain_bearing",
+        "inner_diameter",
+        150.0,
+        "mm",
+        TRAIN,
+        "wheel_shaft.bearings.0.diameter_mm",
+        150.0,
+    ),
     ("hydrodynamic_radial_plain_bearing", "width", 100.0, "mm", TRAIN, "pinion_shaft.bearings.1.width_mm", 100.0),
-    ("hydrodynamic_radial_plain_bearing", "diameter_clearance_plain_bearing", 250.0, "mum", TRAIN, "pinion_shaft.bearings.0.radial_clearance_um", 125.0),
-    ("hydrodynamic_radial_plain_bearing", "lubricant_feed_temperature", 60.0, "C", TRAIN, "pinion_shaft.bearings.0.film_temperature_c", 60.0),
-    ("hydrodynamic_radial_plain_bearing", "misalignment_in_v_direction", 20.0, "mum", TRAIN, "pinion_shaft.bearings.0.offset_um.0", 20.0),
-]  # fmt: skip
+    (
+        "hydrodynamic_radial_plain_bearing",
+        "diameter_clearance_plain_bearing",
+        250.0,
+        "mum",
+        TRAIN,
+        "pinion_shaft.bearings.0.radial_clearance_um",
+        125.0,
+    ),
+    (
+        "hydrodynamic_radial_plain_bearing",
+        "lubricant_feed_temperature",
+        60.0,
+        "C",
+        TRAIN,
+        "pinion_shaft.bearings.0.film_temperature_c",
+        60.0,
+    ),
+    (
+        "hydrodynamic_radial_plain_bearing",
+        "misalignment_in_v_direction",
+        20.0,
+        "mum",
+        TRAIN,
+        "pinion_shaft.bearings.0.offset_um.0",
+        20.0,
+    ),
+]
 
 
 @pytest.mark.parametrize(
@@ -481,3 +705,143 @@ def test_what_the_gear_states_stands_in_for_what_the_shafts_do_not() -> None:
     assert stage["requests"][LOAD]["load"]["pinion_speed_rpm"] == 9000.0
     assert stage["driver"] == stage["pinion"]
     assert TRAIN not in stage["requests"]
+
+
+SCHEMAS = {
+    type_: names.split()
+    for type_, names in (
+        line.split(":") for line in (Path(__file__).parent / "schema_attributes.txt").read_text("ascii").splitlines()
+    )
+}
+"""The attributes of each type of component in the schemas of REXS 1.0 to 2.0."""
+CASE_ONLY = {"operating_time", "operating_time_fraction", "load_duration", "load_duration_fraction"}
+BY_HAND = (
+    "unknown to the standard, or a choice of the calculation",
+    (
+        "detail",
+        "states",
+        "model.",
+        "effects.",
+        "couplings.",
+        "grooves.",
+        "thrust_collar.",
+        "ambient.",
+        "modifications.lead_curve",
+    ),
+)
+NOT_IN_FILES = {
+    "gears.module_plane": "modules of the request are normal ones",
+    "load.power_kw": "the torque is given",
+    "operation.power_kw": "the torque is given",
+    "modifications.in_plane_deviation_um": "the positions of shafts in files are nominal",
+    "modifications.out_of_plane_deviation_um": "the positions of shafts in files are nominal",
+    "lubricant.iso_vg": "the viscosities are given",
+    "lubricant.viscosity_pa_s": "the viscosities are given",
+    "lubricant.reference_temperature_c": "belongs to the viscosity at one temperature",
+    "lubricant.density_kg_per_m3": "belongs to the viscosity at one temperature",
+    "lubricant.temperature_viscosity_per_k": "follows from the viscosities",
+    "lubricant.pressure_viscosity_law": "a choice of the calculation",
+    "lubricant.compressible": "a choice of the calculation",
+    "temperatures.bulk_method": "follows from the bulk temperature",
+    "temperatures.local_bulk": "a choice of the calculation",
+    "temperatures.scuffing_test": "files give the temperature itself",
+    "thermal.wall_response": "unknown to the standard",
+    "thermal.bulk_includes_pumping": "unknown to the standard",
+    "bearings.*.viscosity_pa_s": "follows from the oil and the feed temperature",
+    "thrust_bearing": "unknown to the standard",
+}
+
+
+def full_unit() -> Unit:
+    """A unit that states everything a request can take from a file."""
+    unit = gear_set()
+    for type_, name, value, size, *_ in MEANINGS:
+        for each in unit.components:
+            if each["type"] == type_:
+                each["attributes"].setdefault(name, (value, size))
+    for each in unit.components:
+        if each["type"] == "cylindrical_gear_flank":
+            for kind, attributes in {
+                "tip_relief": {"tip_relief_depth": (20.0, "mum"), "tip_relief_datum_length": (4.0, "mm")},
+                "root_relief": {"root_relief_depth": (20.0, "mum"), "root_relief_datum_length": (4.0, "mm")},
+                "helix_slope": {"helix_slope": (20.0, "mum")},
+                "helix_crowning": {"helix_crowning_amount_datum_face": (20.0, "mum")},
+                "profile_crowning": {"profile_crowning_at_tip": (20.0, "mum")},
+                "profile_slope": {"profile_slope": (10.0, "mum")},
+                "end_relief_datum_face": {
+                    "end_relief_depth_datum_face": (20.0, "mum"),
+                    "end_relief_length_datum_face": (20.0, "mm"),
+                },
+            }.items():
+                added = unit.add(kind, **attributes)
+                unit.components[added - 1]["attributes"].setdefault("shape_of_relief", ("linear", "none"))
+                unit.relate("reference", origin=each["id"], referenced=added)
+    bearings = [each for each in unit.components if each["type"] == "hydrodynamic_radial_plain_bearing"]
+    for bearing in (bearings[0], bearings[2]):  # one of each shaft
+        bearing["type"] = "concept_bearing"
+        bearing["attributes"]["radial_stiffness"] = (1e9, "N / m")
+    return unit
+
+
+def paths_of(request: Any, path: str = "") -> set[str]:
+    if isinstance(request, dict):
+        return {each for name, inner in request.items() for each in paths_of(inner, f"{path}.{name}".strip("."))}
+    if isinstance(request, list) and request and isinstance(request[0], dict):
+        return {each for inner in request for each in paths_of(inner, f"{path}.*")}
+    return {path}
+
+
+@pytest.mark.parametrize("endpoint", [LOAD, SCUFFING, PUMPING, TRAIN])
+def test_every_field_of_a_request_is_reached_or_listed_with_its_reason(endpoint: str) -> None:
+    reached = paths_of(stage_of(full_unit())["requests"][endpoint])
+    known = {leaf.path for leaf in leaves(BY_PATH[endpoint].request)}
+    assert reached <= known
+    listed = {
+        path for path in known - reached if path.startswith(BY_HAND[1]) or any(each in path for each in NOT_IN_FILES)
+    }
+    assert known - reached - listed == set()
+    reachable = {path for path in reached if path in NOT_IN_FILES}
+    assert reachable == set()
+
+
+def placed(unit: Unit, type_: str) -> int:
+    """A component of a type in the place where the reader looks for it."""
+    present = [each["id"] for each in unit.components if each["type"] == type_]
+    if present:
+        return int(present[0])
+    if type_ in {"concept_bearing", "flank_geometry"}:
+        other = {"concept_bearing": "hydrodynamic_radial_plain_bearing", "flank_geometry": "cylindrical_gear_flank"}[
+            type_
+        ]
+        found = next(each for each in unit.components if each["type"] == other)
+        found["type"] = type_
+        return int(found["id"])
+    if type_ == "stage_gear_data":
+        return placed(unit, "cylindrical_stage_gear_data")
+    added = unit.add(type_)
+    flank = [each["id"] for each in unit.components if each["type"] == "cylindrical_gear_flank"][1]
+    unit.relate("reference", origin=flank, referenced=added)
+    return added
+
+
+@pytest.mark.parametrize("type_", SCHEMAS)
+def test_no_attribute_of_the_standard_is_dropped_silently(type_: str) -> None:
+    """Each is used or listed with a reason of its own; none falls to that of unknown names."""
+    unit = gear_set()
+    component = placed(unit, type_)
+    for name in SCHEMAS[type_]:
+        unit.of(component).setdefault(name, (1.0, "none"))
+    document = read(unit.xml(), MOST_BYTES)
+    listed = {
+        each["attribute"]: each["reason"]
+        for each in gear_unit(document.model)["stages"][0]["ignored"]
+        if each["component"] == component
+    }
+    assert len(listed) < len(SCHEMAS[type_])
+    assert [name for name, reason in listed.items() if reason == "the models have no such input"] == []
+
+
+def test_a_name_that_no_standard_has_is_listed() -> None:
+    unit = gear_set(cylindrical_stage={"colour_of_paint": (1.0, "none")})
+    (unused,) = [each for each in stage_of(unit)["ignored"] if each["attribute"] == "colour_of_paint"]
+    assert unused["reason"] == "the models have no such input"
