@@ -117,8 +117,8 @@ def _model(
 def _numbers(code: object, text: object) -> list[Any] | None:
     """The numbers of an array in base64 (little-endian), or None where it is damaged."""
     try:
-        raw = base64.b64decode(str(text).strip(), validate=True)
-        numbers: list[Any] = np.frombuffer(raw, dtype=CODES[str(code)]).tolist()
+        raw = base64.b64decode(str(text or "").strip(), validate=True)
+        numbers: list[Any] = np.frombuffer(raw, dtype=CODES[str(code)]).tolist() if raw else []
     except (ValueError, KeyError):
         return None
     return numbers

@@ -17,6 +17,7 @@ from app.rexs.stages import SPEED, TORQUE, StageDraft, pairs
 MOST_FINDINGS = 1000  # that an answer lists; who wrote the file sees the pattern earlier
 MOST_STAGES = 50  # chosen: far beyond any unit
 MOST_CASES = 200  # of a spectrum in the file that are read
+MOST_DRAFTS = 2000  # stages times load cases, at 2 ms each
 LONGEST_NAME, MOST_SPECTRUM_CASES = 100, 100  # of /v1/spectrum
 MOST_IGNORED = 2000  # of a stage
 SHARES = {"operating_time_fraction": "", "load_duration_fraction": "", "operating_time": "h", "load_duration": "h"}
@@ -32,9 +33,9 @@ def gear_unit(model: Model) -> dict[str, Any]:
         message = f"the unit has more than {MOST_STAGES} stages; the first ones are read"
         reading.find("too_many_stages", None, None, message)
         del found[MOST_STAGES:]
-    cases = model.load_cases[:MOST_CASES]
+    cases = model.load_cases[: min(MOST_CASES, MOST_DRAFTS // max(len(found), 1))]
     if len(cases) < len(model.load_cases):
-        reading.find("too_many_cases", None, None, f"the first {MOST_CASES} load cases are read")
+        reading.find("too_many_cases", None, None, f"the first {len(cases)} load cases are read")
     if len(cases) > MOST_SPECTRUM_CASES:
         message = f"a load spectrum of more than {MOST_SPECTRUM_CASES} load cases cannot be asked as it stands"
         reading.find("too_many_cases", None, None, message)
