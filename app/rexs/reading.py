@@ -139,7 +139,9 @@ class Reading:
 
     def first_of(self, component: Component | None, names: Iterable[str], unit: str) -> "Number | None":
         """The first of these attributes that is a number of this quantity, and its name."""
-        for name in names if component is not None else ():
+        if component is None:
+            return None
+        for name in names:
             attribute = self._attribute(component, name)
             value = None if attribute is None else self._in_unit(component, attribute, unit)
             if value is not None:
@@ -163,7 +165,7 @@ class Reading:
         if attribute is None or not isinstance(attribute.value, list) or len(attribute.value) != 3:
             return None
         try:
-            x, y, z = (float(each) for each in attribute.value)
+            x, y, z = (float("true" if isinstance(each, bool) else each) for each in attribute.value)
         except (TypeError, ValueError, OverflowError):
             self.find("not_a_number", component, name, "the vector is not three numbers")
             return None
@@ -205,8 +207,9 @@ class Reading:
 
     def ignored_of_case(self, elsewhere: Collection[int]) -> Iterator[Unused]:
         """What the load case says that was not asked for, but for what it says of the components `elsewhere`."""
-        case = self.case
-        for id_, attributes in case.attributes.items() if case is not None and case.attributes else ():
+        if (case := self.case) is None:
+            return
+        for id_, attributes in case.attributes.items():
             type_ = self.model.components[id_].type if id_ in self.model.components else ""
             for name in attributes if id_ not in elsewhere else ():
                 if (id_, name) not in self.used_of_case:

@@ -1,7 +1,7 @@
 """The stages of a gear unit as requests: gears, load, oil and material of one mesh."""
 
 from collections.abc import Iterable, Iterator
-from math import acos, atan, cos, pi, radians, sin, sqrt, tan
+from math import acos, asin, atan, cos, degrees, pi, radians, sin, sqrt, tan
 
 from app.rexs import table
 from app.rexs.model import Component
@@ -14,6 +14,7 @@ ISO_53_A = {"addendum": 1.0, "dedendum": 1.25, "gears.rack_tip_radius": 0.38}  #
 SAME = 1e-6  # chosen: numbers stated twice that differ by less are equal
 OFF_CENTRE = 1e-3  # chosen: of the centre distance; positions are often rounded
 MOST_INVOLUTE = 1e8  # its inverse is known up to 1e9; a larger one comes from a profile shift that no gear has
+NORMAL_ANGLE = 20.0  # deg, ISO 53
 ROLES = ("pinion", "wheel")
 TORQUE, SPEED = "load.pinion_torque_n_m", "load.pinion_speed_rpm"
 
@@ -255,7 +256,7 @@ class StageDraft(Draft):
 
     def _helix(self) -> None:
         row, gear = table.HELIX_ANGLE, self.gears[0]
-        pinion, wheel = (self.reading.number(each, row) for each in self.gears)
+        pinion, wheel = (self._helix_angle(each) for each in self.gears)
         if pinion is not None and wheel is not None and abs(pinion + wheel) > SAME * 90.0:
             message = "helix angles of an external pair are opposite; the pinion's is used"
             self.reading.find("helix_angles", self.gears[1], row.name, message)
@@ -266,6 +267,25 @@ class StageDraft(Draft):
             pinion = -wheel
         self.put(row.field, abs(pinion), gear, row.name)
         self.put("gears.hand", "right" if pinion >= 0.0 else "left", gear, row.name)
+
+    def _helix_angle(self, gear: Component) -> float | None:
+        """Helix angle of a gear [deg]: at the reference circle, else from the one at the base circle.
+
+        sin beta = sin beta_b / cos alpha_n, tan beta = tan beta_b / cos alpha_t.
+        """
+        stated = self.reading.number(gear, table.HELIX_ANGLE)
+        base = self.reading.number(gear, table.BASE_HELIX_ANGLE) if stated is None else None
+        if base is None:
+            return stated
+        flanks = [flank for place in (0, 1) for flank in self.flanks(place).values()]
+        normal, transverse = (
+            next((value for value, _ in self._known(flanks, row)), None)
+            for row in (table.PRESSURE_ANGLE, table.TRANSVERSE_PRESSURE_ANGLE)
+        )
+        if normal is None and transverse is not None and abs(transverse) < 90.0 > abs(base):
+            return degrees(atan(tan(radians(base)) / cos(radians(transverse))))
+        sine = sin(radians(base)) / max(cos(radians(NORMAL_ANGLE if normal is None else normal)), SAME)
+        return degrees(asin(sine)) if abs(sine) < 1.0 else None
 
     def _face_width(self) -> None:
         row, gear = table.FACE_WIDTH, self.gears[0]
@@ -291,10 +311,21 @@ class StageDraft(Draft):
         row = table.PRESSURE_ANGLE
         wheel, pinion = self._of_flanks(1, row, row.field), self._of_flanks(0, row, row.field)  # the pinion's counts
         if wheel is None and pinion is None:
-            self.assume(row.field, 20.0, "the file has no pressure angle: ISO 53")
+            self._from_transverse_angle()
         elif wheel is not None and pinion is not None and abs(wheel - pinion) > SAME:
             message = "both gears must have one pressure angle; the pinion's is used"
             self.reading.find("gears_differ", self.gears[1], row.name, message)
+
+    def _from_transverse_angle(self) -> None:
+        row = table.PRESSURE_ANGLE
+        flanks = [flank for place in (0, 1) for flank in self.flanks(place).values()]
+        known = self._known(flanks, table.TRANSVERSE_PRESSURE_ANGLE)
+        if not known:
+            self.assume(row.field, NORMAL_ANGLE, "the file has no pressure angle: ISO 53")
+            return
+        helix = radians(self.fields.get(table.HELIX_ANGLE.field, 0.0))
+        normal = degrees(atan(tan(radians(known[0][0])) * cos(helix)))
+        self.put(row.field, normal, known[0][1], table.TRANSVERSE_PRESSURE_ANGLE.name)
 
     def _profile_shift(self, place: int) -> None:
         """The nominal shift, else the one after finishing, which holds the allowance of the teeth as well."""
@@ -353,9 +384,13 @@ class StageDraft(Draft):
         """Whether tip or root diameter gave the rack's coefficient; an impossible one is a finding and not used."""
         path, gear = f"gears.{ROLES[place]}.{row.field}", self.gears[place]
         diameter, flank = self.reading.number(gear, row), self.involute(place)
+        tip = row is table.TIP_DIAMETER
+        if diameter is None and tip:
+            limits = [self.reading.number(gear, name, "mm") for name in table.TIP_DIAMETER_LIMITS]
+            known = [each for each in limits if each is not None]
+            diameter = sum(known) / len(known) if known else None
         if diameter is None or flank is None:
             return False
-        tip = row is table.TIP_DIAMETER
         fault = flank.tip_fault(diameter) if tip else flank.root_fault(diameter)
         if fault is not None:
             self.reading.find("diameter", gear, row.name, f"{row.name} {fault}; not used")

@@ -120,6 +120,9 @@ GEAR_SPEED = Row("load.pinion_speed_rpm", ("rotational_speed",), "1/min")
 COMMON_WIDTH = Row("gears.face_width_mm", ("common_face_width",), "mm")
 HELIX_ANGLE = Row("gears.helix_angle_deg", ("helix_angle_reference_diameter",), "deg")
 PRESSURE_ANGLE = Row("gears.pressure_angle_deg", ("normal_pressure_angle",), "deg")
+BASE_HELIX_ANGLE = Row("gears.helix_angle_deg", ("helix_angle_base_diameter", "helix_angle_base_circle"), "deg")
+TRANSVERSE_PRESSURE_ANGLE = Row("gears.pressure_angle_deg", ("pressure_angle_in_the_transverse_section",), "deg")
+TIP_DIAMETER_LIMITS = ("minimum_tip_diameter", "maximum_tip_diameter")
 PROFILE_SHIFT = Row("profile_shift", ("addendum_modification_coefficient",))
 FINISHED_SHIFT = Row(
     "profile_shift",
@@ -268,6 +271,7 @@ _ROWS = (
 )  # fmt: skip
 _TAKEN = {name for row in _ROWS for name in row.attributes}
 _TAKEN |= {*BACKLASH, *TRANSVERSE_BACKLASH, *OIL_TYPES, *OIL_WORDS, *OIL_SUPPLY, *FRICTION_METHODS, *MODIFICATIONS}
+_TAKEN |= {*BASE_HELIX_ANGLE.attributes, *TRANSVERSE_PRESSURE_ANGLE.attributes, *TIP_DIAMETER_LIMITS}
 _TAKEN |= {"addendum_modification", "is_driving_gear", SUPPLY_FACTOR}
 IGNORED = (
     (
@@ -290,7 +294,6 @@ IGNORED = (
         "(iso_1328|din_39|din_26281|tolerance|deviation|allowance|_variation$)",
         "tolerances are not part of the nominal gear",
     ),
-    (".*", "^(minimum|maximum)_tip_diameter$", "the nominal tip diameter counts"),
     (".*", f"^({_POSITIONS})$", "position; needed where a drive train is formed only"),
     (
         "(concept|rolling|slide|hydrodynamic).*",
