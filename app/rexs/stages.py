@@ -96,7 +96,7 @@ class StageDraft(Draft):
         self.gears, self.shafts, self.teeth = pair.gears[::turn], pair.shafts[::turn], pair.teeth[::turn]
 
     def fill(self) -> None:
-        """Take over what the file says of the mesh but for modifications of its flanks."""
+        """Take over what the file says of the mesh but for modifications of its flanks and its oil."""
         for row in table.STAGE:
             self.take(row, self.stage)
         for place, role in enumerate(ROLES):
@@ -116,9 +116,6 @@ class StageDraft(Draft):
             self.take(table.ROUGHNESS, self.gears[place], f"materials.{role}.")
             for row in (*table.MATERIAL, *table.HEAT):
                 self.take(row, self.material(place), f"materials.{role}.")
-        self._oil()
-        self._temperatures()
-        self._friction()
 
     def _driver(self) -> int | None:
         """The place of the driving gear, by power, else as the file says."""
@@ -230,14 +227,14 @@ class StageDraft(Draft):
         shift = fields.get(f"gears.{ROLES[place]}.profile_shift", 0.0)
         return Involute(self.teeth[place], module, radians(angle), radians(helix), shift)
 
-    def _known(self, components: Iterable[Component], row: table.Row) -> list[tuple[float, Component]]:
+    def known(self, components: Iterable[Component], row: table.Row) -> list[tuple[float, Component]]:
         """The values that the components have, each with its component."""
         found = ((self.reading.number(each, row), each) for each in components)
         return [(value, each) for value, each in found if value is not None]
 
     def _module(self) -> None:
         row, pinion = table.MODULE, self.gears[0]
-        known = self._known(self.gears, row) or self._transverse_modules()
+        known = self.known(self.gears, row) or self._transverse_modules()
         if not known:
             self.lacks(row.field, pinion, row.name, f"the file has no {row.name}")
             return
@@ -249,7 +246,7 @@ class StageDraft(Draft):
     def _transverse_modules(self) -> list[tuple[float, Component]]:
         """Normal modules from the transverse ones: pressure angle and profile shifts of REXS count the normal one."""
         cosine = cos(radians(self.fields.get(table.HELIX_ANGLE.field, 0.0)))
-        known = self._known(self.gears, table.TRANSVERSE_MODULE)
+        known = self.known(self.gears, table.TRANSVERSE_MODULE)
         if known:
             self.note(table.MODULE.field, known[0][0] * cosine, "the transverse module times the cosine of the helix")
         return [(value * cosine, gear) for value, gear in known]
@@ -279,7 +276,7 @@ class StageDraft(Draft):
             return stated
         flanks = [flank for place in (0, 1) for flank in self.flanks(place).values()]
         normal, transverse = (
-            next((value for value, _ in self._known(flanks, row)), None)
+            next((value for value, _ in self.known(flanks, row)), None)
             for row in (table.PRESSURE_ANGLE, table.TRANSVERSE_PRESSURE_ANGLE)
         )
         if normal is None and transverse is not None and abs(transverse) < 90.0 > abs(base):
@@ -291,7 +288,7 @@ class StageDraft(Draft):
         row, gear = table.FACE_WIDTH, self.gears[0]
         if self.take(table.COMMON_WIDTH, self.stage) is not None:
             return
-        widths = [value for value, _ in self._known(self.gears, row)]
+        widths = [value for value, _ in self.known(self.gears, row)]
         if not widths:
             self.lacks(row.field, gear, row.name, "the file has no face width")
             return
@@ -319,7 +316,7 @@ class StageDraft(Draft):
     def _from_transverse_angle(self) -> None:
         row = table.PRESSURE_ANGLE
         flanks = [flank for place in (0, 1) for flank in self.flanks(place).values()]
-        known = self._known(flanks, table.TRANSVERSE_PRESSURE_ANGLE)
+        known = self.known(flanks, table.TRANSVERSE_PRESSURE_ANGLE)
         if not known:
             self.assume(row.field, NORMAL_ANGLE, "the file has no pressure angle: ISO 53")
             return
@@ -343,7 +340,7 @@ class StageDraft(Draft):
 
     def _of_flanks(self, place: int, row: table.Row, path: str) -> float | None:
         """A number of the flanks, which both must share."""
-        known = self._known(self.flanks(place).values(), row)
+        known = self.known(self.flanks(place).values(), row)
         if not known:
             return None
         if any(abs(value - known[0][0]) > SAME for value, _ in known):
@@ -454,7 +451,7 @@ class StageDraft(Draft):
         """Normal backlash [mm] of finishing both gears: 2 m_n sin alpha_n times the shifts that it takes away."""
         pinion, total = self.involute(0), 0.0
         for place, role in enumerate(ROLES):
-            finished = self._known(self.flanks(place).values(), table.FINISHED_SHIFT)
+            finished = self.known(self.flanks(place).values(), table.FINISHED_SHIFT)
             if pinion is None or not finished:
                 return None
             total += self.fields[f"gears.{role}.profile_shift"] - finished[0][0]
@@ -512,7 +509,7 @@ class StageDraft(Draft):
         load = self.load(self.flow)
         own = (table.GEAR_TORQUE, self.gear_data(0)), (table.GEAR_SPEED, (self.gears[0],))
         for (row, origins), what in zip(own, ("torque", "speed"), strict=True):
-            known = self._known(origins, row)
+            known = self.known(origins, row)
             if row.field in load:
                 self.put(row.field, load[row.field], self.shafts[0])
             elif known:
@@ -523,87 +520,6 @@ class StageDraft(Draft):
                 self.lacks(row.field, self.shafts[0], None, f"the {what} of this stage does not follow from the file")
         if self.driver is None:
             self.note("gears.pinion", self.gears[0].id, "which gear drives is not known; the smaller one is taken")
-
-    def _oil(self) -> None:
-        oil = self.lubricant
-        if oil is None:
-            self.lacks("lubricant", self.stage, None, "film and scuffing safety need an oil")
-            return
-        if self.reading.text(oil, "kind") == "grease":
-            self.reading.find("grease", oil, "kind", "the lubricant is a grease, which is not modelled; not used")
-            self.lacks("lubricant", oil, "kind", "film and scuffing safety need an oil")
-            return
-        *viscosities, _ = table.OIL[:3]
-        if None in [self.reading.number(oil, row) for row in viscosities]:
-            self.lacks("lubricant", oil, viscosities[0].name, "the oil's viscosities at 40 and 100 C are needed")
-            return
-        for row in table.OIL:
-            self.take(row, oil, "lubricant.")
-        self._base_oil(oil)
-
-    def _base_oil(self, oil: Component) -> None:
-        """The kind of oil by the type of a standard, else by words; one that is not modelled is never another kind."""
-        path, texts = "lubricant.kind", {}
-        for name in (*table.OIL_TYPES, *table.OIL_WORDS):
-            texts[name] = self.reading.text(oil, name)
-        texts["component"] = oil.name.lower()
-        vague: str | None = None
-        for name, text in texts.items():
-            word = next((part for part in table.BASE_OILS if part in text), None)
-            if word is None:
-                continue
-            kind = table.BASE_OILS[word]
-            if kind is not None:
-                self.put(path, kind, oil, name)
-                return
-            vague = vague or text
-            if name in table.OIL_TYPES:
-                break
-        if vague is None:
-            self.assume(path, "mineral", "the file does not give the base oil")
-            return
-        self.reading.find("oil_kind", oil, None, f"an oil of the kind {vague[:40]} is not modelled; choose the nearest")
-        self.lacks(path, oil, None, f"the nearest kind to {vague[:40]}; a mineral oil counts if nothing is chosen")
-
-    def _temperatures(self) -> None:
-        """Temperature and supply of the oil, and the bulk temperature: the mean of both gears, else of the stage."""
-        for origin in self.oil_origins:
-            if self.take(table.OIL_TEMPERATURE, origin) is not None:
-                break
-        row, gears = table.BULK_TEMPERATURE, self._known(self.gears, table.BULK_TEMPERATURE)
-        if gears:
-            self.put(row.field, sum(value for value, _ in gears) / len(gears), gears[0][1], row.name)
-            if abs(gears[0][0] - gears[-1][0]) > SAME * 100.0:
-                self.note(row.field, self.fields[row.field], "mean of both gears")
-        else:
-            self.take(row, self.stage)
-        for name in table.OIL_SUPPLY:
-            said = self.reading.text(self.stage, name)
-            supply = next((ours for word, ours in table.SUPPLIES.items() if word in said), None)
-            if supply is not None:
-                self.put("temperatures.oil_supply", supply, self.stage, name)
-                return
-            if said:
-                message = f"lubrication by {said[:40]} is not modelled; not used"
-                self.reading.find("oil_supply", self.stage, name, message)
-        self._supply_by_factor()
-
-    def _supply_by_factor(self) -> None:
-        """The oil supply by the factor that stands for it."""
-        factor = self.reading.number(self.stage, table.SUPPLY_FACTOR)
-        if factor is None:
-            return
-        if (supply := table.SUPPLY_FACTORS.get(factor)) is not None:
-            self.put("temperatures.oil_supply", supply, self.stage, table.SUPPLY_FACTOR)
-        else:
-            message = f"the lubrication factor {factor:.4g} is that of no oil supply that is modelled; not used"
-            self.reading.find("oil_supply", self.stage, table.SUPPLY_FACTOR, message)
-
-    def _friction(self) -> None:
-        """The coefficient of friction, unless the file says that it was calculated."""
-        methods = [self.reading.text(self.stage, name) for name in table.FRICTION_METHODS]
-        if set(methods) <= {"", "is_given"}:
-            self.take(table.FRICTION, self.stage)
 
 
 class Involute:

@@ -8,6 +8,7 @@ from pydantic import BaseModel
 
 from app.rexs import table
 from app.rexs.drive_train import add_drive_train, bearings_of
+from app.rexs.lubrication import Lubrication
 from app.rexs.model import Component, Model
 from app.rexs.modifications import Modifications, modifications_of
 from app.rexs.power import Flow, Pair, Train
@@ -104,6 +105,7 @@ def _stage(pair: Pair, base: Flow, flows: list[Flow]) -> tuple[dict[str, Any], S
 def _filled(pair: Pair, flow: Flow, pinion: int | None = None) -> StageDraft:
     stage = StageDraft(pair, flow, pinion)
     stage.fill()
+    Lubrication(stage).fill()
     Modifications(stage).fill()
     return stage
 
