@@ -12,7 +12,8 @@ import zipfile
 from collections.abc import Callable
 from pathlib import Path
 
-from app.rexs.document import NotRexs, read
+from app.errors import Unprocessable
+from app.rexs.document import read
 from app.rexs.unit import gear_unit
 
 MEGABYTE = 1_000_000
@@ -105,8 +106,8 @@ def measure(path: str) -> None:
     try:
         found = gear_unit(read(content, LIMIT).model)
         outcome = f"{len(found['stages'])} stages, {len(found['findings'])} findings"
-    except NotRexs as error:
-        outcome = f"refused: {str(error).splitlines()[0][:60]}"
+    except Unprocessable as error:
+        outcome = f"refused: {error.message[:60]}"
     seconds = time.process_time() - started
     grown = _most_memory() - before
     print(f"{len(content) / MEGABYTE:.1f} MB | {seconds:.2f} s | {grown:.0f} MB | {outcome} |")

@@ -54,20 +54,20 @@ def unit_page(root: str, unit: dict[str, Any]) -> str:
 def _stage(stage: dict[str, Any]) -> dict[str, Any]:
     requests, request = stage["requests"], next(iter(stage["requests"].values()))
     gears, load = request["gears"], request.get("load", {})
-    teeth = gears["pinion"]["teeth"], gears["wheel"]["teeth"]
-    ratio = teeth[1] / teeth[0]
+    teeth = [gears.get(role, {}).get("teeth") for role in ("pinion", "wheel")]  # none that no gear has
+    ratio = teeth[1] / teeth[0] if all(teeth) else None
     torque, speed = load.get("pinion_torque_n_m"), load.get("pinion_speed_rpm")
     cases = []
     for case in stage["cases"]:
         overrides = case["overrides"]
-        pairs = dict(pairs_of(requests[SCUFFING])) | {name: str(value) for name, value in overrides.items()}
+        pairs = dict(pairs_of(requests[SCUFFING])) | dict(pairs_of(overrides))
         address = link(page_path(BY_PATH[SCUFFING]), list(pairs.items()))
         cases.append(case | {"address": address, "row": [overrides.get(name) for name in CASE_COLUMNS]})
     return stage | {
-        "teeth": f"{teeth[0]}/{teeth[1]}",
+        "teeth": "/".join(str(each or "–") for each in teeth),
         "ratio": ratio,
         "power_kw": None if torque is None or speed is None else torque * speed * pi / 30e3,
-        "speeds": "" if speed is None else f"{speed:.5g} / {speed / ratio:.5g}",
+        "speeds": " / ".join(f"{each:.5g}" for each in (speed, speed / ratio if speed and ratio else None) if each),
         "module_mm": gears.get("module_mm"),
         "face_width_mm": gears.get("face_width_mm"),
         "links": [

@@ -32,7 +32,9 @@ class Case(BaseModel):
 
     name: Annotated[str, Output("name in the file")]
     share: Annotated[float, Output("share of the operating time")]
-    overrides: Annotated[dict[str, float], Output("what it changes in the request of /v1/scuffing, by dotted path")]
+    overrides: Annotated[
+        dict[str, float | str], Output("what it changes in the request of /v1/scuffing, by dotted path")
+    ]
 
 
 class SpectrumCase(BaseModel):
@@ -40,7 +42,7 @@ class SpectrumCase(BaseModel):
 
     name: Annotated[str, Output("name in the file")]
     share: Annotated[float, Output("share of the operating time")]
-    set: Annotated[dict[str, float], Output("what it changes in the request of the endpoint, by dotted path")]
+    set: Annotated[dict[str, float | str], Output("what it changes in the request of the endpoint, by dotted path")]
 
 
 class Stage(BaseModel):

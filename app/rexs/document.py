@@ -10,7 +10,9 @@ import json
 import re
 import zipfile
 import zlib
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from math import isfinite
+from pathlib import PurePosixPath
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -21,6 +23,9 @@ from app.rexs.model import Attribute, Component, LoadCase, Model, Relation
 
 MOST_ELEMENTS = 1_500_000  # tags and attributes of XML, containers of JSON: at 200 bytes each 300 MB
 VERSIONS = ("1", "2")
+SUFFIXES = (".rexs", ".rexsj", ".rexs.json", ".rexs.xml")
+MODELS = ", ".join(SUFFIXES)
+PACKINGS = {zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED}  # others may ask for gigabytes of memory
 CODES = {"float32": "<f4", "float64": "<f8", "int32": "<i4"}
 SAFE = {"resolve_entities": False, "load_dtd": False, "no_network": True, "huge_tree": False, "remove_pis": False}
 """No entities, no other files, libxml2's limits of depth and length."""
@@ -70,13 +75,25 @@ def _unpacked(content: bytes, most_bytes: int) -> bytes:
     """The one model in a zip archive, read no further than allowed whatever the archive says of its size."""
     try:
         with zipfile.ZipFile(io.BytesIO(content)) as archive:
-            models = [name for name in archive.namelist() if name.lower().endswith((".rexs", ".rexsj", ".xml"))]
+            models = [entry for entry in archive.infolist() if _is_model(entry.filename)]
             if len(models) != 1:
-                raise not_rexs(f"the archive holds {len(models)} models (.rexs or .rexsj); it must hold one")
+                names = (
+                    ": " + ", ".join(PurePosixPath(each.filename).name[:40] for each in models[:5]) if models else ""
+                )
+                raise not_rexs(f"the archive holds {len(models)} models ({MODELS}); it must hold one{names}")
+            if models[0].compress_type not in PACKINGS:
+                raise not_rexs("the archive is packed in a way that is not read; pack it by deflate, as usual")
             with archive.open(models[0]) as packed:
                 return packed.read(most_bytes + 1)
     except (zipfile.BadZipFile, zlib.error, NotImplementedError, RuntimeError, OSError, EOFError, ValueError) as error:
         raise not_rexs("the archive is damaged, encrypted or packed in a way that cannot be read") from error
+
+
+def _is_model(name: str) -> bool:
+    """Whether a file of an archive is a model: not what an operating system puts beside it, nor any other file."""
+    path = PurePosixPath(name.replace("\\", "/"))
+    hidden = "__MACOSX" in path.parts[:-1] or path.name.startswith(".")
+    return not hidden and not name.endswith("/") and path.name.lower().endswith(SUFFIXES)
 
 
 def _model(
@@ -100,8 +117,8 @@ def _model(
 def _numbers(code: object, text: object) -> list[Any] | None:
     """The numbers of an array in base64 (little-endian), or None where it is damaged."""
     try:
-        raw = base64.b64decode(str(text).strip(), validate=True)
-        numbers: list[Any] = np.frombuffer(raw, dtype=CODES[str(code)]).tolist()
+        raw = base64.b64decode(str(text or "").strip(), validate=True)
+        numbers: list[Any] = np.frombuffer(raw, dtype=CODES[str(code)]).tolist() if raw else []
     except (ValueError, KeyError):
         return None
     return numbers
@@ -113,30 +130,46 @@ def _model_of_xml(content: bytes) -> Model:
         raise not_rexs(f"the file has more than {MOST_ELEMENTS} tags and attributes")
     readers = {"component": _xml_component, "relation": _xml_relation, "load_case": _xml_load_case}
     found: dict[str, list[Any]] = {tag: [] for tag in readers}
-    steps = etree.iterparse(io.BytesIO(content), events=("end",), tag=tuple(readers), **SAFE)
+    tags = tuple(f"{{*}}{tag}" for tag in readers)
+    steps = etree.iterparse(io.BytesIO(content), events=("end",), tag=tags, **SAFE)
     try:
         for _, element in steps:
-            parent = element.getparent()
-            if element.tag == "component" and (parent is None or parent.tag != "components"):
+            tag = _tag(element)
+            if tag == "component" and not _is_of_model(element):
                 continue  # of a load case, which is read as a whole
-            found[element.tag].append(readers[element.tag](element))
+            found[tag].append(readers[tag](element))
             element.clear(keep_tail=False)
     except etree.XMLSyntaxError as error:
         raise not_rexs(f"line {error.lineno}: {error.msg}") from error
     root = steps.root
     if root.getroottree().docinfo.internalDTD is not None:
         raise not_rexs("the file has a document type declaration; REXS has none")
-    if root.tag != "model":
+    if _tag(root) != "model":
         raise not_rexs("the outermost element is not <model>")
     application = root.get("applicationId"), root.get("applicationVersion")
     return _model(root.get("version"), application, found["component"], found["relation"], found["load_case"])
 
 
+def _tag(element: Any) -> str:
+    """The name of an element without its namespace; empty for comments."""
+    return etree.QName(element).localname if isinstance(element.tag, str) else ""
+
+
+def _children(element: Any, tag: str) -> Iterator[Any]:
+    return (child for child in element if _tag(child) == tag)
+
+
+def _is_of_model(component: Any) -> bool:
+    """Whether a component stands in the list of components, and not in a load case."""
+    parent = component.getparent()
+    return parent is not None and _tag(parent) == "components"
+
+
 def _xml_component(element: Any) -> Component:
     attributes = {}
-    for each in element.iterfind("attribute"):
+    for each in _children(element, "attribute"):
         name = each.get("id") or ""
-        array = next((child for child in each if child.tag in {"array", "matrix", "array_of_arrays"}), None)
+        array = next((child for child in each if _tag(child) in {"array", "matrix", "array_of_arrays"}), None)
         value = _text_of(each) if array is None else _xml_array(array)
         attributes[name] = Attribute(name, each.get("unit") or "", value)
     return Component(_xml_id(element), element.get("type") or "", element.get("name") or "", attributes)
@@ -146,10 +179,10 @@ def _xml_array(element: Any) -> list[Any] | None:
     """An array; matrices and arrays of arrays as lists of their rows."""
     if code := element.get("code"):
         return _numbers(code, element.text)
-    if element.tag == "array":
-        return [_text_of(cell) for cell in element.iterfind("c")]
-    rows = element.iterfind("r" if element.tag == "matrix" else "array")
-    return [[_text_of(cell) for cell in row.iterfind("c")] for row in rows]
+    if _tag(element) == "array":
+        return [_text_of(cell) for cell in _children(element, "c")]
+    rows = _children(element, "r" if _tag(element) == "matrix" else "array")
+    return [[_text_of(cell) for cell in _children(row, "c")] for row in rows]
 
 
 def _text_of(element: Any) -> str:
@@ -158,30 +191,32 @@ def _text_of(element: Any) -> str:
 
 def _xml_relation(element: Any) -> Relation:
     order = None if element.get("order") is None else _xml_id(element, "order")
-    parts = tuple((each.get("role") or "", _xml_id(each)) for each in element.iterfind("ref"))
+    parts = tuple((each.get("role") or "", _xml_id(each)) for each in _children(element, "ref"))
     return Relation(element.get("type") or "", order, parts)
 
 
 def _xml_load_case(element: Any) -> LoadCase:
-    parts = [_xml_component(each) for each in element.iterfind("component")]
+    parts = [_xml_component(each) for each in _children(element, "component")]
     return LoadCase(element.get("name") or element.get("id") or "", {each.id: each.attributes for each in parts})
 
 
 def _xml_id(element: Any, attribute: str = "id") -> int:
     text = (element.get(attribute) or "").strip()
     if not re.fullmatch(r"-?\d{1,18}", text):
-        raise not_rexs(f"line {element.sourceline}: <{element.tag}> needs a whole number as its id or order")
+        raise not_rexs(f"line {element.sourceline}: <{_tag(element)}> needs a whole number as its id or order")
     return int(text)
 
 
 def _xml_with(content: bytes, component: int, attributes: Iterable[Attribute]) -> bytes:
     root = etree.fromstring(content, etree.XMLParser(**SAFE))
-    element = next(each for each in root.iterfind("components/component") if int(each.get("id")) == component)
-    present = {each.get("id"): each for each in element.iterfind("attribute")}
+    components = (each for each in root.iter("{*}component") if _is_of_model(each))
+    element = next(each for each in components if _xml_id(each) == component)
+    present = {each.get("id"): each for each in _children(element, "attribute")}
+    tag = etree.QName(etree.QName(element).namespace, "attribute")
     for attribute in attributes:
         if (old := present.get(attribute.name)) is not None:
             element.remove(old)
-        new = etree.SubElement(element, "attribute", id=attribute.name, unit=attribute.unit)
+        new = etree.SubElement(element, tag, id=attribute.name, unit=attribute.unit)
         new.text = str(attribute.value)
     return bytes(etree.tostring(root.getroottree(), xml_declaration=True, encoding="UTF-8"))
 
@@ -190,7 +225,7 @@ def _model_of_json(content: bytes) -> Model:
     if content.count(b"{") + content.count(b"[") > MOST_ELEMENTS:
         raise not_rexs(f"the file has more than {MOST_ELEMENTS} objects and arrays")
     try:
-        document = json.loads(content, parse_constant=_refuse_constant)
+        document = json.loads(content, parse_constant=_refuse_constant, parse_float=_finite)
         if b"\\ud" in content.lower():
             json.dumps(document, ensure_ascii=False).encode()  # refuses half a surrogate pair
     except json.JSONDecodeError as error:
@@ -211,6 +246,13 @@ def _model_of_json(content: bytes) -> Model:
 
 def _refuse_constant(name: str) -> float:
     raise ValueError(name)
+
+
+def _finite(text: str) -> float:
+    """A number; one beyond every float could not be written again."""
+    if not isfinite(number := float(text)):
+        raise not_rexs(f"the number {text[:20]} is beyond any machine")
+    return number
 
 
 def _objects(of: Any, name: str) -> list[dict[str, Any]]:

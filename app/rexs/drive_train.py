@@ -18,6 +18,7 @@ MOST_PIECES = 10  # of a cone; a request allows 40 sections of a shaft
 LONGEST_PIECE = 10.0  # mm of a cone that one cylinder stands for
 SHORTEST_SECTION = 0.1  # mm
 RIGID_FROM_N_PER_UM = 1e5  # chosen: some hundred times a plain bearing's stiffness
+STANDARD_GRAVITY = 9.80665  # m/s^2
 NAMES = ("pinion_shaft", "wheel_shaft")
 
 
@@ -44,18 +45,18 @@ def _obstacles(stage: StageDraft) -> Iterator[tuple[Component, str]]:
         parts = stage.reading.model.parts_of(shaft.id)
         if any("gear" in each.type.split("_") and each.id != gear.id for each in parts):
             yield shaft, "the shaft carries another gear; a shaft with two meshes is not modelled"
-        bearings = _bearings(stage, shaft)
+        bearings = bearings_of(stage, shaft)
         if len(bearings) != len(NAMES):
             yield shaft, f"the shaft has {len(bearings)} radial bearings in the casing; two are needed"
         if stage.reading.axis(shaft) is None:
             yield shaft, "the file does not say where the shaft lies (support_vector)"
         if stage.face_interval(place) is None:
             yield gear, "the file does not say where on its shaft the gear sits"
-    if stage.driver is None:
+    if stage.driver is None or not stage.flow.knows(stage.pair):
         yield stage.stage, "power and speed of this stage do not follow from the file"
 
 
-def _bearings(stage: StageDraft, shaft: Component) -> list[Component]:
+def bearings_of(stage: StageDraft, shaft: Component) -> list[Component]:
     """Radial bearings between the shaft and the casing."""
     found, model = [], stage.reading.model
     for relation in model.relations_of("side", "inner_part", shaft.id):
@@ -92,6 +93,7 @@ class _DriveTrain:
         rotation = "counterclockwise" if speed > 0.0 else "clockwise"
         stage.put("operation.rotation", rotation, stage.shafts[0], "rotational_speed")
         self._directions()
+        self._temperatures()
         for place in (0, 1):
             if not self._shaft(place, start):
                 return False
@@ -106,12 +108,23 @@ class _DriveTrain:
         x, y, z = (b - a for a, b in zip(pinion.origin, wheel.origin, strict=True))
         self._stage.put("operation.wheel_angle_deg", self._angle((x, y, z)), self._stage.shafts[1], "support_vector")
         unit, path = reading.model.first("gear_unit"), "operation.gravity_angle_deg"
+        if unit is not None and reading.flag(unit, "account_for_gravity") is False:
+            self._stage.put("operation.gravity_factor", 0.0, unit, "account_for_gravity")
+        elif unit is not None and (weight := reading.number(unit, "gravitational_acceleration", "m/s^2")):
+            self._stage.put("operation.gravity_factor", weight / STANDARD_GRAVITY, unit, "gravitational_acceleration")
         parts = [reading.number(unit, f"direction_vector_gravity_{axis}") for axis in "uvw"]
         if unit is None or None in parts or not any(parts):
             self._stage.assume(path, -90.0, "the file gives no direction of gravity")
             return
         u, v, w = (each or 0.0 for each in parts)
         self._stage.put(path, self._angle(self._in_file(unit, (u, v, w))), unit, "direction_vector_gravity_v")
+
+    def _temperatures(self) -> None:
+        """Temperature of the drawing and of each gear's teeth."""
+        stage = self._stage
+        stage.take(table.REFERENCE_TEMPERATURE, self._reading.model.first("gear_unit"))
+        for gear, row in zip(stage.gears, table.TOOTH_TEMPERATURES, strict=True):
+            stage.take(row, gear)
 
     def _angle(self, direction: Vector) -> float:
         """The angle of a direction from X towards Y [deg]."""
@@ -136,7 +149,7 @@ class _DriveTrain:
             for begin, end, outer, inner in self._under_teeth(place, sections, face_start)
         ]
         stage.put(f"{name}.sections", cylinders, shaft)
-        placed = [(stage.position(each, shaft), each) for each in _bearings(stage, shaft)]
+        placed = [(stage.position(each, shaft), each) for each in bearings_of(stage, shaft)]
         placed.sort(key=lambda each: each[0] or 0.0)
         bearings = [
             self._bearing(bearing, position, shaft, f"{name}.bearings.{index}")
@@ -223,6 +236,10 @@ class _DriveTrain:
             for row in table.JOURNAL:
                 if (value := reading.number(bearing, row)) is not None:
                     made[row.field] = value / 2.0 if row.field == "radial_clearance_um" else value
+            relative = reading.number(bearing, "relative_clearance_plain_bearing")
+            bore = reading.number(bearing, table.BEARING_BORE)
+            if "radial_clearance_um" not in made and relative is not None and bore is not None:
+                made["radial_clearance_um"] = relative * bore * 500.0  # of the diameter, in mm
             return made
         stiffness = reading.number(bearing, "radial_stiffness", "N/um")
         if stiffness is not None and stiffness >= RIGID_FROM_N_PER_UM:

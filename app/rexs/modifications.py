@@ -50,8 +50,7 @@ class Modifications:
         of a driving gear the right flank then leads and pushes, of a driven one the left flank is pushed.
         """
         stage = self._stage
-        data = self._reading.model.related("stage_gear_data", "gear", stage.gears[place].id, "stage_gear_data")
-        for each in data:
+        for each in stage.gear_data(place):
             if (said := self._reading.text(each, "loaded_tooth_flank")) in {"left", "right"}:
                 return said
         speed = stage.flow.speed.get(stage.shafts[place].id)
@@ -119,9 +118,10 @@ class Modifications:
         begin = gear.roll_length(diameter)
         if kind == "tip_relief":
             return self._tip_roll(place, gear) - begin
+        distance = self._stage.working_distance()
+        if distance is None:
+            return None
         base = (gear.base_diameter + mate.base_diameter) / 2.0
-        own_distance = (gear.reference_diameter + mate.reference_diameter) / 2
-        distance = self._stage.fields.get("gears.centre_distance_mm") or own_distance
         line = sqrt(max(distance**2 - base**2, 0.0))
         return begin - (line - self._tip_roll(1 - place, mate))
 

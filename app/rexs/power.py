@@ -31,10 +31,11 @@ class Pair(NamedTuple):
 class Flow:
     """What is known of each shaft and mesh.
 
-    `speed`: 1/min about the shaft's own u axis, by shaft. `mesh_torque`: N m on gear 1 and gear 2 of a stage about
-    their shafts' own u axes.
+    `reading`: the model, or a load case of it, that states the load. `speed`: 1/min about the shaft's own u axis, by
+    shaft. `mesh_torque`: N m on gear 1 and gear 2 of a stage about their shafts' own u axes.
     """
 
+    reading: Reading
     speed: dict[int, float] = field(default_factory=dict)
     mesh_torque: dict[int, tuple[float, float]] = field(default_factory=dict)
 
@@ -70,13 +71,14 @@ class Train:
 
     def flow(self, case: LoadCase | None = None) -> Flow:
         """Speeds and torques of the base model or of a load case."""
-        speeds = self._speeds(case)
-        flow = Flow()
+        reading = self._reading.in_case(case)
+        speeds = self._speeds(reading)
+        flow = Flow(reading)
         for shaft in self._shafts:
             speed = speeds.get(self._group[shaft.id], nan)
             if isfinite(speed):
                 flow.speed[shaft.id] = speed * self._reading.sense(shaft)
-        forces = self._forces(speeds, case)
+        forces = self._forces(speeds, reading)
         for pair in self._pairs:
             force = forces.get(pair.stage.id, nan)
             first, second = (pair.teeth[place] * force * self._reading.sense(pair.shafts[place]) for place in (0, 1))
@@ -97,20 +99,23 @@ class Train:
                     group = {shaft: joined[0] if own == joined[1] else own for shaft, own in group.items()}
         return group
 
-    def _speeds(self, case: LoadCase | None) -> dict[int, float]:
+    def _speeds(self, reading: Reading) -> dict[int, float]:
         """Speeds of the groups [1/min], seen along the unit's axis."""
         speeds: dict[int, float] = {}
-        stated = [(shaft, self._reading.number(shaft, "rotational_speed", "1/min", case)) for shaft in self._shafts]
-        stated.sort(key=lambda each: not self._reading.flag(each[0], "defines_speed"))
+        stated = [(shaft, reading.number(shaft, "rotational_speed", "1/min")) for shaft in self._shafts]
+        restated = {shaft.id for shaft, _ in stated if reading.says(shaft, "rotational_speed")}
+        stated.sort(key=lambda each: (each[0].id not in restated, not reading.flag(each[0], "defines_speed")))
         for shaft, own in stated:
             if own is None:
                 continue
-            speed, group = own * self._reading.sense(shaft), self._group[shaft.id]
+            speed, group = own * reading.sense(shaft), self._group[shaft.id]
             if group not in speeds:
                 self._spread(group, speed, speeds)
+            elif restated and shaft.id not in restated:
+                continue  # of the model, where the load case states another speed
             elif abs(speeds[group] - speed) > BALANCE * max(abs(speed), abs(speeds[group])):
                 message = f"the shaft turns at {speed:.6g} 1/min, by the tooth numbers at {speeds[group]:.6g}; not used"
-                self._reading.find("speed_conflict", shaft, "rotational_speed", message)
+                reading.find("speed_conflict", shaft, "rotational_speed", message)
         return speeds
 
     def _spread(self, group: int, speed: float, speeds: dict[int, float]) -> None:
@@ -121,9 +126,9 @@ class Train:
             if other not in speeds:
                 self._spread(other, -speed * pair.teeth[place] / pair.teeth[1 - place], speeds)
 
-    def _forces(self, speeds: dict[int, float], case: LoadCase | None) -> dict[int, float]:
+    def _forces(self, speeds: dict[int, float], reading: Reading) -> dict[int, float]:
         """Torque of each stage's mesh per tooth [N m], where the torques that the file states determine it."""
-        known, opened = self._loads(speeds, case)
+        known, opened = self._loads(speeds, reading)
         forces: dict[int, float] = {}
         waiting = list(self._at) if known else []
         while waiting:
@@ -138,21 +143,22 @@ class Train:
             waiting.append(self._group[pair.shafts[1 - place].id])
         return forces
 
-    def _loads(self, speeds: dict[int, float], case: LoadCase | None) -> tuple[dict[int, float], set[int]]:
+    def _loads(self, speeds: dict[int, float], reading: Reading) -> tuple[dict[int, float], set[int]]:
         """Stated torques by group [N m], and the groups at which a torque that is not stated enters or leaves."""
         known: dict[int, float] = defaultdict(float)
         opened, leaving = set(self._elsewhere), set()
         for shaft in self._shafts:
             group = self._group[shaft.id]
-            for load in self._reading.model.parts_of(shaft.id):
+            for load in reading.model.parts_of(shaft.id):
                 if load.type != "external_load":
                     continue
-                torque = self._stated_torque(load, shaft, speeds.get(group), case)
+                transmits = reading.flag(load, "transmits_torque")
+                torque = self._stated_torque(load, shaft, speeds.get(group), reading)
                 if torque is not None:
                     known[group] += torque
                     if torque * speeds.get(group, 0.0) < 0.0:
                         leaving.add(group)
-                elif self._reading.flag(load, "transmits_torque") is not False:
+                elif transmits is not False:
                     opened.add(group)
         if known and not opened:
             opened = {group for group, meshes in self._at.items() if len(meshes) == 1 and group not in known} or leaving
@@ -166,14 +172,29 @@ class Train:
         shafts = (model.whole_of(part, "shaft") for part in parts)
         return {self._group[shaft.id] for shaft in shafts if shaft is not None and shaft.id in self._group}
 
-    def _stated_torque(
-        self, load: Component, shaft: Component, speed: float | None, case: LoadCase | None
-    ) -> float | None:
-        """The torque of a load on a shaft, about the unit's axis [N m], where the load defines it."""
-        if self._reading.flag(load, "defines_torque") is False:
+    def _stated_torque(self, load: Component, shaft: Component, speed: float | None, reading: Reading) -> float | None:
+        """The torque of a load on a shaft, about the unit's axis [N m], where the load defines it.
+
+        A load case that gives power alone has the torque of its power, whatever the model states.
+        """
+        if reading.flag(load, "defines_torque") is False:
             return None
-        torque = self._reading.number(load, "torque_around_u_axis", "Nm", case)
-        if torque is not None:
-            return torque * self._reading.sense(shaft)  # the u axis of a load is that of its shaft
-        power = self._reading.number(load, "power", "W", case)
-        return power / (speed * REVOLUTION_PER_MINUTE) if power is not None and speed else None
+        torque = reading.number(load, "torque_around_u_axis", "Nm")
+        power = reading.number(load, "power", "W")
+        names = "power", "torque_around_u_axis"
+        power_alone, torque_alone = (
+            reading.says(load, names[i]) and not reading.says(load, names[1 - i]) for i in (0, 1)
+        )
+        of_power = power / (speed * REVOLUTION_PER_MINUTE) if power is not None and speed else None
+        if torque is None or (power_alone and of_power is not None):
+            return of_power
+        if (
+            not torque_alone
+            and of_power is not None
+            and abs(abs(of_power) - abs(torque)) > BALANCE * max(abs(of_power), abs(torque))
+        ):
+            message = (
+                f"the torque is {abs(torque):.6g} N m, by power and speed it is {abs(of_power):.6g}; the torque is used"
+            )
+            reading.find("power_conflict", load, "power", message)
+        return torque * reading.sense(shaft)  # the u axis of a load is that of its shaft

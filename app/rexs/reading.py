@@ -3,7 +3,9 @@
 Whatever happens on the way is recorded for the answer: what is wrong in the file, missing, assumed or not used.
 """
 
-from collections.abc import Iterable
+import re
+from collections.abc import Collection, Iterable, Iterator
+from copy import copy
 from dataclasses import dataclass, field
 from functools import cached_property
 from math import isfinite, sqrt
@@ -14,15 +16,17 @@ from pydantic import BaseModel
 from app.calculations import BY_PATH
 from app.errors import InvalidBody
 from app.rexs.model import Attribute, Component, LoadCase, Model
-from app.rexs.table import IGNORED, Row, converted
+from app.rexs.table import APPLICATION_FACTOR, IGNORED, SCUFFING_FACTOR, Row, converted
 from app.schema.quantities import Output
 from app.schema.reading import validated
 
 LARGEST = 1e30  # in any unit; keeps sums and products of a hostile file finite
-MESH = {"gears", "load", "materials", "modifications"}
+DIGITS = 7
+SCUFFING = "/v1/scuffing"
+MESH = {"gears", "load", "materials", "modifications", "friction_coefficient"}
 SECTIONS = {
     "/v1/scuffing/load-distribution": MESH,
-    "/v1/scuffing": MESH | {"temperatures", "lubricant"},
+    SCUFFING: MESH | {"temperatures", "lubricant"},
     "/v1/pumping": {"gears"},
 }
 """What of a draft is in the requests for a single mesh."""
@@ -38,6 +42,19 @@ class Axis(NamedTuple):
     def along(self, point: Vector) -> float:
         """Coordinate of a point along the axis [mm]."""
         return sum((a - b) * u for a, b, u in zip(point, self.origin, self.direction, strict=True))
+
+    def apart(self, other: "Axis") -> float:
+        """Distance of another axis' origin from this axis [mm]."""
+        along = self.along(other.origin)
+        across = (a - b - along * u for a, b, u in zip(other.origin, self.origin, self.direction, strict=True))
+        return sqrt(sum(each * each for each in across))
+
+
+class Number(NamedTuple):
+    """A number of the file in the unit asked for, and its attribute."""
+
+    value: float
+    attribute: str
 
 
 class Fault(BaseModel, frozen=True):
@@ -72,37 +89,63 @@ class Unused(BaseModel):
     component: Annotated[int, Output("component in the file")]
     attribute: Annotated[str | None, Output("attribute, or the whole component")]
     reason: Annotated[str, Output("why")]
+    case: Annotated[str | None, Output("load case that says it; null where the model does")] = None
 
 
 @dataclass
 class Reading:
-    """The model, read once: every attribute asked for is noted, and every fault becomes a finding."""
+    """The model, read once: every attribute asked for is noted, and every fault becomes a finding.
+
+    `case`: the load case whose attributes take the place of the model's. `used`: what was asked for of the model, and
+    `used_of_case` of the load case.
+    """
 
     model: Model
+    case: LoadCase | None = None
     findings: dict[Fault, None] = field(default_factory=dict)
     used: set[tuple[int, str]] = field(default_factory=set)
+    used_of_case: set[tuple[int, str]] = field(default_factory=set)
+
+    def in_case(self, case: LoadCase | None) -> "Reading":
+        """The same model as it is in a load case."""
+        found = copy(self)  # with what is known of its shafts
+        found.case, found.used_of_case = case, set()
+        return found
+
+    def says(self, component: Component, name: str) -> bool:
+        """Whether the load case itself states an attribute."""
+        return self.case is not None and name in self.case.attributes.get(component.id, {})
 
     def find(self, code: str, component: Component | None, attribute: str | None, message: str) -> None:
         """Note a fault, once."""
         id_ = component.id if component else None
+        if (
+            component is not None
+            and attribute is not None
+            and self.case is not None
+            and self.says(component, attribute)
+        ):
+            message = f"load case {self.case.name[:40]}: {message}"
         self.findings[Fault(code=code, component=id_, attribute=attribute, message=message)] = None
 
-    def number(
-        self, component: Component | None, wanted: Row | str, unit: str = "", case: LoadCase | None = None
-    ) -> float | None:
+    def number(self, component: Component | None, wanted: Row | str, unit: str = "") -> float | None:
         """The first of the attributes of a row that is there, in its unit, or an attribute in `unit`; else None.
 
-        A value that is no number or has a unit of another quantity is a finding and not used. `case` may override
-        it.
+        A value that is no number or has a unit of another quantity is a finding and not used.
         """
+        names, unit = (wanted.attributes, wanted.unit) if isinstance(wanted, Row) else ((wanted,), unit)
+        found = self.first_of(component, names, unit)
+        return None if found is None else found.value
+
+    def first_of(self, component: Component | None, names: Iterable[str], unit: str) -> "Number | None":
+        """The first of these attributes that is a number of this quantity, and its name."""
         if component is None:
             return None
-        names, unit = (wanted.attributes, wanted.unit) if isinstance(wanted, Row) else ((wanted,), unit)
         for name in names:
-            attribute = self._attribute(component, name, case)
-            found = None if attribute is None else self._in_unit(component, attribute, unit)
-            if found is not None:
-                return found
+            attribute = self._attribute(component, name)
+            value = None if attribute is None else self._in_unit(component, attribute, unit)
+            if value is not None:
+                return Number(value, name)
         return None
 
     def text(self, component: Component, name: str) -> str:
@@ -122,7 +165,7 @@ class Reading:
         if attribute is None or not isinstance(attribute.value, list) or len(attribute.value) != 3:
             return None
         try:
-            x, y, z = (float(each) for each in attribute.value)
+            x, y, z = (float("true" if isinstance(each, bool) else each) for each in attribute.value)
         except (TypeError, ValueError, OverflowError):
             self.find("not_a_number", component, name, "the vector is not three numbers")
             return None
@@ -155,18 +198,26 @@ class Reading:
         cosines = {id_: sum(a * b for a, b in zip(axis, base, strict=True)) for id_, axis in axes.items()}
         return {id_: 1.0 if cosine >= 0.0 else -1.0 for id_, cosine in cosines.items()}
 
-    def ignored(self, components: Iterable[Component]) -> list[Unused]:
+    def ignored(self, components: Iterable[Component]) -> Iterator[Unused]:
         """What these components say that was not asked for."""
-        found = []
         for component in components:
             for name in component.attributes:
                 if (component.id, name) not in self.used:
-                    reason = next(why for start, why in IGNORED.items() if name.startswith(start))
-                    found.append(Unused(component=component.id, attribute=name, reason=reason))
-        return found
+                    yield Unused(component=component.id, attribute=name, reason=why_unused(component.type, name))
 
-    def _attribute(self, component: Component, name: str, case: LoadCase | None = None) -> Attribute | None:
-        if case is not None and (found := case.attributes.get(component.id, {}).get(name)) is not None:
+    def ignored_of_case(self, elsewhere: Collection[int]) -> Iterator[Unused]:
+        """What the load case says that was not asked for, but for what it says of the components `elsewhere`."""
+        if (case := self.case) is None:
+            return
+        for id_, attributes in case.attributes.items():
+            type_ = self.model.components[id_].type if id_ in self.model.components else ""
+            for name in attributes if id_ not in elsewhere else ():
+                if (id_, name) not in self.used_of_case:
+                    yield Unused(component=id_, attribute=name, reason=why_unused(type_, name), case=case.name)
+
+    def _attribute(self, component: Component, name: str) -> Attribute | None:
+        if self.case is not None and (found := self.case.attributes.get(component.id, {}).get(name)) is not None:
+            self.used_of_case.add((component.id, name))
             return found
         found = component.attributes.get(name)
         if found is not None:
@@ -176,7 +227,7 @@ class Reading:
     def _in_unit(self, component: Component, attribute: Attribute, unit: str) -> float | None:
         code, name = "not_a_number", attribute.name
         try:
-            value = float(attribute.value)
+            value = float("true" if isinstance(attribute.value, bool) else attribute.value)
         except (TypeError, ValueError, OverflowError):
             self.find(code, component, name, f"{name} is not a number; not used")
             return None
@@ -223,14 +274,13 @@ class Draft:
         id_ = component.id if component else None
         self.missing.setdefault(path, MissingValue(field=path, component=id_, attribute=attribute, message=message))
 
-    def take(
-        self, row: Row, component: Component | None, prefix: str = "", case: LoadCase | None = None
-    ) -> float | None:
+    def take(self, row: Row, component: Component | None, prefix: str = "") -> float | None:
         """Take a number over as it stands."""
-        found = self.reading.number(component, row, case=case)
-        if component is not None and found is not None:
-            self.put(prefix + row.field, found, component, row.name)
-        return found
+        found = self.reading.first_of(component, row.attributes, row.unit)
+        if component is None or found is None:
+            return None
+        self.put(prefix + row.field, found.value, component, found.attribute)
+        return found.value
 
     def request(self, endpoint: str, paths: Iterable[str]) -> dict[str, Any]:
         """The request of an endpoint from these fields, without those that it does not know or refuses.
@@ -238,11 +288,16 @@ class Draft:
         What the endpoint refuses is a finding with its range where it comes from the file; what it needs and does not
         get is missing.
         """
-        known = {ours: theirs for ours in paths if (theirs := path_in(endpoint, ours)) is not None}
+        replaced = endpoint == SCUFFING and SCUFFING_FACTOR in self.fields
+        known = {
+            ours: theirs
+            for ours in paths
+            if (theirs := path_in(endpoint, ours)) is not None and not (replaced and ours == APPLICATION_FACTOR)
+        }
         own = {ours: theirs for ours, theirs in known.items() if ours in self.fields}
         model = BY_PATH[endpoint].request
         while True:
-            request = _nested({theirs: self.fields[ours] for ours, theirs in own.items()})
+            request = _nested({theirs: rounded(self.fields[ours]) for ours, theirs in own.items()})
             try:
                 validated(model, request)
             except InvalidBody as error:
@@ -269,10 +324,28 @@ class Draft:
 
 def path_in(endpoint: str, path: str) -> str | None:
     """Where a field of the draft is in the request of an endpoint; None where the endpoint has no such field."""
+    if path == SCUFFING_FACTOR:
+        return APPLICATION_FACTOR if endpoint == SCUFFING else None
     if endpoint == "/v1/drive-train" or (endpoint, path) == ("/v1/pumping", "load.pinion_speed_rpm"):
         return path.replace("load.", "operation.", 1)
     unknown = {"gears.hand"} if endpoint == "/v1/pumping" else {"gears.hand", "gears.normal_backlash_mm"}
     return path if path.partition(".")[0] in SECTIONS[endpoint] and path not in unknown else None
+
+
+def rounded(value: Any) -> Any:
+    """A value with its numbers at the seven digits that a page shows."""
+    if isinstance(value, float):
+        return float(f"{value:.{DIGITS}g}")
+    if isinstance(value, list):
+        return [rounded(each) for each in value]
+    if isinstance(value, dict):
+        return {name: rounded(each) for name, each in value.items()}
+    return value
+
+
+def why_unused(type_: str, name: str) -> str:
+    """The reason why an attribute of a type of component is not used."""
+    return next(why for types, names, why in IGNORED if re.fullmatch(types, type_) and re.search(names, name))
 
 
 def _within(path: str, section: str) -> bool:

@@ -1,10 +1,10 @@
 """The stages of a gear unit as requests: gears, load, oil and material of one mesh."""
 
 from collections.abc import Iterable, Iterator
-from math import acos, atan, cos, pi, radians, sqrt, tan
+from math import acos, asin, atan, cos, degrees, pi, radians, sin, sqrt, tan
 
 from app.rexs import table
-from app.rexs.model import Component, LoadCase
+from app.rexs.model import Component
 from app.rexs.power import Flow, Pair
 from app.rexs.reading import Draft, Reading
 from solvers.gears.gear import involute
@@ -12,7 +12,9 @@ from solvers.gears.pair import inverse_involute
 
 ISO_53_A = {"addendum": 1.0, "dedendum": 1.25, "gears.rack_tip_radius": 0.38}  # in modules
 SAME = 1e-6  # chosen: numbers stated twice that differ by less are equal
+OFF_CENTRE = 1e-3  # chosen: of the centre distance; positions are often rounded
 MOST_INVOLUTE = 1e8  # its inverse is known up to 1e9; a larger one comes from a profile shift that no gear has
+NORMAL_ANGLE = 20.0  # deg, ISO 53
 ROLES = ("pinion", "wheel")
 TORQUE, SPEED = "load.pinion_torque_n_m", "load.pinion_speed_rpm"
 
@@ -35,21 +37,31 @@ def _pair(reading: Reading, stage: Component) -> Pair | None:
     if first is None or second is None:
         reading.find("relation_missing", stage, None, "the stage has no relation to two gears; it is left out")
         return None
-    teeth = []
-    for gear in (first, second):
-        if gear.type != "cylindrical_gear":
-            reading.find("stage_not_modelled", stage, None, "only two external gears are modelled; left out")
-            return None
-        number = reading.number(gear, "number_of_teeth")
-        if number is None or number != int(number) or not 1 <= number <= 10_000:
-            reading.find("teeth", gear, "number_of_teeth", "the gear has no possible number of teeth; stage left out")
-            return None
-        teeth.append(int(number))
+    teeth = _teeth(reading, stage, first), _teeth(reading, stage, second)
+    if teeth[0] is None or teeth[1] is None:
+        return None
     shafts = _shaft_of(reading, first), _shaft_of(reading, second)
     if shafts[0] is None or shafts[1] is None or shafts[0].id == shafts[1].id:
         reading.find("relation_missing", stage, None, "the gears do not sit on two shafts; the stage is left out")
         return None
     return Pair(stage, (first, second), (shafts[0], shafts[1]), (teeth[0], teeth[1]))
+
+
+def _teeth(reading: Reading, stage: Component, gear: Component) -> int | None:
+    """The number of teeth of an external gear; every other gear is a finding."""
+    if gear.type != "cylindrical_gear":
+        what = "a ring gear; pairs with one" if gear.type == "ring_gear" else "other pairs than two external gears"
+        reading.find("stage_not_modelled", stage, None, f"{what} are not modelled; the stage is left out")
+        return None
+    number = reading.number(gear, "number_of_teeth")
+    if number is not None and number < 0.0:
+        message = "a ring gear (teeth below 0); pairs with one are not modelled; the stage is left out"
+        reading.find("ring_gear", gear, "number_of_teeth", message)
+        return None
+    if number is None or number != int(number) or not 1 <= number <= 10_000:
+        reading.find("teeth", gear, "number_of_teeth", "the gear has no possible number of teeth; stage left out")
+        return None
+    return int(number)
 
 
 def _shaft_of(reading: Reading, gear: Component) -> Component | None:
@@ -58,31 +70,39 @@ def _shaft_of(reading: Reading, gear: Component) -> Component | None:
     return reading.model.whole_of(gear.id, "shaft") or next((each for each in fastened if each.type == "shaft"), None)
 
 
+def _gear_data(reading: Reading, pair: Pair, gear: Component) -> Iterator[Component]:
+    for relation in reading.model.relations_of("stage_gear_data", "gear", gear.id):
+        data = reading.model.part(relation, "stage_gear_data")
+        if data is not None and relation.part("stage") in {pair.stage.id, None}:
+            yield data
+
+
 class StageDraft(Draft):
     """One mesh on its way to requests. Its pinion is the gear that drives, else the smaller one.
 
     `order`, `driver`: places of pinion and wheel, and of the driving gear where it is known, in the file's pair.
-    `case`: the load case whose load the requests carry, where the model itself states none.
     """
 
-    def __init__(self, reading: Reading, pair: Pair, flow: Flow, case: LoadCase | None) -> None:
-        super().__init__(reading)
-        self.flow, self.case = flow, case
-        self.driver = flow.driver(pair)
-        first = self.driver if self.driver is not None else int(pair.teeth[1] < pair.teeth[0])
+    def __init__(self, pair: Pair, flow: Flow, pinion: int | None = None) -> None:
+        """Begin the draft of a stage; `pinion` is the place of its pinion where another draft has settled it."""
+        super().__init__(flow.reading)
+        self.flow, self.pair = flow, pair
+        self.driver = self._driver()
+        smaller = int(pair.teeth[1] < pair.teeth[0])
+        first = next(each for each in (pinion, self.driver, smaller) if each is not None)
         self.order = first, 1 - first
         self.stage = pair.stage
         turn = -1 if first else 1
         self.gears, self.shafts, self.teeth = pair.gears[::turn], pair.shafts[::turn], pair.teeth[::turn]
 
     def fill(self) -> None:
-        """Take over what the file says of the mesh but for modifications of its flanks."""
+        """Take over what the file says of the mesh but for modifications of its flanks and its oil."""
         for row in table.STAGE:
             self.take(row, self.stage)
         for place, role in enumerate(ROLES):
             self.put(f"gears.{role}.teeth", self.teeth[place], self.gears[place], "number_of_teeth")
-        self._module()
         self._helix()
+        self._module()
         self._face_width()
         self._pressure_angle()
         for place in (0, 1):
@@ -90,18 +110,43 @@ class StageDraft(Draft):
             self._rack(place)
         self._rack_tip_radius()
         self._backlash()
+        self._axes()
         self._load()
         for place, role in enumerate(ROLES):
             self.take(table.ROUGHNESS, self.gears[place], f"materials.{role}.")
-            for row in table.MATERIAL:
+            for row in (*table.MATERIAL, *table.HEAT):
                 self.take(row, self.material(place), f"materials.{role}.")
-        self._oil()
+
+    def _driver(self) -> int | None:
+        """The place of the driving gear, by power, else as the file says."""
+        by_power, pair = self.flow.driver(self.pair), self.pair
+        stated = [place for place in (0, 1) for each in _gear_data(self.reading, pair, pair.gears[place])
+                  if self.reading.flag(each, "is_driving_gear")]  # fmt: skip
+        if by_power is None and len(stated) == 1:
+            return stated[0]
+        if by_power is not None and stated and by_power not in stated:
+            message = "by torque and speed the other gear drives; used"
+            self.reading.find("driver", pair.gears[stated[0]], None, message)
+        return by_power
 
     def flanks(self, place: int) -> dict[str, Component]:
         """Left and right flank of pinion (0) or wheel (1), as far as the file has them."""
         relation = "flank", "gear", self.gears[place].id
         found = {side: next(self.reading.model.related(*relation, side), None) for side in ("left", "right")}
         return {side: flank for side, flank in found.items() if flank is not None}
+
+    def gear_data(self, place: int) -> Iterator[Component]:
+        """What the file says of pinion (0) or wheel (1) in this stage."""
+        return _gear_data(self.reading, self.pair, self.gears[place])
+
+    @property
+    def load_sources(self) -> set[int]:
+        """The components whose attributes in a load case change torque, speed and shares alone."""
+        model = self.reading.model
+        unit = [model.first("gear_unit")]
+        return {
+            each.id for each in (*unit, *model.by_type["shaft"], *model.by_type["external_load"]) if each is not None
+        }
 
     def tool(self, place: int) -> Component | None:
         """The rack-shaped tool that made a gear."""
@@ -175,28 +220,21 @@ class StageDraft(Draft):
 
     def involute(self, place: int) -> "Involute | None":
         """The transverse geometry of a gear, where the file gives enough."""
-        fields, module = self.fields, self._normal_module
+        fields, module = self.fields, self.fields.get(table.MODULE.field)
         angle, helix = fields.get(table.PRESSURE_ANGLE.field), fields.get(table.HELIX_ANGLE.field, 0.0)
         if not module or module < 0.0 or angle is None or not 0.0 < angle < 45.0 or not helix < 80.0:
             return None
         shift = fields.get(f"gears.{ROLES[place]}.profile_shift", 0.0)
         return Involute(self.teeth[place], module, radians(angle), radians(helix), shift)
 
-    @property
-    def _normal_module(self) -> float | None:
-        module = self.fields.get(table.MODULE.field)
-        if module is None or self.fields.get("gears.module_plane") != "transverse":
-            return module
-        return float(module) * cos(radians(self.fields.get(table.HELIX_ANGLE.field, 0.0)))
-
-    def _known(self, components: Iterable[Component], row: table.Row) -> list[tuple[float, Component]]:
+    def known(self, components: Iterable[Component], row: table.Row) -> list[tuple[float, Component]]:
         """The values that the components have, each with its component."""
         found = ((self.reading.number(each, row), each) for each in components)
         return [(value, each) for value, each in found if value is not None]
 
     def _module(self) -> None:
         row, pinion = table.MODULE, self.gears[0]
-        known = self._known(self.gears, row)
+        known = self.known(self.gears, row) or self._transverse_modules()
         if not known:
             self.lacks(row.field, pinion, row.name, f"the file has no {row.name}")
             return
@@ -204,12 +242,18 @@ class StageDraft(Draft):
             message = "both gears must have one module; the pinion's is used"
             self.reading.find("gears_differ", known[-1][1], row.name, message)
         self.put(row.field, *known[0], row.name)
-        if "normal_module" not in pinion.attributes:
-            self.put("gears.module_plane", "transverse", pinion, "transverse_module")
+
+    def _transverse_modules(self) -> list[tuple[float, Component]]:
+        """Normal modules from the transverse ones: pressure angle and profile shifts of REXS count the normal one."""
+        cosine = cos(radians(self.fields.get(table.HELIX_ANGLE.field, 0.0)))
+        known = self.known(self.gears, table.TRANSVERSE_MODULE)
+        if known:
+            self.note(table.MODULE.field, known[0][0] * cosine, "the transverse module times the cosine of the helix")
+        return [(value * cosine, gear) for value, gear in known]
 
     def _helix(self) -> None:
         row, gear = table.HELIX_ANGLE, self.gears[0]
-        pinion, wheel = (self.reading.number(each, row) for each in self.gears)
+        pinion, wheel = (self._helix_angle(each) for each in self.gears)
         if pinion is not None and wheel is not None and abs(pinion + wheel) > SAME * 90.0:
             message = "helix angles of an external pair are opposite; the pinion's is used"
             self.reading.find("helix_angles", self.gears[1], row.name, message)
@@ -221,9 +265,30 @@ class StageDraft(Draft):
         self.put(row.field, abs(pinion), gear, row.name)
         self.put("gears.hand", "right" if pinion >= 0.0 else "left", gear, row.name)
 
+    def _helix_angle(self, gear: Component) -> float | None:
+        """Helix angle of a gear [deg]: at the reference circle, else from the one at the base circle.
+
+        sin beta = sin beta_b / cos alpha_n, tan beta = tan beta_b / cos alpha_t.
+        """
+        stated = self.reading.number(gear, table.HELIX_ANGLE)
+        base = self.reading.number(gear, table.BASE_HELIX_ANGLE) if stated is None else None
+        if base is None:
+            return stated
+        flanks = [flank for place in (0, 1) for flank in self.flanks(place).values()]
+        normal, transverse = (
+            next((value for value, _ in self.known(flanks, row)), None)
+            for row in (table.PRESSURE_ANGLE, table.TRANSVERSE_PRESSURE_ANGLE)
+        )
+        if normal is None and transverse is not None and abs(transverse) < 90.0 > abs(base):
+            return degrees(atan(tan(radians(base)) / cos(radians(transverse))))
+        sine = sin(radians(base)) / max(cos(radians(NORMAL_ANGLE if normal is None else normal)), SAME)
+        return degrees(asin(sine)) if abs(sine) < 1.0 else None
+
     def _face_width(self) -> None:
         row, gear = table.FACE_WIDTH, self.gears[0]
-        widths = [value for value, _ in self._known(self.gears, row)]
+        if self.take(table.COMMON_WIDTH, self.stage) is not None:
+            return
+        widths = [value for value, _ in self.known(self.gears, row)]
         if not widths:
             self.lacks(row.field, gear, row.name, "the file has no face width")
             return
@@ -243,12 +308,24 @@ class StageDraft(Draft):
         row = table.PRESSURE_ANGLE
         wheel, pinion = self._of_flanks(1, row, row.field), self._of_flanks(0, row, row.field)  # the pinion's counts
         if wheel is None and pinion is None:
-            self.assume(row.field, 20.0, "the file has no pressure angle: ISO 53")
+            self._from_transverse_angle()
         elif wheel is not None and pinion is not None and abs(wheel - pinion) > SAME:
             message = "both gears must have one pressure angle; the pinion's is used"
             self.reading.find("gears_differ", self.gears[1], row.name, message)
 
+    def _from_transverse_angle(self) -> None:
+        row = table.PRESSURE_ANGLE
+        flanks = [flank for place in (0, 1) for flank in self.flanks(place).values()]
+        known = self.known(flanks, table.TRANSVERSE_PRESSURE_ANGLE)
+        if not known:
+            self.assume(row.field, NORMAL_ANGLE, "the file has no pressure angle: ISO 53")
+            return
+        helix = radians(self.fields.get(table.HELIX_ANGLE.field, 0.0))
+        normal = degrees(atan(tan(radians(known[0][0])) * cos(helix)))
+        self.put(row.field, normal, known[0][1], table.TRANSVERSE_PRESSURE_ANGLE.name)
+
     def _profile_shift(self, place: int) -> None:
+        """The nominal shift, else the one after finishing, which holds the allowance of the teeth as well."""
         path = f"gears.{ROLES[place]}.profile_shift"
         if self._of_flanks(place, table.PROFILE_SHIFT, path) is not None:
             return
@@ -256,12 +333,14 @@ class StageDraft(Draft):
         length = self.reading.number(flank, "addendum_modification", "mm")
         if flank is not None and length is not None and module:
             self.put(path, length / module, flank, "addendum_modification")
+        elif (finished := self._of_flanks(place, table.FINISHED_SHIFT, path)) is not None:
+            self.note(path, finished, "the one after finishing; the file has no nominal profile shift")
         else:
             self.assume(path, 0.0, "the file has no profile shift")
 
     def _of_flanks(self, place: int, row: table.Row, path: str) -> float | None:
         """A number of the flanks, which both must share."""
-        known = self._known(self.flanks(place).values(), row)
+        known = self.known(self.flanks(place).values(), row)
         if not known:
             return None
         if any(abs(value - known[0][0]) > SAME for value, _ in known):
@@ -271,35 +350,51 @@ class StageDraft(Draft):
         return known[0][0]
 
     def _rack(self, place: int) -> None:
-        """Addendum and dedendum coefficients: from tool or basic profile, else from the diameters, else ISO 53 A."""
+        """Take addendum and dedendum: from tip diameter or basic profile, from tool or root diameter, else ISO 53 A."""
         prefix, tool = f"gears.{ROLES[place]}.", self.tool(place)
-        if self._of_flanks(place, table.BASIC_ADDENDUM, f"{prefix}addendum") is None:
-            self._from_diameter(place, table.TIP_DIAMETER)
+        path, module = f"{prefix}addendum", self.fields.get(table.MODULE.field)
+        if not self._from_diameter(place, table.TIP_DIAMETER):
+            length = self.reading.number(self.gears[place], table.BASIC_ADDENDUM_LENGTH)
+            if self._of_flanks(place, table.BASIC_ADDENDUM, path) is not None:
+                pass
+            elif length is not None and module:
+                self.put(path, length / module, self.gears[place], table.BASIC_ADDENDUM_LENGTH.name)
+            else:
+                self._assume_rack(place, "addendum")
         dedendum = self._of_tool(tool, table.TOOL_ADDENDUM, table.TOOL_ADDENDUM_LENGTH)
         if tool is not None and dedendum is not None:
             self.put(f"{prefix}dedendum", dedendum, tool, table.TOOL_ADDENDUM.name)
-        else:
-            self._from_diameter(place, table.ROOT_DIAMETER)
+        elif not self._from_diameter(place, table.ROOT_DIAMETER):
+            self._assume_rack(place, "dedendum")
+
+    def _assume_rack(self, place: int, name: str) -> None:
+        path = f"gears.{ROLES[place]}.{name}"
+        self.assume(path, ISO_53_A[name], f"the file gives no {name}: ISO 53, profile A")
 
     def _of_tool(self, tool: Component | None, row: table.Row, length_row: table.Row) -> float | None:
         """A coefficient of the rack, which the file gives in modules or as a length."""
         found, length = self.reading.number(tool, row), self.reading.number(tool, length_row)
-        module = self._normal_module
+        module = self.fields.get(table.MODULE.field)
         return length / module if found is None and length is not None and module else found
 
-    def _from_diameter(self, place: int, row: table.Row) -> None:
-        """A rack coefficient from the tip or root diameter; an impossible diameter is a finding and not used."""
+    def _from_diameter(self, place: int, row: table.Row) -> bool:
+        """Whether tip or root diameter gave the rack's coefficient; an impossible one is a finding and not used."""
         path, gear = f"gears.{ROLES[place]}.{row.field}", self.gears[place]
         diameter, flank = self.reading.number(gear, row), self.involute(place)
-        if diameter is not None and flank is not None:
-            tip = row is table.TIP_DIAMETER
-            fault = flank.tip_fault(diameter) if tip else flank.root_fault(diameter)
-            if fault is None:
-                height = (diameter - flank.reference_diameter) / (2.0 * flank.module) - flank.shift
-                self.put(path, height if tip else -height, gear, row.name)
-                return
+        tip = row is table.TIP_DIAMETER
+        if diameter is None and tip:
+            limits = [self.reading.number(gear, name, "mm") for name in table.TIP_DIAMETER_LIMITS]
+            known = [each for each in limits if each is not None]
+            diameter = sum(known) / len(known) if known else None
+        if diameter is None or flank is None:
+            return False
+        fault = flank.tip_fault(diameter) if tip else flank.root_fault(diameter)
+        if fault is not None:
             self.reading.find("diameter", gear, row.name, f"{row.name} {fault}; not used")
-        self.assume(path, ISO_53_A[row.field], f"the file gives no {row.field}: ISO 53, profile A")
+            return False
+        height = (diameter - flank.reference_diameter) / (2.0 * flank.module) - flank.shift
+        self.put(path, height if tip else -height, gear, row.name)
+        return True
 
     def _rack_tip_radius(self) -> None:
         found = []
@@ -317,12 +412,18 @@ class StageDraft(Draft):
             self.note(path, smallest, "the tools differ; the smaller radius serves both gears")
 
     def _backlash(self) -> None:
-        """The normal backlash of the file less the one that the centre distance gives by itself."""
+        """The normal backlash of the file less the one that the centre distance gives by itself.
+
+        Where the file states none, it follows from the profile shifts before and after finishing.
+        """
         path, name = "gears.normal_backlash_mm", table.BACKLASH[0]
-        values = [self.reading.number(self.stage, each, "mm") for each in table.BACKLASH]
-        known = [each for each in values if each is not None]
+        known = self._stated_backlash()
         if not known:
-            self.lacks(path, self.stage, name, "the pumping calculation needs the normal backlash")
+            thinning = self._thinning()
+            if thinning is None:
+                self.lacks(path, self.stage, name, "the pumping calculation needs the normal backlash")
+            else:
+                self.put(path, thinning, self.gears[0], table.FINISHED_SHIFT.name)
             return
         stated = sum(known) / len(known)
         own = self._backlash_of_centre_distance()
@@ -334,6 +435,47 @@ class StageDraft(Draft):
         if known[0] != known[-1]:
             self.note(path, stated - own, "mean of the least and the largest backlash")
 
+    def _stated_backlash(self) -> list[float]:
+        """Least and largest normal backlash [mm], else from the transverse one: j_bn = j_t cos alpha_wt cos beta_b."""
+        normal, transverse = (
+            [value for each in names if (value := self.reading.number(self.stage, each, "mm")) is not None]
+            for names in (table.BACKLASH, table.TRANSVERSE_BACKLASH)
+        )
+        pinion, wheel, distance = self.involute(0), self.involute(1), self.working_distance()
+        if normal or not transverse or pinion is None or wheel is None or distance is None:
+            return normal
+        factor = (pinion.base_diameter + wheel.base_diameter) / (2.0 * distance) * cos(pinion.base_helix)
+        return [value * factor for value in transverse]
+
+    def _thinning(self) -> float | None:
+        """Normal backlash [mm] of finishing both gears: 2 m_n sin alpha_n times the shifts that it takes away."""
+        pinion, total = self.involute(0), 0.0
+        for place, role in enumerate(ROLES):
+            finished = self.known(self.flanks(place).values(), table.FINISHED_SHIFT)
+            if pinion is None or not finished:
+                return None
+            total += self.fields[f"gears.{role}.profile_shift"] - finished[0][0]
+        if pinion is None or total < 0.0:
+            return None
+        return 2.0 * pinion.module * sin(pinion.normal_angle) * total
+
+    def working_distance(self) -> float | None:
+        """Centre distance [mm] as stated, else that at which the shifted teeth mesh without backlash."""
+        pinion, wheel = self.involute(0), self.involute(1)
+        if pinion is None or wheel is None:
+            return None
+        base = (pinion.base_diameter + wheel.base_diameter) / 2.0
+        distance = self.fields.get("gears.centre_distance_mm")
+        if distance is not None:
+            return float(distance) if distance > base else None
+        free = self._free_involute(pinion, wheel)
+        return base / cos(inverse_involute(free)) if 0.0 <= free <= MOST_INVOLUTE else None
+
+    def _free_involute(self, pinion: "Involute", wheel: "Involute") -> float:
+        """Involute function of the working pressure angle without backlash."""
+        shifts = 2.0 * tan(pinion.normal_angle) * (pinion.shift + wheel.shift)
+        return involute(pinion.transverse_angle) + shifts / sum(self.teeth)
+
     def _backlash_of_centre_distance(self) -> float | None:
         """Normal backlash [mm] of unthinned teeth at the centre distance: 2 a cos alpha_wt (inv - inv_0) cos beta_b."""
         pinion, wheel = self.involute(0), self.involute(1)
@@ -343,49 +485,41 @@ class StageDraft(Draft):
         if distance is None:
             return 0.0
         base = (pinion.base_diameter + wheel.base_diameter) / 2.0
-        shifts = pinion.shift + wheel.shift
-        free = involute(pinion.transverse_angle) + 2.0 * tan(pinion.normal_angle) * shifts / sum(self.teeth)
+        free = self._free_involute(pinion, wheel)
         if not base < distance or free < 0.0:
             return None
         gap = 2.0 * base * (involute(acos(base / distance)) - free)
         return gap * cos(pinion.base_helix) if gap > 0.0 else 0.0
 
+    def _axes(self) -> None:
+        """Shafts that do not lie at the centre distance are a finding."""
+        first, second = (self.reading.axis(shaft) for shaft in self.shafts)
+        distance = self.fields.get("gears.centre_distance_mm")
+        if first is None or second is None or distance is None:
+            return
+        apart = first.apart(second)
+        if abs(apart - distance) > OFF_CENTRE * abs(distance):
+            message = (
+                f"by their positions the shafts are {apart:.6g} mm apart; the centre distance of the stage is used"
+            )
+            self.reading.find("centre_distance", self.stage, "center_distance", message)
+
     def _load(self) -> None:
+        """Torque and speed from the shafts' loads, else what the file says of the gear itself."""
         load = self.load(self.flow)
-        for path, what in ((TORQUE, "torque"), (SPEED, "speed")):
-            if path in load:
-                self.put(path, load[path], self.shafts[0])
+        own = (table.GEAR_TORQUE, self.gear_data(0)), (table.GEAR_SPEED, (self.gears[0],))
+        for (row, origins), what in zip(own, ("torque", "speed"), strict=True):
+            known = self.known(origins, row)
+            if row.field in load:
+                self.put(row.field, load[row.field], self.shafts[0])
+            elif known:
+                value, component = known[0]
+                self.put(row.field, abs(value), component, row.name)
+                self.note(row.field, abs(value), f"the {what} that the file states of the gear")
             else:
-                self.lacks(path, self.shafts[0], None, f"the {what} of this stage does not follow from the file")
+                self.lacks(row.field, self.shafts[0], None, f"the {what} of this stage does not follow from the file")
         if self.driver is None:
             self.note("gears.pinion", self.gears[0].id, "which gear drives is not known; the smaller one is taken")
-
-    def _oil(self) -> None:
-        oil = self.lubricant
-        for origin in self.oil_origins:
-            if self.take(table.OIL_TEMPERATURE, origin, case=self.case) is not None:
-                break
-        if oil is None:
-            self.lacks("lubricant", self.stage, None, "film and scuffing safety need an oil")
-            return
-        kind = self.reading.text(oil, "kind")
-        if kind == "grease":
-            self.reading.find("grease", oil, "kind", "the lubricant is a grease, which is not modelled; not used")
-            self.lacks("lubricant", oil, "kind", "film and scuffing safety need an oil")
-            return
-        *viscosities, density = table.OIL
-        if None in [self.take(row, oil, "lubricant.") for row in viscosities]:
-            for row in viscosities:
-                self.fields.pop(f"lubricant.{row.field}", None)
-            self.lacks("lubricant", oil, viscosities[0].name, "the oil's viscosities at 40 and 100 C are needed")
-            return
-        self.take(density, oil, "lubricant.")
-        words = " ".join(filter(None, (kind, self.reading.text(oil, "basis"), self.reading.text(oil, "name"))))
-        known = next((ours for word, ours in table.BASE_OILS.items() if word in words), None)
-        if known is None:
-            self.assume("lubricant.kind", "mineral", "the file does not give the base oil")
-        else:
-            self.put("lubricant.kind", known, oil, "basis")
 
 
 class Involute:

@@ -21,6 +21,10 @@ UNITS = (
     {"N/mm^2": 1e6, "MPa": 1e6, "GPa": 1e9, "Pa": 1.0},
     {"N/m": 1.0, "N/mm": 1e3, "N/mum": 1e6, "N/um": 1e6},
     {"h": 3600.0, "s": 1.0},
+    {"W/(mK)": 1.0},
+    {"J/(kgK)": 1.0, "kJ/(kgK)": 1e3},
+    {"1/GPa": 1e-9, "mm^2/N": 1e-6, "1/MPa": 1e-6, "1/Pa": 1.0},
+    {"m/s^2": 1.0},
 )
 """Units of each quantity as files spell them, without blanks, and their size in SI.
 
@@ -55,15 +59,32 @@ class Row(NamedTuple):
         return self.attributes[0]
 
 
+APPLICATION_FACTOR, SCUFFING_FACTOR = "load.application_factor", "scuffing.application_factor"
+"""The second one takes the place of the first one in the request of /v1/scuffing."""
 STAGE = (
     Row("gears.centre_distance_mm", ("center_distance",), "mm"),
     Row(
-        "load.application_factor",
+        APPLICATION_FACTOR,
         ("application_factor_iso_6336_2019", "application_factor_iso_6336_2006", "application_factor_din_3990_1987"),
     ),
     Row(
         "load.dynamic_factor",
-        ("dynamic_factor_iso_6336_2019", "dynamic_factor_iso_6336_2006", "dynamic_factor_din_3990_1987"),
+        (
+            "dynamic_factor_iso_6336_2019",
+            "dynamic_factor_iso_6336_2006",
+            "dynamic_factor_din_3990_1987",
+            "dynamic_factor_agma_2101_1995",
+            "dynamic_factor_agma_2101_c95",
+            "dynamic_factor_agma_925_2003",
+            "dynamic_factor_agma_925_a03",
+        ),
+    ),
+    Row("load.mesh_load_factor", ("mesh_load_factor_iso_6336_2019", "mesh_load_factor_iso_6336_2006")),
+    Row(SCUFFING_FACTOR, ("application_factor_scuffing_iso_6336_2022",)),
+    Row(
+        "temperatures.scuffing_c",
+        ("mean_scuffing_temperature_agma_925_2003", "mean_scuffing_temperature_agma_925_a03"),
+        "C",
     ),
 )
 MATERIAL = (
@@ -71,19 +92,44 @@ MATERIAL = (
     Row("poisson_ratio", ("poisson_ratio",)),
     Row("density_kg_per_m3", ("density",), "kg/m^3"),
 )
+HEAT = (
+    Row("thermal_conductivity_w_per_m_k", ("thermal_conductivity",), "W/(mK)"),
+    Row("specific_heat_j_per_kg_k", ("thermal_capacity",), "J/(kgK)"),
+)
+"""Of gears and oils alike; shafts have no such fields."""
 OIL = (
     Row("kinematic_viscosity_40_mm2_per_s", ("viscosity_at_40_degree_celsius",), "mm^2/s"),
     Row("kinematic_viscosity_100_mm2_per_s", ("viscosity_at_100_degree_celsius",), "mm^2/s"),
     Row("density_15_kg_per_m3", ("density_at_15_degree_celsius",), "kg/m^3"),
+    Row(
+        "pressure_viscosity_per_gpa",
+        (
+            "pressure_viscosity_coefficient_agma_925_2003",
+            "pressure_viscosity_coefficient_agma_925_a03",
+            "pressure_viscosity_coefficient_at_38_degrees_celsius",
+        ),
+        "1/GPa",
+    ),
+    *HEAT,
 )
-MODULE = Row("gears.module_mm", ("normal_module", "transverse_module"), "mm")
+MODULE = Row("gears.module_mm", ("normal_module",), "mm")
+TRANSVERSE_MODULE = Row("gears.module_mm", ("transverse_module",), "mm")
 FACE_WIDTH = Row("gears.face_width_mm", ("face_width",), "mm")
+GEAR_TORQUE = Row("load.pinion_torque_n_m", ("torque",), "Nm")
+GEAR_SPEED = Row("load.pinion_speed_rpm", ("rotational_speed",), "1/min")
+COMMON_WIDTH = Row("gears.face_width_mm", ("common_face_width",), "mm")
 HELIX_ANGLE = Row("gears.helix_angle_deg", ("helix_angle_reference_diameter",), "deg")
 PRESSURE_ANGLE = Row("gears.pressure_angle_deg", ("normal_pressure_angle",), "deg")
-PROFILE_SHIFT = Row(
-    "profile_shift", ("addendum_modification_coefficient_after_finishing", "addendum_modification_coefficient")
+BASE_HELIX_ANGLE = Row("gears.helix_angle_deg", ("helix_angle_base_diameter", "helix_angle_base_circle"), "deg")
+TRANSVERSE_PRESSURE_ANGLE = Row("gears.pressure_angle_deg", ("pressure_angle_in_the_transverse_section",), "deg")
+TIP_DIAMETER_LIMITS = ("minimum_tip_diameter", "maximum_tip_diameter")
+PROFILE_SHIFT = Row("profile_shift", ("addendum_modification_coefficient",))
+FINISHED_SHIFT = Row(
+    "profile_shift",
+    ("addendum_modification_coefficient_after_finishing", "generated_addendum_modification_coefficient"),
 )
 BASIC_ADDENDUM = Row("addendum", ("addendum_coefficient_basic_profile",))
+BASIC_ADDENDUM_LENGTH = Row("addendum", ("addendum_basic_profile",), "mm")
 TOOL_ADDENDUM = Row("dedendum", ("addendum_coefficient_reference_profile",))
 TOOL_ADDENDUM_LENGTH = Row("dedendum", ("addendum_reference_profile",), "mm")
 TOOL_TIP_RADIUS = Row("rack_tip_radius", ("tip_corner_radius_factor_reference_profile", "tip_radius_factor"))
@@ -91,21 +137,80 @@ TOOL_TIP_RADIUS_LENGTH = Row("rack_tip_radius", ("tip_corner_radius_reference_pr
 TIP_DIAMETER = Row("addendum", ("tip_diameter",), "mm")
 ROOT_DIAMETER = Row("dedendum", ("root_diameter",), "mm")
 ROUGHNESS = Row(
-    "roughness_um", ("arithmetic_mean_roughness_flank_iso_4287_1997", "arithmetic_average_roughness_flank"), "um"
+    "roughness_um",
+    (
+        "arithmetic_mean_roughness_flank_iso_4287_1997",
+        "arithmetic_average_roughness_flank",
+        "arithmentic_mean_roughness_at_filter_cutoff_of_wavelength_agma_925_2003",
+        "arithmentic_mean_roughness_at_filter_cutoff_of_wavelength_agma_925_a03",
+    ),
+    "um",
 )
 POSITION = Row("position_mm", ("u_coordinate_on_shaft", "u_coordinate_on_shaft_inner_side"), "mm")
 WIDTH = Row("width_mm", ("face_width", "width"), "mm")
-OIL_TEMPERATURE = Row("temperatures.oil_c", ("temperature_lubricant",), "C")
+OIL_TEMPERATURE = Row(
+    "temperatures.oil_c",
+    (
+        "temperature_lubricant",
+        "oil_inlet_or_sump_temperature_agma_925_2003",
+        "oil_inlet_or_sump_temperature_agma_925_a03",
+    ),
+    "C",
+)
+BULK_TEMPERATURE = Row(
+    "temperatures.bulk_c",
+    ("bulk_temperature", "tooth_temperature_agma_925_2003", "tooth_temperature_agma_925_a03"),
+    "C",
+)
+FRICTION = Row(
+    "friction_coefficient",
+    ("mean_coefficient_of_friction_constant_agma_925_2003", "mean_coefficient_of_friction_constant_agma_925_a03"),
+)
+FRICTION_METHODS = (
+    "determination_of_mean_coefficient_of_friction_agma_925_2003",
+    "determination_of_mean_coefficient_of_friction_agma_925_a03",
+)
+OIL_SUPPLY = (
+    "lubrication_type_agma_925_2003",
+    "lubrication_type_agma_925_a03",
+    "lubrication_type_vdi_2736_2014",
+    "determination_of_lubrication_type_vdi_2736_2014",
+    "lubrication_type",
+)
+SUPPLY_FACTOR, SUPPLY_FACTORS = (
+    "lubrication_factor_scuffing_iso_6336_2022",
+    {1.2: "spray", 1.0: "dip", 0.2: "submerged"},
+)
+SUPPLIES = {"splash": "dip", "dip": "dip", "bath": "dip", "submerged": "submerged", "spray": "spray",
+            "injection": "spray", "circulating": "spray"}  # fmt: skip
+"""Parts of what files say of the way in which the oil comes to the mesh."""
+REFERENCE_TEMPERATURE = Row("thermal.reference_c", ("reference_temperature",), "C")
+TOOTH_TEMPERATURES = (
+    Row("thermal.pinion_bulk_c", ("bulk_temperature",), "C"),
+    Row("thermal.wheel_bulk_c", ("bulk_temperature",), "C"),
+)
+BEARING_BORE = Row("diameter_mm", ("reference_diameter_relative_clearance_plain_bearing", "inner_diameter"), "mm")
 JOURNAL = (
     Row("diameter_mm", ("inner_diameter",), "mm"),
     Row("width_mm", ("width",), "mm"),
     Row("radial_clearance_um", ("diameter_clearance_plain_bearing",), "um"),  # half of it
     Row("film_temperature_c", ("lubricant_feed_temperature",), "C"),
 )
-BASE_OILS = {"polyglycol": "polyglycol", "polyglykol": "polyglycol", "pao": "pao", "polyalpha": "pao", "ester": "ester",
-             "miner": "mineral"}  # fmt: skip
-"""Parts of what programs write for the base oil."""
+OIL_TYPES = (
+    "lubricant_type_iso_6336_2019",
+    "lubricant_type_iso_6336_2006",
+    "lubricant_type_agma_925_2003",
+    "lubricant_type_agma_925_a03",
+)
+OIL_WORDS = ("basis", "kind", "name")
+BASE_OILS = {"phosphat": None, "traction": None, "silicon": None, "polyglycol": "polyglycol",
+             "polyglykol": "polyglycol", "polyalkylen": "polyglycol", "pag_": "polyglycol", "pao": "pao",
+             "polyalpha": "pao", "polyalfa": "pao",
+             "ester": "ester", "mil_l_": "ester", "miner": "mineral", "synthetic": None, "biologic": None,
+             "food": None}  # fmt: skip
+"""Parts of what files say of the base oil, the most particular first; None is an oil that is not modelled."""
 BACKLASH = ("minimum_normal_backlash", "maximum_normal_backlash")
+TRANSVERSE_BACKLASH = ("minimum_transverse_backlash", "maximum_transverse_backlash")
 
 TOOL = "rack_shaped_tool"
 MODIFICATIONS = (
@@ -132,6 +237,7 @@ OTHER_STAGES = {
     "planetary_stage": "planetary stages are not modelled",
     "general_stage": "stages without tooth data are not modelled",
 }
+ON_SHAFTS = ("shaft_section", "external_load")
 RADIAL_BEARINGS = (
     "hydrodynamic_radial_plain_bearing",
     "slide_bearing",
@@ -140,21 +246,97 @@ RADIAL_BEARINGS = (
     "rolling_bearing_with_detailed_geometry",
 )
 
-IGNORED = {
-    "custom_": "a value of another program's own",
-    "reference_component_for_position": "bookkeeping of the file",
-    "w_axis_vector": "orientation; needed where a drive train is formed only",
-    "u_axis_vector": "orientation; needed where a drive train is formed only",
-    "support_vector": "position; needed where a drive train is formed only",
-    "u_coordinate": "position; needed where a drive train is formed only",
-    "rotating_angle_around_neg_u_axis": "position; follows from the axes where a drive train is formed",
-    "name": "bookkeeping of the file",
-    "flag_designation": "says how another program was told; the value itself is used",
-    "machining_allowance": "the flank is taken as finished",
-    "grinding_allowance": "the flank is taken as finished",
-    "": "the models have no such input",
-}
-"""Why attributes are not used, by the beginning of their names; the last one for all others."""
+_BOOKKEEPING = (
+    "name|part_number|revision_number|sequence_number|version|modification_date|data_source|referenced_component_id|"
+    "display_color|customer|model_name|number_of_gears|gear_shift_index|gde_file|manufacturer|"
+    "reference_component_for_position|description_.*|flag_designation.*|transmits_torque|defines_.*"
+)
+_POSITIONS = (
+    "w_axis_vector|u_axis_vector|support_vector|u_coordinate.*|rotating_angle_around_neg_u_axis|datum_face_orientation"
+)
+_RATINGS = "(iso_6336|din_3990|din_3996|vdi_2736|agma_2101|agma_925|plewe|fkm|din_743|din_6892|fva|iso_281)"
+_SAID_OF_TEETH = (
+    "(diameter|thickness|pitch|module|space_width|chord|tooth_depth|tooth_tip_height|lever|half_angle|virtual_number|"
+    "_ratio|span|over_balls|over_pins|undercut|helix_angle_base|transverse_section|normal_section|radius_of|"
+    "number_of_teeth|radius_at_30|working_depth|diametral_measurement|conversion_factor|path_of_contact|tip_clearance|bottom_clearance|axial_backlash|angle_at_tip)"
+)
+_RESULTS = (
+    "(force|torque|power|stress|displacement|torsion|tilting|load|temperature|pressure|velocity|safety|stiffness|"
+    "speed|sliding|contact|nodes|meshing|strength|tangential)"
+)
+_ROWS = (
+    *STAGE, *MATERIAL, *HEAT, *OIL, MODULE, TRANSVERSE_MODULE, FACE_WIDTH, COMMON_WIDTH, PROFILE_SHIFT, FINISHED_SHIFT,
+    BASIC_ADDENDUM, BASIC_ADDENDUM_LENGTH, TIP_DIAMETER, ROOT_DIAMETER, ROUGHNESS, OIL_TEMPERATURE, BULK_TEMPERATURE,
+    FRICTION, GEAR_TORQUE, GEAR_SPEED,
+)  # fmt: skip
+_TAKEN = {name for row in _ROWS for name in row.attributes}
+_TAKEN |= {*BACKLASH, *TRANSVERSE_BACKLASH, *OIL_TYPES, *OIL_WORDS, *OIL_SUPPLY, *FRICTION_METHODS, *MODIFICATIONS}
+_TAKEN |= {*BASE_HELIX_ANGLE.attributes, *TRANSVERSE_PRESSURE_ANGLE.attributes, *TIP_DIAMETER_LIMITS}
+_TAKEN |= {"addendum_modification", "is_driving_gear", SUPPLY_FACTOR}
+IGNORED = (
+    (
+        "(cylindrical|flank|stage|lubricant|material|gear_casing).*",
+        f"^({'|'.join(sorted(_TAKEN))})$",
+        "another value of the file counts before it",
+    ),
+    (".*", "^custom_", "a value of another program's own"),
+    (".*", f"^({_BOOKKEEPING})$", "bookkeeping of the file"),
+    (".*", "^(machining|grinding)_allowance", "the flank is taken as finished"),
+    (".*", "friction.*(agma|vdi)", "calculated by a method that is not used here; the models have their own"),
+    (".*", f"{_RATINGS}(_|$)", "belongs to a rating that is not made here"),
+    (
+        "cylindrical_.*",
+        "case_hardening|endurance_limit|basic_strength|capacity|resistance",
+        "belongs to a rating that is not made here",
+    ),
+    (
+        ".*",
+        "(iso_1328|din_39|din_26281|tolerance|deviation|allowance|_variation$)",
+        "tolerances are not part of the nominal gear",
+    ),
+    (".*", f"^({_POSITIONS})$", "position; needed where a drive train is formed only"),
+    (
+        "(concept|rolling|slide|hydrodynamic).*",
+        "",
+        "a radial bearing counts by stiffness and offset, a plain one by bore, width, clearance and feed temperature",
+    ),
+    ("material", "", "of materials elasticity, density and heat are used"),
+    ("rack_shaped_tool", "", "of tools addendum and tip radius are used"),
+    ("lubricant", "", "the oil counts by its kind and its values at 15, 40 and 100 °C"),
+    ("external_load", "", "of loads on shafts the torque about the axis is used, and where it acts"),
+    ("shaft_section", "", "sections count where a drive train is formed only"),
+    (
+        "shaft|gear_casing|cylindrical_gear",
+        "temperature|mass",
+        "temperatures and masses of shafts and casing are calculated or not needed",
+    ),
+    ("gear_unit", "operating_time|load_duration", "shares of time count in load cases"),
+    (
+        "gear_unit",
+        "gravit|reference_temperature|shear",
+        "weight and thermal shape; used where a drive train is formed only",
+    ),
+    ("gear_casing|cylindrical_stage", "viscosity", "the viscosity follows from the oil and its temperature"),
+    (".*_(relief|crowning|slope)(_.*)?", "", "modifications count by amount, length and shape"),
+    (
+        ".*",
+        "chamfer|protuberance|edge_radius|topographical|facewidth_usable|peak_to_valley|valley_height|roughness.*root",
+        "chamfers, undercuts, measured flanks and roots are not modelled; roughness counts as Ra",
+    ),
+    (
+        "cylindrical_.*|stage_gear_data|flank_geometry",
+        "basic_profile|addendum_modification",
+        "the tip diameter or the nominal profile shift counts before it",
+    ),
+    (
+        "cylindrical_.*|stage_gear_data|flank_geometry",
+        _SAID_OF_TEETH,
+        "follows from the teeth, which other values give",
+    ),
+    (".*", _RESULTS, "a result of the program that wrote the file"),
+    (".*", "", "the models have no such input"),
+)
+"""Why attributes are not used: patterns of the type of component and of the attribute; the first that fits counts."""
 
 CUSTOM = "custom_tribodrive_"
 STANDARD_FROM = {"face_load_factor_contact_stress": 2}

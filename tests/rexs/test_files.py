@@ -1,7 +1,9 @@
 """Reading and writing files, whatever comes."""
 
+import base64
 import io
 import json
+import struct
 import zipfile
 from typing import Any
 from xml.etree import ElementTree as ET
@@ -11,7 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from app.errors import Unprocessable
-from app.rexs.answer import with_answer
+from app.rexs.answer import unit_html, unit_json, with_answer
 from app.rexs.document import read, with_attributes
 from app.rexs.model import Attribute
 from app.rexs.unit import gear_unit
@@ -30,9 +32,9 @@ def model(body: str, version: str = "1.4") -> bytes:
     return f'<model version="{version}" applicationId="a" applicationVersion="1" date="d">{body}</model>'.encode()
 
 
-def archive(*names: str, content: bytes = b"<model version='1.4'/>") -> bytes:
+def archive(*names: str, content: bytes = b"<model version='1.4'/>", packing: int = zipfile.ZIP_DEFLATED) -> bytes:
     buffer = io.BytesIO()
-    with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as packed:
+    with zipfile.ZipFile(buffer, "w", packing) as packed:
         for name in names:
             packed.writestr(name, content)
     return buffer.getvalue()
@@ -74,7 +76,14 @@ BOMB = b'<?xml version="1.0"?><!DOCTYPE a [<!ENTITY b0 "lol">' + b"".join(
         (b"PK" + archive("a.rexs")[10:], "archive"),
         (archive(), "archive"),
         (archive("readme.txt"), "0 models"),
-        (archive("a.rexs", "b.rexs"), "2 models"),
+        (archive("a.rexs", "in/b.rexsj"), "a.rexs, b.rexsj"),
+        (archive("a.xml"), "0 models"),
+        (archive("__MACOSX/a.rexs", ".b.rexs"), "0 models"),
+        (archive("a.rexs", packing=zipfile.ZIP_LZMA), "deflate"),
+        (
+            b'{"model": {"version": "1.4", "x": [1e400]}}',
+            "1e400",
+        ),
         (archive("a.rexs", content=b" " * 30_000_000), "20 MB"),
     ],
 )
@@ -87,6 +96,47 @@ def test_refused_with_a_reason(content: bytes, words: str) -> None:
 
 def test_a_name_that_leaves_the_archive_is_only_a_name() -> None:
     assert read(archive("../../etc/a.rexs"), MOST_BYTES).model.version == "1.4"
+
+
+@pytest.mark.parametrize("name", ["a.rexs", "B.REXS", "in/a.rexs", "a.rexs.xml", "in\\a.rexsj", "a.rexs.json"])
+def test_a_model_among_other_files_of_an_archive(name: str) -> None:
+    beside = ("__MACOSX/._a.rexs", "in/.a.rexs", "readme.txt", "sheet.xml", "data.json", "__MACOSX/in/a.rexs")
+    assert read(archive(name, *beside), MOST_BYTES).model.version == "1.4"
+
+
+def test_a_dictionary_of_gigabytes_is_refused() -> None:
+    """The decoder would ask for as much memory as the archive says."""
+    packed = bytearray(archive("a.rexs", packing=zipfile.ZIP_LZMA))
+    properties = packed.index(b"a.rexs") + len("a.rexs") + 4  # behind version and size of the properties
+    packed[properties + 1 : properties + 5] = b"\xff\xff\xff\xff"
+    with pytest.raises(Unprocessable):
+        read(bytes(packed), MOST_BYTES)
+
+
+@pytest.mark.parametrize("version", ["1.0", "1.4", "2.0"])
+def test_a_default_namespace_is_read_as_if_it_were_not_there(version: str) -> None:
+    unit = turbo_unit(version)
+    unit.cases = [{1: {"operating_time_fraction": (100.0, "%")}}]
+    named = unit.xml().replace(b"<model ", b'<model xmlns="https://example.org/rexs" ')
+    file, found = read(named, MOST_BYTES)
+    assert found == read(unit.xml(), MOST_BYTES).model
+    stage = found.by_type["cylindrical_stage"][0].id
+    written = with_attributes(file, stage, [Attribute("custom_tribodrive_x", "none", 1.5)]).content
+    assert read(written, MOST_BYTES).model.components[stage].attributes["custom_tribodrive_x"].value == "1.5"
+    assert b'xmlns=""' not in written
+
+
+def test_components_inside_an_element_of_their_own_take_results() -> None:
+    content = (
+        turbo_unit()
+        .xml()
+        .replace(b"<components>", b"<part><components>")
+        .replace(b"</components>", b"</components></part>")
+    )
+    document = read(content, MOST_BYTES)
+    stage = document.model.by_type["cylindrical_stage"][0].id
+    written = read(with_answer(document, stage, "/v1/scuffing", ANSWER).content, MOST_BYTES).model
+    assert "custom_tribodrive_status" in written.components[stage].attributes
 
 
 @pytest.mark.parametrize("damage", ["missing", "cycle", "empty"])
@@ -183,3 +233,120 @@ def test_random_models_come_back(unit: Unit) -> None:
     for each in unit.components:
         attributes = found.components[each["id"]].attributes
         assert {name: (a.value, a.unit) for name, a in attributes.items()} == each["attributes"]
+
+
+cells = st.lists(st.floats(allow_nan=False, allow_infinity=False, width=32), max_size=4)
+typed = st.one_of(st.floats(allow_nan=False, allow_infinity=False), st.integers(-(10**9), 10**9), st.booleans(), cells,
+                  st.text("abcdefgh <>&\"'äöü°µ", max_size=8).map(str.strip))  # fmt: skip
+
+
+@st.composite
+def models(draw: st.DrawFn) -> Unit:
+    """A small model with values of every kind and a load spectrum."""
+    unit = Unit(draw(st.sampled_from(["1.0", "1.3", "1.4", "1.7", "2.0"])))
+    attributes = st.dictionaries(names, st.tuples(typed, st.sampled_from(["mm", "deg", "°", "none", ""])), max_size=4)
+    for _ in range(draw(st.integers(1, 4))):
+        unit.add(draw(names), draw(st.text("abcä <&", max_size=5)), **draw(attributes))
+    ids = st.integers(1, len(unit.components))
+    for _ in range(draw(st.integers(0, 3))):
+        unit.relate(draw(names), draw(st.one_of(st.none(), st.integers(1, 9))), **{draw(names): draw(ids)})
+    for _ in range(draw(st.integers(0, 2))):
+        unit.cases.append({draw(ids): draw(attributes)})
+    return unit
+
+
+def as_text(value: Any) -> Any:
+    """A value as XML states it."""
+    if isinstance(value, list):
+        return [str(each) for each in value]
+    return str(value).lower() if isinstance(value, bool) else str(value).strip()
+
+
+def in_base64(content: bytes) -> bytes:
+    """The arrays of a file in XML, each in one text."""
+    root = ET.fromstring(content)  # noqa: S314  our own
+    for array in root.iter("array"):
+        numbers = [float(cell.text or "") for cell in array]
+        array.clear()
+        array.set("code", "float64")
+        array.text = base64.b64encode(struct.pack(f"<{len(numbers)}d", *numbers)).decode()
+    return ET.tostring(root)
+
+
+@given(models())
+def test_all_forms_of_a_model_say_the_same(unit: Unit) -> None:
+    expected = read(unit.json(), MOST_BYTES).model
+    for content in (unit.xml(), unit.zipped(), unit.xml().replace(b"<model ", b'<model xmlns="urn:a" ')):
+        found = read(content, MOST_BYTES).model
+        assert (found.version, found.relations) == (expected.version, expected.relations)
+        assert list(found.components) == list(expected.components)
+        pairs = [(found.components[id_].attributes, each.attributes) for id_, each in expected.components.items()]
+        for ours, theirs in zip(found.load_cases, expected.load_cases, strict=True):
+            assert ours.attributes.keys() == theirs.attributes.keys()
+            pairs += [(ours.attributes[id_], each) for id_, each in theirs.attributes.items()]
+        for here, there in pairs:
+            assert {name: (a.unit, a.value) for name, a in here.items()} == {
+                name: (a.unit, as_text(a.value)) for name, a in there.items()
+            }
+    coded = read(in_base64(unit.xml()), MOST_BYTES).model
+    for id_, each in expected.components.items():
+        for name, attribute in each.attributes.items():
+            if isinstance(attribute.value, list):
+                assert coded.components[id_].attributes[name].value == attribute.value
+
+
+@given(models())
+def test_nothing_is_lost_when_results_are_written(unit: Unit) -> None:
+    last = len(unit.components)
+    for content in (unit.xml(), unit.json()):
+        document = read(content, MOST_BYTES)
+        written = with_attributes(document.file, last, [Attribute("custom_tribodrive_x", "none", 1.5)])
+        found = read(written.content, MOST_BYTES).model
+        assert float(found.components[last].attributes.pop("custom_tribodrive_x").value) == 1.5
+        assert found == document.model
+
+
+FORMS = [getattr(make(), form)() for make in (three_stages, turbo_unit) for form in ("xml", "json", "zipped")]
+SNIPPETS = [
+    b"<",
+    b">",
+    b'"',
+    b"{",
+    b"]",
+    b"1e400",
+    b"-1",
+    b"NaN",
+    b"true",
+    b"null",
+    b"\x00",
+    b"\xff",
+    b"9" * 30,
+    b"&a;",
+    b"",
+]
+
+
+@given(st.data())
+def test_a_damaged_file_is_read_or_refused_wherever_one_is_taken(data: st.DataObject) -> None:
+    content = data.draw(st.sampled_from(FORMS))
+    for _ in range(data.draw(st.integers(1, 3))):
+        place = data.draw(st.integers(0, len(content)))
+        cut = data.draw(st.sampled_from([0, 1, 2, 8, 200]))
+        content = content[:place] + data.draw(st.sampled_from(SNIPPETS)) + content[place + cut :]
+    try:
+        document = read(content, MOST_BYTES)
+        found = json.loads(unit_json(content, MOST_BYTES), parse_constant=pytest.fail)
+    except Unprocessable:
+        return
+    assert unit_html("", content, MOST_BYTES)
+    for stage in found["stages"]:
+        assert read(with_answer(document, stage["id"], "/v1/scuffing", ANSWER).content, MOST_BYTES)
+
+
+@pytest.mark.parametrize("teeth", [1, 2, 3, 4, 5, 1000, 1001, 10_000])
+def test_the_page_of_any_number_of_teeth(teeth: int) -> None:
+    unit = three_stages("1.4")
+    for each in unit.components:
+        if each["type"] == "cylindrical_gear":
+            each["attributes"]["number_of_teeth"] = (teeth, "none")
+    assert unit_html("", unit.xml(), MOST_BYTES)

@@ -1,8 +1,10 @@
 """Gear units sent to the service."""
 
+import io
 import json
 import subprocess
 import sys
+import zipfile
 from html import unescape
 from pathlib import Path
 from typing import Any
@@ -18,7 +20,15 @@ XML = {"Content-Type": "application/xml"}
 
 
 @pytest.mark.parametrize(
-    ("kind", "media_type"), [("xml", "application/xml"), ("json", "application/json"), ("zipped", "application/zip")]
+    ("kind", "media_type"),
+    [
+        ("xml", "application/xml"),
+        ("json", "application/json"),
+        ("zipped", "application/zip"),
+        ("zipped", "application/x-zip-compressed"),
+        ("zipped", "application/octet-stream"),
+        ("xml", "application/octet-stream"),
+    ],
 )
 def test_a_file_as_the_body(client: httpx.Client, kind: str, media_type: str) -> None:
     content = getattr(three_stages(), kind)()
@@ -156,3 +166,40 @@ def test_the_command_prints_the_answer(
     with pytest.raises(SystemExit, match=r"nothing\.rexs: No such file"):
         print_unit(Path("nothing.rexs"))
     assert capsys.readouterr().out == ""
+
+
+def nasty_files() -> dict[str, bytes]:
+    """Files that are read or refused, and never an error of the server."""
+    unit = turbo_unit()
+    few = three_stages("1.4")
+    for each in few.components:
+        if each["type"] == "cylindrical_gear":
+            each["attributes"]["number_of_teeth"] = (2, "none")
+    packed = io.BytesIO()
+    with zipfile.ZipFile(packed, "w", zipfile.ZIP_LZMA) as archive:
+        archive.writestr("a.rexs", unit.xml())
+    return {
+        "nested": unit.xml()
+        .replace(b"<components>", b"<a><components>")
+        .replace(b"</components>", b"</components></a>"),
+        "boolean": unit.json().replace(b'"floating_point": 200.0', b'"boolean": true'),
+        "few teeth": few.xml(),
+        "huge number": unit.json().replace(b"200.0", b"1e400"),
+        "lzma": packed.getvalue(),
+        "namespace": unit.xml().replace(b"<model ", b'<model xmlns="urn:a" '),
+        "nothing": b"",
+    }
+
+
+@pytest.mark.parametrize("name", nasty_files())
+def test_no_file_is_an_error_of_the_server(client: httpx.Client, name: str) -> None:
+    content = nasty_files()[name]
+    form = {"file": ("unit.rexs", content)}
+    stage = next(each["id"] for each in turbo_unit().components if each["type"] == "cylindrical_stage")
+    answers = [
+        client.post("/v1/rexs", content=content, headers=XML),
+        client.post("/v1/rexs", files=form),
+        client.post("/rexs", files=form),
+        client.post(f"/v1/rexs/results?stage={stage}", files={**form, "request": (None, "{}")}),
+    ]
+    assert {answer.status_code for answer in answers} <= {200, 422}

@@ -5,7 +5,7 @@ import json
 import zipfile
 from dataclasses import dataclass, field
 from typing import Any
-from xml.sax.saxutils import quoteattr
+from xml.sax.saxutils import escape, quoteattr
 
 Value = float | int | str | bool | list[Any]
 
@@ -116,7 +116,7 @@ def _component(id_: int, attributes: dict[str, tuple[Value, str]], more: str) ->
 
 
 def _text(value: Value) -> str:
-    return str(value).lower() if isinstance(value, bool) else str(value)
+    return escape(str(value).lower() if isinstance(value, bool) else str(value))
 
 
 def _json(attributes: dict[str, tuple[Value, str]]) -> list[dict[str, Any]]:

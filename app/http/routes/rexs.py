@@ -14,7 +14,7 @@ from app.rexs.document import File
 from app.settings import MEBIBYTE, Settings
 
 DOCUMENTED_TYPES = ("application/xml", "application/json", "application/zip")
-TYPES = (*DOCUMENTED_TYPES, "text/xml", "application/octet-stream")
+TYPES = (*DOCUMENTED_TYPES, "text/xml", "application/x-zip-compressed", "application/octet-stream")
 FORM = "multipart/form-data"
 GONE = "Nothing is stored: the page of a gear unit is kept in memory for a while only, and this one is gone."
 FILE = {"type": "string", "format": "binary"}

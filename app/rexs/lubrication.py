@@ -1,0 +1,103 @@
+"""The oil of a mesh: what it is, how it comes to the teeth, how warm both are, and their friction."""
+
+from app.rexs import table
+from app.rexs.model import Component
+from app.rexs.stages import SAME, StageDraft
+
+
+class Lubrication:
+    """Fills the fields of `lubricant` and `temperatures`, and the coefficient of friction, in the draft of a stage."""
+
+    def __init__(self, stage: StageDraft) -> None:
+        self._stage, self._reading = stage, stage.reading
+
+    def fill(self) -> None:
+        """Set all fields."""
+        self._oil()
+        self._temperatures()
+        self._friction()
+
+    def _oil(self) -> None:
+        oil = self._stage.lubricant
+        if oil is None:
+            self._stage.lacks("lubricant", self._stage.stage, None, "film and scuffing safety need an oil")
+            return
+        if self._reading.text(oil, "kind") == "grease":
+            self._reading.find("grease", oil, "kind", "the lubricant is a grease, which is not modelled; not used")
+            self._stage.lacks("lubricant", oil, "kind", "film and scuffing safety need an oil")
+            return
+        viscosities = table.OIL[:2]
+        if None in [self._reading.number(oil, row) for row in viscosities]:
+            self._stage.lacks("lubricant", oil, viscosities[0].name, "the oil's viscosities at 40 and 100 C are needed")
+            return
+        for row in table.OIL:
+            self._stage.take(row, oil, "lubricant.")
+        self._base_oil(oil)
+
+    def _base_oil(self, oil: Component) -> None:
+        """The kind of oil by the type of a standard, else by words; one that is not modelled is never another kind."""
+        path, texts = "lubricant.kind", {}
+        for name in (*table.OIL_TYPES, *table.OIL_WORDS):
+            texts[name] = self._reading.text(oil, name)
+        texts["component"] = oil.name.lower()
+        vague: str | None = None
+        for name, text in texts.items():
+            word = next((part for part in table.BASE_OILS if part in text), None)
+            if word is None:
+                continue
+            kind = table.BASE_OILS[word]
+            if kind is not None:
+                self._stage.put(path, kind, oil, name)
+                return
+            vague = vague or text
+            if name in table.OIL_TYPES:
+                break
+        if vague is None:
+            self._stage.assume(path, "mineral", "the file does not give the base oil")
+            return
+        self._reading.find(
+            "oil_kind", oil, None, f"an oil of the kind {vague[:40]} is not modelled; choose the nearest"
+        )
+        self._stage.lacks(
+            path, oil, None, f"the nearest kind to {vague[:40]}; a mineral oil counts if nothing is chosen"
+        )
+
+    def _temperatures(self) -> None:
+        """Temperature and supply of the oil, and the bulk temperature: the mean of both gears, else of the stage."""
+        for origin in self._stage.oil_origins:
+            if self._stage.take(table.OIL_TEMPERATURE, origin) is not None:
+                break
+        row, gears = table.BULK_TEMPERATURE, self._stage.known(self._stage.gears, table.BULK_TEMPERATURE)
+        if gears:
+            self._stage.put(row.field, sum(value for value, _ in gears) / len(gears), gears[0][1], row.name)
+            if abs(gears[0][0] - gears[-1][0]) > SAME * 100.0:
+                self._stage.note(row.field, self._stage.fields[row.field], "mean of both gears")
+        else:
+            self._stage.take(row, self._stage.stage)
+        for name in table.OIL_SUPPLY:
+            said = self._reading.text(self._stage.stage, name)
+            supply = next((ours for word, ours in table.SUPPLIES.items() if word in said), None)
+            if supply is not None:
+                self._stage.put("temperatures.oil_supply", supply, self._stage.stage, name)
+                return
+            if said:
+                message = f"lubrication by {said[:40]} is not modelled; not used"
+                self._reading.find("oil_supply", self._stage.stage, name, message)
+        self._supply_by_factor()
+
+    def _supply_by_factor(self) -> None:
+        """The oil supply by the factor that stands for it."""
+        factor = self._reading.number(self._stage.stage, table.SUPPLY_FACTOR)
+        if factor is None:
+            return
+        if (supply := table.SUPPLY_FACTORS.get(factor)) is not None:
+            self._stage.put("temperatures.oil_supply", supply, self._stage.stage, table.SUPPLY_FACTOR)
+        else:
+            message = f"the lubrication factor {factor:.4g} is that of no oil supply that is modelled; not used"
+            self._reading.find("oil_supply", self._stage.stage, table.SUPPLY_FACTOR, message)
+
+    def _friction(self) -> None:
+        """The coefficient of friction, unless the file says that it was calculated."""
+        methods = [self._reading.text(self._stage.stage, name) for name in table.FRICTION_METHODS]
+        if set(methods) <= {"", "is_given"}:
+            self._stage.take(table.FRICTION, self._stage.stage)
