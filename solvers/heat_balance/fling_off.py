@@ -15,6 +15,7 @@ TOOTH_HEIGHT = 2.25  # H over the normal module: addendum, dedendum and tip clea
 LONG_TURN = 0.98  # q of thick films and long turns, by similarity
 FLOODED = 50.0  # a scaled film this thick cools no better if it is thicker
 USED_SHARE = 0.9  # of the flooded heat; the film that reaches it is what a turn can use
+LIMITED_FROM = 0.98  # chosen: of the oil's heat capacity; a conductance that high no longer depends on the film
 FILM_POWER, TIME_POWER = -5.5, -8.0  # of the closed form, fitted to the solved film (2.5 %)
 
 
@@ -142,8 +143,8 @@ def laid_film(teeth: TurningTeeth, flow: float) -> float:
 class FlingOff:
     """Cooling of one gear by its film: conductances [W/K], of the film as laid and of one that floods the flank.
 
-    `film` is what the jets lay on in a turn, `turn_film` what a turn can use [m]; `limited` if the oil's heat capacity
-    is the conductance.
+    `film` is what the jets lay on in a turn, `turn_film` what a turn can use [m]; `limited` if the conductance
+    is the oil's heat capacity.
     """
 
     conductance: float
@@ -189,7 +190,7 @@ def fling_off(oil: CoolingOil, teeth: TurningTeeth, flow: float, factor: float, 
         flooded=scale * flooded,
         film=film,
         turn_film=length * _thickness_of(USED_SHARE * flooded, turn),
-        limited=cooling >= capacity,
+        limited=cooling >= LIMITED_FROM * capacity,
     )
 
 

@@ -1,5 +1,6 @@
 """Fling-off cooling: the closed form against a solved film, its limits, and the FZG rig."""
 
+from itertools import pairwise
 from math import exp, pi, sqrt
 
 import numpy as np
@@ -18,7 +19,7 @@ CELSIUS = 273.15
 #   T_t + u T_xi + h h_xi s (1 - s)(2 - s)/2 T_s = T_ss/h^2,    T = 1 at the wall, T_s = 0 at the surface.
 
 
-def solved_heat(film: float, turn: float, along: int = 80, across: int = 70, steps: int = 160) -> float:
+def solved_heat(film: float, turn: float, along: int = 60, across: int = 50, steps: int = 120) -> float:
     """Heat that has left the wall: what is in the film at the end and what flowed over the tip."""
     edges = np.concatenate([[0.0], np.geomspace(2e-3 / max(film, 1.0), 1.0, across)])
     middles, widths = (edges[1:] + edges[:-1]) / 2, np.diff(edges)
@@ -28,7 +29,7 @@ def solved_heat(film: float, turn: float, along: int = 80, across: int = 70, ste
     times = np.concatenate([[0.0], np.geomspace(1e-5 * turn, turn, steps)])
     heat, over_tip = np.zeros((along, across)), 0.0
     gaps = np.concatenate([[middles[0]], np.diff(middles), [np.inf]])
-    for before, now in zip(times[:-1], times[1:], strict=True):
+    for before, now in pairwise(times):
         step = now - before
         free = np.sqrt(xi / now)
         height = np.minimum(film, free)
@@ -36,8 +37,9 @@ def solved_heat(film: float, turn: float, along: int = 80, across: int = 70, ste
         old, upstream = heat.copy(), np.ones(across)
         for place in range(along):
             flow = height[place] ** 2 * velocity * step * along
-            low, high = step / height[place] ** 2 / (gaps[:-1] * widths), step / height[place] ** 2 / (
-                gaps[1:] * widths
+            low, high = (
+                step / height[place] ** 2 / (gaps[:-1] * widths),
+                step / height[place] ** 2 / (gaps[1:] * widths),
             )
             carried = step * steepness[place] * drift / gaps[:-1]
             matrix = np.zeros((3, across))
@@ -53,7 +55,7 @@ def solved_heat(film: float, turn: float, along: int = 80, across: int = 70, ste
 
 
 @pytest.mark.parametrize(
-    ("film", "turn"), [(0.3, 1.0), (0.7, 0.3), (0.7, 3.0), (1.0, 1.0), (1.5, 0.2), (1.5, 5.0), (4.0, 1.0), (10.0, 0.5)]
+    ("film", "turn"), [(0.3, 1.0), (0.7, 0.3), (0.7, 3.0), (1.0, 1.0), (1.5, 0.2), (1.5, 5.0), (3.0, 0.5), (4.0, 1.0)]
 )
 def test_closed_form_is_the_solved_film(film: float, turn: float) -> None:
     assert heat_number(film, turn) == pytest.approx(solved_heat(film, turn), rel=0.06)
