@@ -1,8 +1,7 @@
-"""Plain bearings and shafts as the heat balance sees them: friction, leakage, conduction from the gear's body."""
+"""Plain bearings as the heat balance sees them: friction and the oil that leaves them."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import pi
 
 
 def journal_leakage(surface_speed: float, width: float, clearance: float, eccentricity: float) -> float:
@@ -64,27 +63,3 @@ class Journal:
         if self.oil_flow is not None:
             return power, self.oil_flow
         return power, journal_leakage(self.surface_speed, self.width, self.clearance, eccentricity)
-
-
-def rod_conductance(sections: tuple[tuple[float, float, float], ...], conductivity: float) -> float:
-    """Compute the conductance of a shaft between the face of its gear and the centre of a bearing.
-
-    Parameters
-    ----------
-    sections : tuple of (float, float, float)
-        Length, outer and inner diameter of each section in between [m].
-    conductivity : float
-        Thermal conductivity of the shaft [W/(m K)].
-
-    Returns
-    -------
-    float
-        Conductance [W/K].
-
-    Notes
-    -----
-    Eq. H14: 1/sum(L/(k A)), exact for a rod.
-
-    """
-    lengths = sum(length / (outer**2 - inner**2) for length, outer, inner in sections)
-    return conductivity * pi / 4 / lengths

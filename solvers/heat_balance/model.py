@@ -15,7 +15,7 @@ from solvers.heat_balance.fling_off import turning_teeth
 from solvers.heat_balance.inputs import Cooling
 from solvers.heat_balance.losses import MeshHeat, flow_by_rise, ts_6336_22_bulk_rise, windage
 from solvers.heat_balance.network import BODIES, FLANKS, MIST, CasingWalls, CooledGear, Network, Spray
-from solvers.heat_balance.notices import heat_notices
+from solvers.heat_balance.notices import heat_notices, unusual_flow
 from solvers.heat_balance.oil import CoolingOil
 from solvers.heat_balance.results import (
     Balance,
@@ -318,3 +318,8 @@ def backlash_loss(
     rises = np.array([heat.pinion.body, heat.wheel.body]) - heat.casing
     loss = 2 * np.tan(working_pressure_angle) * expansion * np.dot(working_radii, rises)
     return replace(heat, backlash_loss=float(loss))
+
+
+def unusual_values(inputs: HeatBalanceInputs, heat: Heat) -> Iterator[Notice]:
+    """Tell of unusual values of the inputs."""
+    return unusual_flow(inputs.cooling.gear_flow, heat, inputs.oil)

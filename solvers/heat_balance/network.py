@@ -15,14 +15,14 @@ import numpy as np
 
 from solvers.arrays import FloatArray
 from solvers.heat_balance.bearings import Journal
+from solvers.heat_balance.conduction import tooth_conductance
+from solvers.heat_balance.convection import RECOVERY, face_convection, recovery_rise, rim_convection
 from solvers.heat_balance.fling_off import FlingOff, TurningTeeth, fling_off
 from solvers.heat_balance.losses import MeshHeat, acceleration_power, impact_rise
 from solvers.heat_balance.oil import CoolingOil
 
 FLANKS, BODIES, MIST = (0, 2), (1, 3), 4
 GEAR_NODES = ("pinion_flank", "pinion_body", "wheel_flank", "wheel_body", "mist")
-RECOVERY = 0.88  # of a turbulent boundary layer
-AIR_HEAT = 1006.0  # J/(kg K)
 
 
 @dataclass(frozen=True)
@@ -42,23 +42,20 @@ class CooledGear:
     pumping: float = 0.0
 
     @cached_property
-    def tooth_conductance(self) -> float:
-        """Conductance from the loaded flanks to the middle of the teeth [W/K]: z b H k/(pi m_n/4) (Eq. H15)."""
-        return self.teeth * self.face_width * self.flanks.height * self.conductivity / (pi * self.module / 4)
+    def to_body(self) -> float:
+        """Conductance from the loaded flanks to the middle of the teeth [W/K]."""
+        return tooth_conductance(self.teeth, self.face_width, self.module, self.flanks.height, self.conductivity)
 
     @cached_property
-    def rim_convection(self) -> float:
-        """Heat transfer coefficient of a rotating cylinder [W/(m^2 K)]: 3.75 omega^0.7 r_a^0.4 (Eq. H16)."""
-        return float(3.75 * self.flanks.speed**0.7 * self.tip_radius**0.4)
+    def rim(self) -> float:
+        """Conductance from the rim to air, half of it from the flanks and half from the body [W/K]."""
+        area = 2 * pi * self.tip_radius * self.face_width
+        return area * rim_convection(self.flanks.speed, self.tip_radius)
 
     @cached_property
-    def face_convection(self) -> float:
-        """Heat transfer coefficient of a rotating disc [W/(m^2 K)]: 2.73 omega^0.8 r_a^0.6 (Eq. H16)."""
-        return float(2.73 * self.flanks.speed**0.8 * self.tip_radius**0.6)
-
-    def recovery_rise(self, recovery: float) -> float:
-        """Rise by which friction warms the mist at the tips [K]: r (omega r_a)^2/(2 c_p) (Eq. H16)."""
-        return recovery * (self.flanks.speed * self.tip_radius) ** 2 / (2 * AIR_HEAT)
+    def faces(self) -> float:
+        """Conductance from both faces to air [W/K]."""
+        return self.face_area * face_convection(self.flanks.speed, self.tip_radius)
 
 
 @dataclass(frozen=True, slots=True)
@@ -206,7 +203,7 @@ class Network:
     def _oil_cooling(self, gear: int, rises: FloatArray) -> Iterator[Flow]:
         """Flank and body to the oil, flank to body through the tooth, rewetting out of the mist."""
         flank, body, mist = float(rises[FLANKS[gear]]), float(rises[BODIES[gear]]), float(rises[MIST])
-        cooling, tooth = self.cooling(gear, rises), self.gears[gear].tooth_conductance
+        cooling, tooth = self.cooling(gear, rises), self.gears[gear].to_body
         side = cooling.conductance / 2
         after_impact = impact_rise(self.oil, self.spray.velocity, self.spray.jet)
         rewetting = self.spray.rewetting_share * (cooling.flooded - cooling.conductance) / 2
@@ -220,9 +217,9 @@ class Network:
     def _mist_convection(self, gear: int, rises: FloatArray) -> Iterator[Flow]:
         """Mist that the friction at the tips warms to the rim and to the faces of a gear."""
         flank, body, mist = float(rises[FLANKS[gear]]), float(rises[BODIES[gear]]), float(rises[MIST])
-        wheel, rise = self.gears[gear], self.gears[gear].recovery_rise(self.recovery)
-        rim = self.mist_convection_factor * wheel.rim_convection * pi * wheel.tip_radius * wheel.face_width
-        faces = self.mist_convection_factor * wheel.face_convection * wheel.face_area
+        wheel = self.gears[gear]
+        rise = recovery_rise(wheel.flanks.speed, wheel.tip_radius, self.recovery)
+        rim, faces = self.mist_convection_factor * wheel.rim / 2, self.mist_convection_factor * wheel.faces
         yield Flow(MIST, FLANKS[gear], rim * (mist + rise - flank), "mist on the rim")
         yield Flow(MIST, BODIES[gear], rim * (mist + rise - body), "mist on the rim")
         yield Flow(MIST, BODIES[gear], faces * (mist + rise / 2 - body), "mist on the faces")

@@ -6,11 +6,15 @@ from math import sqrt
 from solvers.arrays import FloatArray
 from solvers.heat_balance.inputs import Cooling
 from solvers.heat_balance.network import MIST, Network
+from solvers.heat_balance.oil import CoolingOil
+from solvers.heat_balance.results import Heat
 from solvers.notices import Notice
+from solvers.plausibility import unusual_value
 
 SLOW = 40.0  # m/s; below it the jets' oil is not all that wets the flanks
 TURBULENT = 41.0  # times sqrt(R/c): Reynolds number at which vortices begin in a plain bearing (Taylor)
 KNOWN_WITHIN = 15.0  # K, chosen
+USUAL_RISE = (2.0, 60.0)  # K, chosen: of the oil by the losses of the gears
 
 
 def heat_notices(network: Network, rises: FloatArray, cooling: Cooling) -> Iterator[Notice]:
@@ -55,3 +59,17 @@ def _oil_notices(network: Network, rises: FloatArray) -> Iterator[Notice]:
                 "its friction is higher than stated"
             )
             yield Notice("turbulent_film", message, "cooling")
+
+
+def unusual_flow(gear_flow: float | None, heat: Heat, oil: CoolingOil) -> Iterator[Notice]:
+    """Tell of a given oil flow [m^3/s] that the losses warm by very little or very much."""
+    if gear_flow is None:
+        return
+    losses = heat.losses.mesh + heat.losses.pumping + heat.losses.windage + heat.losses.other
+    rise, (least, most) = losses / (oil.heat_capacity * gear_flow), USUAL_RISE
+    if rise < least:
+        message = f"the losses warm the oil of the gears by {rise:.3g} K only; is the oil flow in l/min?"
+        yield unusual_value("cooling.gear_flow", message)
+    elif rise > most:
+        message = f"the losses warm the oil of the gears by {rise:.4g} K; is the oil flow in l/min?"
+        yield unusual_value("cooling.gear_flow", message)

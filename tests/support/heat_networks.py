@@ -7,7 +7,8 @@ import numpy as np
 
 from solvers.drive_train.inputs import JournalBearing
 from solvers.drive_train.shafts.bearings import bearing_state
-from solvers.heat_balance.bearings import Journal, Operation, rod_conductance
+from solvers.heat_balance.bearings import Journal, Operation
+from solvers.heat_balance.conduction import rod_conductance
 from solvers.heat_balance.fling_off import turning_teeth
 from solvers.heat_balance.losses import MeshHeat, flow_by_rise, windage
 from solvers.heat_balance.network import CasingWalls, CooledGear, Network, Spray

@@ -226,6 +226,13 @@ def test_warnings() -> None:
     assert "turbulent_film" in codes(solve(with_cooling(replace(UNIT, oil=thin), band=False)))
 
 
+def test_unusual_flows() -> None:
+    assert "unusual_value" in codes(solve(with_cooling(PAIR, gear_flow=3000 / 6e4)))
+    assert "unusual_value" in codes(solve(with_cooling(PAIR, gear_flow=20 / 6e4)))
+    assert "unusual_value" not in codes(solve(with_cooling(PAIR, gear_flow=140 / 6e4)))
+    assert refused(solve, with_cooling(PAIR, gear_flow=1.0)) == ("out_of_range", "cooling.gear_flow")
+
+
 # Oils
 
 

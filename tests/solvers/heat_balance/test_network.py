@@ -8,7 +8,8 @@ import pytest
 
 from solvers.arrays import FloatArray
 from solvers.errors import NoSolution
-from solvers.heat_balance.bearings import Journal, rod_conductance
+from solvers.heat_balance.bearings import Journal
+from solvers.heat_balance.conduction import rod_conductance
 from solvers.heat_balance.losses import MeshHeat
 from solvers.heat_balance.network import BODIES, FLANKS, MIST, CasingWalls, Network
 from solvers.heat_balance.solution import equilibrium, jacobian
@@ -196,7 +197,7 @@ def test_a_very_large_flow_leaves_the_fling_off_resistance() -> None:
     for number in (0, 1):
         share = network.mesh.share_to_pinion if number == 0 else 1 - network.mesh.share_to_pinion
         heat = share * network.mesh.at(network.oil, network.oil.inlet)
-        cooling, tooth = network.cooling(number, rises), network.gears[number].tooth_conductance
+        cooling, tooth = network.cooling(number, rises), network.gears[number].to_body
         assert cooling.conductance == pytest.approx(cooling.flooded, rel=1e-9)
         through = 1 / (1 / tooth + 1 / (1 / (1 / tooth + 2 / cooling.flooded)))
         assert rises[FLANKS[number]] == pytest.approx(heat / (cooling.flooded / 2 + through), abs=1e-4)

@@ -7,10 +7,11 @@ from math import exp
 import numpy as np
 import pytest
 
+from solvers.heat_balance.capacities import MIST_OIL, Capacities, cylinders_capacity, loaded_teeth_capacity
 from solvers.heat_balance.losses import MeshHeat
 from solvers.heat_balance.network import BODIES, MIST, Network
 from solvers.heat_balance.solution import equilibrium
-from solvers.heat_balance.warm_up import MIST_OIL, Capacities, cylinders_capacity, loaded_teeth_capacity, warm_up
+from solvers.heat_balance.warm_up import warm_up
 from tests.support.changes import changed
 from tests.support.heat_networks import CASED, CELSIUS, MODULE, PAIR, TEETH, UNIT, WIDTH
 
