@@ -126,7 +126,7 @@ def acceleration_power(oil: CoolingOil, flow: float, velocity: float, jet: float
 
     Notes
     -----
-    Eq. H9: rho Q v (v - v_jet). Per mass, (v - v_jet)^2/2 of it becomes heat as the oil hits the teeth (Eq. H10), the
+    Eq. H9: rho Q v (v - v_jet). Per mass, (v - v_jet)^2/2 of it becomes heat as the oil hits the teeth, the
     rest as the casing stops the oil.
 
     """
