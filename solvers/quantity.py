@@ -32,9 +32,12 @@ UNITS = {
     "mm": Unit("mm", 1e-3),
     "mm2": Unit("mm²", 1e-6),
     "mm2_per_s": Unit("mm²/s", 1e-6),
+    "m2": Unit("m²", 1.0),
+    "l_per_min": Unit("l/min", 1e-3 / 60),
     "um": Unit("µm", 1e-6),
     "deg": Unit("°", pi / 180),
     "mrad": Unit("mrad", 1e-3),
+    "s": Unit("s", 1.0),
     "rpm": Unit("1/min", pi / 30),
     "hz": Unit("Hz", 1.0),
     "m_per_s": Unit("m/s", 1.0),
@@ -64,6 +67,8 @@ UNITS = {
     "kg_per_m3": Unit("kg/m³", 1.0),
     "j_per_kg_k": Unit("J/(kg K)", 1.0),
     "w_per_m_k": Unit("W/(m K)", 1.0),
+    "w_per_m2_k": Unit("W/(m² K)", 1.0),
+    "w_per_k": Unit("W/K", 1.0),
 }
 """By the suffix that names of the HTTP interface carry."""
 

@@ -16,6 +16,7 @@ NAMES = (
     "line-contact",
     "scuffing",
     "drive-train",
+    "heat-balance",
     "practice",
     "spectrum",
     "service",

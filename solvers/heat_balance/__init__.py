@@ -1,0 +1,53 @@
+"""Heat balance of a gear pair or gear unit: losses, the oil that cools, and the temperatures of flanks and bodies.
+
+Data flows inputs, oil -> losses, bearings, fling_off, convection, conduction -> network (nodes and flows of heat) ->
+solution (equilibrium), calibration (by measured temperatures), band -> results, notices; `model.solve` calls these.
+`warm_up` follows the network over time with its capacities. Own derivation; sources are given with the equations.
+"""
+
+from solvers.heat_balance import model
+from solvers.heat_balance.bearings import Journal, Operation, journal_leakage
+from solvers.heat_balance.capacities import Capacities, cylinders_capacity, loaded_teeth_capacity
+from solvers.heat_balance.conduction import rod_conductance
+from solvers.heat_balance.inputs import Casing, Cooling, Measured
+from solvers.heat_balance.losses import MeshHeat, share_to_pinion
+from solvers.heat_balance.model import (
+    GearGeometry,
+    HeatBalanceInputs,
+    backlash_loss,
+    calibrated,
+    network_of,
+    unusual_values,
+)
+from solvers.heat_balance.oil import CoolingOil, cooling_oil
+from solvers.heat_balance.results import Heat
+from solvers.heat_balance.warm_up import WarmUp, warm_up
+from solvers.plausibility import guarded
+
+solve = guarded(model.solve, unusual_values)
+
+__all__ = [
+    "Capacities",
+    "Casing",
+    "Cooling",
+    "CoolingOil",
+    "GearGeometry",
+    "Heat",
+    "HeatBalanceInputs",
+    "Journal",
+    "Measured",
+    "MeshHeat",
+    "Operation",
+    "WarmUp",
+    "backlash_loss",
+    "calibrated",
+    "cooling_oil",
+    "cylinders_capacity",
+    "journal_leakage",
+    "loaded_teeth_capacity",
+    "network_of",
+    "rod_conductance",
+    "share_to_pinion",
+    "solve",
+    "warm_up",
+]

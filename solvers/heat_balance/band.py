@@ -1,0 +1,107 @@
+"""Band of the temperatures: what they are if much or little oil reaches the flanks. A range, not a probability."""
+
+from dataclasses import dataclass, replace
+
+from solvers.arrays import FloatArray
+from solvers.errors import InvalidInput
+from solvers.heat_balance.calibration import LEAST_WETTING, MOST_WETTING, wetted, with_rotor
+from solvers.heat_balance.inputs import Cooling
+from solvers.heat_balance.network import FLANKS, Network
+from solvers.heat_balance.solution import equilibrium
+
+MEASURED_WITHIN = 3.0  # K, chosen: uncertainty of a measured temperature
+
+
+@dataclass(frozen=True, slots=True)
+class Extreme:
+    """How well the oil cools at one end of the band; None is as in the nominal case."""
+
+    wetting_share: float
+    fling_off_factor: float
+    rewetting_share: float | None = None
+
+
+WELL_COOLED = Extreme(wetting_share=1.0, fling_off_factor=1.5)
+POORLY_COOLED = Extreme(wetting_share=0.2, fling_off_factor=0.7, rewetting_share=0.5)
+
+
+def extreme_network(network: Network, cooling: Cooling, extreme: Extreme) -> Network:
+    """Return the network at one end of the band; what the user gives is not varied.
+
+    Parameters
+    ----------
+    network : Network
+        The network of the nominal case.
+    cooling : Cooling
+        What the user gives.
+    extreme : Extreme
+        The end of the band.
+
+    Returns
+    -------
+    Network
+        With other shares and another factor; flow and losses are held.
+
+    Notes
+    -----
+    Eq. H21. With a measured temperature of a gear the wetting share is fitted again, as near as it comes.
+
+    """
+    spray = network.spray
+    if cooling.fling_off_factor is None:
+        spray = replace(spray, fling_off_factor=extreme.fling_off_factor)
+    if cooling.rewetting_share is None and extreme.rewetting_share is not None:
+        spray = replace(spray, rewetting_share=extreme.rewetting_share)
+    varied = replace(network, spray=spray)
+    if cooling.measured.rotors:
+        node, temperature = next(iter(cooling.measured.rotors.items()))
+        return _fitted_again(varied, node, temperature)
+    return wetted(varied, extreme.wetting_share) if cooling.wetting_share is None else varied
+
+
+def _fitted_again(network: Network, node: str, temperature: float) -> Network:
+    """Return the network with the wetting share that gives the node its temperature, or comes nearest to it."""
+    try:
+        return with_rotor(network, node, temperature)
+    except InvalidInput:
+        place, wanted = network.nodes.index(node), temperature - network.oil.inlet
+        ends = [wetted(network, share) for share in (LEAST_WETTING, MOST_WETTING)]
+        return min(ends, key=lambda end: abs(float(equilibrium(end).rises[place]) - wanted))
+
+
+def flank_cases(network: Network, cooling: Cooling, nominal: FloatArray) -> tuple[tuple[float, float], ...]:
+    """Compute the flanks at both ends of the band and in the nominal case.
+
+    Parameters
+    ----------
+    network : Network
+        The network of the nominal case.
+    cooling : Cooling
+        What the user gives.
+    nominal : FloatArray
+        Rises in the nominal case [K].
+
+    Returns
+    -------
+    tuple of (float, float)
+        Temperatures of pinion and wheel [K]: well cooled, nominal, poorly cooled.
+
+    """
+    ends = [extreme_network(network, cooling, extreme) for extreme in (WELL_COOLED, POORLY_COOLED)]
+    rises = [equilibrium(ends[0], nominal).rises, nominal, equilibrium(ends[1], nominal).rises]
+    inlet = network.oil.inlet
+    return tuple((inlet + float(one[FLANKS[0]]), inlet + float(one[FLANKS[1]])) for one in rises)
+
+
+def flank_band(
+    cases: tuple[tuple[float, float], ...], cooling: Cooling
+) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Return the least and the greatest temperature of each flank [K]; a measured one is known to within 3 K."""
+    bands = []
+    for gear, node in enumerate(("pinion_flank", "wheel_flank")):
+        values = [case[gear] for case in cases]
+        measured = cooling.measured.rotors.get(node)
+        if measured is not None and next(iter(cooling.measured.rotors)) == node:
+            values = [measured - MEASURED_WITHIN, measured + MEASURED_WITHIN]
+        bands.append((min(values), max(values)))
+    return bands[0], bands[1]

@@ -1,0 +1,65 @@
+"""Plain bearings as the heat balance sees them: friction and the oil that leaves them."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+
+def journal_leakage(surface_speed: float, width: float, clearance: float, eccentricity: float) -> float:
+    """Compute the oil that leaves a plain bearing at its sides.
+
+    Parameters
+    ----------
+    surface_speed : float
+        Speed of the journal's surface [m/s].
+    width : float
+        Width of the bearing [m].
+    clearance : float
+        Radial clearance [m].
+    eccentricity : float
+        Eccentricity ratio [-].
+
+    Returns
+    -------
+    float
+        Flow [m^3/s].
+
+    Notes
+    -----
+    Eq. H12: U L c eps, what Couette flow brings into the half of the bearing that carries less what leaves it.
+
+    """
+    return surface_speed * width * clearance * eccentricity
+
+
+Operation = Callable[[float], tuple[float, float]]
+"""Friction power [W] and eccentricity ratio of a plain bearing whose film has a viscosity [Pa s]."""
+
+
+@dataclass(frozen=True, slots=True)
+class Journal:
+    """A plain bearing under its load on the shaft of gear 0 or 1; lengths [m].
+
+    `shaft_conductance` [W/K] leads from the body of the gear to the journal; `oil_flow` [m^3/s] takes the place of
+    the bearing's leakage.
+    """
+
+    gear: int
+    diameter: float
+    width: float
+    clearance: float
+    speed: float
+    shaft_conductance: float
+    operate: Operation
+    oil_flow: float | None = None
+
+    @property
+    def surface_speed(self) -> float:
+        """Speed of the journal's surface [m/s]."""
+        return self.speed * self.diameter / 2
+
+    def loss_and_flow(self, viscosity: float) -> tuple[float, float]:
+        """Return friction power [W] and flow of oil [m^3/s] at a viscosity of the film [Pa s]."""
+        power, eccentricity = self.operate(viscosity)
+        if self.oil_flow is not None:
+            return power, self.oil_flow
+        return power, journal_leakage(self.surface_speed, self.width, self.clearance, eccentricity)

@@ -1,0 +1,94 @@
+"""Heat capacities of the nodes: teeth, rotors, bearings, mist, casing."""
+
+from dataclasses import dataclass
+from math import pi
+
+import numpy as np
+
+from solvers.arrays import FloatArray
+from solvers.heat_balance.network import Network
+
+BEARING_OIL, BEARING_STEEL = 0.5e-3, 5.0  # m^3, kg; chosen: what warms up with a plain bearing
+MIST_OIL = 5e-3  # m^3, chosen: oil in the mist and on its way to the drain
+STEEL_DENSITY, STEEL_HEAT = 7850.0, 470.0  # kg/m^3, J/(kg K)
+
+
+@dataclass(frozen=True, slots=True)
+class Capacities:
+    """Heat capacities [J/K] of both rotors, of the teeth's loaded halves, and of the casing."""
+
+    rotors: tuple[float, float]
+    loaded_teeth: tuple[float, float]
+    casing: float | None = None
+
+    def of(self, network: Network) -> FloatArray:
+        """Return the capacity of each node [J/K] (Eq. H23)."""
+        oil = network.oil.heat_capacity
+        gears = [
+            capacity
+            for rotor, teeth in zip(self.rotors, self.loaded_teeth, strict=True)
+            for capacity in (teeth, max(rotor - teeth, teeth))
+        ]
+        bearings = [BEARING_OIL * oil + BEARING_STEEL * STEEL_HEAT] * len(network.journals)
+        casing = [] if network.casing is None else [self.casing or 0.0]
+        return np.array([*gears, MIST_OIL * oil, *bearings, *casing])
+
+
+def cylinders_capacity(
+    sections: tuple[tuple[float, float, float], ...],
+    density: float = STEEL_DENSITY,
+    specific_heat: float = STEEL_HEAT,
+) -> float:
+    """Compute the heat capacity of a rotor.
+
+    Parameters
+    ----------
+    sections : tuple of (float, float, float)
+        Length, outer and inner diameter of each section [m].
+    density : float
+        Density [kg/m^3].
+    specific_heat : float
+        Specific heat [J/(kg K)].
+
+    Returns
+    -------
+    float
+        Heat capacity [J/K].
+
+    """
+    volume = sum(pi / 4 * length * (outer**2 - inner**2) for length, outer, inner in sections)
+    return volume * density * specific_heat
+
+
+def loaded_teeth_capacity(
+    teeth: int,
+    face_width: float,
+    module: float,
+    height: float,
+    density: float = STEEL_DENSITY,
+    specific_heat: float = STEEL_HEAT,
+) -> float:
+    """Compute the heat capacity of the loaded halves of all teeth of a gear.
+
+    Parameters
+    ----------
+    teeth : int
+        Number of teeth.
+    face_width : float
+        Face width [m].
+    module : float
+        Normal module [m].
+    height : float
+        Tooth height [m].
+    density : float
+        Density [kg/m^3].
+    specific_heat : float
+        Specific heat [J/(kg K)].
+
+    Returns
+    -------
+    float
+        Heat capacity z b H pi m_n/4 rho c [J/K].
+
+    """
+    return teeth * face_width * height * pi * module / 4 * density * specific_heat

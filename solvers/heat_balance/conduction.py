@@ -1,0 +1,56 @@
+"""Conduction in the teeth and along the shafts."""
+
+from math import pi
+
+
+def tooth_conductance(teeth: int, face_width: float, module: float, height: float, conductivity: float) -> float:
+    """Compute the conductance from the loaded flanks of a gear to the middle of its teeth.
+
+    Parameters
+    ----------
+    teeth : int
+        Number of teeth.
+    face_width : float
+        Face width [m].
+    module : float
+        Normal module [m].
+    height : float
+        Tooth height [m].
+    conductivity : float
+        Thermal conductivity of the gear [W/(m K)].
+
+    Returns
+    -------
+    float
+        Conductance [W/K].
+
+    Notes
+    -----
+    Eq. H15: K = z b H k/(pi m_n/4), through half the thickness of a tooth.
+
+    """
+    return teeth * face_width * height * conductivity / (pi * module / 4)
+
+
+def rod_conductance(sections: tuple[tuple[float, float, float], ...], conductivity: float) -> float:
+    """Compute the conductance of a shaft between the face of its gear and the centre of a bearing.
+
+    Parameters
+    ----------
+    sections : tuple of (float, float, float)
+        Length, outer and inner diameter of each section in between [m].
+    conductivity : float
+        Thermal conductivity of the shaft [W/(m K)].
+
+    Returns
+    -------
+    float
+        Conductance [W/K].
+
+    Notes
+    -----
+    Eq. H14: 1/sum(L/(k A)), exact for a rod.
+
+    """
+    lengths = sum(length / (outer**2 - inner**2) for length, outer, inner in sections)
+    return conductivity * pi / 4 / lengths

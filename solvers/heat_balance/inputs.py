@@ -1,0 +1,286 @@
+"""What a user may say of the cooling of a gear pair or unit."""
+
+from dataclasses import fields
+from typing import Literal
+
+from solvers.errors import InvalidInput
+from solvers.quantity import quantity, record
+from solvers.sources import JUNGNICKEL, MAUZ, OWN
+
+Jets = Literal["into_mesh", "out_of_mesh"]
+
+WETTING_SHARE, FLING_OFF_FACTOR, REWETTING_SHARE = 0.5, 1.0, 0.0
+
+
+@record
+class Casing:
+    """The casing of a gear unit; without an area it does not take part."""
+
+    area: float | None = quantity(
+        "area of the casing",
+        "A_C",
+        unit="m2",
+        default=None,
+        ge=0.01,
+        le=1000,
+        default_text="the casing does not take part",
+        assumed="no heat leaves through the casing, which is the safe side",
+    )
+    inside: float = quantity(
+        "heat transfer inside the casing",
+        "h_in",
+        unit="w_per_m2_k",
+        default=50.0,
+        ge=0.1,
+        le=5000,
+        assumed="oil mist and oil that runs down",
+    )
+    outside: float = quantity(
+        "heat transfer outside the casing",
+        "h_out",
+        unit="w_per_m2_k",
+        default=12.0,
+        ge=0.1,
+        le=1000,
+        assumed="free convection and radiation",
+    )
+    ambient: float = quantity(
+        "temperature of the surroundings", "θ_amb", unit="c", default=25.0, ge=-50, le=80, tolerance=10, assumed="25 °C"
+    )
+    mass: float | None = quantity(
+        "mass of the casing",
+        "m_C",
+        unit="kg",
+        default=None,
+        ge=1,
+        le=1e6,
+        default_text="required by a warm-up with a casing",
+    )
+
+
+@record
+class Measured:
+    """Temperatures measured on the running gear: at most one of each gear, and that of the drained oil.
+
+    A thermocouple in a tooth or in the rim measures the body, an infrared sensor the flank.
+    """
+
+    pinion_flank: float | None = quantity(
+        "measured flank of the pinion", "θ_F1", unit="c", default=None, ge=-50, le=400, tolerance=3
+    )
+    pinion_body: float | None = quantity(
+        "measured body of the pinion", "θ_B1", unit="c", default=None, ge=-50, le=400, tolerance=3
+    )
+    wheel_flank: float | None = quantity(
+        "measured flank of the wheel", "θ_F2", unit="c", default=None, ge=-50, le=400, tolerance=3
+    )
+    wheel_body: float | None = quantity(
+        "measured body of the wheel", "θ_B2", unit="c", default=None, ge=-50, le=400, tolerance=3
+    )
+    drain: float | None = quantity(
+        "measured drain",
+        "θ_D",
+        unit="c",
+        default=None,
+        ge=-50,
+        le=400,
+        tolerance=2,
+        text="all oil that leaves the unit, that of the bearings too",
+    )
+
+    @property
+    def rotors(self) -> dict[str, float]:
+        """The measured temperatures of the gears by their node [K], the pinion's first."""
+        given = {item.name: getattr(self, item.name) for item in fields(self) if item.name != "drain"}
+        return {name: value for name, value in given.items() if value is not None}
+
+
+@record
+class Cooling:
+    """How the oil reaches the teeth, what else heats it, and what was measured."""
+
+    gear_flow: float | None = quantity(
+        "oil flow to the gears",
+        "Q_g",
+        OWN,
+        unit="l_per_min",
+        default=None,
+        ge=0.1,
+        le=5000,
+        default_text="by the rise of its temperature",
+        assumed="the flow that all losses of the gears warm by the flow's rise",
+    )
+    flow_rise: float = quantity(
+        "rise by which the flow is sized",
+        "ΔT_Q",
+        OWN,
+        unit="k",
+        default=20.0,
+        ge=2,
+        le=60,
+        tolerance=2,
+        assumed="20 K, usual of turbo gear units",
+    )
+    flow_to_pinion: float = quantity(
+        "share of the oil for the pinion",
+        "s_1",
+        OWN,
+        default=0.5,
+        ge=0.02,
+        le=1,
+        tolerance=0.1,
+        assumed="both gears get as much",
+    )
+    jets: Jets = quantity(
+        "direction of the jets", default="into_mesh", assumed="into the mesh; jets against the outlet brake more"
+    )
+    jet_speed: float = quantity(
+        "speed of the jets",
+        "v_jet",
+        unit="m_per_s",
+        default=20.0,
+        ge=1,
+        le=80,
+        tolerance=5,
+        assumed="20 m/s, a pressure of 2 bar",
+    )
+    wetting_share: float | None = quantity(
+        "wetting share",
+        "w",
+        OWN,
+        default=None,
+        ge=0.02,
+        le=1,
+        tolerance=0.2,
+        text="share of the oil that reaches the flanks",
+        default_text=f"{WETTING_SHARE:g}",
+        assumed="0.5, the middle of 0.2 to 1; unknown without a measured temperature",
+    )
+    rewetting_share: float | None = quantity(
+        "rewetting share",
+        "w_r",
+        OWN,
+        default=None,
+        ge=0,
+        le=1,
+        tolerance=0.1,
+        text="share of what is missing from a flooded film that oil out of the mist fills up",
+        default_text=f"{REWETTING_SHARE:g}",
+        assumed="0, the safe side",
+    )
+    fling_off_factor: float | None = quantity(
+        "fling-off factor",
+        "f",
+        OWN,
+        default=None,
+        ge=0.2,
+        le=5,
+        tolerance=0.2,
+        text="factor on the cooling by the film",
+        default_text=f"{FLING_OFF_FACTOR:g}",
+        assumed="1, the derived cooling",
+    )
+    mist_convection_factor: float = quantity(
+        "mist convection factor",
+        "f_m",
+        JUNGNICKEL,
+        default=3.0,
+        ge=0.5,
+        le=20,
+        tolerance=1,
+        text="cooling by mist over that by air",
+        assumed="3; the mist carries oil",
+    )
+    pumping_to_teeth: float = quantity(
+        "share of the pumped heat for the teeth",
+        "r",
+        OWN,
+        default=0.1,
+        ge=0.02,
+        le=1,
+        tolerance=0.05,
+        assumed="a tenth; the gas leaves the mesh with the rest",
+    )
+    pumping: float = quantity(
+        "pumping loss",
+        "P_pump",
+        unit="w",
+        default=0.0,
+        ge=0,
+        le=1e7,
+        tolerance=100,
+        text="of both gears",
+        assumed="none; the pumping check or the drive train computes it",
+    )
+    windage: float | None = quantity(
+        "windage",
+        "P_wind",
+        MAUZ,
+        unit="w",
+        default=None,
+        ge=0,
+        le=1e7,
+        text="of both gears",
+        default_text="by Mauz",
+        assumed="by Mauz, the lowest of three formulas",
+    )
+    other: float | None = quantity(
+        "other losses into the oil mist",
+        "P_other",
+        unit="w",
+        default=None,
+        ge=0,
+        le=1e7,
+        tolerance=100,
+        text="seals, thrust bearing, churning",
+        default_text="0",
+        assumed="none",
+    )
+    bearing_film_share: float = quantity(
+        "film share of a bearing's rise",
+        "s",
+        default=0.8,
+        ge=0.02,
+        le=1,
+        tolerance=0.1,
+        text="rise of the film over that of the oil that leaves",
+        assumed="0.8 (Cameron; quoted, not verified)",
+    )
+    band: bool = quantity(
+        "band", default=True, text="also the temperatures of much and of little oil on the flanks", advanced=True
+    )
+    casing: Casing = quantity("casing", default_factory=Casing)
+    measured: Measured = quantity("measured temperatures", default_factory=Measured)
+
+    def jet_velocity(self) -> float:
+        """Return the velocity of the jets [m/s], negative against the outlet."""
+        return self.jet_speed if self.jets == "into_mesh" else -self.jet_speed
+
+    @property
+    def wetting(self) -> float:
+        """The wetting share in force."""
+        return WETTING_SHARE if self.wetting_share is None else self.wetting_share
+
+    @property
+    def rewetting(self) -> float:
+        """The rewetting share in force."""
+        return REWETTING_SHARE if self.rewetting_share is None else self.rewetting_share
+
+    @property
+    def factor(self) -> float:
+        """The fling-off factor in force."""
+        return FLING_OFF_FACTOR if self.fling_off_factor is None else self.fling_off_factor
+
+    def check(self) -> None:
+        """Raise InvalidInput exclusive for a value that a measured temperature fixes, or two measured of one gear."""
+        measured = self.measured
+        for gear in ("pinion", "wheel"):
+            if {f"{gear}_flank", f"{gear}_body"} <= set(measured.rotors):
+                message = f"flank and body of the {gear} are both measured; keep one"
+                raise InvalidInput("exclusive", message, f"cooling.measured.{gear}_body")
+        if measured.rotors and self.wetting_share is not None:
+            message = "a measured temperature of a gear fixes the wetting share; leave one of them out"
+            raise InvalidInput("exclusive", message, "cooling.wetting_share")
+        if measured.drain is not None and self.other is not None:
+            message = "the measured drain fixes the other losses; leave one of them out"
+            raise InvalidInput("exclusive", message, "cooling.other")

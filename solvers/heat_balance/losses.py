@@ -1,0 +1,220 @@
+"""Losses of a gear pair and how they follow temperature: mesh, windage, oil brought to speed.
+
+The friction of the mesh is the load distribution's own; here it only follows the oil's viscosity.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from solvers.arrays import FloatArray
+from solvers.heat_balance.oil import CoolingOil
+
+VISCOSITY_EXPONENT = -0.05  # of Schlenk's mean coefficient of friction (quoted, not verified)
+LARGEST_ACCELERATION_SHARE = 0.5  # chosen: of the rise by which the flow is sized
+
+
+@dataclass(frozen=True, slots=True)
+class MeshHeat:
+    """Friction of the mesh: its power [W] at a temperature of the flanks [K], and the pinion's share.
+
+    The power follows the oil's viscosity by `viscosity_exponent`; a coefficient of friction that the user gives is
+    constant, the exponent then 0.
+    """
+
+    power: float
+    temperature: float
+    share_to_pinion: float
+    viscosity_exponent: float = VISCOSITY_EXPONENT
+
+    def at(self, oil: CoolingOil, flanks: float) -> float:
+        """Return the power [W] at a mean temperature of both flanks [K] (Eq. H6)."""
+        if self.viscosity_exponent == 0.0:
+            return self.power
+        thinning = oil.viscosity(flanks) / oil.viscosity(self.temperature)
+        return float(self.power * thinning**self.viscosity_exponent)
+
+
+def share_to_pinion(
+    heat: FloatArray,
+    speed_1: FloatArray,
+    speed_2: FloatArray,
+    position: FloatArray,
+    effusivity_ratio: float = 1.0,
+) -> float:
+    """Compute the share of the frictional heat of a path of contact that enters the pinion.
+
+    Parameters
+    ----------
+    heat : FloatArray
+        Frictional heat per length of path at points of the path [W/m].
+    speed_1 : FloatArray
+        Speed of the pinion's surface at these points [m/s].
+    speed_2 : FloatArray
+        Speed of the wheel's surface at these points [m/s].
+    position : FloatArray
+        Position of the points along the path [m].
+    effusivity_ratio : float
+        sqrt(k rho c) of the wheel over that of the pinion [-].
+
+    Returns
+    -------
+    float
+        Share phi [-]; 0.5 if no heat arises.
+
+    Notes
+    -----
+    Eq. H7: phi = int q sqrt(u_1)/(sqrt(u_1) + sqrt(u_2)) / int q: both surfaces have the same temperature in the
+    contact, which they pass as half spaces under a moving source.
+
+    """
+    total = float(np.trapezoid(heat, position))
+    if total == 0.0:
+        return 0.5
+    root_1, root_2 = np.sqrt(speed_1), effusivity_ratio * np.sqrt(speed_2)
+    return float(np.trapezoid(heat * root_1 / (root_1 + root_2), position)) / total
+
+
+def windage(pitch_line_velocity: float, diameter: float, face_width: float, module: float, speed: float) -> float:
+    """Compute the windage of one gear by Mauz.
+
+    Parameters
+    ----------
+    pitch_line_velocity : float
+        Pitch-line velocity [m/s].
+    diameter : float
+        Reference diameter [m].
+    face_width : float
+        Face width [m].
+    module : float
+        Normal module [m].
+    speed : float
+        Speed of the gear, positive [rad/s].
+
+    Returns
+    -------
+    float
+        Power [W].
+
+    Notes
+    -----
+    Eq. H8: torque 1.37e-9 v^1.9 d^1.6 b^0.52 m_n^0.69 N m with lengths in mm; the lowest of three formulas.
+
+    """
+    sizes = (diameter * 1e3) ** 1.6 * (face_width * 1e3) ** 0.52 * (module * 1e3) ** 0.69
+    return float(1.37e-9 * pitch_line_velocity**1.9 * sizes * speed)
+
+
+def acceleration_power(oil: CoolingOil, flow: float, velocity: float, jet: float) -> float:
+    """Compute the power that brings oil from the speed of its jet to that of the pitch line.
+
+    Parameters
+    ----------
+    oil : CoolingOil
+        The oil.
+    flow : float
+        Oil that hits the teeth [m^3/s].
+    velocity : float
+        Pitch-line velocity v [m/s].
+    jet : float
+        Velocity of the jet v_jet [m/s], positive into the mesh and negative against the teeth.
+
+    Returns
+    -------
+    float
+        Power [W].
+
+    Notes
+    -----
+    Eq. H9: rho Q v (v - v_jet). Per mass, (v - v_jet)^2/2 of it becomes heat as the oil hits the teeth, the
+    rest as the casing stops the oil.
+
+    """
+    return oil.density * flow * velocity * (velocity - jet)
+
+
+def impact_rise(oil: CoolingOil, velocity: float, jet: float) -> float:
+    """Compute how much the oil warms as it hits the teeth.
+
+    Parameters
+    ----------
+    oil : CoolingOil
+        The oil.
+    velocity : float
+        Pitch-line velocity v [m/s].
+    jet : float
+        Velocity of the jet v_jet [m/s], positive into the mesh and negative against the teeth.
+
+    Returns
+    -------
+    float
+        Rise of the temperature [K].
+
+    Notes
+    -----
+    Eq. H10: (v - v_jet)^2/(2 c).
+
+    """
+    return (velocity - jet) ** 2 / (2 * oil.specific_heat)
+
+
+def flow_by_rise(
+    oil: CoolingOil, losses: float, rise: float, wetting_share: float, velocity: float, jet: float
+) -> float:
+    """Size the flow to the gears by the rise of its temperature.
+
+    Parameters
+    ----------
+    oil : CoolingOil
+        The oil.
+    losses : float
+        Losses of the gears without the acceleration of the oil [W].
+    rise : float
+        Rise of the oil's temperature by all losses of the gears [K].
+    wetting_share : float
+        Share of the oil that is brought to speed [-].
+    velocity : float
+        Pitch-line velocity v [m/s].
+    jet : float
+        Velocity of the jet v_jet [m/s].
+
+    Returns
+    -------
+    float
+        Flow [m^3/s].
+
+    Notes
+    -----
+    Eq. H11: Q = P/(rho c (dT - min(dT/2, w v (v - v_jet)/c))).
+
+    """
+    accelerating = wetting_share * velocity * (velocity - jet) / oil.specific_heat
+    warming = rise - min(LARGEST_ACCELERATION_SHARE * rise, accelerating)
+    return losses / (oil.heat_capacity * warming)
+
+
+def ts_6336_22_bulk_rise(loss: float, centre_distance: float, face_width: float, supply_factor: float) -> float:
+    """Estimate the rise of the bulk over the oil by ISO/TS 6336-22, without tip relief.
+
+    Parameters
+    ----------
+    loss : float
+        Loss of the mesh [W].
+    centre_distance : float
+        Centre distance [m].
+    face_width : float
+        Face width [m].
+    supply_factor : float
+        X_S, 1.2 of jets [-].
+
+    Returns
+    -------
+    float
+        Rise [K].
+
+    Notes
+    -----
+    Eq. H13: 7400 (P mu H_v/(a b))^0.72 X_S/1.2, in kW and mm.
+
+    """
+    return float(7400 * (loss * 1e-3 / (centre_distance * face_width * 1e6)) ** 0.72 * supply_factor / 1.2)

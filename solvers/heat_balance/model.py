@@ -1,0 +1,325 @@
+"""The heat balance: network of what a user gives, calibration, equilibrium, band."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+from math import pi
+
+import numpy as np
+
+from solvers.arrays import FloatArray
+from solvers.errors import NoSolution
+from solvers.heat_balance.band import flank_band, flank_cases
+from solvers.heat_balance.bearings import Journal
+from solvers.heat_balance.calibration import drain_rise, oil_flows, with_drain, with_rotor
+from solvers.heat_balance.fling_off import turning_teeth
+from solvers.heat_balance.inputs import Cooling
+from solvers.heat_balance.losses import MeshHeat, flow_by_rise, ts_6336_22_bulk_rise, windage
+from solvers.heat_balance.network import BODIES, FLANKS, MIST, CasingWalls, CooledGear, Network, Spray
+from solvers.heat_balance.notices import heat_notices, unusual_flow
+from solvers.heat_balance.oil import CoolingOil
+from solvers.heat_balance.results import (
+    Balance,
+    BearingHeat,
+    BulkEstimates,
+    GearTemperatures,
+    Heat,
+    HeatBand,
+    HeatFlow,
+    HeatLosses,
+)
+from solvers.heat_balance.solution import Equilibrium, equilibrium
+from solvers.notices import Notice
+
+SPRAY_FACTOR = 1.2  # X_S of ISO/TS 6336-22
+
+
+@dataclass(frozen=True, slots=True)
+class GearGeometry:
+    """One gear of the pair: lengths [m], speed [rad/s] whatever its sign, conductivity [W/(m K)].
+
+    `shaft_radii` are those of the shaft beside both faces [m], 0 where there is none.
+    """
+
+    teeth: int
+    face_width: float
+    module: float
+    reference_radius: float
+    tip_radius: float
+    speed: float
+    conductivity: float = 46.0
+    shaft_radii: tuple[float, float] = (0.0, 0.0)
+
+    @property
+    def face_area(self) -> float:
+        """Area of both faces that the shaft leaves free [m^2]."""
+        return pi * sum(max(self.tip_radius**2 - radius**2, 0.0) for radius in self.shaft_radii)
+
+
+@dataclass(frozen=True, slots=True)
+class HeatBalanceInputs:
+    """What the heat balance of a pair or of a unit depends on.
+
+    `pumping` of pinion and wheel [W]; None: half of `cooling.pumping` each. `couplings` [W] are reported only.
+    `centre_distance` [m] is for the estimate of ISO/TS 6336-22, `iso_tr_13989_bulk` [K] is reported beside it.
+    """
+
+    cooling: Cooling
+    oil: CoolingOil
+    gears: tuple[GearGeometry, GearGeometry]
+    mesh: MeshHeat
+    pumping: tuple[float, float] | None = None
+    journals: tuple[Journal, ...] = field(default=())
+    couplings: float = 0.0
+    centre_distance: float | None = None
+    iso_tr_13989_bulk: float | None = None
+
+
+def solve(inputs: HeatBalanceInputs) -> Heat:
+    """Solve the heat balance of a gear pair or gear unit.
+
+    Parameters
+    ----------
+    inputs : HeatBalanceInputs
+        Geometry, losses, oil and what the user says of the cooling.
+
+    Returns
+    -------
+    Heat
+        Temperatures of all nodes, flows of heat, losses, and the band.
+
+    Raises
+    ------
+    InvalidInput
+        `exclusive` or `measured_unreachable` for measured temperatures.
+    NoSolution
+        `heat_balance`, `thermal_runaway`, or what a bearing raises.
+
+    """
+    cooling = inputs.cooling
+    cooling.check()
+    network = calibrated(network_of(inputs), cooling)
+    state = equilibrium(network)
+    cases, unsolved = _cases(network, cooling, state)
+    bands = flank_band(cases, cooling) if len(cases) > 1 else None
+    return Heat(
+        pinion=_gear(network, 0, state.rises),
+        wheel=_gear(network, 1, state.rises),
+        mist=network.oil.inlet + float(state.rises[MIST]),
+        drain=network.oil.inlet + drain_rise(network, state.rises),
+        casing=network.oil.inlet + float(state.rises[-1]) if network.casing else None,
+        gear_flow=network.spray.flow,
+        total_flow=network.spray.flow + float(oil_flows(network, state.rises).sum()),
+        wetting_share=network.spray.wetting_share,
+        friction_to_pinion=network.mesh.share_to_pinion,
+        bearings=tuple(_bearings(network, state.rises)),
+        flows=tuple(_flows(network, state.rises)),
+        losses=_losses(network, state.rises, inputs.couplings),
+        balance=_balance(network, state.rises),
+        estimates=_estimates(inputs),
+        band=HeatBand(*bands) if bands else None,
+        wheel_deviation=_deviation(network, cooling, state.rises),
+        flank_cases=cases,
+        warnings=(*heat_notices(network, state.rises, cooling), *unsolved),
+    )
+
+
+def network_of(inputs: HeatBalanceInputs) -> Network:
+    """Build the network of the nominal case, before any calibration.
+
+    Parameters
+    ----------
+    inputs : HeatBalanceInputs
+        Geometry, losses, oil and what the user says of the cooling.
+
+    Returns
+    -------
+    Network
+        Nodes and flows of heat.
+
+    """
+    cooling, oil = inputs.cooling, inputs.oil
+    pumping = (cooling.pumping / 2, cooling.pumping / 2) if inputs.pumping is None else inputs.pumping
+    velocity = inputs.gears[0].speed * inputs.gears[0].reference_radius
+    drag = cooling.windage
+    if drag is None:
+        drag = sum(
+            windage(velocity, 2 * one.reference_radius, one.face_width, one.module, one.speed) for one in inputs.gears
+        )
+    flow, jet = cooling.gear_flow, cooling.jet_velocity()
+    if flow is None:
+        losses = inputs.mesh.power + sum(pumping) + drag
+        flow = flow_by_rise(oil, losses, cooling.flow_rise, cooling.wetting, velocity, jet)
+    shares = (cooling.flow_to_pinion, cooling.wetting, cooling.rewetting, cooling.factor)
+    walls = cooling.casing
+    return Network(
+        oil=oil,
+        gears=(_cooled(inputs.gears[0], pumping[0]), _cooled(inputs.gears[1], pumping[1])),
+        mesh=inputs.mesh,
+        spray=Spray(flow, velocity, jet, *shares),
+        windage=drag,
+        other=cooling.other or 0.0,
+        pumping_to_teeth=cooling.pumping_to_teeth,
+        mist_convection_factor=cooling.mist_convection_factor,
+        journals=inputs.journals,
+        bearing_film_share=cooling.bearing_film_share,
+        casing=CasingWalls(walls.area, walls.inside, walls.outside, walls.ambient) if walls.area else None,
+    )
+
+
+def calibrated(network: Network, cooling: Cooling) -> Network:
+    """Return the network that meets what was measured: one gear, the pinion if both are, and the drain.
+
+    Parameters
+    ----------
+    network : Network
+        The network of the nominal case.
+    cooling : Cooling
+        What the user says of the cooling.
+
+    Returns
+    -------
+    Network
+        With a fitted wetting share and fitted other losses, where these are measured.
+
+    """
+    measured = cooling.measured
+    if measured.rotors:
+        node, temperature = next(iter(measured.rotors.items()))
+        return with_rotor(network, node, temperature, measured.drain)
+    return network if measured.drain is None else with_drain(network, measured.drain)
+
+
+def _cooled(gear: GearGeometry, pumping: float) -> CooledGear:
+    return CooledGear(
+        teeth=gear.teeth,
+        face_width=gear.face_width,
+        module=gear.module,
+        tip_radius=gear.tip_radius,
+        flanks=turning_teeth(gear.teeth, gear.face_width, gear.module, gear.reference_radius, gear.speed),
+        face_area=gear.face_area,
+        conductivity=gear.conductivity,
+        pumping=pumping,
+    )
+
+
+def _cases(
+    network: Network, cooling: Cooling, state: Equilibrium
+) -> tuple[tuple[tuple[float, float], ...], tuple[Notice, ...]]:
+    """Return the flanks over the band, or of the nominal case alone with the reason."""
+    inlet = network.oil.inlet
+    nominal = ((inlet + float(state.rises[FLANKS[0]]), inlet + float(state.rises[FLANKS[1]])),)
+    if not cooling.band:
+        return nominal, ()
+    try:
+        return flank_cases(network, cooling, state.rises), ()
+    except NoSolution as failure:
+        message = f"there is no band, for with little oil on the flanks {failure.message}"
+        return nominal, (Notice("band_unsolved", message, "cooling.wetting_share"),)
+
+
+def _gear(network: Network, gear: int, rises: FloatArray) -> GearTemperatures:
+    cooling, flank = network.cooling(gear, rises), FLANKS[gear]
+    friction = [
+        flow.power for flow in network.flows(rises) if flow.target == flank and flow.carrier == "friction of the mesh"
+    ]
+    return GearTemperatures(
+        flank=network.oil.inlet + float(rises[flank]),
+        body=network.oil.inlet + float(rises[BODIES[gear]]),
+        friction=sum(friction),
+        oil_conductance=cooling.conductance,
+        flooded_conductance=cooling.flooded,
+        film=cooling.film,
+        turn_film=cooling.turn_film,
+        oil_limited=cooling.limited,
+    )
+
+
+def _bearings(network: Network, rises: FloatArray) -> Iterator[BearingHeat]:
+    for journal, rise in zip(network.journals, rises[MIST + 1 :], strict=False):
+        film = network.film_temperature(float(rise))
+        power, flow = journal.loss_and_flow(network.oil.viscosity(film))
+        yield BearingHeat(network.oil.inlet + float(rise), film, flow, power)
+
+
+def _flows(network: Network, rises: FloatArray) -> Iterator[HeatFlow]:
+    """Every flow of heat that is not nothing."""
+    for flow in network.flows(rises):
+        if flow.power != 0.0:
+            yield HeatFlow(network.places[flow.origin], network.places[flow.target], flow.carrier, flow.power)
+
+
+def _losses(network: Network, rises: FloatArray, couplings: float) -> HeatLosses:
+    powers: dict[str, float] = {}
+    for flow in network.flows(rises):
+        powers[flow.carrier] = powers.get(flow.carrier, 0.0) + flow.power
+    parts = {
+        "mesh": powers["friction of the mesh"],
+        "pumping": powers["pumped gas"],
+        "oil_acceleration": powers["oil brought to speed"],
+        "windage": network.windage,
+        "bearings": powers.get("friction of the bearing", 0.0),
+        "couplings": couplings,
+        "other": network.other,
+    }
+    return HeatLosses(**parts, total=sum(parts.values()))
+
+
+def _balance(network: Network, rises: FloatArray) -> Balance:
+    oil, ambient, source = network.gains(network.flows(rises))[network.size :]
+    supplied, removed = -float(source), float(oil + ambient)
+    return Balance(supplied, removed, (supplied - removed) / supplied if supplied else 0.0)
+
+
+def _estimates(inputs: HeatBalanceInputs) -> BulkEstimates:
+    bulk = None
+    if inputs.centre_distance is not None:
+        width = inputs.gears[0].face_width
+        bulk = inputs.oil.inlet + ts_6336_22_bulk_rise(inputs.mesh.power, inputs.centre_distance, width, SPRAY_FACTOR)
+    return BulkEstimates(inputs.iso_tr_13989_bulk, bulk)
+
+
+def _deviation(network: Network, cooling: Cooling, rises: FloatArray) -> float | None:
+    """Return calculated less measured temperature of the wheel [K], where the share was fitted to the pinion."""
+    rotors = list(cooling.measured.rotors.items())
+    if len(rotors) < 2:
+        return None
+    node, temperature = rotors[1]
+    return network.oil.inlet + float(rises[network.nodes.index(node)]) - temperature
+
+
+def backlash_loss(
+    heat: Heat, working_radii: tuple[float, float], working_pressure_angle: float, expansion: float
+) -> Heat:
+    """Add the backlash that the gears lose as they are warmer than the casing.
+
+    Parameters
+    ----------
+    heat : Heat
+        Result of `solve`.
+    working_radii : tuple of float
+        Working pitch radii of pinion and wheel [m].
+    working_pressure_angle : float
+        Working transverse pressure angle [rad].
+    expansion : float
+        Thermal expansion of the gears and of the casing [1/K].
+
+    Returns
+    -------
+    Heat
+        With the loss [m], None without a casing.
+
+    Notes
+    -----
+    Eq. H22: 2 tan(alpha_wt) alpha_L sum r_wi (B_i - C).
+
+    """
+    if heat.casing is None:
+        return heat
+    rises = np.array([heat.pinion.body, heat.wheel.body]) - heat.casing
+    loss = 2 * np.tan(working_pressure_angle) * expansion * np.dot(working_radii, rises)
+    return replace(heat, backlash_loss=float(loss))
+
+
+def unusual_values(inputs: HeatBalanceInputs, heat: Heat) -> Iterator[Notice]:
+    """Tell of unusual values of the inputs."""
+    return unusual_flow(inputs.cooling.gear_flow, heat, inputs.oil)

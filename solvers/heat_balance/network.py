@@ -1,0 +1,245 @@
+"""The network of a gear pair or gear unit: its nodes, and every flow of heat between them.
+
+Nodes: flank and body of each gear, the mist, one for each plain bearing (the oil that leaves it), and the casing if
+there is one. A flow is booked once, from one place to another, so heat that is supplied is heat that is removed.
+Temperatures are rises over the temperature at which the oil is supplied [K].
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from math import pi
+from typing import NamedTuple
+
+import numpy as np
+
+from solvers.arrays import FloatArray
+from solvers.heat_balance.bearings import Journal
+from solvers.heat_balance.conduction import tooth_conductance
+from solvers.heat_balance.convection import RECOVERY, face_convection, recovery_rise, rim_convection
+from solvers.heat_balance.fling_off import FlingOff, TurningTeeth, fling_off
+from solvers.heat_balance.losses import MeshHeat, acceleration_power, impact_rise
+from solvers.heat_balance.oil import CoolingOil
+
+FLANKS, BODIES, MIST = (0, 2), (1, 3), 4
+GEAR_NODES = ("pinion_flank", "pinion_body", "wheel_flank", "wheel_body", "mist")
+
+
+@dataclass(frozen=True)
+class CooledGear:
+    """A gear in the network: its teeth, lengths [m], conductivity [W/(m K)] and the heat of the gas pumped [W].
+
+    `face_area` is that of both faces as far as the shaft leaves them free [m^2].
+    """
+
+    teeth: int
+    face_width: float
+    module: float
+    tip_radius: float
+    flanks: TurningTeeth
+    face_area: float
+    conductivity: float = 46.0
+    pumping: float = 0.0
+
+    @cached_property
+    def to_body(self) -> float:
+        """Conductance from the loaded flanks to the middle of the teeth [W/K]."""
+        return tooth_conductance(self.teeth, self.face_width, self.module, self.flanks.height, self.conductivity)
+
+    @cached_property
+    def rim(self) -> float:
+        """Conductance from the rim to air, half of it from the flanks and half from the body [W/K]."""
+        area = 2 * pi * self.tip_radius * self.face_width
+        return area * rim_convection(self.flanks.speed, self.tip_radius)
+
+    @cached_property
+    def faces(self) -> float:
+        """Conductance from both faces to air [W/K]."""
+        return self.face_area * face_convection(self.flanks.speed, self.tip_radius)
+
+
+@dataclass(frozen=True, slots=True)
+class Spray:
+    """Oil on its way to the teeth: flow [m^3/s], shares, the factor on its cooling, speeds of pitch line and jet [m/s].
+
+    The jet's velocity is positive into the mesh and negative for jets against the teeth that leave it.
+    """
+
+    flow: float
+    velocity: float
+    jet: float
+    flow_to_pinion: float = 0.5
+    wetting_share: float = 0.5
+    rewetting_share: float = 0.0
+    fling_off_factor: float = 1.0
+
+    def wetting(self, gear: int) -> float:
+        """Return the flow that hits the teeth of gear 0 or 1 [m^3/s]."""
+        share = self.flow_to_pinion if gear == 0 else 1 - self.flow_to_pinion
+        return self.wetting_share * self.flow * share
+
+
+@dataclass(frozen=True, slots=True)
+class CasingWalls:
+    """Walls of the casing: area [m^2], heat transfer inside and outside [W/(m^2 K)], ambient temperature [K]."""
+
+    area: float
+    inside: float
+    outside: float
+    ambient: float
+
+
+class Flow(NamedTuple):
+    """Heat [W] that flows from one place of the network to another, places by their index, and what carries it."""
+
+    origin: int
+    target: int
+    power: float
+    carrier: str
+
+
+@dataclass(frozen=True)
+class Network:
+    """A gear pair or gear unit with its losses [W]; `windage` and `other` of both gears heat the mist."""
+
+    oil: CoolingOil
+    gears: tuple[CooledGear, CooledGear]
+    mesh: MeshHeat
+    spray: Spray
+    windage: float = 0.0
+    other: float = 0.0
+    pumping_to_teeth: float = 0.1
+    mist_convection_factor: float = 3.0
+    journals: tuple[Journal, ...] = ()
+    bearing_film_share: float = 0.8
+    casing: CasingWalls | None = None
+    recovery: float = RECOVERY
+
+    @cached_property
+    def nodes(self) -> tuple[str, ...]:
+        """Names of the nodes, in the order of the temperatures."""
+        bearings = [f"bearing_{number}" for number in range(1, len(self.journals) + 1)]
+        return (*GEAR_NODES, *bearings, *(["casing"] if self.casing else []))
+
+    @cached_property
+    def places(self) -> tuple[str, ...]:
+        """The nodes, then the oil that leaves, the surroundings, and where losses come from."""
+        return (*self.nodes, "oil", "ambient", "source")
+
+    @property
+    def size(self) -> int:
+        """Number of nodes."""
+        return len(self.nodes)
+
+    @property
+    def coldest(self) -> float:
+        """The lowest temperature that is given [K]."""
+        return min(self.oil.inlet, self.casing.ambient) if self.casing else self.oil.inlet
+
+    def cooling(self, gear: int, rises: FloatArray) -> FlingOff:
+        """Return the fling-off cooling of gear 0 or 1."""
+        flank = self.oil.inlet + float(rises[FLANKS[gear]])
+        return fling_off(
+            self.oil, self.gears[gear].flanks, self.spray.wetting(gear), self.spray.fling_off_factor, flank
+        )
+
+    def flows(self, rises: FloatArray) -> list[Flow]:
+        """List every flow of heat in the network.
+
+        Parameters
+        ----------
+        rises : FloatArray
+            Rise of each node over the supplied oil [K].
+
+        Returns
+        -------
+        list of Flow
+            The flows of section 1 of the chapter on the heat balance.
+
+        Notes
+        -----
+        Eq. H17.
+
+        """
+        mist, oil, source = float(rises[MIST]), self.size, self.size + 2
+        flows = [
+            Flow(source, MIST, self.windage, "windage"),
+            Flow(source, MIST, self.other, "other losses"),
+            Flow(MIST, oil, self.oil.heat_capacity * self.spray.flow * mist, "drain"),
+        ]
+        for gear in (0, 1):
+            flows.extend(self._sources(gear, rises))
+            flows.extend(self._oil_cooling(gear, rises))
+            flows.extend(self._mist_convection(gear, rises))
+        for number, journal in enumerate(self.journals):
+            flows.extend(self._bearing(journal, MIST + 1 + number, rises))
+        if self.casing:
+            flows.extend(self._casing(self.casing, rises))
+        return flows
+
+    def residual(self, rises: FloatArray) -> FloatArray:
+        """Return the heat that each node gains [W]; zero in equilibrium."""
+        return self.gains(self.flows(rises))[: self.size]
+
+    def gains(self, flows: list[Flow]) -> FloatArray:
+        """Return the heat that each place of the network gains [W]; they add up to nothing."""
+        powers, places = [flow.power for flow in flows], len(self.places)
+        incoming = np.bincount([flow.target for flow in flows], powers, places)
+        return np.asarray(incoming - np.bincount([flow.origin for flow in flows], powers, places))
+
+    def _sources(self, gear: int, rises: FloatArray) -> Iterator[Flow]:
+        """Friction, pumped gas and the oil brought to speed; the body's half of the pumped heat goes to the body."""
+        source, flank, body = self.size + 2, FLANKS[gear], BODIES[gear]
+        flanks = self.oil.inlet + float(rises[FLANKS[0]] + rises[FLANKS[1]]) / 2
+        share = self.mesh.share_to_pinion if gear == 0 else 1 - self.mesh.share_to_pinion
+        pumping, to_teeth = self.gears[gear].pumping, self.pumping_to_teeth / 2
+        thrown = acceleration_power(self.oil, self.spray.wetting(gear), self.spray.velocity, self.spray.jet)
+        yield Flow(source, flank, share * self.mesh.at(self.oil, flanks), "friction of the mesh")
+        yield Flow(source, flank, to_teeth * pumping, "pumped gas")
+        yield Flow(source, body, to_teeth * pumping, "pumped gas")
+        yield Flow(source, MIST, (1 - 2 * to_teeth) * pumping, "pumped gas")
+        yield Flow(source, MIST, thrown, "oil brought to speed")
+
+    def _oil_cooling(self, gear: int, rises: FloatArray) -> Iterator[Flow]:
+        """Flank and body to the oil, flank to body through the tooth, rewetting out of the mist."""
+        flank, body, mist = float(rises[FLANKS[gear]]), float(rises[BODIES[gear]]), float(rises[MIST])
+        cooling, tooth = self.cooling(gear, rises), self.gears[gear].to_body
+        side = cooling.conductance / 2
+        after_impact = impact_rise(self.oil, self.spray.velocity, self.spray.jet)
+        rewetting = self.spray.rewetting_share * (cooling.flooded - cooling.conductance) / 2
+        through_tooth = side * tooth / (side + tooth)
+        yield Flow(FLANKS[gear], MIST, side * (flank - after_impact), "oil on the flanks")
+        yield Flow(BODIES[gear], MIST, through_tooth * (body - after_impact), "oil on the unloaded flanks")
+        yield Flow(FLANKS[gear], BODIES[gear], tooth * (flank - body), "conduction in the teeth")
+        yield Flow(FLANKS[gear], MIST, rewetting * (flank - mist), "oil out of the mist")
+        yield Flow(BODIES[gear], MIST, rewetting * (body - mist), "oil out of the mist")
+
+    def _mist_convection(self, gear: int, rises: FloatArray) -> Iterator[Flow]:
+        """Mist that the friction at the tips warms to the rim and to the faces of a gear."""
+        flank, body, mist = float(rises[FLANKS[gear]]), float(rises[BODIES[gear]]), float(rises[MIST])
+        wheel = self.gears[gear]
+        rise = recovery_rise(wheel.flanks.speed, wheel.tip_radius, self.recovery)
+        rim, faces = self.mist_convection_factor * wheel.rim / 2, self.mist_convection_factor * wheel.faces
+        yield Flow(MIST, FLANKS[gear], rim * (mist + rise - flank), "mist on the rim")
+        yield Flow(MIST, BODIES[gear], rim * (mist + rise - body), "mist on the rim")
+        yield Flow(MIST, BODIES[gear], faces * (mist + rise / 2 - body), "mist on the faces")
+
+    def _bearing(self, journal: Journal, node: int, rises: FloatArray) -> Iterator[Flow]:
+        """Friction of a bearing, the oil that leaves it, the shaft that leads to it."""
+        outlet = float(rises[node])
+        power, flow = journal.loss_and_flow(self.oil.viscosity(self.film_temperature(outlet)))
+        body = BODIES[journal.gear]
+        yield Flow(self.size + 2, node, power, "friction of the bearing")
+        yield Flow(node, self.size, self.oil.heat_capacity * flow * outlet, "oil of the bearing")
+        yield Flow(body, node, journal.shaft_conductance * (float(rises[body]) - outlet), "shaft")
+
+    def film_temperature(self, outlet: float) -> float:
+        """Return the temperature of a bearing's film [K] by the rise of the oil that leaves it [K]."""
+        return self.oil.inlet + self.bearing_film_share * outlet
+
+    def _casing(self, walls: CasingWalls, rises: FloatArray) -> Iterator[Flow]:
+        """Mist to the casing, casing to the surroundings."""
+        node, ambient = self.size - 1, walls.ambient - self.oil.inlet
+        wall = float(rises[node])
+        yield Flow(MIST, node, walls.area * walls.inside * (float(rises[MIST]) - wall), "mist on the casing")
+        yield Flow(node, self.size + 1, walls.area * walls.outside * (wall - ambient), "surroundings")

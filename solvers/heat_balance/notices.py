@@ -1,0 +1,75 @@
+"""Warnings about the validity of a heat balance."""
+
+from collections.abc import Iterator
+from math import sqrt
+
+from solvers.arrays import FloatArray
+from solvers.heat_balance.inputs import Cooling
+from solvers.heat_balance.network import MIST, Network
+from solvers.heat_balance.oil import CoolingOil
+from solvers.heat_balance.results import Heat
+from solvers.notices import Notice
+from solvers.plausibility import unusual_value
+
+SLOW = 40.0  # m/s; below it the jets' oil is not all that wets the flanks
+TURBULENT = 41.0  # times sqrt(R/c): Reynolds number at which vortices begin in a plain bearing (Taylor)
+KNOWN_WITHIN = 15.0  # K, chosen
+USUAL_RISE = (2.0, 60.0)  # K, chosen: of the oil by the losses of the gears
+
+
+def heat_notices(network: Network, rises: FloatArray, cooling: Cooling) -> Iterator[Notice]:
+    """Speed, oil, films and measured temperatures for which the balance is doubtful."""
+    if network.spray.velocity < SLOW:
+        message = (
+            f"the heat balance counts the oil of the jets only; at {network.spray.velocity:.4g} m/s, below {SLOW:g}, "
+            "oil that runs down and is picked up again cools too: with little oil the flanks are cooler than stated"
+        )
+        yield Notice("low_speed", message, "cooling")
+    yield from _oil_notices(network, rises)
+    if network.other < 0.0:
+        message = (
+            f"the measured drain leaves {network.other:.4g} W for other losses; the losses are overestimated, or the "
+            "oil flow underestimated"
+        )
+        yield Notice("losses_overestimated", message, "cooling.measured.drain")
+    if not cooling.measured.rotors:
+        message = (
+            "no heat balance was compared with measurements above 50 m/s; the flanks are known to about "
+            f"±{KNOWN_WITHIN:g} K, differences between gears, oils and oil flows better: one measured temperature of "
+            "a gear narrows this"
+        )
+        yield Notice("not_validated", message, "cooling.measured", rank="note")
+
+
+def _oil_notices(network: Network, rises: FloatArray) -> Iterator[Notice]:
+    """Flanks that use all heat capacity of their oil, bearings with turbulent films."""
+    for gear, name in enumerate(("pinion", "wheel")):
+        if network.cooling(gear, rises).limited:
+            message = (
+                f"all oil on the {name} reaches the temperature of its flanks; the cooling is limited by the oil flow"
+            )
+            yield Notice("oil_limited", message, "cooling.gear_flow", rank="note")
+    for number, journal in enumerate(network.journals):
+        viscosity = network.oil.viscosity(network.film_temperature(float(rises[MIST + 1 + number])))
+        reynolds = network.oil.density * journal.surface_speed * journal.clearance / viscosity
+        limit = TURBULENT * sqrt(journal.diameter / 2 / journal.clearance)
+        if reynolds > limit:
+            message = (
+                f"the film of bearing {number + 1} is turbulent (Reynolds number {reynolds:.3g}, beyond {limit:.3g}); "
+                "its friction is higher than stated"
+            )
+            yield Notice("turbulent_film", message, "cooling")
+
+
+def unusual_flow(gear_flow: float | None, heat: Heat, oil: CoolingOil) -> Iterator[Notice]:
+    """Tell of a given oil flow [m^3/s] that the losses warm by very little or very much."""
+    if gear_flow is None:
+        return
+    losses = heat.losses.mesh + heat.losses.pumping + heat.losses.windage + heat.losses.other
+    rise, (least, most) = losses / (oil.heat_capacity * gear_flow), USUAL_RISE
+    if rise < least:
+        message = f"the losses warm the oil of the gears by {rise:.3g} K only; is the oil flow in l/min?"
+        yield unusual_value("cooling.gear_flow", message)
+    elif rise > most:
+        message = f"the losses warm the oil of the gears by {rise:.4g} K; is the oil flow in l/min?"
+        yield unusual_value("cooling.gear_flow", message)

@@ -1,0 +1,57 @@
+"""The oil that cools: what the heat balance needs to know of it, at the temperature at which it is supplied."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from solvers.lubricants import Lubricant
+from solvers.oils import OilSheet, lubricant_at
+
+
+@dataclass(frozen=True, slots=True)
+class CoolingOil:
+    """An oil with its supply temperature [K]; density, heat and conductivity (SI) are those at that temperature.
+
+    `viscosity` gives the viscosity [Pa s] at a temperature [K].
+    """
+
+    inlet: float
+    viscosity: Callable[[float], float]
+    density: float
+    specific_heat: float
+    thermal_conductivity: float
+
+    @property
+    def heat_capacity(self) -> float:
+        """Heat capacity per volume [J/(m^3 K)]."""
+        return self.density * self.specific_heat
+
+    @property
+    def diffusivity(self) -> float:
+        """Thermal diffusivity [m^2/s]."""
+        return self.thermal_conductivity / self.heat_capacity
+
+
+def cooling_oil(oil: OilSheet | Lubricant, inlet: float) -> CoolingOil:
+    """Return an oil of the other models as the heat balance takes it.
+
+    Parameters
+    ----------
+    oil : OilSheet or Lubricant
+        The oil, by its data sheet or by its viscosity at one temperature.
+    inlet : float
+        Temperature at which the oil is supplied [K].
+
+    Returns
+    -------
+    CoolingOil
+        Its density at the supply temperature and its viscosity at any temperature without pressure.
+
+    """
+    supplied = lubricant_at(oil, inlet)
+    return CoolingOil(
+        inlet=inlet,
+        viscosity=oil.viscosity if isinstance(oil, OilSheet) else lambda kelvin: oil.viscosity_at(0.0, kelvin),
+        density=supplied.density_at(0.0, inlet),
+        specific_heat=supplied.specific_heat,
+        thermal_conductivity=supplied.thermal_conductivity,
+    )

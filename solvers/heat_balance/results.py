@@ -1,0 +1,125 @@
+"""Results of a heat balance; SI units."""
+
+from solvers.notices import Notice
+from solvers.quantity import quantity, record
+from solvers.sources import OWN
+
+Range = tuple[float, float]
+
+
+@record
+class GearTemperatures:
+    """A gear: its temperatures [K], its heat [W], how its film cools, thicknesses [m]."""
+
+    flank: float = quantity("flank temperature", "θ_F", OWN, unit="c", text="loaded flank")
+    body: float = quantity("body temperature", "θ_B", OWN, unit="c", text="unloaded flank, rim and shaft")
+    friction: float = quantity("frictional heat of the gear", "P_F", unit="w")
+    oil_conductance: float = quantity(
+        "cooling by the oil", "G", OWN, unit="w_per_k", text="conductance of the film on both flanks"
+    )
+    flooded_conductance: float = quantity(
+        "cooling by flooded flanks", "G_fl", OWN, unit="w_per_k", text="the same of a film that more oil does not help"
+    )
+    film: float = quantity("film laid in a turn", "h_0", OWN, unit="um")
+    turn_film: float = quantity(
+        "film that a turn can use", "h_turn", OWN, unit="um", text="carries 0.9 of the flooded heat"
+    )
+    oil_limited: bool = quantity("cooling limited by the oil", text="all oil reaches the temperature of the flank")
+
+
+@record
+class BearingHeat:
+    """A plain bearing in the balance: temperatures [K], oil [m^3/s], friction [W]."""
+
+    outlet: float = quantity("oil that leaves the bearing", "θ_J", unit="c")
+    film: float = quantity("film temperature of the bearing", "θ_f", unit="c")
+    oil_flow: float = quantity("oil flow of the bearing", "Q_B", unit="l_per_min")
+    friction_power: float = quantity("friction power of the bearing", "P_B", unit="w")
+
+
+@record
+class HeatFlow:
+    """A flow of heat [W] from one node of the network to another."""
+
+    from_node: str = quantity("origin of the heat", text="node of the network, or source")
+    to_node: str = quantity("target of the heat", text="node of the network, or oil, ambient")
+    carrier: str = quantity("what carries the heat")
+    power: float = quantity("heat flow", "P", unit="w")
+
+
+@record
+class HeatLosses:
+    """Losses that the oil and the surroundings take up [W]."""
+
+    mesh: float = quantity("mesh loss", "P_mesh", unit="w", text="at the temperature of the flanks")
+    pumping: float = quantity("pumping loss", "P_pump", unit="w")
+    oil_acceleration: float = quantity("acceleration of the oil", "P_acc", OWN, unit="w")
+    windage: float = quantity("windage", "P_wind", unit="w")
+    bearings: float = quantity("bearing losses", "P_B", unit="w")
+    couplings: float = quantity("coupling losses", "P_C", unit="w", text="outside of the balance")
+    other: float = quantity("other losses", "P_other", unit="w")
+    total: float = quantity("total loss", "P_V", unit="w")
+
+
+@record
+class Balance:
+    """Heat supplied and removed [W], and their difference over the heat supplied."""
+
+    supplied: float = quantity("heat supplied", unit="w")
+    removed: float = quantity("heat removed", unit="w")
+    error: float = quantity("error of the balance", text="difference over the heat supplied")
+
+
+@record
+class BulkEstimates:
+    """Bulk temperatures [K] by rules of standards, for comparison."""
+
+    iso_tr_13989_bulk: float | None = quantity("bulk by ISO/TR 13989-1", "θ_M", unit="c", default=None)
+    iso_ts_6336_22_bulk: float | None = quantity("bulk by ISO/TS 6336-22", "θ_M", unit="c", default=None)
+
+
+@record
+class HeatBand:
+    """Least and greatest temperatures [K] if much or little oil reaches the flanks, and the safety with them."""
+
+    pinion_flank: Range = quantity("band of the pinion's flank", unit="c", index="low, high")
+    wheel_flank: Range = quantity("band of the wheel's flank", unit="c", index="low, high")
+    safety: Range | None = quantity("band of the safety", default=None, index="low, high")
+
+
+@record
+class Heat:
+    """Temperatures, losses and flows of heat of a gear pair or unit.
+
+    `flank_cases` are the flanks [K] at the well cooled end of the band, in the nominal case and at the poorly cooled
+    end, for a safety with its band.
+    """
+
+    pinion: GearTemperatures = quantity("pinion in the balance")
+    wheel: GearTemperatures = quantity("wheel in the balance")
+    mist: float = quantity("oil mist", "θ_mist", OWN, unit="c")
+    drain: float = quantity("drained oil", "θ_D", OWN, unit="c", text="all oil that leaves, mixed")
+    casing: float | None = quantity("casing temperature", "θ_C", unit="c")
+    gear_flow: float = quantity("oil flow to the gears in use", "Q_g", unit="l_per_min")
+    total_flow: float = quantity("oil flow of all parts", "Q", unit="l_per_min")
+    wetting_share: float = quantity("wetting share in use", "w", OWN)
+    friction_to_pinion: float = quantity("share of the friction for the pinion", "φ", OWN)
+    bearings: tuple[BearingHeat, ...] = quantity("bearings in the balance")
+    flows: tuple[HeatFlow, ...] = quantity("flows of heat", detail="curves")
+    losses: HeatLosses = quantity("losses in the balance")
+    balance: Balance = quantity("balance of heat")
+    estimates: BulkEstimates = quantity("estimates of the bulk")
+    band: HeatBand | None = quantity("band of the balance")
+    wheel_deviation: float | None = quantity(
+        "deviation of the wheel", unit="k", text="calculated less measured, where both gears are measured"
+    )
+    backlash_loss: float | None = quantity(
+        "loss of backlash by heat",
+        "Δj",
+        OWN,
+        unit="um",
+        default=None,
+        text="gears against the casing; null without its temperature",
+    )
+    flank_cases: tuple[tuple[float, float], ...] = ()
+    warnings: tuple[Notice, ...] = ()

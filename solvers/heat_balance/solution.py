@@ -1,0 +1,123 @@
+"""Equilibrium of the network: Newton's method with a Jacobian by differences."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from solvers.arrays import FloatArray
+from solvers.errors import NoSolution
+from solvers.heat_balance.network import Network
+
+TOLERANCE = 1e-5  # K; of the last full step of Newton, which leaves about its square
+DIFFERENCE = 1e-4  # K; step of the Jacobian's differences
+MOST_STEPS, MOST_HALVINGS = 50, 30
+LARGEST_STEP = 100.0  # K
+COLDEST = 0.75  # of the lowest temperature given [K]; below it the laws of viscosity do not hold
+HOTTEST = 1200.0  # K over the supply temperature; steel melts
+
+
+@dataclass(frozen=True, slots=True)
+class Equilibrium:
+    """Rises of the nodes over the supplied oil [K], and what it took: Newton's steps, the residual [W]."""
+
+    rises: FloatArray
+    iterations: int
+    residual: float
+
+
+def equilibrium(network: Network, start: FloatArray | None = None) -> Equilibrium:
+    """Find the temperatures at which every node of the network gains as much heat as it loses.
+
+    Parameters
+    ----------
+    network : Network
+        The network.
+    start : FloatArray, optional
+        Rises over the supplied oil to start from [K].
+
+    Returns
+    -------
+    Equilibrium
+        The rises of the nodes over the supplied oil [K].
+
+    Raises
+    ------
+    NoSolution
+        `heat_balance` if the iteration does not converge; `thermal_runaway` if the temperatures would run away from
+        the equilibrium.
+
+    Notes
+    -----
+    Eq. H18. Minus the Jacobian -J is an M-matrix: no element beside its diagonal is positive, and every node warms if
+    every node gains a little heat more. Then the equilibrium is stable. Where all row sums of -J are positive it is the
+    only one; hot, starved flanks can violate that and are not refused for it.
+
+    """
+    rises = np.zeros(network.size) if start is None else np.array(start, dtype=float)
+    residual = network.residual(rises)
+    lowest = COLDEST * network.coldest - network.oil.inlet
+    for iteration in range(1, MOST_STEPS + 1):
+        slopes = jacobian(network, rises, residual)
+        step = np.linalg.solve(slopes, -residual)
+        largest = float(np.abs(step).max())
+        step *= min(1.0, LARGEST_STEP / largest) if largest > 0.0 else 1.0
+        step = np.clip(rises + step, lowest, HOTTEST) - rises
+        rises, residual, taken = _descend(network, step, rises, residual)
+        if taken == 1.0 and largest <= TOLERANCE:
+            _check_stability(network, slopes)
+            return Equilibrium(rises, iteration, float(np.abs(residual).max()))
+    raise _unsolved(residual)
+
+
+def jacobian(network: Network, rises: FloatArray, residual: FloatArray) -> FloatArray:
+    """Return the derivatives of the residual by the temperatures [W/K], by differences."""
+    columns = []
+    for node in range(network.size):
+        moved = rises.copy()
+        moved[node] += DIFFERENCE
+        columns.append((network.residual(moved) - residual) / DIFFERENCE)
+    return np.array(columns).T
+
+
+def _descend(
+    network: Network, step: FloatArray, rises: FloatArray, residual: FloatArray
+) -> tuple[FloatArray, FloatArray, float]:
+    """Take the step, halved until the residual falls; return rises, residual and the share of the step taken."""
+    size, share = float(np.abs(residual).max()), 1.0
+    final = float(np.abs(step).max()) <= TOLERANCE
+    for _ in range(MOST_HALVINGS):
+        tried = rises + share * step
+        reached = _residual_where_defined(network, tried)
+        if reached is not None and (final or float(np.abs(reached).max()) < size):
+            return tried, reached, share
+        share /= 2
+    raise _unsolved(residual)
+
+
+def _residual_where_defined(network: Network, rises: FloatArray) -> FloatArray | None:
+    """Return the residual, None where a bearing cannot carry its load with oil that hot."""
+    try:
+        return network.residual(rises)
+    except NoSolution:
+        return None
+
+
+def _check_stability(network: Network, slopes: FloatArray) -> None:
+    """Raise NoSolution thermal_runaway unless every node warms if every node gains a watt more."""
+    response = np.linalg.solve(-slopes, np.ones(network.size))
+    if float(response.min()) <= 0.0:
+        node = network.nodes[int(np.argmin(response))]
+        message = (
+            f"the losses at '{node}' grow faster with temperature than the cooling; the temperatures run away: give "
+            "more oil or a larger wetting share"
+        )
+        raise NoSolution("thermal_runaway", message, {"response_k_per_w": float(response.min())})
+
+
+def _unsolved(residual: FloatArray) -> NoSolution:
+    largest = float(np.abs(residual).max())
+    message = (
+        f"the heat balance does not converge; it is left with {largest:.3g} W at a node: with less heat or more oil "
+        "there may be an equilibrium"
+    )
+    return NoSolution("heat_balance", message, {"residual_w": largest})

@@ -1,0 +1,127 @@
+"""Warm-up of a gear pair or unit: the network with the heat capacities of its nodes, over time.
+
+Losses are those of the running unit from the beginning; only the viscosity of the oil changes them.
+"""
+
+from typing import Any
+
+import numpy as np
+from scipy.integrate import solve_ivp
+
+from solvers.arrays import FloatArray, frozen
+from solvers.errors import NoSolution
+from solvers.heat_balance.capacities import Capacities
+from solvers.heat_balance.network import BODIES, Network
+from solvers.heat_balance.solution import equilibrium, jacobian
+from solvers.quantity import quantity, record
+
+LONGEST = 6.0  # time constants; what is left then is a four hundredth
+WARM = 0.95
+POINTS = 2000  # of the times in search of `WARM`
+SHOWN = 200
+
+
+@record
+class WarmUpCurves:
+    """Temperatures [K] over time [s]; columns of `temperature` are the nodes."""
+
+    time: FloatArray = quantity("time", "t", unit="s")
+    temperature: FloatArray = quantity("temperatures of the nodes", "θ", unit="c", axis=("time", "nodes"))
+    difference: FloatArray = quantity(
+        "pinion's body over the wheel's", "Δθ", unit="k", axis="time", text="decides backlash and alignment"
+    )
+
+
+@record
+class WarmUp:
+    """A warm-up: final temperatures [K], when each node has made 95 % of its way [s], the bodies' difference."""
+
+    nodes: tuple[str, ...] = quantity("nodes")
+    final: FloatArray = quantity("final temperatures", "θ_∞", unit="c", axis="nodes")
+    time_95: tuple[float | None, ...] = quantity(
+        "time to 95 %", "t_95", unit="s", index="nodes", text="null for a node that stays within 5 % or is not there"
+    )
+    greatest_difference: float = quantity("greatest difference of the bodies", "Δθ_max", unit="k")
+    greatest_difference_at: float = quantity("time of the greatest difference", unit="s")
+    curves: WarmUpCurves = quantity("over time", detail="curves")
+
+
+def warm_up(network: Network, capacities: Capacities, start: float, until: float | None = None) -> WarmUp:
+    """Compute how a gear pair or unit warms up.
+
+    Parameters
+    ----------
+    network : Network
+        The network, calibrated if a temperature was measured.
+    capacities : Capacities
+        Heat capacities of its nodes.
+    start : float
+        Temperature of everything at the beginning [K].
+    until : float, optional
+        End of the calculation [s]; six times the slowest time constant if not given.
+
+    Returns
+    -------
+    WarmUp
+        Temperatures over time, times to 95 % of the change, and the greatest difference of pinion and wheel.
+
+    Raises
+    ------
+    NoSolution
+        As `equilibrium` does; `warm_up` if the integration fails.
+
+    Notes
+    -----
+    Eq. H24: C dT/dt = residual of the network, by backward differentiation.
+
+    """
+    final, capacity = equilibrium(network).rises, capacities.of(network)
+    rates = jacobian(network, final, network.residual(final)) / capacity[:, None]
+    end = LONGEST / -float(np.linalg.eigvals(rates).real.max()) if until is None else until
+    begin = np.full(network.size, start - network.oil.inlet)
+    path = _integrated(network, capacity, begin, end)
+    times = np.concatenate([[0.0], np.geomspace(1e-5 * end, end, POINTS)])
+    rises = path(times)
+    difference = rises[BODIES[0]] - rises[BODIES[1]]
+    greatest = int(np.argmax(np.abs(difference)))
+    shown = np.linspace(0.0, end, SHOWN + 1)
+    drawn = path(shown)
+    return WarmUp(
+        nodes=network.nodes,
+        final=frozen(network.oil.inlet + final),
+        time_95=tuple(_time_95(times, row, to) for row, to in zip(rises, final, strict=True)),
+        greatest_difference=float(difference[greatest]),
+        greatest_difference_at=float(times[greatest]),
+        curves=WarmUpCurves(
+            time=frozen(shown),
+            temperature=frozen(network.oil.inlet + drawn.T),
+            difference=frozen(drawn[BODIES[0]] - drawn[BODIES[1]]),
+        ),
+    )
+
+
+def _integrated(network: Network, capacity: FloatArray, begin: FloatArray, end: float) -> Any:
+    """Return the rises as a function of time."""
+    solution = solve_ivp(
+        lambda _, rises: network.residual(rises) / capacity,
+        (0.0, end),
+        begin,
+        method="BDF",
+        dense_output=True,
+        rtol=1e-5,
+        atol=1e-4,
+    )
+    if not solution.success:
+        raise NoSolution("warm_up", f"the warm-up cannot be integrated: {solution.message}")
+    return solution.sol
+
+
+def _time_95(times: FloatArray, rises: FloatArray, final: float) -> float | None:
+    """Return the time after which a node stays within 5 % of its way; None if it never does, or has no way to go."""
+    left = np.abs(rises - final)
+    outside = np.flatnonzero(left > (1 - WARM) * left[0])
+    if outside.size == 0 or outside[-1] == times.size - 1:
+        return None
+    last = outside[-1]
+    share = (left[last] - (1 - WARM) * left[0]) / (left[last] - left[last + 1])
+    return float(times[last] + share * (times[last + 1] - times[last]))
