@@ -74,6 +74,7 @@ def flank_heat(inputs: DriveTrainInputs, mesh: LoadDistribution, thermal: Therma
             flank=_largest(on_flank) if defined else None,
             flank_at=place,
             contact_max=max((contact for contact in hottest[:2] if contact is not None), default=None),
+            friction_coefficient=inputs.mesh.distribution.friction_coefficient,
         ),
         safety=_safety(inputs, hottest, place),
         unsolved_points=unsolved,

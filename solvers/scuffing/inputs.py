@@ -451,7 +451,7 @@ class ScuffingInputs:
 
     An `oil` takes the place of the lubricant, as it is at the bulk temperature; with neither there are no film, contact
     temperature and safety. friction: "given" is the coefficient of the distribution,
-    "iso_tr_13989" the mean coefficient of that report, for Blok and the losses.
+    "iso_tr_13989" the mean coefficient of that report for Blok, and Schlenk's for the losses.
     lubrication: "thermal_ehl" solves the film under the local load (`film` is its model), "closed_form" leaves it at
     Blok's and Dowson and Higginson's formulas, which are there in either case.
     """
@@ -465,7 +465,7 @@ class ScuffingInputs:
         None,
         TR_13989,
         default="given",
-        text="the coefficient given, or the mean one of ISO/TR 13989-1, for Blok and the losses; the first"
+        text="the coefficient given, or by the oil: that of ISO/TR 13989-1 for Blok, Schlenk's for the losses; the first"
         " where a coefficient is given",
     )
     lubrication: Lubrication = quantity(

@@ -12,7 +12,7 @@ from solvers.gears.pair import PathOfContact
 from solvers.notices import Notice
 from solvers.quantity import computed, quantity, record
 from solvers.scuffing.load_balance import LoadBalance
-from solvers.sources import ISO_6336, XUE
+from solvers.sources import ISO_6336, SCHLENK, XUE
 
 
 @record
@@ -208,7 +208,10 @@ class FrictionLoss:
     """
 
     coefficient: float | None = quantity(
-        "mean coefficient of friction", "μ_m", text="the one in force; null if neither it nor an oil is given"
+        "mean coefficient of friction of the losses",
+        "μ_m",
+        SCHLENK,
+        text="given, or by the oil (Schlenk); null if neither it nor an oil is given",
     )
     loss_factor: float | None = quantity("tooth loss factor", "H_V", text="loss factor; null without load")
     power: float | None = quantity("friction power", "P_V", unit="w", text="null without a coefficient of friction")

@@ -59,6 +59,7 @@ def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
         flash, film = Flash(None, None), Film()
     elif unknown:
         flash, film = without_thermal(flash, film)
+    flash = replace(flash, friction_coefficient=inputs.distribution.friction_coefficient)
     hottest = None if bulk is None else _contact_temperature(bulk, flash)
     safety = None if hottest is None else _safety(inputs.temperatures, hottest)
     return Scuffing(

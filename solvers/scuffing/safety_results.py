@@ -7,6 +7,7 @@ from solvers.contact.film import Regime
 from solvers.lubricants import OilInUse
 from solvers.notices import Notice
 from solvers.quantity import quantity, record
+from solvers.scuffing.inputs import TR_13989
 from solvers.scuffing.results import Derived, LoadDistribution
 from solvers.scuffing.thermal.practice import ScuffingRisk
 from solvers.sources import XUE
@@ -33,6 +34,13 @@ class Flash:
         "largest flash temperature by thermal EHL", "Δθ_fl", f"{XUE}, Fig. 22", unit="k", default=None
     )
     thermal_ehl_at_psi: float | None = quantity("place of the largest flash by thermal EHL", "Ψ_fl", default=None)
+    friction_coefficient: float | None = quantity(
+        "mean coefficient of friction of the flash temperature",
+        "μ_mB",
+        TR_13989,
+        text="Blok's; given, or by the oil (ISO/TR 13989-1); null if neither it nor an oil is given",
+        default=None,
+    )
 
 
 @record

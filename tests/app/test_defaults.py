@@ -94,9 +94,26 @@ def test_a_coefficient_of_friction_says_by_itself_that_it_is_given() -> None:
     assert "K_Hα is taken as 1" in reasons(by_oil)["model.friction"]
     given = solved(SCUFFING, STAGE, {"friction_coefficient": 0.06})
     assert given["inputs"]["model"]["friction"] == "given"
-    assert given["friction_loss"]["coefficient"] == 0.06
+    assert given["friction_loss"]["coefficient"] == given["flash"]["friction_coefficient"] == 0.06
     message = "give friction_coefficient, or set model.friction to iso_tr_13989"
     assert refused(SCUFFING, STAGE, {"model.friction": "given"}) == message
+
+
+def test_the_losses_have_a_friction_of_their_own() -> None:
+    """A mean for the efficiency beside the one on the safe side for scuffing; load factors raise the second alone."""
+    plain, loaded = (solved(SCUFFING, STAGE, {"load.application_factor": factor}) for factor in (1.0, 2.5))
+    for answer in (plain, loaded):
+        loss, flash = answer["friction_loss"], answer["flash"]
+        assert 0.6 < loss["coefficient"] / flash["friction_coefficient"] < 0.8
+        assert loss["efficiency"] == pytest.approx(1.0 - loss["coefficient"] * loss["loss_factor"], rel=1e-12)
+    assert loaded["friction_loss"]["coefficient"] == plain["friction_loss"]["coefficient"]
+    assert loaded["flash"]["friction_coefficient"] > plain["flash"]["friction_coefficient"]
+    assert "Schlenk" in reasons(plain)["model.friction"]
+    unit = solved(TRAIN, TURBO, {})
+    assert unit["flash"]["friction_coefficient"] > 0.0
+    given = solved(TRAIN, TURBO, {"friction_coefficient": unit["flash"]["friction_coefficient"]})
+    assert given["flash"]["flank_k"] == pytest.approx(unit["flash"]["flank_k"], rel=1e-12)
+    assert given["losses"]["mesh_w"] > unit["losses"]["mesh_w"]
 
 
 def test_the_scuffing_temperature_is_a_property_of_oil_and_steel() -> None:
@@ -140,7 +157,9 @@ def test_an_ester_takes_the_factor_of_a_mineral_oil_and_says_so() -> None:
     ester = {"lubricant": {"viscosity_pa_s": 0.02, "kind": "ester"}}
     answer = solved(SCUFFING, STAGE, ester)
     mineral = solved(SCUFFING, STAGE, {"lubricant": {"viscosity_pa_s": 0.02}})
-    assert answer["friction_loss"] == mineral["friction_loss"]
+    losses = [each["friction_loss"]["coefficient"] for each in (answer, mineral)]
+    assert losses[0] / losses[1] == pytest.approx(0.8, rel=1e-12)
+    assert answer["flash"] == mineral["flash"]
     assert answer["safety"] == mineral["safety"]
     assert "mineral oil" in reasons(answer)["lubricant.kind"]
     known = {**ester, "friction_coefficient": 0.05, "temperatures": {"scuffing_c": 300}}
@@ -149,10 +168,11 @@ def test_an_ester_takes_the_factor_of_a_mineral_oil_and_says_so() -> None:
 
 def test_the_kind_of_an_oil_given_by_its_viscosity_counts() -> None:
     mineral, polyglycol = (
-        solved(SCUFFING, STAGE, {"lubricant": {"viscosity_pa_s": 0.02, "kind": kind}})["friction_loss"]["coefficient"]
+        solved(SCUFFING, STAGE, {"lubricant": {"viscosity_pa_s": 0.02, "kind": kind}})
         for kind in ("mineral", "polyglycol")
     )
-    assert polyglycol / mineral == pytest.approx(0.7, rel=1e-12)
+    for section, name in (("flash", "friction_coefficient"), ("friction_loss", "coefficient")):
+        assert polyglycol[section][name] / mineral[section][name] == pytest.approx(0.7, rel=1e-12)
 
 
 def test_without_load_no_coefficient_is_stated() -> None:
@@ -171,7 +191,7 @@ def test_misalignment_raises_the_coefficient_of_friction_by_the_face_load_factor
         SCUFFING, STAGE, {"load": {"power_kw": 400, "pinion_speed_rpm": 1500}, "modifications.helix_slope_um": 30}
     )
     factors = [answer["load"]["face_load_factor"] for answer in (straight, tilted)]
-    ratio = tilted["friction_loss"]["coefficient"] / straight["friction_loss"]["coefficient"]
+    ratio = tilted["flash"]["friction_coefficient"] / straight["flash"]["friction_coefficient"]
     assert factors[1] > 1.2 * factors[0]
     assert ratio == pytest.approx((factors[1] / factors[0]) ** 0.2, rel=1e-9)
 

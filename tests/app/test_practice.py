@@ -65,7 +65,7 @@ def test_fzg_type_a_at_its_own_failing_stage_stands_at_the_limit(
     result = solved("/v1/scuffing", fzg(stage), {})
     assert result["safety"]["blok_factor"] == pytest.approx(1.0, abs=margin)
     assert result["safety"]["blok_factor"] == pytest.approx(safety, rel=0.07)
-    assert result["friction_loss"]["coefficient"] == pytest.approx(friction, rel=0.07)
+    assert result["flash"]["friction_coefficient"] == pytest.approx(friction, rel=0.07)
     assert result["contact_temperature"]["bulk_c"] == pytest.approx(bulk, rel=0.07)
     assert result["flash"]["blok_max_k"] == pytest.approx(flash, rel=0.07)
     assert result["safety"]["verdict"] == ("moderate" if result["safety"]["blok_factor"] >= 1.0 else "high")

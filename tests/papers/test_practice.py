@@ -175,6 +175,44 @@ def test_pitch_line_velocity_counts_up_to_50_metres_per_second() -> None:
     assert at(125.0) == pytest.approx(at(50.0), rel=1e-6)
 
 
+def loss_friction(inputs: LoadDistributionInputs, kind: OilKind = "mineral", viscosity: float = 0.015) -> float:
+    return practice.loss_friction(inputs, meshing_path(inputs.gears), viscosity, kind)
+
+
+@pytest.mark.parametrize(("stage", "expected"), [(4, 0.0397), (6, 0.0420), (8, 0.0471), (10, 0.0515), (12, 0.0553)])
+def test_friction_of_the_losses_of_the_load_stages(stage: int, expected: float) -> None:
+    """By hand, stage 8: T_1 = 239.3 N m on r_b1 = 33.83 mm and 20 mm are 353.7 N/mm.
+
+    v_SigmaC = 2 x 8.3 m/s x sin 22.44 degrees = 6.336 m/s, rho_redC = 8.382 mm: (353.7/(6.336 x 8.382))^0.2 = 1.4614.
+    0.048 x 1.4614 x 15^-0.05 x 0.35^0.25 = 0.0471; stages 4 and below count as 150 N/mm.
+    """
+    torque = FZG_TORQUES[stage - 1]
+    angle = np.arccos(90.0 * np.cos(np.radians(20.0)) / 91.5)
+    line_load = max(torque / (36.0 * np.cos(np.radians(20.0))) * 1e3 / 20.0, 150.0)
+    speeds, radius = 2 * PITCH_LINE_SPEED * np.sin(angle), 91.5 * np.sin(angle) * 1.5 / 2.5**2
+    by_hand = 0.048 * (line_load / (speeds * radius)) ** 0.2 * 15**-0.05 * 0.35**0.25
+    assert loss_friction(fzg(stage)) == pytest.approx(by_hand, rel=1e-9)
+    assert by_hand == pytest.approx(expected, abs=6e-5)
+
+
+def test_friction_of_the_losses_takes_no_load_factor() -> None:
+    assert loss_friction(fzg(8, application_factor=1.5, dynamic_factor=1.2)) == loss_friction(fzg(8))
+
+
+def test_friction_of_the_losses_has_the_bounds_of_load_and_speed() -> None:
+    pair = fzg(8)
+    slow, fast = (replace(pair, load=replace(pair.load, pinion_speed=each / 0.0366)) for each in (50.0, 125.0))
+    assert loss_friction(fzg(1)) == loss_friction(fzg(3))
+    assert loss_friction(fast) == pytest.approx(loss_friction(slow), rel=1e-9)
+
+
+@pytest.mark.parametrize(("kind", "share"), [("mineral", 1.0), ("pao", 0.8), ("polyglycol", 0.7), ("ester", 0.8)])
+def test_friction_of_the_losses_by_the_kind_of_oil(kind: OilKind, share: float) -> None:
+    mineral = loss_friction(fzg(8))
+    assert loss_friction(fzg(8), kind) == pytest.approx(share * mineral, rel=1e-12)
+    assert loss_friction(fzg(8), viscosity=0.030) == pytest.approx(mineral * 2**-0.05, rel=1e-12)
+
+
 @pytest.mark.parametrize(("kind", "share"), [("mineral", 1.0), ("pao", 0.8), ("polyglycol", 0.7), ("ester", 1.0)])
 def test_lubricant_factors(kind: OilKind, share: float) -> None:
     assert practice.lubricant_factor(0.015, kind) == pytest.approx(share * 0.873, abs=5e-4)

@@ -113,15 +113,14 @@ def film(inputs: ScuffingInputs, result: Scuffing) -> Figure:
 
 
 def friction(inputs: ScuffingInputs, result: Scuffing) -> Figure:
-    """Coefficient of friction and film pressure along the path, from thermal EHL, beside the mean one in force."""
+    """Coefficient of friction and film pressure along the path, from thermal EHL, beside the mean one of Blok's."""
     _with_oil(result)
-    psi, thermal, mean = result.path.psi, result.path.thermal, result.distribution.friction_loss.coefficient
+    psi, thermal, mean = result.path.psi, result.path.thermal, result.flash.friction_coefficient
     if thermal is None:
         message = "Friction along the path comes from the thermal EHL solution only"
         raise NoFigure("closed_form", message, "model.lubrication")
     points, warned, coefficient = _points(inputs, result), _warned(result), thermal.friction_coefficient
-    # The coefficient that Blok's flash temperature and the losses take.
-    levels = points if mean is None else [*points, Level(mean, f"mean of the formulas {number(mean)}")]
+    levels = points if mean is None else [*points, Level(mean, f"mean of Blok's flash temperature {number(mean)}")]
     plain = {"levels": parts.unnamed(points), "spans": parts.unnamed(warned)}
     local = axis(ThermalPath, "friction_coefficient", "coefficient of friction")
     pressure = axis(ThermalPath, "max_pressure")

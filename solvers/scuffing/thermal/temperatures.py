@@ -23,6 +23,7 @@ from solvers.scuffing.thermal.practice import (
     FLOODED_UP_TO,
     TEST_TEMPERATURE,
     bulk_temperature,
+    loss_friction,
     lubricant_factor,
     mean_friction,
     pitch_line_velocity,
@@ -40,19 +41,23 @@ def in_force(inputs: ScuffingInputs, distribution: LoadDistribution) -> tuple[Sc
 
 
 def with_friction(inputs: ScuffingInputs, distribution: LoadDistribution) -> tuple[ScuffingInputs, LoadDistribution]:
-    """Inputs and load distribution with the coefficient of friction in force and what it loses.
+    """Inputs with the coefficient of friction of the flash temperature, load distribution with that of the losses.
 
-    The mean coefficient of ISO/TR 13989-1 is None without an oil, a load or a speed.
+    A coefficient that is given is both. Otherwise the first is that of ISO/TR 13989-1, on the safe side for scuffing,
+    the second Schlenk's, a mean for the efficiency; both are None without an oil, a load or a speed.
     """
     if inputs.friction == "given":
         return inputs, distribution
     given, path, oil = inputs.distribution, distribution.path_of_contact, inputs.known_oil
-    coefficient = None
+    of_flash = of_losses = None
     if oil is not None and distribution.balance.force > 0.0 and given.load.pinion_speed > 0.0:
         face_load_factor = distribution.load.face_load_factor or 1.0
-        coefficient = mean_friction(given, path, _oil_factor(oil, inputs.temperatures.oil), face_load_factor)
-    loss = friction_loss(path, distribution.balance, given.load, coefficient)
-    rubbing = replace(inputs, distribution=replace(given, friction_coefficient=coefficient))
+        lubricant = lubricant_at(oil, inputs.temperatures.oil)
+        viscosity = lubricant.viscosity_at(0.0, inputs.temperatures.oil)
+        of_flash = mean_friction(given, path, lubricant_factor(viscosity, lubricant.kind), face_load_factor)
+        of_losses = loss_friction(given, path, viscosity, lubricant.kind)
+    loss = friction_loss(path, distribution.balance, given.load, of_losses)
+    rubbing = replace(inputs, distribution=replace(given, friction_coefficient=of_flash))
     return rubbing, replace(distribution, friction_loss=loss)
 
 
