@@ -183,8 +183,12 @@ groups(
 )
 
 
-class CouplingDerived(Derived, of=si.Coupling, only=("face_width", "tooth_height")):
+class CouplingProportions(Derived, of=si.Coupling, only=("face_width", "tooth_height")):
     """Proportions of the tooth, where the request left them open."""
+
+
+class CouplingDerived(CouplingProportions, of=results.Derived):
+    """Proportions of the tooth and viscosity of its oil, where the request left them open."""
 
 
 class CouplingResponse(Response, of=results.CouplingResult):

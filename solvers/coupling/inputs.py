@@ -169,7 +169,7 @@ class Load:
     shaft_diameter: float | None = quantity(
         "shaft diameter",
         "D",
-        "API 671/617 practice, from memory",
+        "API 671/617 practice, quoted, not verified against the standard",
         unit="mm",
         default=None,
         ge=1,
@@ -246,10 +246,15 @@ class Operation(Load):
 
 @record
 class Lubricant:
-    """Oil at the teeth; the default viscosity is that of ISO VG 46 near 50 C."""
+    """Oil at the teeth; the default viscosity is that of ISO VG 46 near 50 C.
+
+    `viscosity_index` and `temperature` [K] of an oil by grade or data sheet are told, not used.
+    """
 
     viscosity: float = quantity("oil viscosity at the teeth", "η", unit="pa_s", default=0.025, gt=0)
     reference_film: float = quantity("film of the load capacity", "h_0", unit="um", default=1.0, gt=0)
+    viscosity_index: float | None = None
+    temperature: float | None = None
 
 
 @record
@@ -296,7 +301,8 @@ class CouplingOil(OilBySheet):
         """
         sheet = self.sheet()
         if sheet is not None:
-            return Lubricant(sheet.viscosity(self.temperature), self.reference_film)
+            viscosity = sheet.viscosity(self.temperature)
+            return Lubricant(viscosity, self.reference_film, sheet.viscosity_index, self.temperature)
         if self.viscosity is None:
             message = "give viscosity, or the oil by its grade or data sheet"
             raise InvalidInput("missing_property", message, "lubricant.viscosity")

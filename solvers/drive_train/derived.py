@@ -25,9 +25,13 @@ class DerivedShaft:
 
 @record
 class DerivedCoupling:
-    """The coupling with its missing proportions, and the axial stiffness of its teeth [N/m]."""
+    """The coupling's missing proportions, its oil's viscosity [Pa s], the axial stiffness of its teeth [N/m]."""
 
     coupling: Coupling = quantity("proportions used")
+    viscosity: float = quantity("oil viscosity used", "η", unit="pa_s", text="at the teeth")
+    viscosity_index: float | None = quantity(
+        "viscosity index used", "VI", "ASTM D2270", text="null without grade or data sheet"
+    )
     axial_tooth_stiffness: float = quantity("axial tooth stiffness used", "c_a", unit="n_per_um")
 
 
@@ -87,7 +91,12 @@ def derived(inputs: DriveTrainInputs, mesh: LoadDistribution) -> Derived:
         pinion_shaft=_shaft(inputs, inputs.pinion_shaft, "pinion"),
         wheel_shaft=_shaft(inputs, inputs.wheel_shaft, "wheel"),
         couplings=tuple(
-            DerivedCoupling(one.coupling, one.axial_tooth_stiffness or one.coupling.tooth_stiffness)
+            DerivedCoupling(
+                one.coupling,
+                one.lubricant.viscosity,
+                one.lubricant.viscosity_index,
+                one.axial_tooth_stiffness or one.coupling.tooth_stiffness,
+            )
             for one in inputs.couplings
         ),
         thermal=DerivedHeat(*inputs.heat.responses(ratio)),

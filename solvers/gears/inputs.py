@@ -14,7 +14,9 @@ RACK_A = 0.38  # normal modules; rack A of ISO 53, assumed where the stiffness o
 class GearTeeth:
     """One gear's teeth; every coefficient counts normal modules."""
 
-    teeth: int = quantity("number of teeth", "z", ISO_21771, ge=5, le=1000)
+    teeth: int = quantity(
+        "number of teeth", "z", ISO_21771, ge=5, le=1000, if_negative="internal gears are not modelled"
+    )
     profile_shift: float = quantity(
         "profile shift coefficient", "x", ISO_21771, default=0.0, ge=-2, le=3, tolerance=0.01
     )
@@ -77,6 +79,7 @@ class GearPairInputs:
         le=45,
         tolerance=0.05,
         text="helix angle at the reference circle; the hand does not matter",
+        if_negative="give the amount; the hand matters in the drive train only and is `gears.hand` there",
     )
     face_width: float = quantity(
         "face width", "b", ISO_21771, unit="mm", ge=0.01, le=5000, tolerance=0.1, text="common face width"

@@ -359,7 +359,16 @@ class LoadDistributionInputs:
 class ScuffingTest:
     """The FZG A/8.3/90 load stage at which the oil fails; X_W of the steel, X_L of the oil (None: that at 90 C)."""
 
-    fzg_stage: int = quantity("failure load stage", "S", FZG, ge=1, le=12)
+    fzg_stage: int = quantity(
+        "failure load stage",
+        "S",
+        FZG,
+        ge=1,
+        le=14,
+        text="stage at which the oil fails; 13 if a data sheet says above 12",
+        if_above='"above 12" on a data sheet means that stage 12 was passed: enter 13 for the limit that this proves '
+        "at least, or the failing stage if it is known",
+    )
     test: Literal["A/8.3/90"] = quantity("scuffing test", None, FZG, kw_only=True, default="A/8.3/90")
     structure_factor: float = quantity(
         "structural factor",
@@ -465,8 +474,8 @@ class ScuffingInputs:
         None,
         TR_13989,
         default="given",
-        text="the coefficient given, or by the oil: that of ISO/TR 13989-1 for Blok, Schlenk's for the losses; the first"
-        " where a coefficient is given",
+        text="the coefficient given, or by the oil: that of ISO/TR 13989-1 for Blok, Schlenk's for the losses; the"
+        " first where a coefficient is given",
     )
     lubrication: Lubrication = quantity(
         "lubrication model",

@@ -283,7 +283,7 @@ class FeatureLine(ContactPoints):
     iso_load_sharing: FloatArray | None = quantity(
         "load sharing by ISO/TR 13989-1",
         "X_Γ,ISO",
-        "ISO/TR 13989-1, from memory",
+        "ISO/TR 13989-1, quoted, not verified against the standard",
         text="the standard's diagram; null where it has none",
         axis="psi",
     )

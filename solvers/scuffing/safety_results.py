@@ -118,7 +118,7 @@ class Safety:
     verdict: ScuffingRisk | None = quantity(
         "risk of scuffing",
         None,
-        "ISO/TR 13989-1, from memory",
+        "ISO/TR 13989-1, quoted, not verified against the standard",
         text="by Blok's factor: below 1 high, to 2 moderate, above low; null without it",
         default=None,
     )

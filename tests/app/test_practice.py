@@ -20,6 +20,7 @@ BODIES = {
     "/v1/pumping": MIST,
     "/v1/scuffing": PAIR,
     "/v1/scuffing/load-distribution": LOADS,
+    "/v1/scuffing/line-contact": CONTACT,
     "/v1/drive-train": example("starter-turbo-gear-drive-train", HOT_TEETH),
 }
 
@@ -92,6 +93,53 @@ def test_oil_of_the_same_pair_by_grade_has_half_the_paper_s_film() -> None:
         for oil in ({"viscosity_pa_s": 0.08}, {"iso_vg": 220})
     )
     assert 0.3 < by_grade["dowson_higginson_min_um"] / by_paper["dowson_higginson_min_um"] < 0.5
+
+
+def used(endpoint: str, body: dict[str, Any], oil: dict[str, Any], path: str = "lubricant") -> dict[str, Any]:
+    """What an answer says of its oil."""
+    derived: dict[str, Any] = solved(endpoint, body, {path: oil})["derived"]
+    for name in path.split("."):
+        derived = derived[int(name)] if isinstance(derived, list) else derived.get(name, derived)
+    return derived
+
+
+TURBO = BODIES["/v1/drive-train"]
+USES = [
+    ("/v1/coupling", COUPLING, "lubricant"),
+    ("/v1/scuffing", PAIR, "lubricant"),
+    ("/v1/scuffing/line-contact", CONTACT, "lubricant"),
+    ("/v1/drive-train", TURBO, "lubricant"),
+    ("/v1/drive-train", TURBO, "couplings.0.lubricant"),
+]
+
+
+@pytest.mark.parametrize(("endpoint", "body", "path"), USES)
+def test_an_oil_by_its_index_is_the_oil_of_both_viscosities_and_says_so(
+    endpoint: str, body: dict[str, Any], path: str
+) -> None:
+    thick = {"kinematic_viscosity_40_mm2_per_s": 220}
+    graded = used(endpoint, body, {"iso_vg": 220, "kind": "polyglycol"}, path)
+    by_index = used(endpoint, body, {**thick, "viscosity_index": 210, "kind": "polyglycol"}, path)
+    by_kind = used(endpoint, body, {**thick, "kind": "polyglycol"}, path)
+    thin = {"kinematic_viscosity_100_mm2_per_s": 35.3398}
+    by_both = used(endpoint, body, {**thick, **thin, "kind": "polyglycol"}, path)
+    assert graded["viscosity_index"] == pytest.approx(210, abs=1e-6)
+    assert graded["viscosity_pa_s"] == by_index["viscosity_pa_s"] == by_kind["viscosity_pa_s"]
+    assert by_both["viscosity_pa_s"] == pytest.approx(graded["viscosity_pa_s"], rel=1e-4)
+    assert by_both["viscosity_index"] == pytest.approx(210, abs=0.01)
+    mineral = used(endpoint, body, {"iso_vg": 220}, path)
+    assert mineral["viscosity_index"] == pytest.approx(96.9, abs=0.05)
+    assert used(endpoint, body, {"viscosity_pa_s": 0.02}, path)["viscosity_index"] is None
+
+
+def test_an_index_leaves_nothing_to_assume_of_the_oil_at_100_degrees() -> None:
+    thin = "lubricant.kinematic_viscosity_100_mm2_per_s"
+    for index in (160, None):
+        oil = {"kinematic_viscosity_40_mm2_per_s": 100, "viscosity_index": index}
+        told = {each["field"]: each for each in solved("/v1/coupling", COUPLING, {"lubricant": oil})["assumptions"]}
+        assert (thin in told) == (index is None)
+    assert told[thin]["value"] == pytest.approx(11.07, abs=0.01)
+    assert "94 to 102" in told[thin]["reason"]
 
 
 def test_line_contact_takes_the_oil_at_its_inlet() -> None:
@@ -200,6 +248,9 @@ GROUND = "µm is less than can be ground; was mm meant?"
 NARROW = "mm is below half a module; were cm or inches meant?"
 DIAMETER = "13 mm is beyond 4 modules; is it a diameter?"
 FAST = "m/s, beyond 250; is it the speed of another shaft?"
+FAHRENHEIT = "°C is hotter than gears are in service; were degrees Fahrenheit meant?"
+COLD = "°C is colder than oils are in service; is the sign right?"
+WARM = {"iso_vg": 220}
 SLACK = "N/mm at most; were kW or kN m meant?"
 
 
@@ -242,6 +293,16 @@ SLACK = "N/mm at most; were kW or kN m meant?"
             f"the oil at 95 °C is hotter than the teeth at 86.85 {EXCHANGED}",
         ),
         (TRAIN, {"temperatures.oil_c": 120}, f"the oil at 120 °C is hotter than the teeth at 95 {EXCHANGED}"),
+        (SCUFFING, {"lubricant": {"iso_vg": 220}, "temperatures.oil_c": 180}, f"180 {FAHRENHEIT}"),
+        (SCUFFING, {"lubricant": {"iso_vg": 220}, "temperatures.bulk_c": 250}, f"250 {FAHRENHEIT}"),
+        (SCUFFING, {"lubricant": {"iso_vg": 32}, "temperatures.oil_c": -31}, f"-31 {COLD}"),
+        (TRAIN, {"temperatures.oil_c": 140}, f"140 {FAHRENHEIT}"),
+        (TRAIN, {"temperatures.bulk_c": 140}, f"140 {FAHRENHEIT}"),
+        (TRAIN, {"thermal.pinion_bulk_c": 200}, f"200 {FAHRENHEIT}"),
+        (TRAIN, {"temperatures.oil_c": -31}, f"-31 {COLD}"),
+        (TRAIN, {"couplings.0.lubricant": WARM, "couplings.0.lubricant.temperature_c": 140}, f"140 {FAHRENHEIT}"),
+        ("/v1/coupling", {"lubricant": WARM, "lubricant.temperature_c": 140}, f"140 {FAHRENHEIT}"),
+        ("/v1/scuffing/line-contact", {"lubricant": WARM, "temperatures.inlet_c": 140}, f"140 {FAHRENHEIT}"),
         (LOAD_DISTRIBUTION, {"load.pinion_speed_rpm": 100000}, f"the pitch-line velocity is 366.6 {FAST}"),
         (TRAIN, {"operation.pinion_speed_rpm": 25000}, f"the pitch-line velocity is 312.6 {FAST}"),
         (

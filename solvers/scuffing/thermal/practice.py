@@ -1,7 +1,8 @@
 """Estimates of ISO/TR 13989-1: mean friction, scuffing temperature of an FZG stage, bulk temperature, risk.
 
 The formulas, load factors and the bound of 50 m/s on the speed follow a public implementation of the standard; the
-bound of 150 N/mm on the line load is quoted, not verified against the standard. The friction of the losses is Schlenk's.
+bound of 150 N/mm on the line load is quoted, not verified against the standard. The friction of the losses is
+Schlenk's.
 """
 
 from typing import Literal
@@ -23,7 +24,7 @@ FASTEST_PITCH_LINE = 50.0  # m/s, of v_t in both friction laws
 TEST_TEMPERATURE = 363.15  # K, of the oil in A/8.3/90
 FLOODED_UP_TO = 60.0  # m/s, pitch-line velocity beyond which the estimated bulk is a lower bound
 FLASH_SHARE = 0.47  # of the mean flash temperature that the bulk takes on
-HIGH_RISK_BELOW, LOW_RISK_ABOVE = 1.0, 2.0  # the standard's, from memory
+HIGH_RISK_BELOW, LOW_RISK_ABOVE = 1.0, 2.0  # the standard's, quoted, not verified against it
 
 
 def lubricant_factor(viscosity: float, kind: OilKind) -> float:
@@ -63,7 +64,7 @@ def loss_friction(inputs: LoadDistributionInputs, path: PathOfContact, viscosity
     polyglycols; for esters 0.8 is assumed. The speed must not be 0. Eq. R10.
     """
     line_load = inputs.load.torque / path.pair.pinion.base_radius / inputs.gears.face_width
-    oil = OIL_KIND_LOSS_FACTOR[kind] * (viscosity * 1e3) ** -0.05
+    oil = OIL_KIND_LOSS_FACTOR[kind] * float((viscosity * 1e3) ** -0.05)
     return 0.048 * _load_and_speed(inputs, path, line_load) * oil * _rough(inputs)
 
 

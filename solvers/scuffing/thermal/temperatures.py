@@ -99,7 +99,7 @@ def oil_notices(inputs: ScuffingInputs, path: PathOfContact) -> Iterator[Notice]
     """No oil, or no bulk temperature; an estimated one beyond the speeds that its formula holds for."""
     if inputs.known_oil is None:
         message = (
-            "no oil is given (iso_vg, two kinematic viscosities or viscosity_pa_s): film, contact temperature and "
+            "no oil is given (iso_vg, kinematic_viscosity_40 or viscosity_pa_s): film, contact temperature and "
             "safety are not stated"
         )
         yield Notice("no_oil", message, "lubricant", rank="note")
