@@ -239,7 +239,7 @@ def allowed(declared: Quantity) -> str:
 
 
 def advice(declared: Quantity, value: Any) -> str:
-    """Say what to give instead of a value outside the range, in the shown unit, or of text; empty if nothing is known."""
+    """Say what to give instead of text or a value outside the range, in the shown unit; empty if nothing is known."""
     is_number = isinstance(value, int | float) and not isinstance(value, bool)
     if is_number and value < 0:
         said = declared.if_negative

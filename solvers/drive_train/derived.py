@@ -4,6 +4,7 @@ from solvers.coupling.inputs import Coupling
 from solvers.drive_train.inputs import DriveTrainInputs, JournalBearing, Shaft, ShaftName
 from solvers.lubricants import OilInUse, oil_in_use
 from solvers.quantity import quantity, record
+from solvers.scuffing.inputs import TR_13989
 from solvers.scuffing.results import LoadDistribution
 
 
@@ -16,10 +17,18 @@ class DerivedBearing:
 
 
 @record
+class DerivedSection:
+    """Outer diameter in force [m]."""
+
+    outer_diameter: float = quantity("section outer diameter used", "d_o", unit="mm")
+
+
+@record
 class DerivedShaft:
-    """Where torque enters [m], bearings."""
+    """Where torque enters [m], sections, bearings."""
 
     torque_position: float = quantity("place of the torque used", "z_T", unit="mm")
+    sections: tuple[DerivedSection, ...] = quantity("sections used")
     bearings: tuple[DerivedBearing, ...] = quantity("bearings used")
 
 
@@ -52,6 +61,9 @@ class DerivedTemperatures:
     )
     scuffing: float | None = quantity(
         "scuffing temperature used", "θ_S", unit="c", text="given or by a test; null with neither"
+    )
+    lubricant_factor: float | None = quantity(
+        "lubricant factor of the scuffing test used", "X_L", TR_13989, text="null without a scuffing test"
     )
 
 
@@ -101,7 +113,11 @@ def derived(inputs: DriveTrainInputs, mesh: LoadDistribution) -> Derived:
         ),
         thermal=DerivedHeat(*inputs.heat.responses(ratio)),
         lubricant=None if lubricant is None else OilInUse(**oil_in_use(lubricant)),
-        temperatures=DerivedTemperatures(inputs.mesh.temperatures.bulk, inputs.mesh.temperatures.scuffing),
+        temperatures=DerivedTemperatures(
+            inputs.mesh.temperatures.bulk,
+            inputs.mesh.temperatures.scuffing,
+            inputs.mesh.temperatures.lubricant_factor,
+        ),
     )
 
 
@@ -111,6 +127,7 @@ def _shaft(inputs: DriveTrainInputs, shaft: Shaft, name: ShaftName) -> DerivedSh
         position = next(one.position for one in inputs.couplings if one.shaft == name)
     return DerivedShaft(
         position,
+        tuple(DerivedSection(section.outer_diameter) for section in shaft.sections),
         tuple(
             DerivedBearing(bearing.clearance, bearing.viscosity)
             if isinstance(bearing, JournalBearing)

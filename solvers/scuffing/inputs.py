@@ -387,6 +387,8 @@ class ScuffingTest:
         ge=0.1,
         le=2,
         default_text="by the oil's kind, and its viscosity at 90 °C",
+        assumed="X_L at the test's 90 °C, for the scuffing temperature is a property of oil and steel; others take it "
+        "at the oil temperature in use",
     )
 
 
@@ -452,6 +454,11 @@ class Temperatures:
     scuffing_test: ScuffingTest | None = quantity(
         "scuffing test", default=None, text="instead of the temperature: the stage at which the oil fails"
     )
+
+    @property
+    def lubricant_factor(self) -> float | None:
+        """X_L of the scuffing test; None without one."""
+        return None if self.scuffing_test is None else self.scuffing_test.lubricant_factor
 
 
 @record

@@ -8,6 +8,7 @@ from dataclasses import field
 from functools import cached_property
 
 from solvers.arrays import BoolArray, FloatArray, frozen
+from solvers.gears.diameters import Diameters
 from solvers.gears.pair import PathOfContact
 from solvers.notices import Notice
 from solvers.quantity import computed, quantity, record
@@ -25,7 +26,7 @@ class Place:
 
 
 @record
-class Geometry:
+class Geometry(Diameters):
     """The mesh: lengths [m], angles [rad]; undercut is true if either gear is."""
 
     centre_distance: float = quantity("centre distance", "a", unit="mm", text="centre distance in use")

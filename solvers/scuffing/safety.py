@@ -120,6 +120,7 @@ def _derived(inputs: ScuffingInputs, mesh: Derived) -> ScuffingDerived:
         oil=None if inputs.lubricant is None else OilInUse(**oil_in_use(inputs.lubricant)),
         kinematic_viscosity_100=None if sheet is None else sheet.kinematic_viscosity_100,
         density_15=None if sheet is None else sheet.reference_density,
+        lubricant_factor=inputs.temperatures.lubricant_factor,
     )
 
 

@@ -139,6 +139,9 @@ class ScuffingDerived:
     density_15: float | None = quantity(
         "oil density used at 15 °C", "ρ_15", unit="kg_per_m3", text="null without grade or data sheet"
     )
+    lubricant_factor: float | None = quantity(
+        "lubricant factor of the scuffing test used", "X_L", TR_13989, text="null without a scuffing test"
+    )
 
 
 @record

@@ -13,9 +13,9 @@ from app.figures.models.scuffing import contact_temperature, friction
 from app.figures.units import shown
 from app.pages.results import cards
 from app.schema.scuffing import ScuffingRequest
-from tests.support.requests import CONTACT, refused, solved
+from tests.support.requests import CONTACT, COUPLING, GONE, refused, solved
 
-SCUFFING, TRAIN = "/v1/scuffing", "/v1/drive-train"
+COUPLED, SCUFFING, TRAIN = "/v1/coupling", "/v1/scuffing", "/v1/drive-train"
 STAGE: dict[str, Any] = {
     "gears": {
         "pinion": {"teeth": 25},
@@ -261,6 +261,53 @@ def test_standard_stiffness_of_light_loads_falls_with_their_fourth_root(torque: 
     )
     for name in ("standard_single_n_per_mm_um", "standard_mesh_n_per_mm_um"):
         assert light[name] / full[name] == pytest.approx(factor, rel=1e-9)
+
+
+@pytest.mark.parametrize("stiffness", [None, 280])
+def test_the_teeth_of_a_coupling_are_as_stiff_as_their_material(stiffness: float | None) -> None:
+    """Left out it is 280 N/um times E/206 GPa; given it is what it is."""
+    teeth = {"coupling.tooth_stiffness_n_per_um": stiffness}
+    steel, bronze = (solved(COUPLED, COUPLING, {**teeth, "coupling.youngs_modulus_gpa": E}) for E in (206, 103))
+    used = [answer["derived"]["tooth_stiffness_n_per_um"] for answer in (steel, bronze)]
+    assert used == pytest.approx([280.0, 140.0 if stiffness is None else 280.0], rel=1e-12)
+    ratio = bronze["limits"]["torsional_stiffness_n_m_per_rad"] / steel["limits"]["torsional_stiffness_n_m_per_rad"]
+    assert ratio == pytest.approx(used[1] / used[0], rel=1e-12)
+    assert ("coupling.tooth_stiffness_n_per_um" in reasons(bronze)) == (stiffness is None)
+
+
+@pytest.mark.parametrize("member", ["pinion", "wheel"])
+@pytest.mark.parametrize("modulus", [110, 169, 241, 600])
+def test_estimates_made_for_steel_are_warned_of_with_another_material(member: str, modulus: float) -> None:
+    field = f"materials.{member}.youngs_modulus_gpa"
+    estimates = {"friction_coefficient": None, "temperatures": {"scuffing_test": {"fzg_stage": 12}}}
+    told = {each["code"]: each for each in solved(SCUFFING, STAGE, {**estimates, field: modulus})["warnings"]}
+    assert (told["made_for_steel"]["field"], told["made_for_steel"]["rank"]) == (field, "doubtful")
+    for each in ("coefficient of friction", "bulk temperature", "scuffing temperature"):
+        assert each in told["made_for_steel"]["message"]
+    assert "made_for_steel" not in codes(solved(SCUFFING, STAGE, {**estimates, field: 170}))
+    measured = {"friction_coefficient": 0.05, "temperatures": {"bulk_c": 80, "scuffing_c": 300}}
+    assert "made_for_steel" not in codes(solved(SCUFFING, STAGE, {**measured, field: modulus}))
+    assert "made_for_steel" not in codes(solved(SCUFFING, DRY, {field: modulus}))
+
+
+def test_a_unit_s_estimates_are_made_for_steel_too() -> None:
+    assert "made_for_steel" in codes(solved(TRAIN, TURBO, {"materials.wheel.youngs_modulus_gpa": 110}))
+
+
+def test_the_lubricant_factor_of_the_test_is_listed_with_its_value() -> None:
+    """VG 220 has 25.6 mm2/s and 837 kg/m3 at 90 C: 21.4 mPa s, X_L = 0.858; 80 + 2.25 X_L 144 = 358.0 C."""
+    path = "temperatures.scuffing_test.lubricant_factor"
+    answer = solved(SCUFFING, STAGE, {"temperatures.oil_c": 40})
+    told = next(each for each in answer["assumptions"] if each["field"] == path)
+    assert told["value"] == pytest.approx(0.858, abs=5e-4)
+    assert answer["safety"]["scuffing_c"] == pytest.approx(80 + 2.25 * told["value"] * 144, rel=1e-9)
+    assert "90 °C" in told["reason"]
+    given = solved(SCUFFING, STAGE, {path: 0.8})
+    assert path not in reasons(given)
+    assert given["derived"]["lubricant_factor"] == 0.8
+    unit = solved(TRAIN, TURBO, {"temperatures.scuffing_c": GONE, "temperatures.scuffing_test": {"fzg_stage": 12}})
+    values = {each["field"]: each["value"] for each in unit["assumptions"]}
+    assert values[path] == unit["derived"]["temperatures"]["lubricant_factor"] > 0.0
 
 
 @pytest.mark.parametrize("name", [name for name in examples() if name.startswith("xue-")])

@@ -86,7 +86,7 @@ def test_every_number_is_moved_sorted_by_influence() -> None:
         "coupling.teeth",
         "operation.torque_n_m",
         "lubricant.viscosity_pa_s",
-        "coupling.tooth_stiffness_n_per_um",
+        "coupling.youngs_modulus_gpa",
     } <= moved
     assert list(lines[0]) == ["type", "output", "path", "derivative", "elasticity", "step", "change", "kink", "curved"]
     whole = lines[: len(moved)]

@@ -31,6 +31,7 @@ from solvers.scuffing.thermal.practice import (
 )
 
 COLDEST_OIL, HOTTEST_OIL = 223.15, 573.15  # K, the range of reference temperatures
+STEEL_MODULI = (170e9, 240e9)  # Pa; cast iron and bronze are below, hard metal is above
 MEAN_POINTS = 1001  # of the mean flash temperature along the path
 
 
@@ -77,7 +78,8 @@ def with_temperatures(inputs: ScuffingInputs, distribution: LoadDistribution) ->
         test = temperatures.scuffing_test
         factor = _oil_factor(oil, TEST_TEMPERATURE) if test.lubricant_factor is None else test.lubricant_factor
         limit = scuffing_temperature(test.fzg_stage, test.structure_factor, factor)
-        temperatures = replace(temperatures, scuffing=limit)
+        known = replace(test, lubricant_factor=factor)
+        temperatures = replace(temperatures, scuffing=limit, scuffing_test=known)
     if temperatures.scuffing is not None and temperatures.scuffing <= temperatures.oil:
         message = "the scuffing temperature must lie above the oil temperature"
         raise InvalidInput("scuffing_temperature", message, "temperatures.scuffing")
@@ -104,6 +106,7 @@ def oil_notices(inputs: ScuffingInputs, path: PathOfContact) -> Iterator[Notice]
         )
         yield Notice("no_oil", message, "lubricant", rank="note")
         return
+    yield from _material_notices(inputs)
     if inputs.temperatures.bulk is None:
         message = (
             "the path of contact reaches a base circle, where no flash temperature is defined to estimate the bulk "
@@ -118,6 +121,24 @@ def oil_notices(inputs: ScuffingInputs, path: PathOfContact) -> Iterator[Notice]
             "bound, the contact temperature is higher and the safety lower than stated"
         )
         yield Notice("bulk_lower_bound", message, "temperatures.bulk_method")
+
+
+def _material_notices(inputs: ScuffingInputs) -> Iterator[Notice]:
+    """Estimates that were made for steel, with a gear of another material."""
+    estimates = {
+        "the coefficient of friction": inputs.friction == "iso_tr_13989",
+        "the bulk temperature": inputs.temperatures.bulk_method == "estimated",
+        "the scuffing temperature": inputs.temperatures.scuffing_test is not None,
+    }
+    estimated = [name for name, is_estimated in estimates.items() if is_estimated]
+    given, (least, largest) = inputs.distribution, STEEL_MODULI
+    for name, solid in (("pinion", given.pinion_material), ("wheel", given.wheel_material)):
+        if estimated and not least <= solid.youngs_modulus <= largest:
+            message = (
+                f"the {name} is no steel ({solid.youngs_modulus / 1e9:.4g} GPa), for which ISO/TR 13989-1 estimates "
+                f"{' and '.join(estimated)}: give measured values"
+            )
+            yield Notice("made_for_steel", message, f"{name}_material.youngs_modulus")
 
 
 def _oil_factor(oil: OilSheet | Lubricant, temperature: float) -> float:
