@@ -213,7 +213,7 @@ PRACTICAL_FRICTION = Input.of(
     default_text="by the friction law, from the oil",
 )
 LAW = (
-    "for scuffing the mean coefficient of ISO/TR 13989-1, with the computed K_Hβ and K_Hα taken as 1; for the losses "
+    "for scuffing the mean coefficient of ISO/TR 13989-1, with the computed K_Hβ; K_Hα is taken as 1; for the losses "
     "Schlenk's, without load factors"
 )
 NOT_USED = "not used: `model.friction` asks for the coefficient of ISO/TR 13989-1"

@@ -75,16 +75,6 @@ FZG_C = GearPairInputs(
 )
 
 
-def test_fzg_c_has_the_stiffness_of_a_printed_report() -> None:
-    """An FVA report of FZG C of 210 GPa has c' = 11.5 and c_gamma = 15.2 N/(mm um)."""
-    gears = replace(
-        FZG_C, pinion=replace(FZG_C.pinion, tip_diameter=82.46e-3), wheel=replace(FZG_C.wheel, tip_diameter=118.36e-3)
-    )
-    stiffness = standard_stiffness(path_of_contact(gear_pair(gears)), youngs_modulus=210e9)
-    assert stiffness.single * 1e-9 == pytest.approx(11.48, abs=6e-3)
-    assert stiffness.mesh * 1e-9 == pytest.approx(15.23, abs=0.02)
-
-
 def test_standard_stiffness_is_that_of_the_pair_whichever_drives() -> None:
     """Gear 1 of the formula is the one of fewer teeth; of equal teeth that of the larger profile shift."""
     for pair in (EXAMPLE_1, FZG_C, replace(FZG_C, wheel=replace(FZG_C.wheel, teeth=16), centre_distance=None)):

@@ -138,7 +138,7 @@ def _material_notices(inputs: ScuffingInputs) -> Iterator[Notice]:
                 f"the {name} is no steel ({solid.youngs_modulus / 1e9:.4g} GPa), for which ISO/TR 13989-1 estimates "
                 f"{' and '.join(estimated)}: give measured values"
             )
-            yield Notice("made_for_steel", message, f"{name}_material.youngs_modulus")
+            yield Notice("made_for_steel", message, f"materials.{name}.youngs_modulus")
 
 
 def _oil_factor(oil: OilSheet | Lubricant, temperature: float) -> float:
