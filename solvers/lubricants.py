@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, fields
 from math import log
-from typing import Literal, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
@@ -28,7 +28,7 @@ class Lubricant:
     pressure_viscosity (Barus coefficient) [1/Pa], temperature_viscosity (Reynolds coefficient) [1/K],
     density, at reference_temperature [kg/m^3], specific_heat [J/(kg K)], thermal_conductivity [W/(m K)].
     An incompressible oil keeps its density at every pressure and temperature. `kind` is its base oil, which only the
-    lubricant factor of ISO/TR 13989-1 depends on.
+    lubricant factors of the friction laws and of the scuffing test depend on. `viscosity_index` is told, not used.
     """
 
     viscosity: float = 0.08
@@ -41,6 +41,7 @@ class Lubricant:
     pressure_viscosity_law: PressureViscosityLaw = "roelands"
     compressible: bool = True
     kind: OilKind = "mineral"
+    viscosity_index: float | None = None
 
     @property
     def laws(self) -> "FluidLaws":
@@ -96,9 +97,12 @@ class OilInUse:
     density: float = quantity("oil density used", "ρ_0", unit="kg_per_m3")
     specific_heat: float = quantity("oil specific heat used", "c_oil", unit="j_per_kg_k")
     thermal_conductivity: float = quantity("oil thermal conductivity used", "λ_oil", unit="w_per_m_k")
+    viscosity_index: float | None = quantity(
+        "viscosity index used", "VI", "ASTM D2270", text="null without grade or data sheet"
+    )
 
 
-def oil_in_use(lubricant: Lubricant) -> dict[str, float]:
+def oil_in_use(lubricant: Lubricant) -> dict[str, Any]:
     """The fields of `OilInUse`."""
     return {item.name: getattr(lubricant, item.name) for item in fields(OilInUse)}
 

@@ -6,7 +6,9 @@ enters a contact it becomes a lubricant of the models.
 
 from dataclasses import dataclass, fields, replace
 from math import log, log10
-from typing import Literal
+from typing import Literal, get_args
+
+from scipy.optimize import brentq
 
 from solvers.errors import InvalidInput
 from solvers.lubricants import Lubricant, OilKind, PressureViscosityLaw
@@ -53,6 +55,26 @@ def viscosity_index(viscosity_40: float, viscosity_100: float) -> float:
     return 100.0 + float(10.0 ** (log10(h_40 / u) / log10(y)) - 1.0) / 0.00715
 
 
+def viscosity_of_index(viscosity_40: float, index: float) -> float:
+    """Kinematic viscosity at 100 C [m^2/s] of an oil of this viscosity at 40 C [m^2/s] and this index (Eq. R2).
+
+    Raises InvalidInput viscosity_index if no viscosity from 2 mm^2/s on has that index.
+    """
+    thick = viscosity_40 / SQUARE_MILLIMETRE
+
+    def excess(thin: float) -> float:
+        return viscosity_index(viscosity_40, thin * SQUARE_MILLIMETRE) - index
+
+    least, largest = LEAST_VISCOSITY, thick * (1.0 - 1e-9)
+    if not (least < largest and excess(least) <= 0.0 <= excess(largest)):
+        message = (
+            f"no oil of {thick:.4g} mm²/s at 40 °C and at least 2 mm²/s at 100 °C, from which the index is defined, "
+            f"has a viscosity index of {index:.4g}: give its viscosity at 100 °C"
+        )
+        raise InvalidInput("viscosity_index", message, "lubricant.viscosity_index")
+    return float(brentq(excess, least, largest, xtol=1e-12)) * SQUARE_MILLIMETRE
+
+
 CELSIUS = 273.15  # K
 WALTHER_SHIFT = 0.7  # mm^2/s
 DENSITY_TEMPERATURE = 15.0 + CELSIUS  # K
@@ -61,7 +83,8 @@ LEAST_VISCOSITY_100 = 1e-6  # m^2/s; ASTM D341 has further terms for oils as thi
 VISCOSITY_INDICES = (-100.0, 500.0)  # naphthenic and aromatic oils reach -100, silicone oils 400
 LARGEST_VISCOSITY = 0.1  # m^2/s; an oil that thick hardly flows, and the law does not know where it sets
 
-TYPICAL_VISCOSITY_100 = {
+TYPICAL_INDEX: dict[OilKind, float] = {"mineral": 95.0, "pao": 150.0, "ester": 150.0, "polyglycol": 210.0}
+MINERAL_VISCOSITY_100 = {
     32: 5.4e-6,
     46: 6.8e-6,
     68: 8.7e-6,
@@ -72,7 +95,7 @@ TYPICAL_VISCOSITY_100 = {
     460: 30.6e-6,
     680: 38.8e-6,
 }
-"""Kinematic viscosity at 100 C [m^2/s] of a mineral oil of an ISO 3448 grade with viscosity index 95."""
+"""Kinematic viscosity at 100 C [m^2/s] typical of mineral oils of an ISO 3448 grade, of viscosity index 94 to 102."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,7 +109,7 @@ class KindOfOil:
     thermal_conductivity: float
 
 
-# Typical values; Gold's coefficients are quoted from memory.
+# Typical values; Gold's coefficients are quoted from a secondary source.
 KINDS: dict[OilKind, KindOfOil] = {
     "mineral": KindOfOil(9.904, 0.1390, 880.0, 2000.0, 0.14),
     "pao": KindOfOil(7.382, 0.1335, 840.0, 2150.0, 0.15),
@@ -123,7 +146,7 @@ class OilSheet:
             raise InvalidInput("out_of_range", "the oil needs at least 1 mm²/s at 100 °C", field)
         if not thin < thick:
             raise InvalidInput("viscosity_order", "the oil must be thinner at 100 °C than at 40 °C", field)
-        index, (least, largest) = viscosity_index(thick, thin), VISCOSITY_INDICES
+        index, (least, largest) = self.viscosity_index, VISCOSITY_INDICES
         if not least <= index <= largest:
             message = (
                 f"{thick / SQUARE_MILLIMETRE:.4g} and {thin / SQUARE_MILLIMETRE:.4g} mm²/s at 40 and 100 °C make a "
@@ -149,6 +172,11 @@ class OilSheet:
     def reference_density(self) -> float:
         """Density at 15 C [kg/m^3], that of the kind where the sheet does not give it."""
         return KINDS[self.kind].density_15 if self.density_15 is None else self.density_15
+
+    @property
+    def viscosity_index(self) -> float:
+        """By its two viscosities (ASTM D2270)."""
+        return viscosity_index(self.kinematic_viscosity_40, self.kinematic_viscosity_100)
 
     def density(self, temperature: float) -> float:
         """Rho_15 [1 - 0.00065 (t - 15 C)] [kg/m^3] (Eq. R3)."""
@@ -195,6 +223,7 @@ class OilSheet:
             pressure_viscosity_law=self.pressure_viscosity_law,
             compressible=self.compressible,
             kind=self.kind,
+            viscosity_index=self.viscosity_index,
         )
 
     def _walther(self) -> tuple[float, float]:
@@ -211,9 +240,11 @@ class OilSheet:
         return float(10.0 ** (intercept - slope * log10(temperature)))
 
 
-def iso_vg(grade: int) -> OilSheet:
-    """A mineral oil of viscosity index 95 of an ISO 3448 grade (its viscosity at 40 C in mm^2/s)."""
-    return OilSheet(grade * SQUARE_MILLIMETRE, TYPICAL_VISCOSITY_100[grade])
+def iso_vg(grade: int, kind: OilKind = "mineral") -> OilSheet:
+    """A typical oil of an ISO 3448 grade (its viscosity at 40 C in mm^2/s) and kind."""
+    thick = grade * SQUARE_MILLIMETRE
+    known = MINERAL_VISCOSITY_100.get(grade) if kind == "mineral" else None
+    return OilSheet(thick, known or viscosity_of_index(thick, TYPICAL_INDEX[kind]), kind)
 
 
 def lubricant_at(oil: Lubricant | OilSheet, temperature: float) -> Lubricant:
@@ -225,12 +256,13 @@ def _double_logarithm(kinematic_viscosity: float) -> float:
     return log10(log10(kinematic_viscosity / SQUARE_MILLIMETRE + WALTHER_SHIFT))
 
 
-IsoGrade = Literal[32, 46, 68, 100, 150, 220, 320, 460, 680]
+IsoGrade = Literal[10, 15, 22, 32, 46, 68, 100, 150, 220, 320, 460, 680, 1000, 1500]
+GRADES: tuple[int, ...] = get_args(IsoGrade)
 
 
 @record
 class OilBySheet:
-    """An oil by its ISO grade or by two kinematic viscosities, where that is what is known of it."""
+    """An oil by its ISO grade or viscosity at 40 °C, and by how it thins, where that is what is known of it."""
 
     iso_vg: IsoGrade | None = quantity("ISO viscosity grade", "VG", "ISO 3448", default=None)
     kinematic_viscosity_40: float | None = quantity(
@@ -244,8 +276,20 @@ class OilBySheet:
         default=None,
         ge=1,
         le=1000,
-        default_text="with a grade, typical of a mineral oil of viscosity index 95",
-        assumed="typical of a mineral oil with viscosity index 95",
+        default_text="by the viscosity index, else typical of the kind of oil",
+        assumed="typical of the kind of oil: viscosity index 94 to 102 of mineral oils, 150 of PAO and ester, 210 of "
+        "polyglycols",
+    )
+    viscosity_index: float | None = quantity(
+        "viscosity index",
+        "VI",
+        "ASTM D2270",
+        default=None,
+        ge=VISCOSITY_INDICES[0],
+        le=VISCOSITY_INDICES[1],
+        tolerance=5,
+        text="beside the viscosity at 40 °C, instead of that at 100 °C",
+        default_text="by the viscosity at 100 °C, else typical of the kind of oil",
     )
     kind: OilKind = quantity(
         "kind of oil", default="mineral", assumed="a mineral oil, where the data sheet's kind is not given"
@@ -264,20 +308,24 @@ class OilBySheet:
     def sheet(self) -> OilSheet | None:
         """The oil by grade or data sheet; None where neither is given.
 
-        Raises InvalidInput (viscosity_order) where it would not thin as it warms.
+        Raises InvalidInput (viscosity_order, viscosity_index) for an oil that none can be.
         """
+        thick, thin = self.kinematic_viscosity_40, self.kinematic_viscosity_100
         if self.iso_vg is not None:
-            known = iso_vg(self.iso_vg)
-        elif self.kinematic_viscosity_40 is None or self.kinematic_viscosity_100 is None:
+            thick = self.iso_vg * SQUARE_MILLIMETRE
+        if thick is None:
             return None
-        else:
-            known = OilSheet(self.kinematic_viscosity_40, self.kinematic_viscosity_100)
-        return replace(known, kind=self.kind, density_15=self.density_15)
+        if thin is not None:
+            return OilSheet(thick, thin, self.kind, self.density_15)
+        if self.viscosity_index is None and self.iso_vg is not None:
+            return replace(iso_vg(self.iso_vg, self.kind), density_15=self.density_15)
+        index = TYPICAL_INDEX[self.kind] if self.viscosity_index is None else self.viscosity_index
+        return OilSheet(thick, viscosity_of_index(thick, index), self.kind, self.density_15)
 
 
 @record
 class OilChoice(OilBySheet):
-    """What is known of an oil; one of `iso_vg`, the two kinematic viscosities and `viscosity` names it.
+    """What is known of an oil; one of `iso_vg`, `kinematic_viscosity_40` and `viscosity` names it.
 
     `reference_temperature` and `density` belong to `viscosity`; a property that is None is that of the kind of oil with
     a grade or data sheet, and that of `Lubricant` otherwise.

@@ -15,7 +15,7 @@ import numpy as np
 from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs
 from solvers.notices import Notice
-from solvers.quantity import UNITS, Quantity, allowed, quantities
+from solvers.quantity import UNITS, Quantity, advice, allowed, quantities
 
 I = TypeVar("I")
 P = ParamSpec("P")
@@ -34,6 +34,8 @@ HIGHEST_PRESSURE = 2.5e9  # Pa; steel flows
 HIGHEST_ROOT_LOAD = 400e6  # Pa, F_t/(b m_n); the stress in the root is four times it, beyond steel's strength
 LEAST_LOAD = 1e3  # N/m
 THICK_OIL = 1.0  # Pa s at operating temperature
+HOTTEST = 403.15  # K, of oil and teeth; mineral oils age within days
+COLDEST_OIL = 243.15  # K; below the pour point of most gear oils
 
 
 def guarded(
@@ -104,6 +106,7 @@ def _check(value: Any, ends: _Ends | None, name: str) -> None:
             unit = f" {UNITS[ends.declared.unit].symbol}" if ends.declared.unit else ""
             shown = f"{ends.declared.from_si(float(value)):.12g}{unit}"
             message = f"{name} is {shown}; permissible {allowed(ends.declared) or 'are finite numbers'}{unit}"
+            message += advice(ends.declared, ends.declared.from_si(float(value)))
             raise InvalidInput("out_of_range", message, name)
     elif is_dataclass(value):
         checked(value, f"{name}.")
@@ -118,6 +121,21 @@ def thick_oil(viscosity: float | None, field: str = "lubricant.viscosity") -> No
     """A viscosity [Pa s] at operating temperature that few machines run with."""
     if viscosity is not None and viscosity > THICK_OIL:
         yield unusual_value(field, f"{viscosity:.4g} Pa s at operating temperature is very thick; was mPa s meant?")
+
+
+def oil_temperature(temperature: float, field: str = "temperatures.oil") -> Notices:
+    """An oil [K] that is hotter or colder than gear oils are."""
+    yield from tooth_temperature(temperature, field)
+    if temperature < COLDEST_OIL:
+        shown = f"{temperature - 273.15:g} °C"
+        yield unusual_value(field, f"{shown} is colder than oils are in service; is the sign right?")
+
+
+def tooth_temperature(temperature: float | None, field: str = "temperatures.bulk") -> Notices:
+    """Teeth [K] that are hotter than those of gears in service, or an oil."""
+    if temperature is not None and temperature > HOTTEST:
+        shown = f"{temperature - 273.15:g} °C"
+        yield unusual_value(field, f"{shown} is hotter than gears are in service; were degrees Fahrenheit meant?")
 
 
 def hot_oil(oil: float, bulk: float | None) -> Notices:

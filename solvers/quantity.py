@@ -100,6 +100,8 @@ class Quantity:
     tolerance, relative_tolerance
         What manufacture or measurement usually leaves open, in the shown unit; and as a share of the value where that
         is more. Every input that may be zero has a tolerance, by which a sensitivity moves it.
+    if_above, if_negative
+        What to give instead of a value above the range, or of text; and instead of a negative one.
     length
         Least and largest number of values of a list.
     detail
@@ -128,6 +130,8 @@ class Quantity:
     advanced: bool = False
     tolerance: float | None = None
     relative_tolerance: float | None = None
+    if_above: str | None = None
+    if_negative: str | None = None
     length: tuple[int, int] | None = None
     detail: Detail = "summary"
     axis: str | tuple[str, str] | None = None
@@ -237,6 +241,19 @@ def allowed(declared: Quantity) -> str:
         return f"{ends['ge']:.12g} to {ends['le']:.12g}"
     words = {"gt": "above", "ge": "at least", "lt": "below", "le": "at most"}
     return " and ".join(f"{word} {ends[end]:.12g}" for end, word in words.items() if end in ends)
+
+
+def advice(declared: Quantity, value: Any) -> str:
+    """Say what to give instead of text or a value outside the range, in the shown unit; empty if nothing is known."""
+    is_number = isinstance(value, int | float) and not isinstance(value, bool)
+    if is_number and value < 0:
+        said = declared.if_negative
+    elif is_number:
+        most = declared.bounds.get("le", declared.bounds.get("lt"))
+        said = declared.if_above if most is not None and value > most else None
+    else:
+        said = declared.if_above if isinstance(value, str) else None
+    return f"; {said}" if said else ""
 
 
 def to_dict(data: Any) -> dict[str, Any]:

@@ -7,7 +7,7 @@ from markupsafe import Markup, escape
 from app.figures.wording import number, subscripts
 
 _LETTER = re.compile(r"[^\W\d_]{1,2}\*?")
-_SECOND_HAND = re.compile(r"as read in a public implementation|(?:quoted )?from memory")
+_SECOND_HAND = "as read in a public implementation"
 REPORT, STANDARD = "ISO/TR 13989-1", "ISO/TS 6336-20 (ISO/TR 13989-1)"
 """The report that the sources name, and the specification that replaced it."""
 NO_VALUE = "–"
@@ -63,7 +63,7 @@ def shown(value: object, digits: int = 5) -> str:
 
 def cited(text: str) -> str:
     """A source or a reason for readers of pages, with today's standard; what was not read is said to be second-hand."""
-    return _SECOND_HAND.sub("secondary source", text.replace(REPORT, STANDARD))
+    return text.replace(_SECOND_HAND, "secondary source").replace(REPORT, STANDARD)
 
 
 def words(name: str) -> str:

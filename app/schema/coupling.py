@@ -8,9 +8,15 @@ from app.schema.quantities import Input, View
 from solvers.coupling import crowning, results
 from solvers.coupling import inputs as si
 
+STIFFNESS = "tooth_stiffness_n_per_um"
+
 
 class CouplingDesign(Section, of=si.CouplingDesign, without=("crowning_ratio",)):
     """The coupling without its crowning."""
+
+    def stands_for_null(self, name: str) -> Any:
+        """The stiffness of teeth of this material, which not every answer repeats."""
+        return self.si(si.CouplingDesign).coupling().tooth_stiffness * 1e-6 if name == STIFFNESS else None
 
 
 class CrownedCoupling(CouplingDesign, of=si.CouplingDesign):
@@ -102,9 +108,10 @@ class SleeveOrbitRequest(CouplingRequest):
         return {"kinematics": self.model.kinematics, "sleeve": "floating"}
 
     def unused(self) -> dict[str, bool]:
-        """All that belongs to contact, film, friction and a second mesh."""
-        contact = ("face_width_mm", "tooth_height_mm", "youngs_modulus_gpa", "poisson_ratio", "hub_distance_mm")
-        return dict.fromkeys(("lubricant", "friction", "model", *(f"coupling.{name}" for name in contact)), True)
+        """All that belongs to contact, film, friction and a second mesh; Young's modulus with a stiffness given."""
+        contact = ("face_width_mm", "tooth_height_mm", "poisson_ratio", "hub_distance_mm")
+        unused = dict.fromkeys(("lubricant", "friction", "model", *(f"coupling.{name}" for name in contact)), True)
+        return unused | {"coupling.youngs_modulus_gpa": self.coupling.tooth_stiffness_n_per_um is not None}
 
 
 class RecommendationRequest(_CouplingRequest):
@@ -183,8 +190,12 @@ groups(
 )
 
 
-class CouplingDerived(Derived, of=si.Coupling, only=("face_width", "tooth_height")):
-    """Proportions of the tooth, where the request left them open."""
+class CouplingProportions(Derived, of=si.Coupling, only=("face_width", "tooth_height", "tooth_stiffness")):
+    """Proportions and stiffness of the tooth, where the request left them open."""
+
+
+class CouplingDerived(CouplingProportions, of=results.Derived):
+    """Proportions and stiffness of the tooth and viscosity of its oil, where the request left them open."""
 
 
 class CouplingResponse(Response, of=results.CouplingResult):

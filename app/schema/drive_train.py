@@ -83,7 +83,7 @@ Matrix = Annotated[list[Pair], Field(min_length=2, max_length=2)]
 Stiffness = Annotated[Matrix, BeforeValidator(_isotropic, json_schema_input_type=float | Matrix)]
 
 
-class CylindricalSection(Section, of=si.ShaftSection):
+class CylindricalSection(Section, of=si.SectionDesign):
     """A cylinder of a shaft."""
 
 
@@ -106,6 +106,7 @@ class ThrustBearing(Section):
 class UnitShaft(Section, of=si.Shaft, without=("ultimate_thrust",)):
     """A shaft in two bearings."""
 
+    sections: list[CylindricalSection]
     bearings: list[ShaftBearing]
     thrust_bearing: Annotated[ThrustBearing, Input("thrust bearing")] = ThrustBearing()
 
@@ -207,10 +208,18 @@ class DriveTrainRequest(MeshInOil):
 
     def _shaft(self, name: str, scuffing: mesh.ScuffingInputs) -> si.Shaft:
         """The solver's shaft; plain bearings without viscosity run in the gears' oil."""
-        shaft = getattr(self, name)
+        shaft, gears, start = getattr(self, name), scuffing.distribution.gears, self.face_start_mm * 1e-3
+        teeth = gears.pinion if name == "pinion_shaft" else gears.wheel
+        sections = si.sections_of(
+            name,
+            shaft.start_mm * 1e-3,
+            tuple(section.si(si.SectionDesign) for section in shaft.sections),
+            (start, start + gears.face_width),
+            si.torsion_diameter(gears, teeth),
+        )
         described = tuple(bearing.si(si.ShaftBearing) for bearing in shaft.bearings)
         bearings = si.bearings_of(name, described, scuffing.oil, scuffing.temperatures.oil)
-        return shaft.si(si.Shaft, shaft.thrust_bearing, bearings=bearings)  # type: ignore[no-any-return]
+        return shaft.si(si.Shaft, shaft.thrust_bearing, bearings=bearings, sections=sections)  # type: ignore[no-any-return]
 
     def _couplings(self) -> Iterator[si.UnitCoupling]:
         """The solver's couplings; an oil that none can be is that of its own coupling."""
@@ -245,6 +254,7 @@ groups(
     ShaftLine=(results.ShaftCurves, "Displaced axis of a shaft."),
     UnitCouplingState=(results.CouplingResult, "A coupling as its shaft meets it."),
     BearingInForce=(derived.DerivedBearing, "A plain bearing's defaults; null of others."),
+    SectionInForce=(derived.DerivedSection, "A section's diameter."),
     ShaftInForce=(derived.DerivedShaft, "A shaft's defaults."),
     HeatInForce=(derived.DerivedHeat, "Wall responses."),
     TemperaturesInForce=(derived.DerivedTemperatures, "Bulk and scuffing temperature."),
@@ -281,8 +291,8 @@ class ShaftState(ShaftSummary, of=results.ShaftResult):
     """A shaft with its displaced axis."""
 
 
-class ProportionsInForce(Group, of=Coupling, only=("face_width", "tooth_height")):
-    """A coupling's proportions."""
+class ProportionsInForce(Group, of=Coupling, only=("face_width", "tooth_height", "tooth_stiffness")):
+    """A coupling's proportions and the stiffness of its teeth."""
 
 
 class CouplingInForce(Group, of=derived.DerivedCoupling):

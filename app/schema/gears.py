@@ -1,6 +1,8 @@
 """Gear pairs and their materials, shared by pumping and scuffing."""
 
-from typing import Annotated
+from typing import Annotated, Any, ClassVar
+
+from pydantic import model_validator
 
 from app.schema.model import Section
 from app.schema.quantities import Input
@@ -11,6 +13,16 @@ from solvers.pumping.inputs import PumpingSetup
 
 class GearMember(Section, of=GearTeeth):
     """One gear of the pair; coefficients count normal modules."""
+
+    exclusive: ClassVar = (("addendum", "tip_diameter_mm"),)
+    choice_missing: ClassVar = "missing_property"
+
+    @model_validator(mode="before")
+    @classmethod
+    def addendum_follows_the_tip_diameter(cls, given: Any) -> Any:
+        """With a tip diameter the default addendum is left out."""
+        by_diameter = isinstance(given, dict) and given.get("tip_diameter_mm") is not None
+        return {"addendum": None} | given if by_diameter else given
 
 
 class Gears(Section, of=GearPairInputs, without=("rack_tip_radius",)):

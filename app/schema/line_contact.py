@@ -63,7 +63,7 @@ class LineContactRequest(Request):
         """
         oil = self.lubricant.si(OilChoice).resolve()
         if oil is None:
-            message = "there is no film without an oil: give iso_vg, two kinematic viscosities or viscosity_pa_s"
+            message = "there is no film without an oil: give iso_vg, kinematic_viscosity_40 or viscosity_pa_s"
             raise InvalidInput("no_oil", message, "lubricant")
         inlet = self.temperatures.si(ehl.Temperatures).inlet
         return self.si(ehl.LineContactInputs, lubricant=lubricant_at(oil, inlet))

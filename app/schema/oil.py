@@ -19,7 +19,12 @@ def _names_a_sheet(given: dict[str, Any]) -> bool:
 
 
 class SheetOil(Section, of=OilBySheet):
-    """An oil by its ISO grade or by two kinematic viscosities, where that is what is known of it."""
+    """An oil by its ISO grade or viscosity at 40 °C, and by how it thins, where that is what is known of it."""
+
+    exclusive: ClassVar[tuple[tuple[str, ...], ...]] = (
+        ("iso_vg", "viscosity_pa_s", "kinematic_viscosity_40_mm2_per_s"),
+        ("kinematic_viscosity_100_mm2_per_s", "viscosity_index"),
+    )
 
     @property
     def by_sheet(self) -> bool:
@@ -28,29 +33,39 @@ class SheetOil(Section, of=OilBySheet):
 
     @model_validator(mode="after")
     def one_way(self) -> Self:
-        """A grade, or both viscosities."""
-        thick, thin = self.kinematic_viscosity_40_mm2_per_s, self.kinematic_viscosity_100_mm2_per_s
-        if self.iso_vg is not None and (thick, thin) != (None, None):
+        """The viscosity at 40 °C beside that at 100 °C; beside a viscosity index, that or the grade."""
+        thin = self.kinematic_viscosity_100_mm2_per_s
+        if self.iso_vg is not None and thin is not None:
             raise PydanticCustomError("exclusive", "iso_vg and kinematic viscosities are both given; keep one")
-        if (thick is None) != (thin is None):
+        if self.kinematic_viscosity_40_mm2_per_s is None and thin is not None:
             raise PydanticCustomError(
                 "two_viscosities", "give both kinematic_viscosity_40_mm2_per_s and kinematic_viscosity_100_mm2_per_s"
+            )
+        if self.viscosity_index is not None and not self.by_sheet:
+            raise PydanticCustomError(
+                "two_viscosities", "give kinematic_viscosity_40_mm2_per_s or iso_vg beside viscosity_index"
             )
         return self
 
     def stands_for_null(self, name: str) -> Any:
-        """The typical viscosity of a grade, the density of a kind of oil."""
+        """The viscosity at 100 °C by index or kind, the density of a kind of oil."""
         sheet = self.si(OilBySheet).sheet()
         if sheet and name == "kinematic_viscosity_100_mm2_per_s":
             return sheet.kinematic_viscosity_100 / SQUARE_MILLIMETRE
         return sheet.reference_density if sheet and name == "density_15_kg_per_m3" else None
+
+    def unused(self) -> dict[str, bool]:
+        """What only grade and data sheet have; with a viscosity index nothing is assumed of the oil at 100 °C."""
+        of_a_sheet = ("kinematic_viscosity_100_mm2_per_s", "viscosity_index", "density_15_kg_per_m3")
+        by_index = {"kinematic_viscosity_100_mm2_per_s": self.viscosity_index is not None}
+        return by_index if self.by_sheet else dict.fromkeys(of_a_sheet, True)
 
 
 class Oil(SheetOil, of=OilChoice):
     """The oil of a lubricated contact: by grade, by data sheet or by its viscosity; nothing names none."""
 
     exclusive: ClassVar = (
-        ("iso_vg", "viscosity_pa_s", "kinematic_viscosity_40_mm2_per_s"),
+        *SheetOil.exclusive,
         ("reference_temperature_c", "iso_vg", "kinematic_viscosity_40_mm2_per_s"),
     )
 
@@ -90,9 +105,7 @@ class Oil(SheetOil, of=OilChoice):
 
     def unused(self) -> dict[str, bool]:
         """What this way of giving the oil leaves out of a result; whether its kind counts is the request's to say."""
-        of_a_sheet = ("kinematic_viscosity_100_mm2_per_s", "density_15_kg_per_m3")
-        of_a_viscosity = ("reference_temperature_c", "density_kg_per_m3")
-        return dict.fromkeys(of_a_sheet, not self.by_sheet) | dict.fromkeys(of_a_viscosity, self.by_sheet)
+        return super().unused() | dict.fromkeys(("reference_temperature_c", "density_kg_per_m3"), self.by_sheet)
 
 
 _WITH_VISCOSITY = [name for name, field in Oil.model_fields.items() if isinstance(field.default, float)]
@@ -100,8 +113,6 @@ _WITH_VISCOSITY = [name for name, field in Oil.model_fields.items() if isinstanc
 
 class CouplingLubricant(SheetOil, of=CouplingOil):
     """Oil at the teeth."""
-
-    exclusive: ClassVar = (("iso_vg", "viscosity_pa_s", "kinematic_viscosity_40_mm2_per_s"),)
 
     @model_validator(mode="before")
     @classmethod
@@ -118,8 +129,8 @@ class CouplingLubricant(SheetOil, of=CouplingOil):
 
     def unused(self) -> dict[str, bool]:
         """What this way of giving the oil leaves out of a result."""
-        of_a_sheet = dict.fromkeys((*SheetOil.model_fields, "temperature_c"), not self.by_sheet)
-        return of_a_sheet | {"viscosity_pa_s": self.by_sheet}
+        of_a_sheet = () if self.by_sheet else (*SheetOil.model_fields, "temperature_c")
+        return super().unused() | dict.fromkeys(of_a_sheet, True) | {"viscosity_pa_s": self.by_sheet}
 
 
 class OilDerived(Derived, of=OilInUse):

@@ -14,7 +14,7 @@ from pydantic import BaseModel, ValidationError
 from app.errors import Fault, InvalidBody, pointer
 from app.schema.model import kinds
 from app.schema.quantities import meaning_of
-from solvers.quantity import UNITS, allowed
+from solvers.quantity import UNITS, Quantity, advice, allowed
 
 M = TypeVar("M", bound=BaseModel)
 Models = tuple[type[BaseModel], ...]
@@ -70,11 +70,11 @@ def _message(location: list[str | int], sections: Models, item: dict[str, Any]) 
     if kind == "missing":
         return f"{name} is required" if location else "the request needs a body"
     if kind in _NUMBER_TYPES:
-        return _no_number(value)
+        return _no_number(value) + _advice(sections, name, value)
     if kind in _SECTION_TYPES:
         return "leave the section out instead of null" if value is None else "give a section {...} of fields here"
     if kind in _RANGE_TYPES:
-        return f"{name} is {_figure(value)}; permissible {_allowed(sections, name)}"
+        return f"{name} is {_figure(value)}; permissible {_allowed(sections, name)}{_advice(sections, name, value)}"
     context = {key: str(said).replace("'", "") for key, said in item.get("ctx", {}).items()}
     choices = context.get("expected", "").replace(" or ", ", ")
     plain = {
@@ -121,11 +121,21 @@ def _figure(value: Any) -> str:
         return "far too large" if value > 0 else "far too small"
 
 
+def _declared(sections: Models, name: str) -> Quantity | None:
+    """The declaration of a field."""
+    fields = (section.model_fields.get(name) for section in sections)
+    return next((given for field in fields if field and (given := meaning_of(field.metadata))), None)
+
+
 def _allowed(sections: Models, name: str) -> str:
     """The range of a field with its unit."""
-    for section in sections:
-        field = section.model_fields.get(name)
-        given = meaning_of(field.metadata) if field else None
-        if given:
-            return f"{allowed(given)} {UNITS[given.unit].symbol}" if given.unit else allowed(given)
-    return "is another range"
+    given = _declared(sections, name)
+    if given is None:
+        return "is another range"
+    return f"{allowed(given)} {UNITS[given.unit].symbol}" if given.unit else allowed(given)
+
+
+def _advice(sections: Models, name: str, value: Any) -> str:
+    """What to give instead of the value."""
+    given = _declared(sections, name)
+    return advice(given, value) if given else ""

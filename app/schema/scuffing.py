@@ -103,7 +103,7 @@ groups(
     ),
     MeshLoss=(
         results.FrictionLoss,
-        "Friction loss at the mean coefficient; power and efficiency are those of the transmitted power.",
+        "Friction loss at its mean coefficient; power and efficiency are those of the transmitted power.",
     ),
     FlankPlace=(results.Place, "A point of the flank."),
     FlankPressure=(results.Pressure, "Dry Hertzian pressure.", {"max": View(headline=1)}),
@@ -217,9 +217,15 @@ PRACTICAL_FRICTION = Input.of(
     assumed=None,
     default_text="by the friction law, from the oil",
 )
-LAW = "the mean coefficient of ISO/TR 13989-1, with the computed K_Hβ; K_Hα is taken as 1"
+LAW = (
+    "for scuffing the mean coefficient of ISO/TR 13989-1, with the computed K_Hβ; K_Hα is taken as 1; for the losses "
+    "Schlenk's, without load factors"
+)
 NOT_USED = "not used: `model.friction` asks for the coefficient of ISO/TR 13989-1"
-MINERAL_FACTOR = "the lubricant factor is that of a mineral oil; none is known for an ester"
+ESTER_FACTOR = (
+    "no lubricant factor is known for an ester: for scuffing that of a mineral oil is taken, for the losses, if no "
+    "coefficient of friction is given, that of a polyalphaolefin"
+)
 GIVEN_BULK = (
     "a given bulk temperature does not follow the oil: with a hotter oil alone the stated safety rises, because it "
     "counts the temperatures above the oil's"
@@ -308,7 +314,7 @@ class MeshInOil(Request):
             if self.friction_coefficient is not None:
                 found["friction_coefficient"] = NOT_USED
         if self.lubricant.kind == "ester" and self._lubricant_factor_asked:
-            found["lubricant.kind"] = MINERAL_FACTOR
+            found["lubricant.kind"] = ESTER_FACTOR
         if self.temperatures.bulk_method == "given":
             found["temperatures.bulk_method"] = GIVEN_BULK
         if self.model.lubrication == "thermal_ehl":

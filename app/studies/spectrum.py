@@ -19,7 +19,7 @@ from solvers.arrays import FloatArray
 
 PROGRESS_S = 0.5  # between two lines that say how far a spectrum has come
 KILOWATTS = {"W": 1e-3, "kW": 1.0}  # per unit
-RELATIVE_DEVIATION = 0.15  # AGMA 925-A03, from memory
+RELATIVE_DEVIATION = 0.15  # AGMA 925-A03, quoted, not verified against the standard
 LIMIT_VARIES = 1e-9  # relative
 SHARES_OFF = 0.01  # how far the sum of the shares may be from 1
 ASSUMED_DEVIATION = (

@@ -17,7 +17,6 @@ from scipy.optimize import brentq, minimize_scalar
 from solvers.arrays import FloatArray, frozen
 from solvers.coupling.inputs import (
     MAX_MISALIGNMENT,
-    Coupling,
     CouplingInputs,
     RecommendationInputs,
     check_inputs,
@@ -25,7 +24,7 @@ from solvers.coupling.inputs import (
 from solvers.coupling.kinematics import max_contact_travel, mesh_motion, tooth_geometry
 from solvers.coupling.lubrication import MAX_CONTACT_PRESSURE, MAX_CONTACT_WIDTH, film_state
 from solvers.coupling.model import solve
-from solvers.coupling.results import CouplingResult, Geometry
+from solvers.coupling.results import CouplingResult, Derived, Geometry
 from solvers.coupling.tooth_loads import SLIDING_VELOCITY_LIMIT
 from solvers.errors import InvalidInput
 from solvers.notices import Notice
@@ -78,7 +77,7 @@ class Recommendation:
     at_min: RecommendedPoint | None = quantity("at the smallest misalignment")
     at_max: RecommendedPoint | None = quantity("at the largest misalignment")
     scan: CrowningScan = quantity("scan", text="how crowning trades off", detail="curves")
-    derived: Coupling = quantity("proportions used")
+    derived: Derived = quantity("proportions and oil used")
     warnings: tuple[Notice, ...]
 
 
@@ -212,10 +211,10 @@ def recommend(inputs: RecommendationInputs) -> Recommendation:
     sliding = _sliding_notices(inputs)
     if inputs.min_misalignment == inputs.max_misalignment and sliding:
         nowhere = replace(scan, feasible=(False,) * len(scan.feasible))
-        return _infeasible("sliding_velocity", nowhere, inputs.design.coupling, sliding)
+        return _infeasible("sliding_velocity", nowhere, Derived.of(inputs.design), sliding)
     low, high, failed = crowning_window(state)
     if failed is not None:
-        return _infeasible(failed, scan, inputs.design.coupling, sliding)
+        return _infeasible(failed, scan, Derived.of(inputs.design), sliding)
     ratio = _best_ratio(state, low, high)
     at_min = solve(at_misalignment(inputs, ratio, inputs.min_misalignment))
     at_max = solve(at_misalignment(inputs, ratio, inputs.max_misalignment))
@@ -227,7 +226,7 @@ def recommend(inputs: RecommendationInputs) -> Recommendation:
         at_min=_point(at_min),
         at_max=_point(at_max),
         scan=scan,
-        derived=inputs.design.coupling,
+        derived=Derived.of(inputs.design),
         warnings=_merged((*sliding, *at_min.warnings, *at_max.warnings)),
     )
 
@@ -283,7 +282,7 @@ def _scan(state: Callable[[float], CrowningState]) -> CrowningScan:
     )
 
 
-def _infeasible(failed: str, scan: CrowningScan, coupling: Coupling, warnings: tuple[Notice, ...]) -> Recommendation:
+def _infeasible(failed: str, scan: CrowningScan, used: Derived, warnings: tuple[Notice, ...]) -> Recommendation:
     """No crowning ratio serves the whole range."""
     return Recommendation(
         feasible=False,
@@ -293,7 +292,7 @@ def _infeasible(failed: str, scan: CrowningScan, coupling: Coupling, warnings: t
         at_min=None,
         at_max=None,
         scan=scan,
-        derived=coupling,
+        derived=used,
         warnings=(*warnings, Notice("infeasible", _REASONS[failed], "misalignment_range", rank="invalid")),
     )
 

@@ -20,6 +20,8 @@ InletModel = Literal["face", "travel", "infinite"]
 
 MAX_MISALIGNMENT = radians(6.0)  # chosen: there a theory of small angles errs by half a percent
 LEAST_TORQUE = 1e-6  # N m, chosen: counts as none
+STEEL = 206e9  # Pa, for which ISO 6336-1 states its stiffness
+STEEL_TOOTH_STIFFNESS = 280e6  # N/m, of a pair of steel teeth
 
 
 @record
@@ -70,15 +72,16 @@ class CouplingDesign:
         text="distance of the two tooth planes",
         assumed="order of magnitude",
     )
-    tooth_stiffness: float = quantity(
+    tooth_stiffness: float | None = quantity(
         "tooth pair stiffness",
         "c_t",
         unit="n_per_um",
-        default=280.0,
+        default=None,
         ge=0.1,
         le=1e5,
         text="tangential stiffness of one tooth pair",
-        assumed="order of magnitude of ISO 6336-1: 14 N/(mm µm) over 20 mm of effective width",
+        default_text="280 N/µm times E/206 GPa",
+        assumed="order of magnitude of ISO 6336-1: 14 N/(mm µm) over 20 mm of effective width, times E/206 GPa",
     )
     sleeve_mass: float = quantity(
         "sleeve mass per mesh",
@@ -111,19 +114,25 @@ class CouplingDesign:
     )
 
     def coupling(self) -> "Coupling":
-        """The coupling with the proportions that were left open."""
+        """The coupling with the proportions and the stiffness that were left open."""
         known = {each.name: getattr(self, each.name) for each in fields(self)}
         width = 8 * self.module if self.face_width is None else self.face_width
         height = 2 * self.module if self.tooth_height is None else self.tooth_height
-        return Coupling(**known | {"face_width": width, "tooth_height": height})
+        stiffness = self.tooth_stiffness
+        if stiffness is None:
+            stiffness = STEEL_TOOTH_STIFFNESS * self.youngs_modulus / STEEL
+        return Coupling(**known | {"face_width": width, "tooth_height": height, "tooth_stiffness": stiffness})
 
 
 @record(kw_only=True)
 class Coupling(CouplingDesign):
-    """The coupling with all proportions known."""
+    """The coupling with all proportions and the stiffness of its teeth known; by default that of steel."""
 
     face_width: float = quantity("face width used", "b", unit="mm", ge=0.1, le=2000)
     tooth_height: float = quantity("tooth height used", "h_trag", unit="mm", ge=0.05, le=200)
+    tooth_stiffness: float = quantity(
+        "tooth pair stiffness used", "c_t", unit="n_per_um", default=280.0, ge=0.1, le=1e5
+    )
 
 
 @record
@@ -169,7 +178,7 @@ class Load:
     shaft_diameter: float | None = quantity(
         "shaft diameter",
         "D",
-        "API 671/617 practice, from memory",
+        "API 671/617 practice, quoted, not verified against the standard",
         unit="mm",
         default=None,
         ge=1,
@@ -246,10 +255,15 @@ class Operation(Load):
 
 @record
 class Lubricant:
-    """Oil at the teeth; the default viscosity is that of ISO VG 46 near 50 C."""
+    """Oil at the teeth; the default viscosity is that of ISO VG 46 near 50 C.
+
+    `viscosity_index` and `temperature` [K] of an oil by grade or data sheet are told, not used.
+    """
 
     viscosity: float = quantity("oil viscosity at the teeth", "η", unit="pa_s", default=0.025, gt=0)
     reference_film: float = quantity("film of the load capacity", "h_0", unit="um", default=1.0, gt=0)
+    viscosity_index: float | None = None
+    temperature: float | None = None
 
 
 @record
@@ -296,7 +310,8 @@ class CouplingOil(OilBySheet):
         """
         sheet = self.sheet()
         if sheet is not None:
-            return Lubricant(sheet.viscosity(self.temperature), self.reference_film)
+            viscosity = sheet.viscosity(self.temperature)
+            return Lubricant(viscosity, self.reference_film, sheet.viscosity_index, self.temperature)
         if self.viscosity is None:
             message = "give viscosity, or the oil by its grade or data sheet"
             raise InvalidInput("missing_property", message, "lubricant.viscosity")

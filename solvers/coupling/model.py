@@ -7,7 +7,7 @@ from solvers.coupling.inputs import CouplingInputs, check_inputs
 from solvers.coupling.kinematics import kinematics, mesh_motion, tooth_geometry
 from solvers.coupling.lubrication import FilmState, check_contact, film_state, friction_coefficient, friction_regime
 from solvers.coupling.notices import contact_notices, load_notices, motion_notices
-from solvers.coupling.results import CouplingResult, Lubrication
+from solvers.coupling.results import CouplingResult, Derived, Lubrication
 from solvers.coupling.tooth_loads import limits, load_distribution
 
 
@@ -41,7 +41,7 @@ def solve(inputs: CouplingInputs) -> CouplingResult:
         axial_thrust=thrust,
         losses=losses(inputs, geometry, loaded, friction),
         limits=bounds,
-        derived=inputs.coupling,
+        derived=Derived.of(inputs),
         warnings=(
             *motion_notices(inputs, geometry, motion, thrust, bounds),
             *load_notices(inputs, load, thrust, bounds),

@@ -79,6 +79,8 @@ def load_notices(
 def contact_notices(inputs: CouplingInputs, kinematics: Kinematics, lubrication: Lubrication) -> Iterator[Notice]:
     """Notices about the oil, the contact on the face and the film."""
     yield from plausibility.thick_oil(inputs.lubricant.viscosity)
+    if inputs.lubricant.temperature is not None:
+        yield from plausibility.oil_temperature(inputs.lubricant.temperature, "lubricant.temperature")
     half_face = inputs.coupling.face_width / 2.0
     if lubrication.hertz_half_width > half_face:
         yield Notice("wide_contact", "the contact at rest is wider than the tooth face", "face_width", rank="invalid")

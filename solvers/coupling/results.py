@@ -4,8 +4,10 @@ Lengths [m], angles [rad], forces [N], moments [N m]. A value that has no meanin
 says why.
 """
 
+from typing import Self
+
 from solvers.arrays import FloatArray
-from solvers.coupling.inputs import Coupling
+from solvers.coupling.inputs import Coupling, CouplingInputs
 from solvers.notices import Notice
 from solvers.quantity import quantity, record
 from solvers.sources import PAHL
@@ -221,7 +223,7 @@ class AxialThrust:
     customary_force: float | None = quantity(
         "customary thrust",
         "0.25 T/D",
-        "API 671/617 practice, from memory",
+        "API 671/617 practice, quoted, not verified against the standard",
         unit="n",
         text="0.25 T/D; null without a shaft diameter",
     )
@@ -296,8 +298,24 @@ class Limits:
 
 
 @record
+class Derived:
+    """The coupling with its proportions filled in, and the oil at its teeth: viscosity [Pa s], viscosity index."""
+
+    coupling: Coupling
+    viscosity: float = quantity("oil viscosity used", "η", unit="pa_s", text="at the teeth")
+    viscosity_index: float | None = quantity(
+        "viscosity index used", "VI", "ASTM D2270", text="null without grade or data sheet"
+    )
+
+    @classmethod
+    def of(cls, inputs: CouplingInputs) -> Self:
+        """Return what these inputs leave open, as it is used."""
+        return cls(inputs.coupling, inputs.lubricant.viscosity, inputs.lubricant.viscosity_index)
+
+
+@record
 class CouplingResult:
-    """Everything about one operating point; `derived` is the coupling with its proportions filled in."""
+    """Everything about one operating point; `derived` is the coupling and its oil with what the inputs left open."""
 
     geometry: Geometry = quantity("geometry", text="radii")
     kinematics: Kinematics = quantity("motion of the teeth")
@@ -306,7 +324,7 @@ class CouplingResult:
     axial_thrust: AxialThrust = quantity("thrust", text="axial thrust")
     losses: Losses = quantity("losses", text="friction losses and moments")
     limits: Limits = quantity("limits and stiffnesses")
-    derived: Coupling = quantity("proportions used")
+    derived: Derived = quantity("proportions and oil used")
     warnings: tuple[Notice, ...]
 
 

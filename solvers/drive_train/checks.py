@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from solvers.drive_train.inputs import DriveTrainInputs, LinearBearing, Shaft
-from solvers.drive_train.shafts.shaft import COINCIDENT
+from solvers.drive_train.inputs import COINCIDENT, DriveTrainInputs, LinearBearing, Shaft
 from solvers.errors import InvalidInput
 from solvers.gears.pair import PathOfContact
 
@@ -42,7 +41,7 @@ def _check_sections(inputs: DriveTrainInputs, path: PathOfContact, index: int, n
             raise InvalidInput("section_diameter", message, f"{field}.inner_diameter")
         under_face = position < end - COINCIDENT and position + section.length > start + COINCIDENT
         if under_face and section.outer_diameter > tip:
-            message = f"section {k} under the teeth has a larger diameter than their tips; give the reference diameter"
+            message = f"section {k} under the teeth has a larger diameter than their tips; leave it out"
             raise InvalidInput("section_diameter", message, f"{field}.outer_diameter")
         position += section.length
 

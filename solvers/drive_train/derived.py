@@ -4,6 +4,7 @@ from solvers.coupling.inputs import Coupling
 from solvers.drive_train.inputs import DriveTrainInputs, JournalBearing, Shaft, ShaftName
 from solvers.lubricants import OilInUse, oil_in_use
 from solvers.quantity import quantity, record
+from solvers.scuffing.inputs import TR_13989
 from solvers.scuffing.results import LoadDistribution
 
 
@@ -16,18 +17,30 @@ class DerivedBearing:
 
 
 @record
+class DerivedSection:
+    """Outer diameter in force [m]."""
+
+    outer_diameter: float = quantity("section outer diameter used", "d_o", unit="mm")
+
+
+@record
 class DerivedShaft:
-    """Where torque enters [m], bearings."""
+    """Where torque enters [m], sections, bearings."""
 
     torque_position: float = quantity("place of the torque used", "z_T", unit="mm")
+    sections: tuple[DerivedSection, ...] = quantity("sections used")
     bearings: tuple[DerivedBearing, ...] = quantity("bearings used")
 
 
 @record
 class DerivedCoupling:
-    """The coupling with its missing proportions, and the axial stiffness of its teeth [N/m]."""
+    """The coupling's missing proportions, its oil's viscosity [Pa s], the axial stiffness of its teeth [N/m]."""
 
     coupling: Coupling = quantity("proportions used")
+    viscosity: float = quantity("oil viscosity used", "η", unit="pa_s", text="at the teeth")
+    viscosity_index: float | None = quantity(
+        "viscosity index used", "VI", "ASTM D2270", text="null without grade or data sheet"
+    )
     axial_tooth_stiffness: float = quantity("axial tooth stiffness used", "c_a", unit="n_per_um")
 
 
@@ -48,6 +61,9 @@ class DerivedTemperatures:
     )
     scuffing: float | None = quantity(
         "scuffing temperature used", "θ_S", unit="c", text="given or by a test; null with neither"
+    )
+    lubricant_factor: float | None = quantity(
+        "lubricant factor of the scuffing test used", "X_L", TR_13989, text="null without a scuffing test"
     )
 
 
@@ -87,12 +103,21 @@ def derived(inputs: DriveTrainInputs, mesh: LoadDistribution) -> Derived:
         pinion_shaft=_shaft(inputs, inputs.pinion_shaft, "pinion"),
         wheel_shaft=_shaft(inputs, inputs.wheel_shaft, "wheel"),
         couplings=tuple(
-            DerivedCoupling(one.coupling, one.axial_tooth_stiffness or one.coupling.tooth_stiffness)
+            DerivedCoupling(
+                one.coupling,
+                one.lubricant.viscosity,
+                one.lubricant.viscosity_index,
+                one.axial_tooth_stiffness or one.coupling.tooth_stiffness,
+            )
             for one in inputs.couplings
         ),
         thermal=DerivedHeat(*inputs.heat.responses(ratio)),
         lubricant=None if lubricant is None else OilInUse(**oil_in_use(lubricant)),
-        temperatures=DerivedTemperatures(inputs.mesh.temperatures.bulk, inputs.mesh.temperatures.scuffing),
+        temperatures=DerivedTemperatures(
+            inputs.mesh.temperatures.bulk,
+            inputs.mesh.temperatures.scuffing,
+            inputs.mesh.temperatures.lubricant_factor,
+        ),
     )
 
 
@@ -102,6 +127,7 @@ def _shaft(inputs: DriveTrainInputs, shaft: Shaft, name: ShaftName) -> DerivedSh
         position = next(one.position for one in inputs.couplings if one.shaft == name)
     return DerivedShaft(
         position,
+        tuple(DerivedSection(section.outer_diameter) for section in shaft.sections),
         tuple(
             DerivedBearing(bearing.clearance, bearing.viscosity)
             if isinstance(bearing, JournalBearing)

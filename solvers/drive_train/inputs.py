@@ -5,11 +5,13 @@ The frame: Z along the pinion's axis, X and Y across it; positions along Z are f
 """
 
 from dataclasses import dataclass, field
+from math import cos
 from typing import Literal
 
 from solvers.coupling.inputs import Coupling, Friction, ModelOptions
 from solvers.coupling.inputs import Lubricant as CouplingLubricant
 from solvers.errors import InvalidInput
+from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.lubricants import Lubricant
 from solvers.oils import OilSheet, lubricant_at
 from solvers.pumping.inputs import PumpingSetup
@@ -23,22 +25,63 @@ ShaftName = Literal["pinion", "wheel"]
 State = Literal["hot", "cold"]
 ASSUMED_RESPONSE = 0.5  # chosen: among the known values, 0.2 to 1
 FILM_ABOVE_OIL = 15.0  # K
+COINCIDENT = 1e-9  # m; places nearer than this are one
 
 
 @record
-class ShaftSection:
-    """A cylinder of a shaft [m]."""
+class SectionDesign:
+    """A cylinder of a shaft as its user knows it [m]; under the teeth the diameter may be left out."""
 
     length: float = quantity("section length", "l", unit="mm", ge=0.1, le=5000)
-    outer_diameter: float = quantity(
+    outer_diameter: float | None = quantity(
         "section outer diameter",
         "d_o",
         unit="mm",
+        default=None,
         ge=5,
         le=3000,
-        text="under the teeth the reference diameter, as in ISO 6336-1, or the user's own",
+        text="under the teeth the diameter that carries torsion",
+        default_text="under the teeth d - m_n h_fP*; required elsewhere",
+        assumed="under the teeth d - m_n h_fP*, the root circle and a third of the tooth; the reference diameter "
+        "twists too little",
     )
     inner_diameter: float = quantity("section bore", "d_i", unit="mm", default=0.0, ge=0, le=3000, tolerance=0.1)
+
+
+@record
+class ShaftSection(SectionDesign):
+    """A cylinder of a shaft with its diameter known [m]."""
+
+    outer_diameter: float = quantity("section outer diameter used", "d_o", unit="mm", ge=5, le=3000)
+
+
+def torsion_diameter(gears: GearPairInputs, teeth: GearTeeth) -> float:
+    """Diameter [m] that carries the torsion of a toothed section: d - m_n h_fP*, by a public program's rule.
+
+    h_fP* is the dedendum of the teeth, the addendum of the tool that cuts them. Eq. D16.
+    """
+    reference = teeth.teeth * gears.normal_module / cos(gears.helix_angle)
+    return reference - gears.normal_module * teeth.dedendum
+
+
+def sections_of(
+    name: str, start: float, described: tuple[SectionDesign, ...], face: tuple[float, float], diameter: float
+) -> tuple[ShaftSection, ...]:
+    """The sections of a shaft from `start` [m] on; those under the face that have no diameter take this one [m].
+
+    `face` is where the face starts and ends [m]. Raises InvalidInput section_diameter where another has none.
+    """
+    sections, position = [], start
+    for k, section in enumerate(described):
+        outer, end = section.outer_diameter, position + section.length
+        if outer is None:
+            if position > face[1] - COINCIDENT or end < face[0] + COINCIDENT:
+                message = f"section {k} is not under the teeth and needs its diameter"
+                raise InvalidInput("section_diameter", message, f"{name}.sections.{k}.outer_diameter")
+            outer = diameter
+        sections.append(ShaftSection(section.length, outer, section.inner_diameter))
+        position = end
+    return tuple(sections)
 
 
 @dataclass(frozen=True, slots=True)

@@ -14,7 +14,7 @@ from solvers.drive_train.results import (
     TrainLosses,
 )
 from solvers.notices import Notice
-from solvers.scuffing.notices import unusual_modifications
+from solvers.scuffing.notices import unusual_modifications, unusual_temperatures
 
 SHORT_BEARING = 0.7  # width over diameter
 ROUNDING = 1e-9  # of lengths that come from other units
@@ -107,10 +107,16 @@ def unusual_values(inputs: DriveTrainInputs, result: DriveTrainResult) -> Iterat
     for name, shaft in zip(NAMES, (derived.pinion_shaft, derived.wheel_shaft), strict=True):
         for k, bearing in enumerate(shaft.bearings):
             yield from plausibility.thick_oil(bearing.viscosity, f"{name}.bearings.{k}.viscosity")
-    yield from plausibility.hot_oil(inputs.mesh.temperatures.oil, derived.temperatures.bulk)
+    if inputs.mesh.known_oil is not None:
+        yield from unusual_temperatures(inputs.mesh.temperatures)
+        yield from plausibility.hot_oil(inputs.mesh.temperatures.oil, derived.temperatures.bulk)
+    yield from plausibility.tooth_temperature(inputs.heat.pinion_bulk, "heat.pinion_bulk")
+    yield from plausibility.tooth_temperature(inputs.heat.wheel_bulk, "heat.wheel_bulk")
     yield from plausibility.thin_air(inputs.pumping.ambient.pressure)
     for k, each in enumerate(inputs.couplings):
         yield from plausibility.tall_tooth(each.coupling.tooth_height, each.coupling.module, f"couplings.{k}.coupling")
+        if each.lubricant.temperature is not None:
+            yield from plausibility.oil_temperature(each.lubricant.temperature, f"couplings.{k}.lubricant.temperature")
     yield from plausibility.gears(mesh.gears, mesh.load.pinion_speed)
     yield from unusual_modifications(mesh.modifications)
     yield from plausibility.high_pressure(load.max_pressure)

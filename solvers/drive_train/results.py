@@ -6,6 +6,7 @@ from solvers.drive_train.inputs import Vector2
 from solvers.drive_train.shafts.thrust_budget import Thrust
 from solvers.notices import Notice
 from solvers.quantity import computed, quantity, record
+from solvers.scuffing.inputs import TR_13989
 from solvers.scuffing.results import LoadDistribution, Place
 from solvers.sources import ISO_6336, OCVIRK
 
@@ -190,6 +191,12 @@ class FlashPlaces:
         "θ_B,max",
         unit="c",
         text="by Blok over the flank and the feature line; null without an oil",
+    )
+    friction_coefficient: float | None = quantity(
+        "mean coefficient of friction of the flash temperature",
+        "μ_mB",
+        TR_13989,
+        text="given, or by the oil (ISO/TR 13989-1); null if neither it nor an oil is given",
     )
 
 

@@ -81,6 +81,7 @@ def flank_heat(inputs: DriveTrainInputs, mesh: LoadDistribution, thermal: Therma
             flank=None if strongest is None else strongest.value,
             flank_at=place,
             contact_max=contacts[1],
+            friction_coefficient=inputs.mesh.distribution.friction_coefficient,
         ),
         safety=_safety(inputs, contacts, place),
         unsolved_points=unsolved,

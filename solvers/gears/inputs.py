@@ -3,7 +3,8 @@
 from math import atan, cos, tan
 from typing import Literal
 
-from solvers.quantity import quantity, record
+from solvers.errors import InvalidInput
+from solvers.quantity import quantities, quantity, record
 from solvers.sources import ISO_21771
 
 GROUND_FILLET = 0.25  # normal modules; usual tip radius of the rack of ground teeth
@@ -12,20 +13,23 @@ RACK_A = 0.38  # normal modules; rack A of ISO 53, assumed where the stiffness o
 
 @record
 class GearTeeth:
-    """One gear's teeth; every coefficient counts normal modules."""
+    """One gear's teeth; every coefficient counts normal modules. A tip diameter given counts, not the addendum."""
 
-    teeth: int = quantity("number of teeth", "z", ISO_21771, ge=5, le=1000)
+    teeth: int = quantity(
+        "number of teeth", "z", ISO_21771, ge=5, le=1000, if_negative="internal gears are not modelled"
+    )
     profile_shift: float = quantity(
         "profile shift coefficient", "x", ISO_21771, default=0.0, ge=-2, le=3, tolerance=0.01
     )
-    addendum: float = quantity(
+    addendum: float | None = quantity(
         "addendum coefficient",
         "h_aP*",
         "ISO 53",
         default=1.0,
         ge=0.01,
         le=3,
-        text="addendum coefficient of the rack; the tip radius follows",
+        text="addendum coefficient of the rack; the tip diameter follows",
+        default_text="by the tip diameter",
     )
     dedendum: float = quantity(
         "dedendum coefficient",
@@ -35,6 +39,19 @@ class GearTeeth:
         ge=0.01,
         le=3,
         text="dedendum coefficient of the rack; the root radius follows",
+    )
+    tip_diameter: float | None = quantity(
+        "tip diameter",
+        "d_a",
+        ISO_21771,
+        unit="mm",
+        kw_only=True,
+        default=None,
+        ge=0.1,
+        le=20000,
+        tolerance=0.05,
+        text="tip diameter of the drawing, instead of the addendum coefficient",
+        default_text="by the addendum coefficient",
     )
 
 
@@ -77,6 +94,7 @@ class GearPairInputs:
         le=45,
         tolerance=0.05,
         text="helix angle at the reference circle; the hand does not matter",
+        if_negative="give the amount; the hand matters in the drive train only and is `gears.hand` there",
     )
     face_width: float = quantity(
         "face width", "b", ISO_21771, unit="mm", ge=0.01, le=5000, tolerance=0.1, text="common face width"
@@ -110,6 +128,27 @@ class GearPairInputs:
     def normal_module(self) -> float:
         """Module in the normal section [m]."""
         return self.module if self.module_plane == "normal" else self.module * cos(self.helix_angle)
+
+    def addendum_of(self, teeth: GearTeeth) -> float:
+        """Addendum coefficient of one gear of the pair: h_aP* = (d_a - d)/(2 m_n) - x of a tip diameter d_a.
+
+        Raises InvalidInput: missing_property with neither; tip_diameter where no rack makes it.
+        """
+        name = "pinion" if teeth is self.pinion else "wheel"
+        if teeth.tip_diameter is None:
+            if teeth.addendum is None:
+                raise InvalidInput("missing_property", "give addendum or tip_diameter", f"{name}.addendum")
+            return teeth.addendum
+        reference = teeth.teeth * self.normal_module / cos(self.helix_angle)
+        addendum = (teeth.tip_diameter - reference) / (2 * self.normal_module) - teeth.profile_shift
+        declared = quantities(GearTeeth)["addendum"].bounds
+        if not declared["ge"] <= addendum <= declared["le"]:
+            message = (
+                f"a tip diameter of {teeth.tip_diameter * 1e3:.6g} mm makes an addendum coefficient of {addendum:.4g}; "
+                f"permissible {declared['ge']:g} to {declared['le']:g}: check it, the module and the profile shift"
+            )
+            raise InvalidInput("tip_diameter", message, f"{name}.tip_diameter")
+        return addendum
 
     @property
     def normal_pressure_angle(self) -> float:

@@ -5,6 +5,7 @@ from math import inf, pi, tan
 import numpy as np
 
 from solvers.arrays import FloatArray, frozen
+from solvers.gears.diameters import diameters_of
 from solvers.notices import Notice
 from solvers.pumping.checks import check_speed
 from solvers.pumping.flow.nozzle import Gas
@@ -89,6 +90,7 @@ def _geometry(mesh: Mesh) -> MeshGeometry:
         transverse_contact_ratio=mesh.path.transverse_contact_ratio,
         normal_backlash=normal_backlash(pair, mesh.setup.normal_backlash),
         undercut=pair.pinion.undercut or pair.wheel.undercut,
+        **diameters_of(pair),
     )
 
 

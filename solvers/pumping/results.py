@@ -1,6 +1,7 @@
 """Results of a pumping calculation, in SI."""
 
 from solvers.arrays import FloatArray
+from solvers.gears.diameters import Diameters
 from solvers.notices import Notice
 from solvers.pumping.lead_correction import LeadCorrection
 from solvers.pumping.pulsation import Pulsation
@@ -10,7 +11,7 @@ from solvers.sources import MILIAN
 
 
 @record
-class MeshGeometry:
+class MeshGeometry(Diameters):
     """The pair as meshed; lengths [m], angle [rad]."""
 
     centre_distance: float = quantity("centre distance", "a", unit="mm", text="centre distance in use")

@@ -360,7 +360,16 @@ class LoadDistributionInputs:
 class ScuffingTest:
     """The FZG A/8.3/90 load stage at which the oil fails; X_W of the steel, X_L of the oil (None: that at 90 C)."""
 
-    fzg_stage: int = quantity("failure load stage", "S", FZG, ge=1, le=12)
+    fzg_stage: int = quantity(
+        "failure load stage",
+        "S",
+        FZG,
+        ge=1,
+        le=14,
+        text="stage at which the oil fails; 13 if a data sheet says above 12",
+        if_above='"above 12" on a data sheet means that stage 12 was passed: enter 13 for the limit that this proves '
+        "at least, or the failing stage if it is known",
+    )
     test: Literal["A/8.3/90"] = quantity("scuffing test", None, FZG, kw_only=True, default="A/8.3/90")
     structure_factor: float = quantity(
         "structural factor",
@@ -379,6 +388,8 @@ class ScuffingTest:
         ge=0.1,
         le=2,
         default_text="by the oil's kind, and its viscosity at 90 °C",
+        assumed="X_L at the test's 90 °C, for the scuffing temperature is a property of oil and steel; others take it "
+        "at the oil temperature in use",
     )
 
 
@@ -445,6 +456,11 @@ class Temperatures:
         "scuffing test", default=None, text="instead of the temperature: the stage at which the oil fails"
     )
 
+    @property
+    def lubricant_factor(self) -> float | None:
+        """X_L of the scuffing test; None without one."""
+        return None if self.scuffing_test is None else self.scuffing_test.lubricant_factor
+
 
 @record
 class ScuffingInputs:
@@ -454,7 +470,7 @@ class ScuffingInputs:
 
     An `oil` takes the place of the lubricant, as it is at the bulk temperature; with neither there are no film, contact
     temperature and safety. friction: "given" is the coefficient of the distribution,
-    "iso_tr_13989" the mean coefficient of that report, for Blok and the losses.
+    "iso_tr_13989" the mean coefficient of that report for Blok, and Schlenk's for the losses.
     lubrication: "thermal_ehl" solves the film under the local load (`film` is its model), "closed_form" leaves it at
     Blok's and Dowson and Higginson's formulas, which are there in either case.
     """
@@ -468,8 +484,8 @@ class ScuffingInputs:
         None,
         TR_13989,
         default="given",
-        text="the coefficient given, or the mean one of ISO/TR 13989-1, for Blok and the losses; the first"
-        " where a coefficient is given",
+        text="the coefficient given, or by the oil: that of ISO/TR 13989-1 for Blok, Schlenk's for the losses; the"
+        " first where a coefficient is given",
     )
     lubrication: Lubrication = quantity(
         "lubrication model",

@@ -12,13 +12,14 @@ from numpy.typing import NDArray
 
 from solvers.arrays import FloatArray, frozen, without_rounding
 from solvers.gears.pair import GearPair, PathOfContact
-from solvers.scuffing.inputs import Load
+from solvers.scuffing.inputs import Load, LoadDistributionInputs
 from solvers.scuffing.load_balance import LoadBalance
 from solvers.scuffing.results import ErrorCurves, FrictionLoss, Stiffness, StiffnessCurves, TransmissionError
 from solvers.scuffing.tooth_stiffness import single_stiffness
 
 CURVE_POINTS = 101  # every percent of the path, for the curve
 REFERENCE_LOAD = 100e3  # N/m, for which ISO 6336-1 states c'; stands in where there is no load
+STEEL = 206e9  # Pa, for which it states c'
 DISC_FACTOR = 1.0  # C_R: solid discs
 MEASURED_FRACTION = 0.8  # C_M
 HARMONICS = 5  # chosen
@@ -67,24 +68,29 @@ class StandardStiffness:
     mesh_bending: float
 
 
-def standard_stiffness(path: PathOfContact, line_load: float = REFERENCE_LOAD) -> StandardStiffness:
+def standard_stiffness(
+    path: PathOfContact, line_load: float = REFERENCE_LOAD, youngs_modulus: float = STEEL
+) -> StandardStiffness:
     """Stiffness by ISO 6336-1: c' = c'_th C_M C_R C_B cos beta, c_ga = c' (0.75 eps_alpha + 0.25), c_gb = 0.85 c_ga.
 
     1/c'_th = 0.04723 + 0.15551/z_n1 + 0.25791/z_n2 - 0.00635 x1 - 0.11654 x1/z_n1 - 0.00193 x2 - 0.24188 x2/z_n2
               + 0.00529 x1^2 + 0.00182 x2^2 [mm um/N]; C_B for the basic rack.
 
-    Below a line load F_t K_A/b [N/m] of 100 N/mm c' falls with its fourth root. Eq. L16.
+    Gear 1 has fewer teeth, whichever drives; of equal teeth the larger profile shift, chosen. Other materials than
+    steel scale c' by E/206 GPa. Below a line load F_t K_A/b [N/m] of 100 N/mm c' falls with its fourth root. Eq. L16.
     """
     inputs = path.pair.inputs
     virtual = cos(path.pair.base_helix_angle) ** 2 * cos(inputs.helix_angle)
-    z1, z2 = inputs.pinion.teeth / virtual, inputs.wheel.teeth / virtual
-    x1, x2 = inputs.pinion.profile_shift, inputs.wheel.profile_shift
+    first, second = sorted((inputs.pinion, inputs.wheel), key=lambda gear: (gear.teeth, -gear.profile_shift))
+    z1, z2 = first.teeth / virtual, second.teeth / virtual
+    x1, x2 = first.profile_shift, second.profile_shift
     flexibility = 0.04723 + 0.15551 / z1 + 0.25791 / z2 - 0.00635 * x1 - 0.11654 * x1 / z1
     flexibility += -0.00193 * x2 - 0.24188 * x2 / z2 + 0.00529 * x1**2 + 0.00182 * x2**2
     theoretical = 1e9 / flexibility
     rack = _rack_factor(path.pair)
     light = min(line_load / REFERENCE_LOAD, 1.0) ** 0.25
-    single = theoretical * MEASURED_FRACTION * DISC_FACTOR * rack * cos(inputs.helix_angle) * light
+    material = youngs_modulus / STEEL
+    single = theoretical * material * MEASURED_FRACTION * DISC_FACTOR * rack * cos(inputs.helix_angle) * light
     mesh = single * (0.75 * path.transverse_contact_ratio + 0.25)
     return StandardStiffness(theoretical, single, mesh, 0.85 * mesh)
 
@@ -110,7 +116,7 @@ def mesh_stiffness(balance: LoadBalance, tangential_force: float) -> FloatArray 
 
 
 def stiffness(
-    path: PathOfContact, balance: LoadBalance, load: Load, mean_load: float, tangential_force: float
+    path: PathOfContact, balance: LoadBalance, inputs: LoadDistributionInputs, mean_load: float, tangential_force: float
 ) -> Stiffness:
     """Stiffness of one pair along the path, secant at the mean line load [N/m] if any, and of the mesh."""
     secant_load = mean_load if mean_load > 0.0 else REFERENCE_LOAD
@@ -119,7 +125,8 @@ def stiffness(
     pitch_x = path.pitch_point - path.start
     curve = np.linspace(0.0, path.length, CURVE_POINTS)
     mesh = mesh_stiffness(balance, tangential_force)
-    standard = standard_stiffness(path, _standard_line_load(path, load))
+    moduli = inputs.pinion_material.youngs_modulus, inputs.wheel_material.youngs_modulus
+    standard = standard_stiffness(path, _standard_line_load(path, inputs.load), 2 * moduli[0] * moduli[1] / sum(moduli))
     return Stiffness(
         max=float(single.max()),
         max_at_gamma=without_rounding(float(path.profile_parameter(x[np.argmax(single)])), 1.0),

@@ -7,6 +7,7 @@ import numpy as np
 
 from solvers.arrays import frozen, without_rounding
 from solvers.contact.hertz import reduced_modulus
+from solvers.gears.diameters import diameters_of
 from solvers.gears.gear import rack_tip_radius
 from solvers.gears.pair import PathOfContact, meshing_path
 from solvers.scuffing.contact_lines import ContactLengths, RollPositions, contact_lengths, roll_positions
@@ -98,7 +99,7 @@ def distribution(inputs: LoadDistributionInputs, prepared: PreparedMesh, balance
         maps=partial(flank, balance, modulus, resolution.profile_points, resolution.face_points),
         geometry=_geometry(path),
         contact_lines=_contact_lines(lengths, balance),
-        stiffness=stiffness(path, balance, inputs.load, balance.force / lengths.mean, tangential_force),
+        stiffness=stiffness(path, balance, inputs, balance.force / lengths.mean, tangential_force),
         transmission_error=transmission_error(balance),
         load=_load_on_flank(path, balance, inputs.load, tangential_force),
         pressure=_pressure(path, balance, modulus),
@@ -126,6 +127,7 @@ def _geometry(path: PathOfContact) -> Geometry:
         overlap_ratio=path.overlap_ratio,
         total_contact_ratio=path.total_contact_ratio,
         undercut=pair.pinion.undercut or pair.wheel.undercut,
+        **diameters_of(pair),
     )
 
 

@@ -13,7 +13,7 @@ from solvers.notices import Notice
 from solvers.quantity import quantities
 from solvers.scuffing.contact_lines import ContactLengths
 from solvers.scuffing.contact_slices import reaches_base_circle
-from solvers.scuffing.inputs import LoadDistributionInputs, Model, Modifications, ScuffingInputs
+from solvers.scuffing.inputs import LoadDistributionInputs, Model, Modifications, ScuffingInputs, Temperatures
 from solvers.scuffing.load_balance import LoadBalance
 from solvers.scuffing.results import LoadDistribution
 from solvers.scuffing.safety_results import Scuffing
@@ -154,9 +154,18 @@ def unusual_modifications(modifications: Modifications) -> Iterator[Notice]:
     return plausibility.modifications(depths, modifications.lead_curve.gap)
 
 
+def unusual_temperatures(temperatures: Temperatures) -> Iterator[Notice]:
+    """Temperatures of the oil, and of the teeth where they are given, that gears in service do not have."""
+    yield from plausibility.oil_temperature(temperatures.oil)
+    if temperatures.bulk_method == "given":
+        yield from plausibility.tooth_temperature(temperatures.bulk)
+
+
 def unusual_scuffing_values(inputs: ScuffingInputs, result: Scuffing) -> Iterator[Notice]:
     """Unusual values of oil, temperatures, gears, modifications and load."""
     oil, hottest = result.derived.oil, result.contact_temperature
     yield from plausibility.thick_oil(oil.viscosity if oil else None)
-    yield from plausibility.hot_oil(inputs.temperatures.oil, hottest.bulk if hottest else None)
+    if inputs.known_oil is not None:
+        yield from unusual_temperatures(inputs.temperatures)
+        yield from plausibility.hot_oil(inputs.temperatures.oil, hottest.bulk if hottest else None)
     yield from unusual_load_values(inputs.distribution, result.distribution)

@@ -8,11 +8,12 @@ from dataclasses import field
 from functools import cached_property
 
 from solvers.arrays import BoolArray, FloatArray, frozen
+from solvers.gears.diameters import Diameters
 from solvers.gears.pair import PathOfContact
 from solvers.notices import Notice
 from solvers.quantity import computed, quantity, record
 from solvers.scuffing.load_balance import LoadBalance
-from solvers.sources import ISO_6336, XUE
+from solvers.sources import ISO_6336, SCHLENK, XUE
 
 
 @record
@@ -25,7 +26,7 @@ class Place:
 
 
 @record
-class Geometry:
+class Geometry(Diameters):
     """The mesh: lengths [m], angles [rad]; undercut is true if either gear is."""
 
     centre_distance: float = quantity("centre distance", "a", unit="mm", text="centre distance in use")
@@ -208,7 +209,10 @@ class FrictionLoss:
     """
 
     coefficient: float | None = quantity(
-        "mean coefficient of friction", "μ_m", text="the one in force; null if neither it nor an oil is given"
+        "mean coefficient of friction of the losses",
+        "μ_m",
+        SCHLENK,
+        text="given, or by the oil (Schlenk); null if neither it nor an oil is given",
     )
     loss_factor: float | None = quantity("tooth loss factor", "H_V", text="loss factor; null without load")
     power: float | None = quantity("friction power", "P_V", unit="w", text="null without a coefficient of friction")
@@ -280,7 +284,7 @@ class FeatureLine(ContactPoints):
     iso_load_sharing: FloatArray | None = quantity(
         "load sharing by ISO/TR 13989-1",
         "X_Γ,ISO",
-        "ISO/TR 13989-1, from memory",
+        "ISO/TR 13989-1, quoted, not verified against the standard",
         text="the standard's diagram; null where it has none",
         axis="psi",
     )

@@ -78,6 +78,7 @@ def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
         flash, film = Flash(None, None), Film()
     elif unknown:
         flash, film = without_thermal(flash, film)
+    flash = replace(flash, friction_coefficient=inputs.distribution.friction_coefficient)
     contact = None if bulk is None else _contact_temperature(bulk, flash)
     safety = None if contact is None else _safety(inputs.temperatures, contact, flash)
     return Scuffing(
@@ -152,6 +153,7 @@ def _derived(inputs: ScuffingInputs, mesh: Derived) -> ScuffingDerived:
         oil=None if inputs.lubricant is None else OilInUse(**oil_in_use(inputs.lubricant)),
         kinematic_viscosity_100=None if sheet is None else sheet.kinematic_viscosity_100,
         density_15=None if sheet is None else sheet.reference_density,
+        lubricant_factor=inputs.temperatures.lubricant_factor,
     )
 
 

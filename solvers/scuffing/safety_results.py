@@ -7,6 +7,7 @@ from solvers.contact.film import Regime
 from solvers.lubricants import OilInUse
 from solvers.notices import Notice
 from solvers.quantity import computed, quantity, record
+from solvers.scuffing.inputs import TR_13989
 from solvers.scuffing.results import Derived, Flank, LoadDistribution
 from solvers.scuffing.thermal.practice import ScuffingRisk
 from solvers.sources import XUE
@@ -75,6 +76,13 @@ class Flash:
         "y_fl",
         unit="mm",
         text="from the end that meshes first",
+        default=None,
+    )
+    friction_coefficient: float | None = quantity(
+        "mean coefficient of friction of the flash temperature",
+        "μ_mB",
+        TR_13989,
+        text="Blok's; given, or by the oil (ISO/TR 13989-1); null if neither it nor an oil is given",
         default=None,
     )
 
@@ -177,7 +185,7 @@ class Safety:
     verdict: ScuffingRisk | None = quantity(
         "risk of scuffing",
         None,
-        "ISO/TR 13989-1, from memory",
+        "ISO/TR 13989-1, quoted, not verified against the standard",
         text="by Blok's factor: below 1 high, to 2 moderate, above low; null without it",
         default=None,
     )
@@ -197,6 +205,9 @@ class ScuffingDerived:
     )
     density_15: float | None = quantity(
         "oil density used at 15 °C", "ρ_15", unit="kg_per_m3", text="null without grade or data sheet"
+    )
+    lubricant_factor: float | None = quantity(
+        "lubricant factor of the scuffing test used", "X_L", TR_13989, text="null without a scuffing test"
     )
 
 

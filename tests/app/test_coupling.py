@@ -189,14 +189,14 @@ def test_an_orbit_assumes_and_reports_only_what_it_uses(post: Post) -> None:
     changes = {"model": model, "friction": {"coefficient": 1}, "coupling.sleeve_mass_kg": GONE}
     body = example(EXAMPLES[ORBIT], changes)
     result = accepted(post(ORBIT, body))
-    assert set(assumptions(result)) == OF_SPRINGS
+    assert set(assumptions(result)) == OF_SPRINGS | {"coupling.youngs_modulus_gpa"}
+    assert assumptions(result)["coupling.tooth_stiffness_n_per_um"] == 280.0
     assert result["model"] == {"kinematics": "spatial", "sleeve": "floating"}
     # What it does not assume does not matter.
     unused = {
         "coupling.face_width_mm": 1,
         "coupling.tooth_height_mm": 1,
         "coupling.hub_distance_mm": 10,
-        "coupling.youngs_modulus_gpa": 1,
         "coupling.poisson_ratio": 0,
         "lubricant": {"viscosity_pa_s": 1},
         "model": {"kinematics": "spatial", "rotor_angle_deg": 90},

@@ -13,9 +13,9 @@ from app.figures.models.scuffing import contact_temperature, friction
 from app.figures.units import shown
 from app.pages.results import cards
 from app.schema.scuffing import ScuffingRequest
-from tests.support.requests import CONTACT, refused, solved
+from tests.support.requests import CONTACT, COUPLING, GONE, refused, solved
 
-SCUFFING, TRAIN = "/v1/scuffing", "/v1/drive-train"
+COUPLED, SCUFFING, TRAIN = "/v1/coupling", "/v1/scuffing", "/v1/drive-train"
 STAGE: dict[str, Any] = {
     "gears": {
         "pinion": {"teeth": 25},
@@ -94,9 +94,27 @@ def test_a_coefficient_of_friction_says_by_itself_that_it_is_given() -> None:
     assert "K_Hα is taken as 1" in reasons(by_oil)["model.friction"]
     given = solved(SCUFFING, STAGE, {"friction_coefficient": 0.06})
     assert given["inputs"]["model"]["friction"] == "given"
-    assert given["friction_loss"]["coefficient"] == 0.06
+    assert given["friction_loss"]["coefficient"] == given["flash"]["friction_coefficient"] == 0.06
     message = "give friction_coefficient, or set model.friction to iso_tr_13989"
     assert refused(SCUFFING, STAGE, {"model.friction": "given"}) == message
+
+
+def test_the_losses_have_a_friction_of_their_own() -> None:
+    """A mean for the efficiency beside the one on the safe side for scuffing; load factors raise the second alone."""
+    power = {"load": {"power_kw": 400, "pinion_speed_rpm": 1500}}
+    plain, loaded = (solved(SCUFFING, STAGE, {**power, "load.application_factor": factor}) for factor in (1.0, 2.5))
+    for answer, highest in ((plain, 0.82), (loaded, 0.7)):
+        loss, flash = answer["friction_loss"], answer["flash"]
+        assert 0.6 < loss["coefficient"] / flash["friction_coefficient"] < highest
+        assert loss["efficiency"] == pytest.approx(1.0 - loss["coefficient"] * loss["loss_factor"], rel=1e-12)
+    assert loaded["friction_loss"]["coefficient"] == plain["friction_loss"]["coefficient"]
+    assert loaded["flash"]["friction_coefficient"] > plain["flash"]["friction_coefficient"]
+    assert "Schlenk" in reasons(plain)["model.friction"]
+    unit = solved(TRAIN, TURBO, {})
+    assert unit["flash"]["friction_coefficient"] > 0.0
+    given = solved(TRAIN, TURBO, {"friction_coefficient": unit["flash"]["friction_coefficient"]})
+    assert given["flash"]["flank_k"] == pytest.approx(unit["flash"]["flank_k"], rel=1e-12)
+    assert given["losses"]["mesh_w"] > unit["losses"]["mesh_w"]
 
 
 def test_the_scuffing_temperature_is_a_property_of_oil_and_steel() -> None:
@@ -140,7 +158,9 @@ def test_an_ester_takes_the_factor_of_a_mineral_oil_and_says_so() -> None:
     ester = {"lubricant": {"viscosity_pa_s": 0.02, "kind": "ester"}}
     answer = solved(SCUFFING, STAGE, ester)
     mineral = solved(SCUFFING, STAGE, {"lubricant": {"viscosity_pa_s": 0.02}})
-    assert answer["friction_loss"] == mineral["friction_loss"]
+    losses = [each["friction_loss"]["coefficient"] for each in (answer, mineral)]
+    assert losses[0] / losses[1] == pytest.approx(0.8, rel=1e-12)
+    assert answer["flash"] == mineral["flash"]
     assert answer["safety"] == mineral["safety"]
     assert "mineral oil" in reasons(answer)["lubricant.kind"]
     known = {**ester, "friction_coefficient": 0.05, "temperatures": {"scuffing_c": 300}}
@@ -149,10 +169,11 @@ def test_an_ester_takes_the_factor_of_a_mineral_oil_and_says_so() -> None:
 
 def test_the_kind_of_an_oil_given_by_its_viscosity_counts() -> None:
     mineral, polyglycol = (
-        solved(SCUFFING, STAGE, {"lubricant": {"viscosity_pa_s": 0.02, "kind": kind}})["friction_loss"]["coefficient"]
+        solved(SCUFFING, STAGE, {"lubricant": {"viscosity_pa_s": 0.02, "kind": kind}})
         for kind in ("mineral", "polyglycol")
     )
-    assert polyglycol / mineral == pytest.approx(0.7, rel=1e-12)
+    for section, name in (("flash", "friction_coefficient"), ("friction_loss", "coefficient")):
+        assert polyglycol[section][name] / mineral[section][name] == pytest.approx(0.7, rel=1e-12)
 
 
 def test_without_load_no_coefficient_is_stated() -> None:
@@ -171,7 +192,7 @@ def test_misalignment_raises_the_coefficient_of_friction_by_the_face_load_factor
         SCUFFING, STAGE, {"load": {"power_kw": 400, "pinion_speed_rpm": 1500}, "modifications.helix_slope_um": 30}
     )
     factors = [answer["load"]["face_load_factor"] for answer in (straight, tilted)]
-    ratio = tilted["friction_loss"]["coefficient"] / straight["friction_loss"]["coefficient"]
+    ratio = tilted["flash"]["friction_coefficient"] / straight["flash"]["friction_coefficient"]
     assert factors[1] > 1.2 * factors[0]
     assert ratio == pytest.approx((factors[1] / factors[0]) ** 0.2, rel=1e-9)
 
@@ -241,6 +262,73 @@ def test_standard_stiffness_of_light_loads_falls_with_their_fourth_root(torque: 
     )
     for name in ("standard_single_n_per_mm_um", "standard_mesh_n_per_mm_um"):
         assert light[name] / full[name] == pytest.approx(factor, rel=1e-9)
+
+
+@pytest.mark.parametrize("stiffness", [None, 280])
+def test_the_teeth_of_a_coupling_are_as_stiff_as_their_material(stiffness: float | None) -> None:
+    """Left out it is 280 N/um times E/206 GPa; given it is what it is."""
+    teeth = {"coupling.tooth_stiffness_n_per_um": stiffness}
+    steel, bronze = (solved(COUPLED, COUPLING, {**teeth, "coupling.youngs_modulus_gpa": E}) for E in (206, 103))
+    used = [answer["derived"]["tooth_stiffness_n_per_um"] for answer in (steel, bronze)]
+    assert used == pytest.approx([280.0, 140.0 if stiffness is None else 280.0], rel=1e-12)
+    ratio = bronze["limits"]["torsional_stiffness_n_m_per_rad"] / steel["limits"]["torsional_stiffness_n_m_per_rad"]
+    assert ratio == pytest.approx(used[1] / used[0], rel=1e-12)
+    assert ("coupling.tooth_stiffness_n_per_um" in reasons(bronze)) == (stiffness is None)
+
+
+@pytest.mark.parametrize("member", ["pinion", "wheel"])
+@pytest.mark.parametrize("modulus", [110, 169, 241, 600])
+def test_estimates_made_for_steel_are_warned_of_with_another_material(member: str, modulus: float) -> None:
+    field = f"materials.{member}.youngs_modulus_gpa"
+    estimates = {"friction_coefficient": None, "temperatures": {"scuffing_test": {"fzg_stage": 12}}}
+    told = {each["code"]: each for each in solved(SCUFFING, STAGE, {**estimates, field: modulus})["warnings"]}
+    assert (told["made_for_steel"]["field"], told["made_for_steel"]["rank"]) == (field, "doubtful")
+    for each in ("coefficient of friction", "bulk temperature", "scuffing temperature"):
+        assert each in told["made_for_steel"]["message"]
+    assert "made_for_steel" not in codes(solved(SCUFFING, STAGE, {**estimates, field: 170}))
+    measured = {"friction_coefficient": 0.05, "temperatures": {"bulk_c": 80, "scuffing_c": 300}}
+    assert "made_for_steel" not in codes(solved(SCUFFING, STAGE, {**measured, field: modulus}))
+    assert "made_for_steel" not in codes(solved(SCUFFING, DRY, {field: modulus}))
+
+
+def test_a_unit_s_estimates_are_made_for_steel_too() -> None:
+    assert "made_for_steel" in codes(solved(TRAIN, TURBO, {"materials.wheel.youngs_modulus_gpa": 110}))
+
+
+def test_the_lubricant_factor_of_the_test_is_listed_with_its_value() -> None:
+    """VG 220 has 25.6 mm2/s and 837 kg/m3 at 90 C: 21.4 mPa s, X_L = 0.858; 80 + 2.25 X_L 144 = 358.0 C."""
+    path = "temperatures.scuffing_test.lubricant_factor"
+    answer = solved(SCUFFING, STAGE, {"temperatures.oil_c": 40})
+    told = next(each for each in answer["assumptions"] if each["field"] == path)
+    assert told["value"] == pytest.approx(0.858, abs=5e-4)
+    assert answer["safety"]["scuffing_c"] == pytest.approx(80 + 2.25 * told["value"] * 144, rel=1e-9)
+    assert "90 °C" in told["reason"]
+    given = solved(SCUFFING, STAGE, {path: 0.8})
+    assert path not in reasons(given)
+    assert given["derived"]["lubricant_factor"] == 0.8
+    unit = solved(TRAIN, TURBO, {"temperatures.scuffing_c": GONE, "temperatures.scuffing_test": {"fzg_stage": 12}})
+    values = {each["field"]: each["value"] for each in unit["assumptions"]}
+    assert values[path] == unit["derived"]["temperatures"]["lubricant_factor"] > 0.0
+
+
+def test_a_section_under_the_teeth_takes_the_diameter_that_carries_torsion() -> None:
+    """39 teeth of m_n 6, 11.5 degrees: d 238.79 mm less 6 x 1.25 are 231.29 mm."""
+    path = "pinion_shaft.sections.3.outer_diameter_mm"
+    by_rule = solved(TRAIN, TURBO, {path: GONE})
+    told = {each["field"]: each for each in by_rule["assumptions"]}[path]
+    explicit, integral = (solved(TRAIN, TURBO, {path: each}) for each in (told["value"], 238.8))
+    assert told["value"] == pytest.approx(231.294, abs=1e-3)
+    assert "third of the tooth" in told["reason"]
+    assert path not in reasons(explicit)
+    twists = [answer["misalignment"]["parts"]["torsion"] for answer in (by_rule, explicit, integral)]
+    assert twists[0] == pytest.approx(twists[1], rel=1e-9)
+    assert 1.13 < twists[0] / twists[2] < 1.18
+    with pytest.raises(Unprocessable, match="section 1 is not under the teeth and needs its diameter") as refusal:
+        solved(TRAIN, TURBO, {"pinion_shaft.sections.1.outer_diameter_mm": GONE})
+    assert (refusal.value.code, refusal.value.path) == (
+        "section_diameter",
+        "pinion_shaft.sections.1.outer_diameter_mm",
+    )
 
 
 @pytest.mark.parametrize("name", [name for name in examples() if name.startswith("xue-")])

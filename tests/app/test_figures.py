@@ -590,14 +590,15 @@ def test_the_sketch_of_the_shafts_is_to_scale() -> None:
     }
     marks = {(mark.text, mark.x, round(mark.y, 6)) for mark in panel.marks}
     heights = (0.0, round(answer.derived.centre_distance_mm, 6))
-    for shaft, height in zip((request.pinion_shaft, request.wheel_shaft), heights, strict=True):
+    used = (answer.derived.pinion_shaft, answer.derived.wheel_shaft)
+    for shaft, derived, height in zip((request.pinion_shaft, request.wheel_shaft), used, heights, strict=True):
         for place, each in enumerate(shaft.bearings, 1):
             at, half = each.position_mm, each.width_mm / 2
             assert (f"{place}", at, height) in marks
             assert ("plain bearings", at - half, at + half, 1.3 * each.diameter_mm) in spans
         ends = np.cumsum([shaft.start_mm, *(each.length_mm for each in shaft.sections)])
-        for start, end, section in zip(ends, ends[1:], shaft.sections, strict=False):
-            assert ("shafts", start, end, section.outer_diameter_mm) in spans
+        for start, end, section in zip(ends, ends[1:], derived.sections, strict=False):
+            assert ("shafts", start, end, round(section.outer_diameter_mm, 6)) in spans
     assert {span[1:3] for span in spans if span[0] == "gears"} == {(320.0, 520.0)}
 
 

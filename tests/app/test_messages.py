@@ -1,9 +1,14 @@
 """A refused request says in an engineer's words what to change."""
 
+from dataclasses import replace
 from typing import Any
 
 import pytest
 
+from solvers.errors import InvalidInput
+from solvers.gears.inputs import GearTeeth
+from solvers.plausibility import checked
+from tests.support.gear_pairs import FZG_A
 from tests.support.requests import COUPLING, GONE, PAIR, all_faults, refused
 
 TORQUE, ERRORS = "operation.torque_n_m", "coupling.pitch_errors_um"
@@ -31,6 +36,38 @@ TORQUE, ERRORS = "operation.torque_n_m", "coupling.pitch_errors_um"
 def test_what_is_wrong_with_a_field(path: str, value: Any, message: str) -> None:
     (fault,) = all_faults("/v1/coupling", COUPLING, {path: value})
     assert (fault.pointer, fault.message) == ("/" + path.replace(".", "/"), message)
+
+
+ABOVE = (
+    '"above 12" on a data sheet means that stage 12 was passed: enter 13 for the limit that this proves at least, or '
+    "the failing stage if it is known"
+)
+HAND = "give the amount; the hand matters in the drive train only and is `gears.hand` there"
+
+
+@pytest.mark.parametrize(
+    ("path", "value", "message"),
+    [
+        ("temperatures", {"scuffing_test": {"fzg_stage": 15}}, f"fzg_stage is 15; permissible 1 to 14; {ABOVE}"),
+        ("temperatures", {"scuffing_test": {"fzg_stage": ">12"}}, f"give a number, not text; {ABOVE}"),
+        ("temperatures", {"scuffing_test": {"fzg_stage": "12+"}}, f"give a number, not text; {ABOVE}"),
+        ("temperatures", {"scuffing_test": {"fzg_stage": 0}}, "fzg_stage is 0; permissible 1 to 14"),
+        ("gears.wheel.teeth", -61, "teeth is -61; permissible 5 to 1000; internal gears are not modelled"),
+        ("gears.wheel.teeth", 4, "teeth is 4; permissible 5 to 1000"),
+        ("gears.helix_angle_deg", -15, f"helix_angle_deg is -15; permissible 0 to 45 °; {HAND}"),
+        ("gears.helix_angle_deg", 50, "helix_angle_deg is 50; permissible 0 to 45 °"),
+    ],
+)
+def test_a_refused_value_that_has_a_known_cause_says_what_to_give(path: str, value: Any, message: str) -> None:
+    assert refused("/v1/scuffing", PAIR, {path: value}) == message
+
+
+def test_solvers_say_the_same_of_inputs_built_in_python() -> None:
+    inputs = FZG_A
+    with pytest.raises(InvalidInput, match="permissible 0 to 45 °; give the amount"):
+        checked(replace(inputs, helix_angle=-0.2))
+    with pytest.raises(InvalidInput, match="internal gears are not modelled"):
+        checked(replace(inputs, wheel=GearTeeth(-61)))
 
 
 @pytest.mark.parametrize(

@@ -10,7 +10,7 @@ from app.calculations import BY_PATH
 from app.errors import Unprocessable
 from app.evaluate import json_answer
 from app.examples import examples
-from solvers.oils import TYPICAL_VISCOSITY_100
+from solvers.oils import GRADES
 from tests.support.requests import CONTACT, COUPLING, PAIR, changed, solved
 
 OPERATION = {"torque_n_m": 3000, "speed_rpm": 1910}
@@ -73,7 +73,7 @@ def random_oil(draw: Generator, use: str) -> dict[str, Any]:
     """Any oil that the schema of a use allows: a grade, a sheet, or a viscosity."""
     match draw.integers(3):
         case 0:
-            return {"iso_vg": int(draw.choice(list(TYPICAL_VISCOSITY_100)))}
+            return {"iso_vg": int(draw.choice(GRADES))}
         case 1:
             thick, thin = np.exp(draw.uniform([np.log(2), 0.0], np.log([5000, 1000])))
             return {"kinematic_viscosity_40_mm2_per_s": float(thick), "kinematic_viscosity_100_mm2_per_s": float(thin)}

@@ -1,17 +1,19 @@
 """What an engineer has at hand: an oil by grade or data sheet, an FZG stage, factors; warnings of unusual values."""
 
 from dataclasses import replace
-from math import pi
+from math import cos, pi, radians
 from typing import Any, NoReturn
 
 import pytest
 
 from app.calculations import BY_PATH
+from app.errors import Unprocessable
 from app.evaluate import answer, evaluate
 from app.examples import STARTER, examples
 from solvers.errors import NoSolution
+from solvers.oils import iso_vg
 from tests.support.gear_pairs import FZG_TORQUES
-from tests.support.requests import CONTACT, COUPLING, MIST, PAIR, example, refused, solved
+from tests.support.requests import CONTACT, COUPLING, GONE, MIST, PAIR, example, refused, solved
 
 LOADS = PAIR | {"model": {}}
 HOT_TEETH = {"temperatures.bulk_method": "given", "temperatures.bulk_c": 95, "friction_coefficient": 0.04}
@@ -20,6 +22,7 @@ BODIES = {
     "/v1/pumping": MIST,
     "/v1/scuffing": PAIR,
     "/v1/scuffing/load-distribution": LOADS,
+    "/v1/scuffing/line-contact": CONTACT,
     "/v1/drive-train": example("starter-turbo-gear-drive-train", HOT_TEETH),
 }
 
@@ -65,7 +68,7 @@ def test_fzg_type_a_at_its_own_failing_stage_stands_at_the_limit(
     result = solved("/v1/scuffing", fzg(stage), {})
     assert result["safety"]["blok_factor"] == pytest.approx(1.0, abs=margin)
     assert result["safety"]["blok_factor"] == pytest.approx(safety, rel=0.07)
-    assert result["friction_loss"]["coefficient"] == pytest.approx(friction, rel=0.07)
+    assert result["flash"]["friction_coefficient"] == pytest.approx(friction, rel=0.07)
     assert result["contact_temperature"]["bulk_c"] == pytest.approx(bulk, rel=0.07)
     assert result["flash"]["blok_max_k"] == pytest.approx(flash, rel=0.07)
     assert result["safety"]["verdict"] == ("moderate" if result["safety"]["blok_factor"] >= 1.0 else "high")
@@ -92,6 +95,53 @@ def test_oil_of_the_same_pair_by_grade_has_half_the_paper_s_film() -> None:
         for oil in ({"viscosity_pa_s": 0.08}, {"iso_vg": 220})
     )
     assert 0.3 < by_grade["dowson_higginson_min_um"] / by_paper["dowson_higginson_min_um"] < 0.5
+
+
+def used(endpoint: str, body: dict[str, Any], oil: dict[str, Any], path: str = "lubricant") -> dict[str, Any]:
+    """What an answer says of its oil."""
+    derived: dict[str, Any] = solved(endpoint, body, {path: oil})["derived"]
+    for name in path.split("."):
+        derived = derived[int(name)] if isinstance(derived, list) else derived.get(name, derived)
+    return derived
+
+
+TURBO = BODIES["/v1/drive-train"]
+USES = [
+    ("/v1/coupling", COUPLING, "lubricant"),
+    ("/v1/scuffing", PAIR, "lubricant"),
+    ("/v1/scuffing/line-contact", CONTACT, "lubricant"),
+    ("/v1/drive-train", TURBO, "lubricant"),
+    ("/v1/drive-train", TURBO, "couplings.0.lubricant"),
+]
+
+
+@pytest.mark.parametrize(("endpoint", "body", "path"), USES)
+def test_an_oil_by_its_index_is_the_oil_of_both_viscosities_and_says_so(
+    endpoint: str, body: dict[str, Any], path: str
+) -> None:
+    thick = {"kinematic_viscosity_40_mm2_per_s": 220}
+    graded = used(endpoint, body, {"iso_vg": 220, "kind": "polyglycol"}, path)
+    by_index = used(endpoint, body, {**thick, "viscosity_index": 210, "kind": "polyglycol"}, path)
+    by_kind = used(endpoint, body, {**thick, "kind": "polyglycol"}, path)
+    thin = {"kinematic_viscosity_100_mm2_per_s": iso_vg(220, "polyglycol").kinematic_viscosity_100 * 1e6}
+    by_both = used(endpoint, body, {**thick, **thin, "kind": "polyglycol"}, path)
+    assert graded["viscosity_index"] == pytest.approx(210, abs=1e-6)
+    assert graded["viscosity_pa_s"] == by_index["viscosity_pa_s"] == by_kind["viscosity_pa_s"]
+    assert by_both["viscosity_pa_s"] == pytest.approx(graded["viscosity_pa_s"], rel=1e-9)
+    assert by_both["viscosity_index"] == pytest.approx(210, abs=1e-6)
+    mineral = used(endpoint, body, {"iso_vg": 220}, path)
+    assert mineral["viscosity_index"] == pytest.approx(96.9, abs=0.05)
+    assert used(endpoint, body, {"viscosity_pa_s": 0.02}, path)["viscosity_index"] is None
+
+
+def test_an_index_leaves_nothing_to_assume_of_the_oil_at_100_degrees() -> None:
+    thin = "lubricant.kinematic_viscosity_100_mm2_per_s"
+    for index in (160, None):
+        oil = {"kinematic_viscosity_40_mm2_per_s": 100, "viscosity_index": index}
+        told = {each["field"]: each for each in solved("/v1/coupling", COUPLING, {"lubricant": oil})["assumptions"]}
+        assert (thin in told) == (index is None)
+    assert told[thin]["value"] == pytest.approx(11.07, abs=0.01)
+    assert "94 to 102" in told[thin]["reason"]
 
 
 def test_line_contact_takes_the_oil_at_its_inlet() -> None:
@@ -175,7 +225,11 @@ def test_from_a_data_sheet_to_a_safety_factor_in_one_request() -> None:
             {"temperatures": {"scuffing_c": 200, "scuffing_test": {"fzg_stage": 12}}},
             "scuffing_c and scuffing_test are both given; keep one",
         ),
-        ("/v1/coupling", {"lubricant.iso_vg": 47}, "iso_vg: must be one of 32, 46, 68, 100, 150, 220, 320, 460, 680"),
+        (
+            "/v1/coupling",
+            {"lubricant.iso_vg": 47},
+            "iso_vg: must be one of 10, 15, 22, 32, 46, 68, 100, 150, 220, 320, 460, 680, 1000, 1500",
+        ),
         (
             "/v1/coupling",
             {"operation.parallel_offset_mm": 0.2},
@@ -200,6 +254,9 @@ GROUND = "µm is less than can be ground; was mm meant?"
 NARROW = "mm is below half a module; were cm or inches meant?"
 DIAMETER = "13 mm is beyond 4 modules; is it a diameter?"
 FAST = "m/s, beyond 250; is it the speed of another shaft?"
+FAHRENHEIT = "°C is hotter than gears are in service; were degrees Fahrenheit meant?"
+COLD = "°C is colder than oils are in service; is the sign right?"
+WARM = {"iso_vg": 220}
 SLACK = "N/mm at most; were kW or kN m meant?"
 
 
@@ -242,6 +299,16 @@ SLACK = "N/mm at most; were kW or kN m meant?"
             f"the oil at 95 °C is hotter than the teeth at 86.85 {EXCHANGED}",
         ),
         (TRAIN, {"temperatures.oil_c": 120}, f"the oil at 120 °C is hotter than the teeth at 95 {EXCHANGED}"),
+        (SCUFFING, {"lubricant": {"iso_vg": 220}, "temperatures.oil_c": 180}, f"180 {FAHRENHEIT}"),
+        (SCUFFING, {"lubricant": {"iso_vg": 220}, "temperatures.bulk_c": 250}, f"250 {FAHRENHEIT}"),
+        (SCUFFING, {"lubricant": {"iso_vg": 32}, "temperatures.oil_c": -31}, f"-31 {COLD}"),
+        (TRAIN, {"temperatures.oil_c": 140}, f"140 {FAHRENHEIT}"),
+        (TRAIN, {"temperatures.bulk_c": 140}, f"140 {FAHRENHEIT}"),
+        (TRAIN, {"thermal.pinion_bulk_c": 200}, f"200 {FAHRENHEIT}"),
+        (TRAIN, {"temperatures.oil_c": -31}, f"-31 {COLD}"),
+        (TRAIN, {"couplings.0.lubricant": dict(WARM), "couplings.0.lubricant.temperature_c": 140}, f"140 {FAHRENHEIT}"),
+        ("/v1/coupling", {"lubricant": dict(WARM), "lubricant.temperature_c": 140}, f"140 {FAHRENHEIT}"),
+        ("/v1/scuffing/line-contact", {"lubricant": dict(WARM), "temperatures.inlet_c": 140}, f"140 {FAHRENHEIT}"),
         (LOAD_DISTRIBUTION, {"load.pinion_speed_rpm": 100000}, f"the pitch-line velocity is 366.6 {FAST}"),
         (TRAIN, {"operation.pinion_speed_rpm": 25000}, f"the pitch-line velocity is 312.6 {FAST}"),
         (
@@ -262,6 +329,41 @@ def test_unusual_values_are_named(endpoint: str, changes: dict[str, Any], messag
     assert result["status"] == "ok_with_warnings"
     field = list(changes)[-1]
     assert {"rank": "doubtful", "code": "unusual_value", "message": message, "field": field} in result["warnings"]
+
+
+HELICAL = {"gears.helix_angle_deg": 15, "gears.wheel.profile_shift": -0.1, "gears.wheel.addendum": 0.95}
+
+
+@pytest.mark.parametrize("plane", ["normal", "transverse"])
+@pytest.mark.parametrize("endpoint", [LOAD_DISTRIBUTION, "/v1/pumping"])
+def test_a_tip_diameter_is_the_addendum_of_the_drawing(endpoint: str, plane: str) -> None:
+    """Either way of giving the tip has the other's answer, and the answer's geometry the diameters of the drawing."""
+    body, plain = BODIES[endpoint], {**HELICAL, "gears.module_plane": plane}
+    by_addendum = solved(endpoint, body, plain)
+    tip = by_addendum["geometry"]["wheel_tip_diameter_mm"]
+    given = {"gears.wheel.addendum": GONE, "gears.wheel.tip_diameter_mm": tip}
+    by_diameter = solved(endpoint, body, plain | given)
+    gears = by_addendum["inputs"]["gears"]
+    normal = gears["module_mm"] * (cos(radians(15)) if plane == "transverse" else 1.0)
+    reference = gears["wheel"]["teeth"] * normal / cos(radians(15))
+    assert tip == pytest.approx(reference + 2 * normal * (0.95 - 0.1), rel=1e-12)
+    root = reference - 2 * normal * (gears["wheel"]["dedendum"] + 0.1)
+    assert by_addendum["geometry"]["wheel_root_diameter_mm"] == pytest.approx(root, rel=1e-12)
+    for name, value in by_addendum["geometry"].items():
+        assert by_diameter["geometry"][name] == pytest.approx(value, rel=1e-9)
+    assert by_diameter["inputs"]["gears"]["wheel"]["addendum"] is None
+    again = solved(endpoint, {**by_diameter["inputs"], "detail": "curves"}, {})
+    assert again["geometry"] == by_diameter["geometry"]
+
+
+def test_one_of_tip_diameter_and_addendum_is_given() -> None:
+    both = {"gears.wheel.tip_diameter_mm": 95, "gears.wheel.addendum": 1.0}
+    assert refused(LOAD_DISTRIBUTION, LOADS, both) == "addendum and tip_diameter_mm are both given; keep one"
+    neither = {"gears.wheel.addendum": None}
+    assert refused(LOAD_DISTRIBUTION, LOADS, neither) == "give addendum or tip_diameter_mm"
+    with pytest.raises(Unprocessable, match="makes an addendum coefficient of") as refusal:
+        solved(LOAD_DISTRIBUTION, LOADS, {"gears.wheel.tip_diameter_mm": 300})
+    assert (refusal.value.code, refusal.value.path) == ("tip_diameter", "gears.wheel.tip_diameter_mm")
 
 
 @pytest.mark.parametrize("endpoint", sorted(BY_PATH))

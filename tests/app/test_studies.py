@@ -196,6 +196,7 @@ def test_corners_on_the_workers(post: Post) -> None:
 
 def test_a_design_on_the_workers(post: Post) -> None:
     worked = {"request.friction_coefficient": 0.04, "request.temperatures.bulk_c": 95.0}
+    worked["request.pinion_shaft.sections.3.outer_diameter_mm"] = 238.8
     body = changed(EXAMPLES[DESIGN]["robust"]["value"], {"evaluations": 1, **worked})
     header, trial, end = lines(post(DESIGN, body))
     assert header["corners"] == 12

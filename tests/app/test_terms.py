@@ -16,6 +16,7 @@ TERMS = {
     "contact path": "path of contact",
     "film parameter": "specific film thickness",
     "friction coefficient": "coefficient of friction",
+    "from memory": "quoted, not verified against the standard",
     "hertz pressure": "Hertzian pressure",
     "lead crowning": "helix crowning",
     "overlap factor": "overlap ratio",

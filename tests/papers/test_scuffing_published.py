@@ -66,6 +66,36 @@ def test_iso_tr_6336_30_example_1() -> None:
     assert example_stress() == pytest.approx(1206.58 / 1.01944, rel=1.5e-4)
 
 
+FZG_C = GearPairInputs(
+    GearTeeth(16, 0.1817),
+    GearTeeth(24, 0.1715),
+    4.5e-3,
+    14e-3,
+    centre_distance=91.5e-3,
+)
+
+
+def test_standard_stiffness_is_that_of_the_pair_whichever_drives() -> None:
+    """Gear 1 of the formula is the one of fewer teeth; of equal teeth that of the larger profile shift."""
+    for pair in (EXAMPLE_1, FZG_C, replace(FZG_C, wheel=replace(FZG_C.wheel, teeth=16), centre_distance=None)):
+        turned = replace(pair, pinion=pair.wheel, wheel=pair.pinion)
+        one, other = (standard_stiffness(path_of_contact(gear_pair(each))) for each in (pair, turned))
+        assert other.theoretical == one.theoretical
+        assert other.mesh == pytest.approx(one.mesh, rel=1e-12)
+
+
+def test_standard_stiffness_goes_with_the_modulus_of_both_bodies() -> None:
+    """E = 2 E1 E2/(E1 + E2): steel on bronze of 105 GPa has 139.1 GPa, 0.675 of two steels."""
+    steel, bronze = Solid(), Solid(youngs_modulus=105e9)
+    both, mixed = (
+        solve_load_distribution(LoadDistributionInputs(FZG_A, Load(302.0, 200.0), wheel_material=wheel)).stiffness
+        for wheel in (steel, bronze)
+    )
+    ratio = 2 * 105 / (206 + 105)
+    assert mixed.standard_single / both.standard_single == pytest.approx(ratio, rel=1e-12)
+    assert mixed.standard_mesh / both.standard_mesh == pytest.approx(ratio, rel=1e-12)
+
+
 def straight_mismatch(torque_factor: float) -> float:
     """K_H_beta of a spur pair with uniform stiffness and the mismatch of the standard's example, load scaled."""
     gears = replace(EXAMPLE_1, helix_angle=0.0, centre_distance=None)

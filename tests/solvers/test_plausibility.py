@@ -6,7 +6,7 @@ from solvers.coupling import recommend, solve
 from solvers.coupling.inputs import Coupling, CouplingInputs, Operation, RecommendationInputs
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.notices import Notice
-from solvers.plausibility import gears, hot_oil, thick_oil, thin_air
+from solvers.plausibility import gears, hot_oil, oil_temperature, thick_oil, thin_air, tooth_temperature
 
 TALL = CouplingInputs(
     coupling=Coupling(teeth=52, module=3e-3, face_width=24e-3, tooth_height=13e-3, crowning_ratio=2.0),
@@ -29,6 +29,10 @@ def test_a_search_that_calls_the_solver_says_it_once() -> None:
 def test_limits_hold_at_their_ends() -> None:
     pair = GearPairInputs(module=4e-3, pinion=GearTeeth(25), wheel=GearTeeth(50), face_width=0.3)
     assert not [*gears(pair, 5000.0), *thin_air(20e3), *hot_oil(350.0, 350.0), *thick_oil(1.0)]
+    assert not [*oil_temperature(403.15), *oil_temperature(243.15), *tooth_temperature(403.15)]
+    assert [each.field for each in oil_temperature(403.2)] == ["temperatures.oil"]
+    assert [each.field for each in oil_temperature(243.1)] == ["temperatures.oil"]
+    assert [each.field for each in tooth_temperature(403.2)] == ["temperatures.bulk"]
     assert [each.field for each in gears(replace(pair, face_width=0.3001))] == ["gears.face_width"]
     assert [each.field for each in gears(replace(pair, face_width=1.9e-3))] == ["gears.face_width"]
     assert [each.field for each in gears(pair, 5001.0)] == ["pinion_speed"]

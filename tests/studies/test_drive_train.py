@@ -342,13 +342,16 @@ def test_refused_with_place_and_code(case: str) -> None:
     assert fault_of(planner, {"request": CLOSED, **parts}, most=1999)[:2] == (pointer, code)
 
 
-EXAMPLE = {
-    **CLOSED,
-    "model": {**CLOSED["model"], "coupling_friction": "sliding"},
-    "friction_coefficient": 0.04,
-    "temperatures": {"bulk_c": 95, "oil_c": 50, "scuffing_c": 220},
-}
-"""The worked example: the starter with the friction and the bulk temperature that the example states."""
+EXAMPLE = changed(
+    CLOSED,
+    {
+        "model": {**CLOSED["model"], "coupling_friction": "sliding"},
+        "friction_coefficient": 0.04,
+        "temperatures": {"bulk_c": 95, "oil_c": 50, "scuffing_c": 220},
+        "pinion_shaft.sections.3.outer_diameter_mm": 238.8,
+    },
+)
+"""The worked example: the starter with the friction, the bulk temperature and the pinion that the example states."""
 
 
 @pytest.mark.slow

@@ -210,16 +210,15 @@ def film(inputs: ScuffingInputs, result: Scuffing) -> Figure:
 
 
 def friction(inputs: ScuffingInputs, result: Scuffing) -> Figure:
-    """Coefficient of friction and film pressure along the lines, from thermal EHL, beside the mean one in force."""
+    """Coefficient of friction and film pressure along the lines, from thermal EHL, beside the mean one of Blok's."""
     _with_oil(result)
-    mean = result.distribution.friction_loss.coefficient
+    mean = result.flash.friction_coefficient
     solved = {name: (path.psi, path.thermal) for name, path in _paths(result).items() if path.thermal is not None}
     if not solved:
         message = "Friction along the path comes from the thermal EHL solution only"
         raise NoFigure("closed_form", message, "model.lubrication")
     points, warned = _points(inputs, result), _warned(result.path)
-    # The coefficient that Blok's flash temperature and the losses take.
-    levels = points if mean is None else [*points, Level(mean, f"mean of the formulas {number(mean)}")]
+    levels = points if mean is None else [*points, Level(mean, f"mean of Blok's flash temperature {number(mean)}")]
 
     def panel(y: Axis, curve: str, hues: tuple[Hue, Hue]) -> Panel:
         lines = [

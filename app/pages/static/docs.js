@@ -20,7 +20,7 @@ function name() {
 // Sources that were not read are secondary sources here, as on every page.
 function cited(answer) {
   if (answer.url.endsWith(operations.dataset.document)) {
-    answer.text = answer.text.replace(/as read in a public implementation|(?:quoted )?from memory/g, "secondary source");
+    answer.text = answer.text.replace(/as read in a public implementation/g, "secondary source");
   }
   return answer;
 }

@@ -101,7 +101,8 @@ def failure_notice(convergence: Convergence) -> Notice:
     return Notice("not_converged", message, "nodes", rank="invalid")
 
 
-def unusual_values(_inputs: LineContactInputs, result: LineContactResult) -> Iterator[Notice]:
-    """Unusual values of oil and load."""
+def unusual_values(inputs: LineContactInputs, result: LineContactResult) -> Iterator[Notice]:
+    """Unusual values of oil, temperatures and load."""
+    yield from plausibility.oil_temperature(inputs.temperatures.inlet, "temperatures.inlet")
     yield from plausibility.thick_oil(result.derived.viscosity)
     yield from plausibility.high_pressure(result.hertz.max_pressure, "line_load")

@@ -12,10 +12,9 @@ from math import pi, sqrt
 import numpy as np
 
 from solvers.arrays import FloatArray
-from solvers.drive_train.inputs import Shaft, ShaftSection
+from solvers.drive_train.inputs import COINCIDENT, Shaft, ShaftSection
 
 GRAVITY = 9.80665  # m/s^2, standard gravity (CGPM 1901)
-COINCIDENT = 1e-9  # m; nodes nearer than this are one
 
 
 @dataclass(frozen=True, slots=True)

@@ -44,7 +44,11 @@ class Thrust:
         text="largest load over half the ultimate one; null without one",
     )
     customary: float | None = quantity(
-        "customary thrust of a coupling", "0.25 T/D", "from memory", unit="n", text="null without a coupling"
+        "customary thrust of a coupling",
+        "0.25 T/D",
+        "API 671/617 practice, quoted, not verified against the standard",
+        unit="n",
+        text="null without a coupling",
     )
 
     @property

@@ -22,6 +22,7 @@ from solvers.scuffing.thermal.practice import (
     FLOODED_UP_TO,
     TEST_TEMPERATURE,
     bulk_temperature,
+    loss_friction,
     lubricant_factor,
     mean_friction,
     pitch_line_velocity,
@@ -29,6 +30,7 @@ from solvers.scuffing.thermal.practice import (
 )
 
 COLDEST_OIL, HOTTEST_OIL = 223.15, 573.15  # K, the range of reference temperatures
+STEEL_MODULI = (170e9, 240e9)  # Pa; cast iron and bronze are below, hard metal is above
 MEAN_POINTS = 1001  # of the mean flash temperature along the feature line
 
 
@@ -39,19 +41,23 @@ def in_force(inputs: ScuffingInputs, distribution: LoadDistribution) -> tuple[Sc
 
 
 def with_friction(inputs: ScuffingInputs, distribution: LoadDistribution) -> tuple[ScuffingInputs, LoadDistribution]:
-    """Inputs and load distribution with the coefficient of friction in force and what it loses.
+    """Inputs with the coefficient of friction of the flash temperature, load distribution with that of the losses.
 
-    The mean coefficient of ISO/TR 13989-1 is None without an oil, a load or a speed.
+    A coefficient that is given is both. Otherwise the first is that of ISO/TR 13989-1, on the safe side for scuffing,
+    the second Schlenk's, a mean for the efficiency; both are None without an oil, a load or a speed.
     """
     if inputs.friction == "given":
         return inputs, distribution
     given, path, oil = inputs.distribution, distribution.path_of_contact, inputs.known_oil
-    coefficient = None
+    of_flash = of_losses = None
     if oil is not None and distribution.balance.force > 0.0 and given.load.pinion_speed > 0.0:
         face_load_factor = distribution.load.face_load_factor or 1.0
-        coefficient = mean_friction(given, path, _oil_factor(oil, inputs.temperatures.oil), face_load_factor)
-    loss = friction_loss(path, distribution.balance, given.load, coefficient)
-    rubbing = replace(inputs, distribution=replace(given, friction_coefficient=coefficient))
+        lubricant = lubricant_at(oil, inputs.temperatures.oil)
+        viscosity = lubricant.viscosity_at(0.0, inputs.temperatures.oil)
+        of_flash = mean_friction(given, path, lubricant_factor(viscosity, lubricant.kind), face_load_factor)
+        of_losses = loss_friction(given, path, viscosity, lubricant.kind)
+    loss = friction_loss(path, distribution.balance, given.load, of_losses)
+    rubbing = replace(inputs, distribution=replace(given, friction_coefficient=of_flash))
     return rubbing, replace(distribution, friction_loss=loss)
 
 
@@ -71,7 +77,8 @@ def with_temperatures(inputs: ScuffingInputs, distribution: LoadDistribution) ->
         test = temperatures.scuffing_test
         factor = _oil_factor(oil, TEST_TEMPERATURE) if test.lubricant_factor is None else test.lubricant_factor
         limit = scuffing_temperature(test.fzg_stage, test.structure_factor, factor)
-        temperatures = replace(temperatures, scuffing=limit)
+        known = replace(test, lubricant_factor=factor)
+        temperatures = replace(temperatures, scuffing=limit, scuffing_test=known)
     if temperatures.scuffing is not None and temperatures.scuffing <= temperatures.oil:
         message = "the scuffing temperature must lie above the oil temperature"
         raise InvalidInput("scuffing_temperature", message, "temperatures.scuffing")
@@ -93,11 +100,12 @@ def oil_notices(inputs: ScuffingInputs, path: PathOfContact) -> Iterator[Notice]
     """No oil, or no bulk temperature; an estimated one beyond the speeds that its formula holds for."""
     if inputs.known_oil is None:
         message = (
-            "no oil is given (iso_vg, two kinematic viscosities or viscosity_pa_s): film, contact temperature and "
+            "no oil is given (iso_vg, kinematic_viscosity_40 or viscosity_pa_s): film, contact temperature and "
             "safety are not stated"
         )
         yield Notice("no_oil", message, "lubricant", rank="note")
         return
+    yield from _material_notices(inputs)
     if inputs.temperatures.bulk is None:
         message = (
             "the path of contact reaches a base circle, where no flash temperature is defined to estimate the bulk "
@@ -112,6 +120,24 @@ def oil_notices(inputs: ScuffingInputs, path: PathOfContact) -> Iterator[Notice]
             "bound, the contact temperature is higher and the safety lower than stated"
         )
         yield Notice("bulk_lower_bound", message, "temperatures.bulk_method")
+
+
+def _material_notices(inputs: ScuffingInputs) -> Iterator[Notice]:
+    """Estimates that were made for steel, with a gear of another material."""
+    estimates = {
+        "the coefficient of friction": inputs.friction == "iso_tr_13989",
+        "the bulk temperature": inputs.temperatures.bulk_method == "estimated",
+        "the scuffing temperature": inputs.temperatures.scuffing_test is not None,
+    }
+    estimated = [name for name, is_estimated in estimates.items() if is_estimated]
+    given, (least, largest) = inputs.distribution, STEEL_MODULI
+    for name, solid in (("pinion", given.pinion_material), ("wheel", given.wheel_material)):
+        if estimated and not least <= solid.youngs_modulus <= largest:
+            message = (
+                f"the {name} is no steel ({solid.youngs_modulus / 1e9:.4g} GPa), for which ISO/TR 13989-1 estimates "
+                f"{' and '.join(estimated)}: give measured values"
+            )
+            yield Notice("made_for_steel", message, f"materials.{name}.youngs_modulus")
 
 
 def _oil_factor(oil: OilSheet | Lubricant, temperature: float) -> float:
