@@ -66,7 +66,13 @@ def test_derived_says_what_the_request_left_open() -> None:
     calculation, request = case("pahl-z-arrangement")
     derived = evaluate(calculation, request).model_dump()["derived"]
     module = request.coupling.module_mm
-    assert derived == {"face_width_mm": pytest.approx(8 * module), "tooth_height_mm": pytest.approx(2 * module)}
+    assert derived == {
+        "face_width_mm": pytest.approx(8 * module),
+        "tooth_height_mm": pytest.approx(2 * module),
+        "tooth_stiffness_n_per_um": 280.0,
+        "viscosity_pa_s": request.lubricant.viscosity_pa_s,
+        "viscosity_index": None,
+    }
 
 
 def test_torque_follows_from_power() -> None:

@@ -757,6 +757,7 @@ NOT_IN_FILES = {
     "ambient.*": "the air in the casing is unknown to the standard",
     "modifications.lead_curve.*": "topographies are not mapped",
     "gears.module_plane": "modules of the request are normal ones",
+    "gears.*.tip_diameter_mm": "tip diameters of files become addendum coefficients, as their limits do",
     "*.power_kw": "the torque is given",
     "modifications.*_plane_deviation_um": "the positions of shafts in files are nominal",
     "lubricant.iso_vg": "the viscosities are given",
