@@ -1,6 +1,7 @@
 """How many modules one request passes: what somebody reads who follows it from the application to the answer's bytes.
 
-Not counted: the solvers' modules, which are the model; app/http/server.py, which takes bytes from the connection, and app/log.py, whose thread writes the log.
+Not counted: the modules of the solvers, which are the model; app/http/server.py, which takes bytes from the
+connection; app/log.py, whose thread writes the log.
 """
 
 import asyncio
