@@ -194,7 +194,7 @@ class OilSheet:
         if self.temperature_viscosity is not None:
             return self.temperature_viscosity
         viscosity = self.kinematic_viscosity(temperature) / SQUARE_MILLIMETRE
-        _, slope = self._walther()
+        _, slope = self.walther()
         thinning = log(10.0) * (1.0 + WALTHER_SHIFT / viscosity) * self._logarithm(temperature) * slope / temperature
         expansion = THERMAL_EXPANSION / (1.0 - THERMAL_EXPANSION * (temperature - DENSITY_TEMPERATURE))
         return float(thinning + expansion)
@@ -226,8 +226,8 @@ class OilSheet:
             viscosity_index=self.viscosity_index,
         )
 
-    def _walther(self) -> tuple[float, float]:
-        """A and B of log10 log10 (nu + 0.7) = A - B log10 T through both points, nu in mm^2/s, T in kelvin."""
+    def walther(self) -> tuple[float, float]:
+        """Return A and B of log10 log10 (nu + 0.7) = A - B log10 T through both points, nu in mm^2/s, T in kelvin."""
         cold, hot = 40.0 + CELSIUS, 100.0 + CELSIUS
         thick = _double_logarithm(self.kinematic_viscosity_40)
         thin = _double_logarithm(self.kinematic_viscosity_100)
@@ -236,7 +236,7 @@ class OilSheet:
 
     def _logarithm(self, temperature: float) -> float:
         """log10 (nu + 0.7) at a temperature [K]."""
-        intercept, slope = self._walther()
+        intercept, slope = self.walther()
         return float(10.0 ** (intercept - slope * log10(temperature)))
 
 

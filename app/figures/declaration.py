@@ -18,7 +18,8 @@ class Declaration:
 
     `build` makes the data of the solver's inputs, in SI, and of its result with every quantity in the unit in which it
     is shown. Where the result does not hold what the figure shows, `compute` finds it from both, and `build` takes it
-    as a third argument. A page leaves out what is `shown_at` the page of another calculation, given by its path.
+    as a third argument. A page leaves out what is `shown_at` the page of another calculation, given by its path, and
+    what a request without the section `asked_by` does not ask for.
     """
 
     name: str
@@ -27,11 +28,18 @@ class Declaration:
     build: Build
     compute: Callable[[Any, Any], Any] | None = None
     shown_at: str = ""
+    asked_by: str = ""
+
+    def is_asked(self, request: Request) -> bool:
+        """Return whether a request asks for what the figure shows."""
+        return not self.asked_by or getattr(request, self.asked_by) is not None
 
     def figure(self, request: Request, response: Response) -> Figure:
         """The figure of a case. Raises NoFigure where there is nothing to show."""
         if response.status == "no_solution":
             raise NoFigure("no_solution", "The calculation has no solution, so there is nothing to draw")
+        if not self.is_asked(request):
+            raise NoFigure("not_asked", f"Give the section {self.asked_by} to have this figure", self.asked_by)
         inputs, result = request.inputs(), shown(response.result)
         computed = () if self.compute is None else (self.compute(inputs, result),)
         figure = self.build(inputs, result, *computed)

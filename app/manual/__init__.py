@@ -15,6 +15,7 @@ NAMES = (
     "load-distribution",
     "line-contact",
     "scuffing",
+    "micropitting",
     "drive-train",
     "heat-balance",
     "practice",

@@ -64,7 +64,7 @@ def figures_of(
     """
     found, missing = [], []
     for declaration in case.calculation.figures:
-        if not declaration.shown_at:
+        if not declaration.shown_at and declaration.is_asked(case.request):
             known = compute or declaration.compute is None
             try:
                 found.append((declaration, figure_of(declaration, case, variant) if known else None))

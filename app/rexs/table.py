@@ -345,6 +345,16 @@ LOAD_RESULTS = (
     ("load.face_load_factor", "face_load_factor_contact_stress", "none"),
     ("load.max_line_load_n_per_mm", "maximum_line_load", "N / mm"),
 )
+MICROPITTING_RESULTS = (
+    ("micropitting.permissible_ratio", "permissible_specific_film_thickness_micropitting", "none"),
+    ("micropitting.local.least_ratio", "minimum_specific_film_thickness_micropitting", "none"),
+    ("micropitting.local.safety", "micropitting_safety", "none"),
+    ("micropitting.local.verdict", "micropitting_risk", "none"),
+    ("micropitting.standard.safety", "micropitting_safety_method_b", "none"),
+    ("wear.pinion_max_um_per_million", "maximum_wear_pinion_per_million_revolutions", "mum"),
+    ("wear.wheel_max_um_per_million", "maximum_wear_wheel_per_million_revolutions", "mum"),
+)
+"""No version of REXS has the failure load stage of a micropitting test; it is filled in on the page."""
 RESULTS = {
     "/v1/scuffing": (
         *LOAD_RESULTS,
@@ -365,6 +375,7 @@ RESULTS = {
         ("safety.blok_factor", "scuffing_safety_blok", "none"),
         ("safety.thermal_ehl_factor", "scuffing_safety_thermal_ehl", "none"),
         ("safety.verdict", "scuffing_risk", "none"),
+        *MICROPITTING_RESULTS,
     ),
     "/v1/drive-train": (
         *LOAD_RESULTS,
@@ -372,6 +383,7 @@ RESULTS = {
         ("load.transmission_error_pp_um", "transmission_error_peak_to_peak", "mum"),
         ("safety.blok_flank", "scuffing_safety_blok_flank", "none"),
         ("safety.minimum", "scuffing_safety_minimum", "none"),
+        *MICROPITTING_RESULTS,
         ("losses.total_w", "total_power_loss", "W"),
         ("losses.efficiency", "efficiency", "none"),
     ),

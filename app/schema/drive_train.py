@@ -20,6 +20,7 @@ from app.schema.scuffing import (
     MeshDerived,
     MeshInOil,
     MeshModel,
+    Micropitting,
     ScuffingLoad,
 )
 from solvers.coupling.inputs import Coupling, CouplingDesign, CouplingOil
@@ -182,6 +183,7 @@ class DriveTrainRequest(MeshInOil):
     lubricant: Annotated[Oil, Input("oil")] = Oil()
     temperatures: Annotated[TrainTemperatures, Input("temperatures", text="of contact and oil")] = TrainTemperatures()
     friction_coefficient: Annotated[float | None, PRACTICAL_FRICTION] = None
+    micropitting: Annotated[Micropitting | None, Input.of(mesh.ScuffingInputs, "micropitting")] = None
     states: Annotated[list[si.State], Input.of(si.DriveTrainInputs, "states")] = Field(
         default_factory=partial(list[si.State], ("hot",))
     )

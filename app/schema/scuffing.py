@@ -1,5 +1,6 @@
 """Scuffing of a gear pair: requests and answers of /v1/scuffing and of its load distribution."""
 
+from dataclasses import replace
 from typing import Annotated, Any, ClassVar, Self
 
 from pydantic import model_validator
@@ -17,6 +18,7 @@ from solvers.materials import Solid
 from solvers.oils import OilChoice
 from solvers.scuffing import inputs as si
 from solvers.scuffing import results, safety_results
+from solvers.scuffing.micropitting import results as film_results
 
 
 class FlankModifications(Section, of=si.Modifications, without=("lead_curve",)):
@@ -83,7 +85,26 @@ class LoadDistributionRequest(GearPairRequest):
         return {"materials.pinion.roughness_um": True, "materials.wheel.roughness_um": True}
 
 
+FILM_SAFETY = View(limit=1.0, bound="lower")
 groups(
+    MicropittingTestFilm=(
+        film_results.FilmOfTest,
+        "The film of the test gears C-GF in this oil at the failure load stage.",
+    ),
+    LocalFilmPoint=(film_results.LocalPoint, "The film at a point of the feature line.", {"safety": FILM_SAFETY}),
+    LocalFilm=(
+        film_results.LocalFilm,
+        "The film over the flank under its own load (method A).",
+        {"safety": replace(FILM_SAFETY, needs="micropitting.failure_load_stage", verdict=".verdict")},
+    ),
+    StandardFilmPoint=(film_results.StandardPoint, "The film at a point of the path.", {"safety": FILM_SAFETY}),
+    StandardFilm=(
+        film_results.StandardFilm,
+        "The film of a spur pair without relief under an even load (method B).",
+        {"safety": FILM_SAFETY},
+    ),
+    MicropittingResult=(film_results.Micropitting, "The film against the one that the oil's test asks for."),
+    FlankWear=(film_results.Wear, "Depth of mild wear per million revolutions of either gear."),
     ScuffingGeometry=(results.Geometry, "The mesh."),
     ContactLengthCurves=(
         results.LengthCurves,
@@ -185,9 +206,8 @@ class ContactTemperatures(Section, of=si.Temperatures):
         return self
 
     def unused(self) -> dict[str, bool]:
-        """A bulk temperature that is estimated is not given; one that is given does not ask how the oil comes."""
-        estimated = self.bulk_method == "estimated"
-        return {"bulk_c": estimated, "oil_supply": not estimated}
+        """Mark the bulk temperature as unused if it is estimated."""
+        return {"bulk_c": self.bulk_method == "estimated"}
 
 
 class ScuffingTemperatures(ContactTemperatures):
@@ -201,7 +221,24 @@ class ScuffingTemperatures(ContactTemperatures):
         return self
 
 
-class MeshModel(LoadDistributionModel, FilmModel, of=si.ScuffingInputs, without=("line",)):
+class Surfaces(Section, of=si.FlankSurfaces):
+    """How the flanks are hardened."""
+
+
+class Micropitting(Section, of=si.MicropittingCheck):
+    """A micropitting test of the oil, or the film that the flanks need, and a wear coefficient."""
+
+    exclusive: ClassVar = (("failure_load_stage", "permissible_ratio"),)
+
+    def unused(self) -> dict[str, bool]:
+        """Mark the test and its factors as unused if the ratio is given, and the surfaces if their factor is."""
+        given = self.permissible_ratio is not None
+        return dict.fromkeys(("failure_load_stage", "material_factor"), given) | {
+            "surface": given or self.failure_load_stage is None or self.material_factor is not None
+        }
+
+
+class MeshModel(LoadDistributionModel, FilmModel, of=si.ScuffingInputs, without=("line", "micropitting")):
     """Choices where the paper leaves room, and physics and resolution of the film."""
 
     friction: si.FrictionMethod = "iso_tr_13989"
@@ -226,6 +263,7 @@ ESTER_FACTOR = (
     "no lubricant factor is known for an ester: for scuffing that of a mineral oil is taken, for the losses, if no "
     "coefficient of friction is given, that of a polyalphaolefin"
 )
+ESTER_FILM = f"{ESTER_FACTOR}; the film against micropitting takes the pressure-viscosity coefficient of a mineral oil"
 GIVEN_BULK = (
     "a given bulk temperature does not follow the oil: with a hotter oil alone the stated safety rises, because it "
     "counts the temperatures above the oil's"
@@ -287,16 +325,26 @@ class MeshInOil(Request):
 
     @property
     def _lubricant_factor_asked(self) -> bool:
-        """Whether friction or scuffing temperature rest on the oil's lubricant factor."""
+        """Whether friction, scuffing temperature or film against micropitting rest on the lubricant factor."""
         test = self.temperatures.scuffing_test
         by_test = test is not None and test.lubricant_factor is None
-        return self.lubricant.known and (self.model.friction == "iso_tr_13989" or by_test)
+        asked = self.model.friction == "iso_tr_13989" or by_test or self.micropitting is not None
+        return self.lubricant.known and asked
+
+    @property
+    def _standard_film_asked(self) -> bool:
+        """Whether the check against micropitting has a film by the standard, which holds for plain spur gears."""
+        relief = self.modifications.tip_relief_um or self.modifications.root_relief_um
+        return self.micropitting is not None and not relief and self.gears.helix_angle_deg == 0.0
 
     def unused(self) -> dict[str, bool]:
-        """Without an oil its temperatures; in closed form the film's model; the oil's kind where no factor asks it."""
-        dry = not self.lubricant.known
+        """Mark what does not count without an oil, in closed form, or without a film by the standard."""
+        dry, standard = not self.lubricant.known, self._standard_film_asked
         no_film = dry or self.model.lubrication == "closed_form"
-        return {
+        of_the_film = (name for name in Micropitting.model_fields if not name.startswith("wear"))
+        return dict.fromkeys((f"micropitting.{name}" for name in of_the_film), dry) | {
+            "micropitting.quality_grade": dry or not standard,
+            "temperatures.oil_supply": self.temperatures.bulk_method != "estimated" and not standard,
             "lubricant": dry,
             "temperatures": dry,
             "model.rheology": no_film,
@@ -314,7 +362,7 @@ class MeshInOil(Request):
             if self.friction_coefficient is not None:
                 found["friction_coefficient"] = NOT_USED
         if self.lubricant.kind == "ester" and self._lubricant_factor_asked:
-            found["lubricant.kind"] = ESTER_FACTOR
+            found["lubricant.kind"] = ESTER_FACTOR if self.micropitting is None else ESTER_FILM
         if self.temperatures.bulk_method == "given":
             found["temperatures.bulk_method"] = GIVEN_BULK
         if self.model.lubrication == "thermal_ehl":
@@ -330,6 +378,7 @@ class ScuffingRequest(MeshInOil, GearPairRequest):
     temperatures: Annotated[ScuffingTemperatures, Input("temperatures", text="temperatures of teeth and oil")] = (
         ScuffingTemperatures()
     )
+    micropitting: Annotated[Micropitting | None, Input.of(si.ScuffingInputs, "micropitting")] = None
     model: Annotated[ScuffingModel, Input("model", text="choices where the paper leaves room", advanced=True)] = (
         ScuffingModel()
     )

@@ -18,6 +18,7 @@ from solvers.drive_train.notices import coupling_notices, load_notices, loss_not
 from solvers.drive_train.results import Convergence, DriveTrainResult, FaceLoad
 from solvers.drive_train.safety import contact_of, flank_heat
 from solvers.drive_train.shafts.influence import Unit, unit
+from solvers.scuffing.micropitting.wear import wear_asked_for
 from solvers.scuffing.model import distribution, mesh_of
 from solvers.scuffing.results import LoadDistribution
 from solvers.scuffing.thermal.temperatures import in_force, oil_notices
@@ -105,8 +106,11 @@ def solve(inputs: DriveTrainInputs, start: FloatArray | None = None) -> DriveTra
         losses=losses,
         balance=force_balance(system, found, _torques(inputs), mesh.transmitted),
         convergence=Convergence(found.iterations, found.residual),
+        micropitting=heat.micropitting.answer,
+        wear=wear_asked_for(inputs.mesh.micropitting, spread),
         mesh=spread,
         contact_temperature=frozen(heat.temperature),
+        film_ratio=None if heat.micropitting.ratio is None else frozen(heat.micropitting.ratio),
         derived=derived(inputs, spread),
         warnings=(
             *spread.warnings,

@@ -6,7 +6,8 @@ from solvers.drive_train.inputs import Vector2
 from solvers.drive_train.shafts.thrust_budget import Thrust
 from solvers.notices import Notice
 from solvers.quantity import computed, quantity, record
-from solvers.scuffing.inputs import TR_13989
+from solvers.scuffing.inputs import ISO_TR_15144, TR_13989
+from solvers.scuffing.micropitting.results import Micropitting, Wear
 from solvers.scuffing.results import LoadDistribution, Place
 from solvers.sources import ISO_6336, OCVIRK
 
@@ -280,6 +281,15 @@ class FlankMaps:
         axis=("profile_fraction", "face_fraction"),
         gaps=True,
     )
+    micropitting_ratio: FloatArray | None = quantity(
+        "specific film thickness against micropitting over the flank",
+        "λ_GF",
+        f"{ISO_TR_15144}, formula 2",
+        text="null without a check against micropitting, and where nothing is in contact",
+        axis=("profile_fraction", "face_fraction"),
+        gaps=True,
+        default=None,
+    )
 
 
 @record
@@ -293,7 +303,8 @@ class States:
 class DriveTrainResult:
     """The unit's answer; `mesh` is the load distribution under the gap that all agreed on.
 
-    `contact_temperature` is the map [profile, face] by Blok [K].
+    `contact_temperature` is the map [profile, face] by Blok [K]; `film_ratio` is that of the film against micropitting,
+    None if it is not asked for.
     """
 
     misalignment: Misalignment = quantity("misalignment", text="gap over the face, by causes")
@@ -307,8 +318,13 @@ class DriveTrainResult:
     losses: TrainLosses = quantity("losses")
     balance: ForceBalance = quantity("balance", text="forces and moments on the shafts")
     convergence: Convergence = quantity("convergence")
+    micropitting: Micropitting | None = quantity(
+        "micropitting", text="film against micropitting; null if not asked for, without an oil or a bulk temperature"
+    )
+    wear: Wear | None = quantity("wear", text="mild wear; null without a wear coefficient")
     mesh: LoadDistribution
     contact_temperature: FloatArray
+    film_ratio: FloatArray | None
     warnings: tuple[Notice, ...]
     derived: Derived = quantity("what was left open, as used")
     states: States | None = quantity("states", text="null unless other states were asked for", default=None)
@@ -319,5 +335,10 @@ class DriveTrainResult:
         """Over the flank."""
         maps = self.mesh.flank
         return FlankMaps(
-            maps.profile_fraction, maps.face_fraction, maps.line_load, maps.pressure, self.contact_temperature
+            maps.profile_fraction,
+            maps.face_fraction,
+            maps.line_load,
+            maps.pressure,
+            self.contact_temperature,
+            self.film_ratio,
         )

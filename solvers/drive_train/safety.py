@@ -1,6 +1,6 @@
 """Scuffing over the whole flank of a unit: bulk temperatures that vary along the face, flash temperature, safety."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -12,6 +12,7 @@ from solvers.drive_train.results import FlashPlaces, TrainSafety
 from solvers.notices import Notice
 from solvers.scuffing.contact_slices import Peak
 from solvers.scuffing.inputs import ScuffingInputs
+from solvers.scuffing.micropitting.check import CheckedFlank, check_micropitting
 from solvers.scuffing.results import LoadDistribution, Place
 from solvers.scuffing.safety import safety_factor
 from solvers.scuffing.safety_results import ThermalPath
@@ -31,6 +32,7 @@ class FlankHeat:
     temperature: FloatArray
     flash: FlashPlaces
     safety: TrainSafety | None
+    micropitting: CheckedFlank
     unsolved_points: int
     warnings: tuple[Notice, ...]
 
@@ -66,11 +68,13 @@ def flank_heat(inputs: DriveTrainInputs, mesh: LoadDistribution, thermal: Therma
         warm_feature = on_feature + bulk(across)
         hottest = _with_line(find_hottest(given, mesh, flash, bulk), along, across, warm_feature)
         contacts = [None, None] if hottest is None else [float(warm_feature.max()), hottest.value]
-    unsolved, warnings = 0, tuple[Notice, ...]()
+    unsolved, warnings, thinnest = 0, tuple[Notice, ...](), None
     if inputs.mesh.lubrication == "thermal_ehl" and known and hottest is not None:
         paths, bulks, warnings = _thermal_lines(inputs, mesh, (along, across), hottest, bulk)
         contacts += [_hottest_surface(*line) for line in zip(paths, bulks, strict=True)]
+        thinnest = _thinnest_film(paths, bulks)
         unsolved = sum(path.status.count(status) for path in paths for status in ("no_solution", "refused"))
+    micropitting = check_micropitting(inputs.mesh, mesh, flash, thinnest, bulk if inputs.local_bulk else None)
     place = None
     if strongest is not None and hottest is not None and strongest.value > 0.0:
         place = _place(mesh, hottest)
@@ -84,8 +88,9 @@ def flank_heat(inputs: DriveTrainInputs, mesh: LoadDistribution, thermal: Therma
             friction_coefficient=inputs.mesh.distribution.friction_coefficient,
         ),
         safety=_safety(inputs, contacts, place),
+        micropitting=micropitting,
         unsolved_points=unsolved,
-        warnings=warnings,
+        warnings=warnings + micropitting.warnings,
     )
 
 
@@ -150,6 +155,12 @@ def _hottest_surface(path: ThermalPath, bulk: FloatArray) -> float | None:
     if set(path.status) == {"unloaded"} or unknown_points([path], [bulk]):
         return None
     return float(np.nanmax(np.fmax(path.pinion_flash, path.wheel_flash) + bulk))
+
+
+def _thinnest_film(paths: Sequence[ThermalPath], bulks: Sequence[FloatArray]) -> float | None:
+    """Return the thinnest film of all lines by thermal EHL [m]; None if points not solved may decide."""
+    films = np.concatenate([path.minimum_film for path in paths])
+    return None if np.isnan(films).all() or unknown_points(paths, bulks) else float(np.nanmin(films))
 
 
 def _safety(inputs: DriveTrainInputs, hottest: list[float | None], worst: Place | None) -> TrainSafety | None:

@@ -14,6 +14,7 @@ from solvers.quantity import quantity, record
 from solvers.sources import ISO_6336, XUE
 
 FZG = "ISO 14635-1"
+ISO_TR_15144 = "ISO/TR 15144-1:2014, as read in a public implementation"
 TR_13989 = "ISO/TR 13989-1, as read in a public implementation"
 
 FrictionMethod = Literal["given", "iso_tr_13989"]
@@ -26,6 +27,9 @@ ToothSection = Literal["normal", "transverse"]
 LoadConvention = Literal["exact", "paper"]
 Lubrication = Literal["thermal_ehl", "closed_form"]
 CheckedPart = Literal["flank", "feature_line"]
+FlankSurface = Literal[
+    "case_hardened", "case_hardened_retained_austenite", "nitrided", "induction_hardened", "through_hardened"
+]
 
 
 @record
@@ -463,6 +467,85 @@ class Temperatures:
 
 
 @record
+class FlankSurfaces:
+    """How the flanks are hardened; retained austenite counts above 25 %."""
+
+    pinion: FlankSurface = quantity(
+        "surface of the pinion", "W_W1", ISO_TR_15144, default="case_hardened", assumed="case-hardened flanks"
+    )
+    wheel: FlankSurface = quantity(
+        "surface of the wheel", "W_W2", ISO_TR_15144, default="case_hardened", assumed="case-hardened flanks"
+    )
+
+
+@record
+class MicropittingCheck:
+    """What micropitting and wear depend on beside the film: the oil's test, the flanks' surfaces, their quality.
+
+    A `permissible_ratio` takes the place of the test, a `material_factor` that of the surfaces, of which the smaller
+    factor counts. With neither stage nor ratio there is a film but no safety. `quality_grade` decides the load sharing
+    of the standard alone.
+    """
+
+    failure_load_stage: int | None = quantity(
+        "failure load stage of the micropitting test",
+        "SKS",
+        "FVA 54/7, C-GF/8.3/90",
+        default=None,
+        ge=5,
+        le=10,
+        text="load stage at which the oil fails the micropitting test",
+        default_text="no safety, unless a permissible ratio is given",
+        assumed="neither failure load stage nor permissible ratio is given: films without a safety",
+    )
+    surface: FlankSurfaces = quantity("surfaces of the flanks", default_factory=FlankSurfaces)
+    material_factor: float | None = quantity(
+        "material factor",
+        "W_W",
+        ISO_TR_15144,
+        default=None,
+        ge=0.1,
+        le=3,
+        tolerance=0.1,
+        text="how much more film the flanks need than those of the test",
+        default_text="by the surfaces",
+    )
+    permissible_ratio: float | None = quantity(
+        "permissible specific film thickness",
+        "λ_GFP",
+        ISO_TR_15144,
+        default=None,
+        ge=1e-3,
+        le=10,
+        tolerance=0.05,
+        text="instead of the test: the film over roughness that the flanks need",
+        default_text="by the micropitting test",
+    )
+    quality_grade: int = quantity(
+        "quality grade",
+        "Q",
+        ISO_TR_15144,
+        default=7,
+        ge=5,
+        le=12,
+        text="of the load sharing of the standard; grades up to 7 count as 7",
+        assumed="grade 7, as of the test gears",
+    )
+    wear_coefficient: float | None = quantity(
+        "wear coefficient",
+        "k_W",
+        "Archard",
+        unit="mm3_per_n_m",
+        default=None,
+        ge=1e-15,
+        le=1e-2,
+        tolerance=1e-9,
+        text="of both flanks",
+        default_text="no wear",
+    )
+
+
+@record
 class ScuffingInputs:
     """What scuffing depends on; `path_points` along each line of the flank that is solved.
 
@@ -513,6 +596,9 @@ class ScuffingInputs:
         default="flank",
         text="the whole flank, or the paper's feature line alone, which misses hot corners",
         advanced=True,
+    )
+    micropitting: MicropittingCheck | None = quantity(
+        "micropitting and wear", default=None, text="check of the film against micropitting; null: none"
     )
 
     @property

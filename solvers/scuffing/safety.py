@@ -15,6 +15,8 @@ from solvers.lubricants import OilInUse, oil_in_use
 from solvers.oils import OilSheet
 from solvers.scuffing.contact_slices import Peak, reaches_base_circle
 from solvers.scuffing.inputs import ScuffingInputs, Temperatures
+from solvers.scuffing.micropitting.check import CheckedFlank, check_micropitting
+from solvers.scuffing.micropitting.wear import wear_asked_for
 from solvers.scuffing.model import solve
 from solvers.scuffing.results import ContactPoints, Derived, LoadDistribution
 from solvers.scuffing.safety_results import (
@@ -79,6 +81,8 @@ def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
     elif unknown:
         flash, film = without_thermal(flash, film)
     flash = replace(flash, friction_coefficient=inputs.distribution.friction_coefficient)
+    micropitting = check_micropitting(inputs, distribution, flash_map, film.thermal_ehl_min)
+    paths = [_with_film_ratio(micropitting, *both) for both in zip(paths, lines, strict=True)]
     contact = None if bulk is None else _contact_temperature(bulk, flash)
     safety = None if contact is None else _safety(inputs.temperatures, contact, flash)
     return Scuffing(
@@ -89,9 +93,12 @@ def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
         safety=safety,
         path=paths[0],
         hottest_path=paths[1] if len(paths) > 1 else None,
+        micropitting=micropitting.answer,
+        wear=wear_asked_for(inputs.micropitting, distribution),
         flank_flash=frozen(flash_map.flash[flash_map.mapped]),
+        flank_film_ratio=None if micropitting.ratio is None else frozen(micropitting.ratio),
         derived=_derived(inputs, distribution.derived),
-        warnings=warnings + path_notices(distribution, paths, contact, safety, unknown),
+        warnings=warnings + micropitting.warnings + path_notices(distribution, paths, contact, safety, unknown),
         unsolved_points=sum(path.status.count(status) for path in paths for status in ("no_solution", "refused")),
     )
 
@@ -205,3 +212,10 @@ def _with_thermal(inputs: ScuffingInputs, path: ScuffingPath, thermal: ThermalPa
         formula if formula == "refused" else solved for formula, solved in zip(path.status, thermal.status, strict=True)
     )
     return replace(path, status=status, thickness_ratio=frozen(ratio), thermal=thermal)
+
+
+def _with_film_ratio(flank: CheckedFlank, path: ScuffingPath, line: _Line) -> ScuffingPath:
+    """The path with the film ratio of micropitting, if that is asked for and known."""
+    if flank.film is None:
+        return path
+    return replace(path, micropitting_ratio=frozen(flank.film.ratio(line.points, line.face)))

@@ -7,7 +7,8 @@ from solvers.contact.film import Regime
 from solvers.lubricants import OilInUse
 from solvers.notices import Notice
 from solvers.quantity import computed, quantity, record
-from solvers.scuffing.inputs import TR_13989
+from solvers.scuffing.inputs import ISO_TR_15144, TR_13989
+from solvers.scuffing.micropitting.results import Micropitting, Wear
 from solvers.scuffing.results import Derived, Flank, LoadDistribution
 from solvers.scuffing.thermal.practice import ScuffingRisk
 from solvers.sources import XUE
@@ -282,11 +283,24 @@ class ScuffingPath:
         gaps=True,
     )
     thermal: ThermalPath | None = None
+    micropitting_ratio: FloatArray | None = quantity(
+        "specific film thickness against micropitting",
+        "λ_GF",
+        f"{ISO_TR_15144}, formula 2",
+        text="film at the contact temperature over the mean roughness of both flanks; null without a check against "
+        "micropitting, and where nothing is in contact",
+        axis="psi",
+        gaps=True,
+        default=None,
+    )
 
 
 @record
 class HeatedFlank(Flank):
-    """Maps [profile, face] of the load distribution, and Blok's flash temperature [K] (NaN where it has no limit)."""
+    """Maps [profile, face] of the load distribution, of Blok's flash temperature [K] and of the film ratio.
+
+    The flash temperature is NaN where it has no limit, the film ratio where nothing is in contact.
+    """
 
     flash_temperature: FloatArray = quantity(
         "flash temperature over the flank",
@@ -297,6 +311,15 @@ class HeatedFlank(Flank):
         axis=("profile_fraction", "face_fraction"),
         gaps=True,
     )
+    micropitting_ratio: FloatArray | None = quantity(
+        "specific film thickness against micropitting over the flank",
+        "λ_GF",
+        f"{ISO_TR_15144}, formula 2",
+        text="null without a check against micropitting, and where nothing is in contact",
+        axis=("profile_fraction", "face_fraction"),
+        gaps=True,
+        default=None,
+    )
 
 
 @record(kw_only=True)
@@ -305,7 +328,8 @@ class Scuffing:
 
     Without an oil, contact temperature, film and safety are None. `flank_flash` is Blok's flash temperature [K] at the
     points of the flank's maps [profile, face], NaN where it has no limit or no coefficient of friction is known.
-    `warnings` are those of the load distribution and of the check.
+    `flank_film_ratio` is the film ratio of micropitting at these points, None if it is not asked for. `warnings` are
+    those of the load distribution and of the check.
     """
 
     distribution: LoadDistribution
@@ -321,7 +345,12 @@ class Scuffing:
         text="at `flash.blok_at_face_mm`; null where the feature line is as hot to 2 %",
         detail="curves",
     )
+    micropitting: Micropitting | None = quantity(
+        "micropitting", text="film against micropitting; null if not asked for, without an oil or a bulk temperature"
+    )
+    wear: Wear | None = quantity("wear", text="mild wear; null without a wear coefficient")
     flank_flash: FloatArray
+    flank_film_ratio: FloatArray | None
     derived: ScuffingDerived = quantity("load, lengths and oil used")
     warnings: tuple[Notice, ...]
     unsolved_points: int = quantity("unsolved points", text="points of the path without a solution or refused")
@@ -338,4 +367,5 @@ class Scuffing:
             flank.line_load,
             flank.pressure,
             self.flank_flash,
+            self.flank_film_ratio,
         )

@@ -16,7 +16,7 @@ RULES = {
     ),
     "/v1/(scuffing|drive-train)": (
         "torque_or_power load_missing missing_bulk missing_friction oil_temperature scuffing_temperature contact_law "
-        "lead_curve root_circle overlap_range cannot_finish"
+        "lead_curve root_circle overlap_range cannot_finish viscosity_range"
     ),
     # Gears that cannot be made or do not mesh.
     "/v1/(pumping|scuffing|drive-train)": (
@@ -44,7 +44,7 @@ RULES = {
     # Figures of what the case does not have.
     ".*/figures/": (
         "no_modification no_misalignment no_lead_correction no_load no_oil no_solution no_temperature no_rise "
-        "no_scuffing_temperature no_plain_bearing isothermal closed_form"
+        "no_scuffing_temperature no_plain_bearing isothermal closed_form not_asked no_film no_wear"
     ),
     # What names fields of another endpoint.
     STUDIES: (

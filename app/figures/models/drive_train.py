@@ -9,6 +9,7 @@ import numpy as np
 from app.figures import parts
 from app.figures.data import Axis, Figure, Hue, Level, Line, Mark, NoFigure, Panel, Role, Row, Span, Values, values
 from app.figures.declaration import Declaration
+from app.figures.models import micropitting
 from app.figures.models.load_distribution import face, over_flank, section
 from app.figures.models.scuffing import heat_over_flank
 from app.figures.sketches import shafts
@@ -17,7 +18,9 @@ from app.figures.wording import number, percent, without_rounding
 from solvers.drive_train import solve
 from solvers.drive_train.inputs import DriveTrainInputs, Effects, JournalBearing, Shaft, Vector2
 from solvers.drive_train.results import DriveTrainResult, ShaftResult
+from solvers.drive_train.safety import contact_of
 from solvers.drive_train.shafts.bearings import attitude_angle
+from solvers.scuffing.safety_results import Scuffing
 
 OWN = "own derivation"
 ROUND = np.linspace(0.0, 2.0 * pi, 181)  # a circle in steps of 2°
@@ -244,6 +247,22 @@ def losses(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
     return Figure(finding, [Panel(x=Axis("power lost", "W", symbol="P"), y=Axis("where"), rows=rows)])
 
 
+def mesh_as_drawn(inputs: DriveTrainInputs, _: DriveTrainResult) -> Scuffing | None:
+    """Solve the mesh alone without modifications, with what shafts and heat add left out."""
+    return micropitting.solve_unmodified(contact_of(inputs))
+
+
+def where_micropitting_starts(inputs: DriveTrainInputs, result: DriveTrainResult, plain: Scuffing | None) -> Figure:
+    """Film over roughness over the flank, its least value marked, beside that of the unmodified mesh alone."""
+    answer = micropitting.answered(result.micropitting)
+    return micropitting.over_flanks(inputs.mesh, answer, result.flank, plain)
+
+
+def wear(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
+    """Depth of wear over the flanks of pinion and wheel."""
+    return micropitting.wear_on_flank(inputs.mesh, result)
+
+
 LOAD_ALONE = Declaration("face-load", "Load along the face", OWN, partial(face_load, others={}))
 GAP = Declaration("gap", "Gap over the face by parts", OWN, gap)
 FIGURES = (
@@ -257,6 +276,15 @@ FIGURES = (
     ),
     Declaration("flank-load", "Line load on the flank", "Xue 2020, Fig. 11", flank_load),
     Declaration("contact-temperature", "Contact temperature on the flank", "Xue 2020, Eq. 25", contact_temperature),
+    Declaration(
+        "micropitting",
+        "Where will micropitting start?",
+        "ISO/TR 15144-1, formula 2",
+        where_micropitting_starts,
+        compute=mesh_as_drawn,
+        asked_by="micropitting",
+    ),
+    Declaration("wear", "Wear over the flanks", "Archard 1953", wear, asked_by="micropitting"),
     Declaration("journals", "Journals in the clearances of the plain bearings", "Ocvirk 1953", journals),
     Declaration("thrust", "Axial load of the shafts", "API 613, 5th ed.", thrust),
     Declaration("losses", "Losses of the unit", OWN, losses),

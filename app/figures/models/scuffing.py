@@ -9,7 +9,7 @@ import numpy as np
 from app.figures import parts
 from app.figures.data import Axis, Figure, Hue, Level, Line, NoFigure, Panel, Role, Span, Values, values
 from app.figures.declaration import Build, Declaration, present
-from app.figures.models import load_distribution
+from app.figures.models import load_distribution, micropitting
 from app.figures.models.load_distribution import PATH, path_points
 from app.figures.units import MM, UM, axis
 from app.figures.wording import number
@@ -209,6 +209,21 @@ def film(inputs: ScuffingInputs, result: Scuffing) -> Figure:
     return _along(inputs, result, finding, panel)
 
 
+def film_against_micropitting(inputs: ScuffingInputs, result: Scuffing) -> Figure:
+    """Film over roughness at the contact temperature along the lines, and the permissible one."""
+    answer, pair = micropitting.answered(result.micropitting), inputs.distribution
+    roughness = (pair.pinion_material.roughness + pair.wheel_material.roughness) / 2 / UM
+
+    def panel(path: ScuffingPath) -> Panel:
+        thermal = None if path.thermal is None else path.thermal.minimum_film
+        return micropitting.film_lines(answer, path.psi, present(path.micropitting_ratio), thermal, roughness)
+
+    finding = f"λ = {number(present(answer.local.least_ratio))} at the thinnest"
+    if answer.local.safety is not None:
+        finding = f"{finding}: S_λ = {number(answer.local.safety)}, {answer.local.verdict}"
+    return _along(inputs, result, finding, panel)
+
+
 def friction(inputs: ScuffingInputs, result: Scuffing) -> Figure:
     """Coefficient of friction and film pressure along the lines, from thermal EHL, beside the mean one of Blok's."""
     _with_oil(result)
@@ -274,6 +289,22 @@ FIGURES = (
     ),
     Declaration("safety", "Safety factor against scuffing along the path of contact", "Xue 2020, Eq. 26", safety_along),
     Declaration("film", "Film along the path of contact", "Xue 2020, Fig. 23", film),
+    Declaration(
+        "micropitting",
+        "Where will micropitting start?",
+        "ISO/TR 15144-1, formula 2",
+        micropitting.where_it_starts,
+        compute=micropitting.solve_unmodified,
+        asked_by="micropitting",
+    ),
+    Declaration(
+        "micropitting-film",
+        "Film against micropitting along the path",
+        "ISO/TR 15144-1, formula 2",
+        film_against_micropitting,
+        asked_by="micropitting",
+    ),
+    Declaration("wear", "Wear over the flanks", "Archard 1953", micropitting.wear_on_flank, asked_by="micropitting"),
     Declaration("friction", "Friction and pressure along the path of contact", "Xue 2020, section IV", friction),
     *(
         replace(

@@ -49,12 +49,13 @@ def contact_at_points(
     given: LoadDistributionInputs, distribution: LoadDistribution, x: FloatArray, y: FloatArray
 ) -> ContactPoints:
     """Return the contact at points x, y [m] of the flank, arrays of one shape."""
-    return _under(given, distribution, x, line_loads(distribution.balance, x, y))
+    return contacts_under_load(given, distribution, x, line_loads(distribution.balance, x, y))
 
 
-def _under(
+def contacts_under_load(
     given: LoadDistributionInputs, distribution: LoadDistribution, x: FloatArray, load: FloatArray
 ) -> ContactPoints:
+    """Return the contact at distances x [m] from A under line loads [N/m], arrays of one shape."""
     modulus = reduced_modulus(given.pinion_material, given.wheel_material)
     return contact_points(distribution.path_of_contact, distribution.balance, x, load, given.load.pinion_speed, modulus)
 
@@ -78,7 +79,7 @@ def map_flash(given: LoadDistributionInputs, distribution: LoadDistribution) -> 
         )
     heaviest = load.max(axis=1)
     share = load / np.where(heaviest > 0.0, heaviest, 1.0)[:, None]
-    largest = blok_flash(given, _under(given, distribution, x, heaviest))
+    largest = blok_flash(given, contacts_under_load(given, distribution, x, heaviest))
     with np.errstate(invalid="ignore"):  # where it has no limit
         flash = np.where(share > 0.0, largest[:, None] * np.sqrt(share * np.sqrt(share)), 0.0)
     return FlashMap(x, y, load, flash, mapped)
@@ -182,6 +183,17 @@ def formula_film(inputs: ScuffingInputs, points: ContactPoints) -> FloatArray:
             modulus=reduced_modulus(given.pinion_material, given.wheel_material),
         )
     return film
+
+
+def on_diagonals(distribution: LoadDistribution, peak: Peak, function: FlankFunction) -> Peak:
+    """Return the peak, or that of the feature line or its mirror image if a value there is higher."""
+    plane = distribution.path_of_contact.plane
+    x, y = np.linspace(0.0, plane.path_length, SURVEY_POINTS), np.linspace(0.0, plane.face_width, SURVEY_POINTS)
+    values = function(x, y)
+    top = int(np.argmax(values))
+    line = Peak(float(values[top]), float(x[top]), float(y[top]))
+    highest = max(peak, line, key=lambda place: place.value)
+    return _or_on_mirrored_line(distribution, highest, function)
 
 
 def _or_on_mirrored_line(distribution: LoadDistribution, peak: Peak, function: FlankFunction) -> Peak:

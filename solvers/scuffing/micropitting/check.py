@@ -1,0 +1,155 @@
+"""The check against micropitting, put together from its methods."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from solvers.arrays import FloatArray
+from solvers.notices import Notice
+from solvers.scuffing.contact_slices import Peak
+from solvers.scuffing.inputs import MicropittingCheck, ScuffingInputs
+from solvers.scuffing.micropitting.local import FaceFunction, FlankFilm, find_least, flank_film
+from solvers.scuffing.micropitting.notices import hot_film_notices, range_notices, standard_notices
+from solvers.scuffing.micropitting.oil_test import film_of_test, permissible_ratio
+from solvers.scuffing.micropitting.results import (
+    LocalFilm,
+    LocalPoint,
+    Micropitting,
+    StandardFilm,
+    StandardPoint,
+    Verdict,
+)
+from solvers.scuffing.micropitting.standard import characteristic_points, has_standard_film, solve_standard
+from solvers.scuffing.results import LoadDistribution
+from solvers.scuffing.thermal.flank import FlashMap
+
+LIKELY_BELOW, UNLIKELY_ABOVE = 1.0, 2.0  # of the safety factor; common practice
+
+
+@dataclass(frozen=True, slots=True)
+class CheckedFlank:
+    """The answer to a check; the film of the flank and its ratio over the flank's maps are None if not known."""
+
+    answer: Micropitting | None = None
+    film: FlankFilm | None = None
+    ratio: FloatArray | None = None
+    warnings: tuple[Notice, ...] = ()
+
+
+def check_micropitting(
+    inputs: ScuffingInputs,
+    distribution: LoadDistribution,
+    grid: FlashMap,
+    thermal_film: float | None,
+    bulk: FaceFunction | None = None,
+) -> CheckedFlank:
+    """Compare the film over the flank with the one that the oil's micropitting test asks for.
+
+    Parameters
+    ----------
+    inputs : ScuffingInputs
+        The check, with friction, temperatures and oil in force.
+    distribution : LoadDistribution
+        Load distribution of the pair.
+    grid : FlashMap
+        Points of the flank at which the film is computed, with their load.
+    thermal_film : float, optional
+        Thinnest film by thermal EHL [m].
+    bulk : callable, optional
+        Bulk temperature [K] along the face; None if it is one.
+
+    Returns
+    -------
+    CheckedFlank
+        The answer, None if it is not asked for or without an oil and its bulk temperature.
+
+    """
+    check, oil = inputs.micropitting, inputs.known_oil
+    if check is None or oil is None or inputs.temperatures.bulk is None:
+        return CheckedFlank()
+    test = None if check.failure_load_stage is None else film_of_test(oil, check.failure_load_stage)
+    permissible = permissible_ratio(check, test)
+    film = flank_film(inputs, distribution, bulk)
+    ratio = None if film is None else film.over(grid)
+    least = None if film is None or ratio is None else find_least(film, grid, ratio)
+    standard = _standard(inputs, check, distribution, permissible)
+    given, path = inputs.distribution, distribution.path_of_contact
+    warnings = [*range_notices(given, path), *standard_notices(given, path, standard)]
+    if film is not None and least is not None:
+        warnings += hot_film_notices(film, least)
+    return CheckedFlank(
+        answer=Micropitting(permissible, test, _local(distribution, film, least, permissible, thermal_film), standard),
+        film=film,
+        ratio=None if ratio is None else ratio[grid.mapped],
+        warnings=tuple(warnings),
+    )
+
+
+def _local(
+    distribution: LoadDistribution,
+    film: FlankFilm | None,
+    least: Peak | None,
+    permissible: float | None,
+    thermal_film: float | None,
+) -> LocalFilm:
+    safety = None if least is None else _safety(least.value, permissible)
+    roughness = None if film is None else film.conditions.roughness
+    return LocalFilm(
+        safety=safety,
+        least_ratio=None if least is None else least.value,
+        at_psi=None if least is None else least.x / distribution.path_of_contact.length,
+        at_face=None if least is None else least.y,
+        verdict=None if safety is None else verdict(safety),
+        friction_coefficient=None if film is None else film.conditions.friction,
+        thermal_ehl_ratio=None if roughness is None or thermal_film is None else thermal_film / roughness,
+        points=tuple(_local_points(distribution, film, permissible)),
+    )
+
+
+def _local_points(
+    distribution: LoadDistribution, film: FlankFilm | None, permissible: float | None
+) -> list[LocalPoint]:
+    """Return the film at the points of the path, on the feature line."""
+    path = distribution.path_of_contact
+    places = {name: x / path.length for name, x in characteristic_points(path).items() if 0.0 <= x <= path.length}
+    psi = np.array([*places.values()])
+    ratio = np.full(psi.size, np.nan)
+    if film is not None:
+        ratio = film.at(psi * path.length, psi * path.plane.face_width)
+    known = [None if np.isnan(value) else float(value) for value in ratio]
+    return [
+        LocalPoint(name, place, value, _safety(value, permissible))
+        for (name, place), value in zip(places.items(), known, strict=True)
+    ]
+
+
+def _standard(
+    inputs: ScuffingInputs, check: MicropittingCheck, distribution: LoadDistribution, permissible: float | None
+) -> StandardFilm | None:
+    given, path, oil = inputs.distribution, distribution.path_of_contact, inputs.known_oil
+    moving = distribution.balance.force > 0.0 and given.load.pinion_speed > 0.0
+    if oil is None or not moving or not has_standard_film(given, path):
+        return None
+    temperatures = inputs.temperatures
+    found = solve_standard(given, path, oil, temperatures.oil, temperatures.oil_supply, check.quality_grade)
+    values = zip(found.force_ratio, found.contacts.pressure, *found.films, strict=True)
+    points = tuple(
+        StandardPoint(
+            name, float(share), float(pressure), float(flash), float(film), float(ratio), _safety(ratio, permissible)
+        )
+        for name, (share, pressure, flash, film, ratio) in zip(characteristic_points(path), values, strict=True)
+    )
+    least = min(point.ratio for point in points)
+    return StandardFilm(found.friction, found.bulk, found.loss_factor, least, _safety(least, permissible), points)
+
+
+def _safety(ratio: float | None, permissible: float | None) -> float | None:
+    """Compute S_lambda = lambda / lambda_GFP (Eq. M7); None without both."""
+    return None if ratio is None or permissible is None else ratio / permissible
+
+
+def verdict(safety: float) -> Verdict:
+    """Return what practice says of a safety factor."""
+    if safety < LIKELY_BELOW:
+        return "micropitting is likely"
+    return "micropitting is unlikely" if safety > UNLIKELY_ABOVE else "limited margin"

@@ -1,0 +1,141 @@
+"""Film of a contact of two flanks and its ratio to their roughness, at the temperature that friction gives it."""
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from solvers.arrays import FloatArray
+from solvers.contact.hertz import reduced_modulus
+from solvers.lubricants import Lubricant
+from solvers.materials import Solid
+from solvers.oils import OilSheet
+from solvers.scuffing.micropitting.oil import pressure_viscosity, viscosity
+
+
+@dataclass(frozen=True, slots=True)
+class Conditions:
+    """What all contacts of a mesh share; the bulk temperature [K] may be one or that of each contact."""
+
+    oil: OilSheet | Lubricant
+    bulk: float | FloatArray
+    friction: float
+    pinion: Solid
+    wheel: Solid
+
+    @property
+    def modulus(self) -> float:
+        """E_r [Pa]."""
+        return reduced_modulus(self.pinion, self.wheel)
+
+    @property
+    def roughness(self) -> float:
+        """Mean roughness Ra of both flanks [m]."""
+        return (self.pinion.roughness + self.wheel.roughness) / 2
+
+
+class Contacts(NamedTuple):
+    """Hertzian pressure > 0 [Pa], reduced radius [m] and surface speeds [m/s]; arrays of one shape."""
+
+    pressure: FloatArray
+    radius: FloatArray
+    pinion_speed: FloatArray
+    wheel_speed: FloatArray
+
+
+class Films(NamedTuple):
+    """Flash temperature [K], film [m] and its ratio to the roughness."""
+
+    flash: FloatArray
+    film: FloatArray
+    ratio: FloatArray
+
+
+def films(conditions: Conditions, contacts: Contacts) -> Films:
+    """Compute flash temperature, film and film ratio lambda = h / Ra of contacts.
+
+    Parameters
+    ----------
+    conditions : Conditions
+        What the contacts share.
+    contacts : Contacts
+        The contacts.
+
+    Returns
+    -------
+    Films
+        One value of each per contact.
+
+    Notes
+    -----
+    Eq. M7 of the chapter on micropitting.
+
+    """
+    flash = flash_temperature(conditions, contacts)
+    film = film_thickness(conditions, contacts, flash)
+    return Films(flash, film, film / conditions.roughness)
+
+
+def flash_temperature(conditions: Conditions, contacts: Contacts) -> FloatArray:
+    """Compute the flash temperature of contacts.
+
+    Parameters
+    ----------
+    conditions : Conditions
+        What the contacts share.
+    contacts : Contacts
+        The contacts.
+
+    Returns
+    -------
+    ndarray
+        Flash temperature [K].
+
+    Notes
+    -----
+    Eq. M4 of the chapter on micropitting; formula 80 of ISO/TR 15144-1.
+
+    """
+    pressure, radius, pinion_speed, wheel_speed = contacts
+    conducted = _effusivity(conditions.pinion) * np.sqrt(pinion_speed) + _effusivity(conditions.wheel) * np.sqrt(
+        wheel_speed
+    )
+    generated = conditions.friction * pressure * np.abs(pinion_speed - wheel_speed)
+    width = np.sqrt(8.0 * radius * pressure / conditions.modulus)
+    return np.asarray(np.sqrt(np.pi) / 2 * generated / conducted * width)
+
+
+def _effusivity(solid: Solid) -> float:
+    """B_M = sqrt(lambda rho c) [W s^0.5/(m^2 K)]."""
+    return float(np.sqrt(solid.thermal_conductivity * solid.density * solid.specific_heat))
+
+
+def film_thickness(conditions: Conditions, contacts: Contacts, flash: FloatArray) -> FloatArray:
+    """Compute the film of contacts: that at the bulk temperature times what the flash temperature leaves of it.
+
+    Parameters
+    ----------
+    conditions : Conditions
+        What the contacts share.
+    contacts : Contacts
+        The contacts.
+    flash : ndarray
+        Flash temperature [K].
+
+    Returns
+    -------
+    ndarray
+        Film [m].
+
+    Notes
+    -----
+    Eqs. M5 and M6 of the chapter on micropitting; formulas 4 and 27 of ISO/TR 15144-1.
+
+    """
+    oil, bulk, modulus = conditions.oil, np.asarray(conditions.bulk), conditions.modulus
+    thickness, coefficient = viscosity(oil, bulk), pressure_viscosity(oil, bulk)
+    speed = thickness * (contacts.pinion_speed + contacts.wheel_speed) / (2.0 * modulus * contacts.radius)  # U
+    load = 2.0 * np.pi * (contacts.pressure / modulus) ** 2  # W
+    heated = pressure_viscosity(oil, bulk + flash) * viscosity(oil, bulk + flash) / (coefficient * thickness)  # S_GF
+    film = 1.6 * contacts.radius * (coefficient * modulus) ** 0.6 * speed**0.7 * load**-0.13
+    return np.asarray(film * heated**0.22)

@@ -1,0 +1,107 @@
+"""Method A of ISO/TR 15144-1: the film over the whole flank under the load that the flank has."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from solvers.arrays import FloatArray
+from solvers.scuffing.contact_slices import Peak, reaches_base_circle
+from solvers.scuffing.inputs import ScuffingInputs
+from solvers.scuffing.micropitting.film import Conditions, Contacts, films
+from solvers.scuffing.micropitting.mean_values import mean_friction
+from solvers.scuffing.results import ContactPoints, LoadDistribution
+from solvers.scuffing.thermal.flank import FlashMap, contact_at_points, contacts_under_load, find_largest, on_diagonals
+
+LEAST = 1e-9  # ratio below which films are equally thin
+
+FaceFunction = Callable[[FloatArray], FloatArray]
+"""Bulk temperature [K] at distances y [m] from the end that meshes first."""
+
+
+@dataclass(frozen=True, slots=True)
+class FlankFilm:
+    """What the film ratio over the flank depends on; the bulk temperature of `conditions` is that of the oil's entry.
+
+    `bulk` is the bulk temperature along the face, None where it is one.
+    """
+
+    inputs: ScuffingInputs
+    distribution: LoadDistribution
+    conditions: Conditions
+    bulk: FaceFunction | None
+
+    def ratio(self, points: ContactPoints, y: FloatArray) -> FloatArray:
+        """Compute the film ratio at points of the flank; NaN where nothing is in contact."""
+        touching = points.in_contact
+        conditions = self.conditions
+        if self.bulk is not None:
+            conditions = replace(conditions, bulk=self.bulk(np.broadcast_to(y, touching.shape)[touching]))
+        ratio = np.full(touching.shape, np.nan)
+        ratio[touching] = films(conditions, contacts_of(points)).ratio
+        return ratio
+
+    def at(self, x: FloatArray, y: FloatArray) -> FloatArray:
+        """Compute the film ratio at x, y [m] of the flank, arrays of one shape."""
+        return self.ratio(contact_at_points(self.inputs.distribution, self.distribution, x, y), y)
+
+    def over(self, grid: FlashMap) -> FloatArray:
+        """Compute the film ratio over the grid of the flash temperature."""
+        x = np.broadcast_to(grid.x[:, None], grid.load.shape)
+        return self.ratio(contacts_under_load(self.inputs.distribution, self.distribution, x, grid.load), grid.y)
+
+
+def contacts_of(points: ContactPoints) -> Contacts:
+    """Return the points that are in contact."""
+    touching = points.in_contact
+    return Contacts(
+        *(values[touching] for values in (points.pressure, points.radius, points.pinion_speed, points.wheel_speed))
+    )
+
+
+def flank_film(
+    inputs: ScuffingInputs, distribution: LoadDistribution, bulk: FaceFunction | None = None
+) -> FlankFilm | None:
+    """Return the film of a flank; None without an oil, a bulk temperature, a load or a speed."""
+    given, temperatures, oil = inputs.distribution, inputs.temperatures, inputs.known_oil
+    if oil is None or temperatures.bulk is None or distribution.balance.force == 0.0 or given.load.pinion_speed == 0.0:
+        return None
+    friction = given.friction_coefficient
+    if inputs.friction != "given" or friction is None:
+        face_load_factor = distribution.load.face_load_factor or 1.0
+        friction = mean_friction(given, distribution.path_of_contact, oil, temperatures.oil, face_load_factor)
+    conditions = Conditions(oil, temperatures.bulk, friction, given.pinion_material, given.wheel_material)
+    return FlankFilm(inputs, distribution, conditions, bulk)
+
+
+def find_least(flank: FlankFilm, grid: FlashMap, ratio: FloatArray) -> Peak | None:
+    """Find the least film ratio over the flank.
+
+    Parameters
+    ----------
+    flank : FlankFilm
+        The film of the flank.
+    grid : FlashMap
+        The grid of the flash temperature.
+    ratio : ndarray
+        Film ratio over the grid.
+
+    Returns
+    -------
+    Peak or None
+        Least ratio and its place [m]; None if nothing is in contact, or where the loaded path reaches a base circle.
+
+    """
+    if np.isnan(ratio).all() or reaches_base_circle(flank.distribution.balance.survey):
+        return None
+
+    def thinness(x: FloatArray, y: FloatArray) -> FloatArray:
+        return _thinness(flank.at(x, y))
+
+    peak = find_largest(grid, _thinness(ratio), thinness)
+    peak = on_diagonals(flank.distribution, peak, thinness)
+    return Peak(float(flank.at(np.array([peak.x]), np.array([peak.y]))[0]), peak.x, peak.y)
+
+
+def _thinness(ratio: FloatArray) -> FloatArray:
+    return np.where(np.isnan(ratio), 0.0, 1.0 / np.fmax(ratio, LEAST))

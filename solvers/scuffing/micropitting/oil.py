@@ -1,0 +1,120 @@
+"""Viscosity and pressure-viscosity coefficient of an oil, as the film of ISO/TR 15144-1 takes them.
+
+They are needed at contact temperatures, where an oil by its data sheet keeps no coefficients of one temperature.
+"""
+
+from math import log10
+from typing import Any, TypeVar, cast
+
+import numpy as np
+
+from solvers.arrays import FloatArray
+from solvers.lubricants import ROELANDS_POLE_TEMPERATURE, Lubricant, OilKind
+from solvers.oils import SQUARE_MILLIMETRE, WALTHER_SHIFT, OilSheet
+
+Real = TypeVar("Real", float, FloatArray)
+
+ZERO = 273.0  # K, of the report's temperatures in C; ours is 273.15
+ROUNDED = 273.15 - ZERO  # K
+DENSITY_SLOPE = 0.7  # kg/(m^3 K)
+DENSITY_ZERO = 289.0  # K, on the report's scale
+REFERENCE = 38.0  # C, of viscosity and pressure-viscosity coefficient
+REFERENCE_COEFFICIENT: dict[OilKind, tuple[float, float]] = {
+    "mineral": (2.657e-8, 0.1348),
+    "pao": (1.466e-8, 0.0507),
+    "polyglycol": (1.392e-8, 0.1572),
+    "ester": (2.657e-8, 0.1348),  # none is known; that of a mineral oil
+}
+"""Scale [m^2/N at 1 Pa s] and exponent of the pressure-viscosity coefficient at 38 C."""
+
+
+def density(sheet: OilSheet, temperature: Real) -> Real:
+    """Compute the density of an oil.
+
+    Parameters
+    ----------
+    sheet : OilSheet
+        The oil. Without a density at 15 C it follows from the viscosity at 40 C.
+    temperature : float or ndarray
+        Temperature [K].
+
+    Returns
+    -------
+    float or ndarray
+        Density [kg/m^3]; 0 where the law would make it negative.
+
+    Notes
+    -----
+    Eq. M1 of the chapter on micropitting.
+
+    """
+    reference = sheet.density_15
+    if reference is None:
+        reference = 43.37 * log10(sheet.kinematic_viscosity_40 / SQUARE_MILLIMETRE) + 805.5
+    value = reference - DENSITY_SLOPE * (temperature - ROUNDED - DENSITY_ZERO)
+    return value * (value > 0.0)
+
+
+def viscosity(oil: OilSheet | Lubricant, temperature: Real) -> Real:
+    """Compute the dynamic viscosity of an oil without pressure.
+
+    Parameters
+    ----------
+    oil : OilSheet or Lubricant
+        The oil.
+    temperature : float or ndarray
+        Temperature [K].
+
+    Returns
+    -------
+    float or ndarray
+        Viscosity [Pa s].
+
+    Notes
+    -----
+    Eq. M2 of the chapter on micropitting. An oil given by its viscosity follows its own law. Raises
+    InvalidInput viscosity_range if that law makes it thicker than any oil.
+
+    """
+    if isinstance(oil, OilSheet):
+        intercept, slope = oil.walther()
+        kinematic: Any = 10.0**10.0 ** (intercept - slope * np.log10(temperature)) - WALTHER_SHIFT
+        return cast("Real", kinematic * SQUARE_MILLIMETRE * density(oil, temperature))
+    laws = oil.laws
+    oil.viscosity_at(0.0, float(np.min(temperature, initial=oil.reference_temperature)))  # raises where it is too thick
+    if oil.pressure_viscosity_law == "barus":
+        heating = temperature - laws.reference_temperature
+        return cast("Real", np.exp(laws.log_viscosity - laws.temperature_viscosity * heating))
+    pole = ROELANDS_POLE_TEMPERATURE
+    ratio = (temperature - pole) / (laws.reference_temperature - pole)
+    return cast("Real", np.exp(laws.log_viscosity - laws.a1 + laws.a1 * ratio**-laws.temperature_exponent))
+
+
+def pressure_viscosity(oil: OilSheet | Lubricant, temperature: Real) -> Real:
+    """Compute the pressure-viscosity coefficient of an oil.
+
+    Parameters
+    ----------
+    oil : OilSheet or Lubricant
+        The oil.
+    temperature : float or ndarray
+        Temperature [K].
+
+    Returns
+    -------
+    float or ndarray
+        Coefficient [1/Pa].
+
+    Notes
+    -----
+    Eq. M3 of the chapter on micropitting. A coefficient that is given holds at every temperature. Beyond 510 C the
+    law would make it negative; it is 0 there, and so is the film.
+
+    """
+    if oil.pressure_viscosity is not None:
+        return cast("Real", np.full(np.shape(temperature), oil.pressure_viscosity))
+    assert isinstance(oil, OilSheet)
+    scale, exponent = REFERENCE_COEFFICIENT[oil.kind]
+    reference = scale * viscosity(oil, REFERENCE + 273.15) ** exponent
+    value = 1.0 + 516.0 * (1.0 / (temperature - ROUNDED) - 1.0 / (REFERENCE + ZERO))
+    return cast("Real", reference * np.maximum(value, 0.0))

@@ -1,0 +1,106 @@
+"""The micropitting test of an oil: its gears C-GF at the load stage at which they fail."""
+
+from functools import cache
+from math import pi
+
+import numpy as np
+
+from solvers.gears.inputs import GearPairInputs, GearTeeth
+from solvers.gears.pair import meshing_path
+from solvers.lubricants import Lubricant
+from solvers.materials import Solid
+from solvers.oils import OilSheet
+from solvers.scuffing.inputs import FlankSurface, Load, LoadDistributionInputs, MicropittingCheck
+from solvers.scuffing.micropitting.results import FilmOfTest
+from solvers.scuffing.micropitting.standard import characteristic_points, solve_standard
+
+STAGE_TORQUE = {5: 70.0, 6: 98.9, 7: 132.5, 8: 171.6, 9: 215.6, 10: 265.1}  # N m, of the pinion
+SPEED = 2250.0 * pi / 30  # rad/s
+OIL_TEMPERATURE = 363.15  # K
+QUALITY_GRADE = 7
+STEEL = Solid(
+    youngs_modulus=206e9,
+    poisson_ratio=0.3,
+    density=7800.0,
+    specific_heat=440.0,
+    thermal_conductivity=45.0,
+    roughness=0.5e-6,
+)
+PERMISSIBLE_SHARE = 1.4  # of the test's film that the teeth need
+SURFACE_FACTOR: dict[FlankSurface, float] = {
+    "case_hardened": 1.0,
+    "case_hardened_retained_austenite": 0.95,
+    "nitrided": 1.5,
+    "induction_hardened": 0.65,
+    "through_hardened": 0.5,
+}
+"""W_W."""
+
+
+def _teeth(count: int, tip_diameter: float, profile_shift: float) -> GearTeeth:
+    """Return a test gear of module 4.5 mm by its tip diameter [mm]."""
+    return GearTeeth(count, profile_shift, (tip_diameter - 4.5 * count) / 9.0 - profile_shift)
+
+
+GEARS = GearPairInputs(
+    _teeth(16, 82.46, 0.1817), _teeth(24, 118.36, 0.1715), module=4.5e-3, face_width=14e-3, centre_distance=91.5e-3
+)
+
+
+@cache
+def film_of_test(oil: OilSheet | Lubricant, stage: int) -> FilmOfTest:
+    """Compute the film of the test gears in an oil.
+
+    Parameters
+    ----------
+    oil : OilSheet or Lubricant
+        The oil.
+    stage : int
+        Failure load stage, 5 to 10.
+
+    Returns
+    -------
+    FilmOfTest
+        The least film ratio, and what it rests on.
+
+    """
+    torque = STAGE_TORQUE[stage]
+    given = LoadDistributionInputs(GEARS, Load(torque, SPEED), pinion_material=STEEL, wheel_material=STEEL)
+    path = meshing_path(GEARS)
+    found = solve_standard(given, path, oil, OIL_TEMPERATURE, "dip", QUALITY_GRADE)
+    place = int(np.argmin(found.films.ratio))
+    return FilmOfTest(
+        ratio=float(found.films.ratio[place]),
+        bulk=found.bulk,
+        friction_coefficient=found.friction,
+        torque=torque,
+        at_point=[*characteristic_points(path)][place],
+    )
+
+
+def permissible_ratio(check: MicropittingCheck, test: FilmOfTest | None) -> float | None:
+    """Return the film ratio that the teeth need.
+
+    Parameters
+    ----------
+    check : MicropittingCheck
+        What is known of the surfaces, or the ratio itself.
+    test : FilmOfTest, optional
+        Film of the oil's test; None without a failure load stage.
+
+    Returns
+    -------
+    float or None
+        The ratio given, else that by the test; None with neither.
+
+    Notes
+    -----
+    Eq. M14 of the chapter on micropitting; formula 3 of ISO/TR 15144-1.
+
+    """
+    if test is None:
+        return check.permissible_ratio
+    factor = check.material_factor
+    if factor is None:
+        factor = min(SURFACE_FACTOR[check.surface.pinion], SURFACE_FACTOR[check.surface.wheel])
+    return PERMISSIBLE_SHARE * factor * test.ratio

@@ -1,0 +1,213 @@
+"""Results of the checks against micropitting and wear; SI units, arrays read-only."""
+
+from typing import Literal
+
+from solvers.arrays import FloatArray
+from solvers.quantity import quantity, record
+from solvers.scuffing.inputs import ISO_TR_15144
+
+PointName = Literal["A", "AB", "B", "C", "D", "DE", "E"]
+Verdict = Literal["micropitting is likely", "limited margin", "micropitting is unlikely"]
+
+
+@record
+class FilmOfTest:
+    """The film of the test gears C-GF in this oil at the stage at which it fails."""
+
+    ratio: float = quantity(
+        "specific film thickness of the micropitting test",
+        "λ_GFT",
+        ISO_TR_15144,
+        text="least of the test gears at the failure load stage",
+    )
+    bulk: float = quantity("bulk temperature of the micropitting test", "θ_M,T", ISO_TR_15144, unit="c")
+    friction_coefficient: float = quantity("coefficient of friction of the micropitting test", "μ_T", ISO_TR_15144)
+    torque: float = quantity("pinion torque of the micropitting test", "T_1,T", ISO_TR_15144, unit="n_m")
+    at_point: PointName = quantity("place of the thinnest film of the micropitting test", text="point of the path")
+
+
+@record
+class LocalPoint:
+    """The film at a point of the feature line; None where nothing is in contact."""
+
+    point: PointName = quantity("point of the feature line")
+    psi: float = quantity("position of the point", "Ψ", text="fraction of the path, and of the feature line")
+    ratio: float | None = quantity(
+        "specific film thickness at the point", "λ_GF", ISO_TR_15144, text="null where nothing is in contact"
+    )
+    safety: float | None = quantity(
+        "safety factor against micropitting at the point", "S_λ", ISO_TR_15144, text="null without a permissible ratio"
+    )
+
+
+@record
+class LocalFilm:
+    """Method A: the film over the flank under its own load; what is not known is None."""
+
+    safety: float | None = quantity(
+        "safety factor against micropitting",
+        "S_λ",
+        f"{ISO_TR_15144}, formula 1",
+        text="least over the flank, by its own load (method A); null without a permissible ratio, load or film",
+    )
+    least_ratio: float | None = quantity(
+        "least specific film thickness against micropitting",
+        "λ_GF,min",
+        f"{ISO_TR_15144}, formula 2",
+        text="film over the mean roughness of both flanks, least over the flank; null without load, or where the "
+        "loaded path reaches a base circle",
+    )
+    at_psi: float | None = quantity(
+        "profile position of the thinnest film against micropitting", "ξ_λ", text="fraction of the path from A to E"
+    )
+    at_face: float | None = quantity(
+        "face position of the thinnest film against micropitting",
+        "y_λ",
+        unit="mm",
+        text="from the end that meshes first",
+    )
+    verdict: Verdict | None = quantity(
+        "risk of micropitting",
+        None,
+        "common practice",
+        text="below 1 likely, to 2 limited margin, above unlikely; null without a safety factor",
+    )
+    friction_coefficient: float | None = quantity(
+        "coefficient of friction against micropitting",
+        "μ_λ",
+        f"{ISO_TR_15144}, formula 86",
+        text="given, or by the report with the computed K_Hβ; null without load",
+    )
+    thermal_ehl_ratio: float | None = quantity(
+        "least specific film thickness by thermal EHL",
+        "λ_EHL,min",
+        text="the film by thermal EHL over the mean roughness, on the lines that are solved; null in closed form",
+    )
+    points: tuple[LocalPoint, ...] = quantity("film against micropitting at the points of the feature line")
+
+
+@record
+class StandardPoint:
+    """The contact and its film at a point of the path by method B."""
+
+    point: PointName = quantity("point of the path")
+    force_ratio: float = quantity("load sharing factor of the standard", "X", f"{ISO_TR_15144}, formulas 46 to 48")
+    pressure: float = quantity(
+        "Hertzian pressure of the standard", "p_dyn", f"{ISO_TR_15144}, formulas 24 and 25", unit="mpa"
+    )
+    flash: float = quantity("flash temperature of the standard", "θ_fl", f"{ISO_TR_15144}, formula 80", unit="k")
+    film: float = quantity("film of the standard", "h", f"{ISO_TR_15144}, formula 4", unit="um")
+    ratio: float = quantity("specific film thickness of the standard", "λ_GF", f"{ISO_TR_15144}, formula 2")
+    safety: float | None = quantity(
+        "safety factor against micropitting of the standard at the point",
+        "S_λ",
+        f"{ISO_TR_15144}, formula 1",
+        text="null without a permissible ratio",
+    )
+
+
+@record
+class StandardFilm:
+    """Method B: seven points of a spur pair without relief, under an even load."""
+
+    friction_coefficient: float = quantity(
+        "coefficient of friction of the standard", "μ_m", f"{ISO_TR_15144}, formula 86"
+    )
+    bulk: float = quantity("bulk temperature of the standard", "θ_M", f"{ISO_TR_15144}, formula 84", unit="c")
+    loss_factor: float = quantity("loss factor of the standard", "H_v", f"{ISO_TR_15144}, formula 91")
+    least_ratio: float = quantity("least specific film thickness of the standard", "λ_GF,min", ISO_TR_15144)
+    safety: float | None = quantity(
+        "safety factor against micropitting of the standard",
+        "S_λ,B",
+        f"{ISO_TR_15144}, formula 1",
+        text="method B; null without a permissible ratio",
+    )
+    points: tuple[StandardPoint, ...] = quantity("points of the path of contact")
+
+
+@record
+class Micropitting:
+    """The film against the one that the oil's micropitting test asks for."""
+
+    permissible_ratio: float | None = quantity(
+        "permissible specific film thickness",
+        "λ_GFP",
+        f"{ISO_TR_15144}, formula 3",
+        text="given, or by the test; null with neither",
+    )
+    test: FilmOfTest | None = quantity("micropitting test", text="null without a failure load stage")
+    local: LocalFilm = quantity("film by the own load (method A)")
+    standard: StandardFilm | None = quantity(
+        "film by the standard (method B)",
+        text="null for helical pairs, with tip or root relief, and where more than two pairs of teeth carry",
+    )
+
+
+@record
+class Wear:
+    """Depth of wear per revolution [m] of either gear: largest over the flank, over the face at each position, maps.
+
+    The maps are [profile, face].
+    """
+
+    pinion_max: float | None = quantity(
+        "largest wear of the pinion", "δ_W1", unit="um_per_million", text="null where the path reaches a base circle"
+    )
+    pinion_at_psi: float | None = quantity(
+        "profile position of the pinion's largest wear", "ξ_W1", text="fraction of the path from A to E"
+    )
+    pinion_at_face: float | None = quantity(
+        "face position of the pinion's largest wear", "y_W1", unit="mm", text="from the end that meshes first"
+    )
+    wheel_max: float | None = quantity(
+        "largest wear of the wheel", "δ_W2", unit="um_per_million", text="null where the path reaches a base circle"
+    )
+    wheel_at_psi: float | None = quantity(
+        "profile position of the wheel's largest wear", "ξ_W2", text="fraction of the path from A to E"
+    )
+    wheel_at_face: float | None = quantity(
+        "face position of the wheel's largest wear", "y_W2", unit="mm", text="from the end that meshes first"
+    )
+    psi: FloatArray = quantity(
+        "profile position of the wear", "ξ", text="fraction of the path from A to E", detail="curves"
+    )
+    pinion: FloatArray = quantity(
+        "wear of the pinion",
+        "δ_W1",
+        "Archard",
+        unit="um_per_million",
+        text="largest over the face; null next to a base circle",
+        detail="curves",
+        axis="psi",
+        gaps=True,
+    )
+    wheel: FloatArray = quantity(
+        "wear of the wheel",
+        "δ_W2",
+        "Archard",
+        unit="um_per_million",
+        text="largest over the face; null next to a base circle",
+        detail="curves",
+        axis="psi",
+        gaps=True,
+    )
+    pinion_map: FloatArray = quantity(
+        "wear of the pinion over the flank",
+        "δ_W1",
+        "Archard",
+        unit="um_per_million",
+        text="null next to a base circle",
+        detail="fields",
+        axis=("flank.profile_fraction", "flank.face_fraction"),
+        gaps=True,
+    )
+    wheel_map: FloatArray = quantity(
+        "wear of the wheel over the flank",
+        "δ_W2",
+        "Archard",
+        unit="um_per_million",
+        text="null next to a base circle",
+        detail="fields",
+        axis=("flank.profile_fraction", "flank.face_fraction"),
+        gaps=True,
+    )

@@ -1,0 +1,160 @@
+"""Method B of ISO/TR 15144-1: the film at seven points of a spur pair without relief, under an even load."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from solvers.arrays import FloatArray
+from solvers.contact.hertz import maximum_pressure, reduced_modulus
+from solvers.gears.pair import PathOfContact, reduced_radius
+from solvers.lubricants import Lubricant
+from solvers.oils import OilSheet
+from solvers.scuffing.inputs import LoadDistributionInputs, OilSupply
+from solvers.scuffing.micropitting.film import Conditions, Contacts, Films, films
+from solvers.scuffing.micropitting.mean_values import bulk_temperature, loss_factor, mean_friction
+from solvers.scuffing.micropitting.results import PointName
+
+BEST_GRADE = 7  # quality grades up to this one count as it
+
+
+@dataclass(frozen=True, slots=True)
+class StandardFilms:
+    """Method B: friction, bulk temperature [K], loss factor; at the points their X, contacts and films."""
+
+    friction: float
+    bulk: float
+    loss_factor: float
+    force_ratio: FloatArray
+    contacts: Contacts
+    films: Films
+
+
+def characteristic_points(path: PathOfContact) -> dict[PointName, float]:
+    """Return the distances [m] from A of A, AB, B, C, D, DE and E.
+
+    If more than two pairs of teeth carry at times, or none, only A, C and E have a meaning.
+    """
+    length, pitch = path.length, path.plane.base_pitch
+    at_pitch = path.pitch_point - path.start
+    if not has_single_contact(path):
+        return {"A": 0.0, "C": at_pitch, "E": length}
+    inner, outer = length - pitch, pitch
+    return {"A": 0.0, "AB": inner / 2, "B": inner, "C": at_pitch, "D": outer, "DE": (outer + length) / 2, "E": length}
+
+
+def has_single_contact(path: PathOfContact) -> bool:
+    """Return whether the transverse contact ratio is 1 to 2."""
+    return 1.0 <= path.transverse_contact_ratio <= 2.0
+
+
+def has_relief(given: LoadDistributionInputs) -> bool:
+    """Return whether tips or roots are relieved."""
+    return given.modifications.tip_relief > 0.0 or given.modifications.root_relief > 0.0
+
+
+def has_standard_film(given: LoadDistributionInputs, path: PathOfContact) -> bool:
+    """Return whether method B knows the load sharing of a pair, and every point of its path has a pressure."""
+    plane = path.plane
+    ends = reduced_radius(plane, np.array([0.0, path.length]))
+    unmodified_spur = plane.tan_base_helix == 0.0 and not has_relief(given)
+    return unmodified_spur and has_single_contact(path) and bool(np.all(ends >= plane.least_radius))
+
+
+def load_sharing(path: PathOfContact, x: FloatArray, quality_grade: int) -> FloatArray:
+    """Compute the load sharing factor of unmodified spur gears.
+
+    Parameters
+    ----------
+    path : PathOfContact
+        The path of contact of the pair.
+    x : ndarray
+        Distances from A [m].
+    quality_grade : int
+        Quality grade of the teeth.
+
+    Returns
+    -------
+    ndarray
+        X.
+
+    Notes
+    -----
+    Eq. M12 of the chapter on micropitting; formulas 46 to 48 of ISO/TR 15144-1.
+
+    """
+    inner, outer = path.length - path.plane.base_pitch, path.plane.base_pitch
+    outside = np.maximum(inner - x, x - outer)  # of the stretch with one pair in contact
+    if inner <= 0.0:
+        return np.ones(x.shape)
+    base = (max(quality_grade, BEST_GRADE) - 2) / 15
+    return np.where(outside > 0.0, base + (inner - outside) / (3 * inner), 1.0)
+
+
+def solve_standard(
+    given: LoadDistributionInputs,
+    path: PathOfContact,
+    oil: OilSheet | Lubricant,
+    oil_temperature: float,
+    supply: OilSupply,
+    quality_grade: int,
+) -> StandardFilms:
+    """Compute the film of a spur pair without relief at its seven points.
+
+    Parameters
+    ----------
+    given : LoadDistributionInputs
+        The pair and its load; neither torque nor speed is 0. Its modifications do not count.
+    path : PathOfContact
+        Its path of contact, with a transverse contact ratio of 1 to 2 and no point near a base circle.
+    oil : OilSheet or Lubricant
+        The oil.
+    oil_temperature : float
+        Temperature of the oil [K].
+    supply : str
+        How the oil comes to the mesh.
+    quality_grade : int
+        Quality grade of the teeth.
+
+    Returns
+    -------
+    StandardFilms
+        Friction, bulk temperature, loss factor, and the films.
+
+    """
+    friction = mean_friction(given, path, oil, oil_temperature, 1.0)
+    bulk = bulk_temperature(given, path, oil_temperature, supply, friction)
+    x = np.array([*characteristic_points(path).values()])
+    sharing = load_sharing(path, x, quality_grade)
+    contacts = contacts_under(given, path, x, sharing)
+    conditions = Conditions(oil, bulk, friction, given.pinion_material, given.wheel_material)
+    return StandardFilms(friction, bulk, loss_factor(path), sharing, contacts, films(conditions, contacts))
+
+
+def contacts_under(given: LoadDistributionInputs, path: PathOfContact, x: FloatArray, sharing: FloatArray) -> Contacts:
+    """Return the contacts of a spur pair under shares of its tooth force.
+
+    Parameters
+    ----------
+    given : LoadDistributionInputs
+        The pair and its load.
+    path : PathOfContact
+        The path of contact of the pair.
+    x : ndarray
+        Distances from A [m].
+    sharing : ndarray
+        Share of the tooth force at each distance.
+
+    Returns
+    -------
+    Contacts
+        The contacts.
+
+    Notes
+    -----
+    Eq. M13 of the chapter on micropitting; formulas 24 and 25 of ISO/TR 15144-1.
+
+    """
+    load = sharing * given.load.contact_torque / (path.pair.pinion.base_radius * given.gears.face_width)
+    radius = reduced_radius(path.plane, x)
+    modulus = reduced_modulus(given.pinion_material, given.wheel_material)
+    return Contacts(maximum_pressure(load, radius, modulus), radius, *path.surface_speeds(x, given.load.pinion_speed))

@@ -1,0 +1,105 @@
+"""Mild wear of both flanks by Archard's law: what slides over what under which load."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from solvers.arrays import FloatArray, frozen
+from solvers.scuffing.contact_slices import reaches_base_circle
+from solvers.scuffing.inputs import MicropittingCheck
+from solvers.scuffing.micropitting.results import Wear
+from solvers.scuffing.results import LoadDistribution
+
+
+class WearDepths(NamedTuple):
+    """Depth per revolution of either gear [m] over the flank's maps [profile, face]; NaN next to a base circle."""
+
+    pinion: FloatArray
+    wheel: FloatArray
+
+
+def wear_depths(coefficient: float, distribution: LoadDistribution) -> WearDepths:
+    """Compute the depth of wear of both flanks, k w |v_g| / v_i per mesh.
+
+    Parameters
+    ----------
+    coefficient : float
+        Wear coefficient k [m^3/(N m)].
+    distribution : LoadDistribution
+        Load over the flank.
+
+    Returns
+    -------
+    WearDepths
+        Depth per revolution of either gear [m]: a tooth meshes once a revolution.
+
+    Notes
+    -----
+    Eq. M15 of the chapter on micropitting; v_i is the gear's own surface speed. Next to a base circle the flank of
+    one gear hardly moves, and the law has no limit.
+
+    """
+    path, flank = distribution.path_of_contact, distribution.flank
+    speeds = np.stack(path.surface_speeds(flank.profile_fraction * path.length, 1.0))
+    sliding = np.abs(speeds[0] - speeds[1])
+    with np.errstate(divide="ignore", invalid="ignore"):
+        pinion, wheel = sliding / speeds
+    undefined = np.isnan(flank.pressure)
+    depths = (np.where(undefined, np.nan, coefficient * flank.line_load * each[:, None]) for each in (pinion, wheel))
+    return WearDepths(*depths)
+
+
+def solve_wear(coefficient: float, distribution: LoadDistribution) -> Wear:
+    """Compute the wear of both flanks.
+
+    Parameters
+    ----------
+    coefficient : float
+        Wear coefficient [m^3/(N m)].
+    distribution : LoadDistribution
+        Load over the flank.
+
+    Returns
+    -------
+    Wear
+        Largest depth of either flank over the face along the path, and over the flank with its place.
+
+    """
+    depths = wear_depths(coefficient, distribution)
+    pinion, wheel = (_largest(depth, distribution) for depth in depths)
+    return Wear(
+        pinion_max=pinion.value,
+        pinion_at_psi=pinion.psi,
+        pinion_at_face=pinion.face,
+        wheel_max=wheel.value,
+        wheel_at_psi=wheel.psi,
+        wheel_at_face=wheel.face,
+        psi=distribution.flank.profile_fraction,
+        pinion=frozen(depths.pinion.max(axis=1)),  # rows have a limit as a whole or not at all
+        wheel=frozen(depths.wheel.max(axis=1)),
+        pinion_map=frozen(depths.pinion),
+        wheel_map=frozen(depths.wheel),
+    )
+
+
+class _Largest(NamedTuple):
+    """Largest depth [m], its fraction of the path and its place on the face [m]; None if it has no limit."""
+
+    value: float | None
+    psi: float | None
+    face: float | None
+
+
+def _largest(depth: FloatArray, distribution: LoadDistribution) -> _Largest:
+    if reaches_base_circle(distribution.balance.survey):
+        return _Largest(None, None, None)
+    flank, width = distribution.flank, distribution.path_of_contact.plane.face_width
+    i, k = np.unravel_index(np.nanargmax(depth), depth.shape)
+    return _Largest(float(depth[i, k]), float(flank.profile_fraction[i]), float(flank.face_fraction[k] * width))
+
+
+def wear_asked_for(check: MicropittingCheck | None, distribution: LoadDistribution) -> Wear | None:
+    """Return the wear of both flanks; None without a wear coefficient."""
+    if check is None or check.wear_coefficient is None:
+        return None
+    return solve_wear(check.wear_coefficient, distribution)
