@@ -6,11 +6,13 @@ from math import log, log10
 import pytest
 
 from solvers.errors import InvalidInput
+from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.gears.pair import meshing_path
 from solvers.lubricants import Lubricant, OilKind
 from solvers.materials import Solid
 from solvers.oils import GRADES, KINDS, OilBySheet, OilSheet, iso_vg, lubricant_at, viscosity_index, viscosity_of_index
 from solvers.scuffing.inputs import Load, LoadDistributionInputs, OilSupply, angular_speed
+from solvers.scuffing.model import solve as solve_load_distribution
 from solvers.scuffing.thermal import practice
 from tests.support.gear_pairs import FZG_A, FZG_TORQUES
 from tests.support.outcomes import refused
@@ -278,3 +280,20 @@ def test_risk_words() -> None:
 
 def test_speed_of_the_test_is_that_of_its_name() -> None:
     assert angular_speed(2165.0) == pytest.approx(PITCH_LINE_SPEED / 0.0366, rel=1e-3)
+
+
+def test_mesh_stiffness_over_single_stiffness_of_the_fzg_c_pair() -> None:
+    """A printed FVA report has 11.48 and 15.23 N/(mm um); the mean dedendum that it took for both is not printed."""
+    pair = GearPairInputs(
+        GearTeeth(16, 0.1817, None, 1.4, tip_diameter=82.45e-3),
+        GearTeeth(24, 0.1715, None, 1.4, tip_diameter=118.35e-3),
+        4.5e-3,
+        14e-3,
+    )
+    steel = Solid(youngs_modulus=210e9)
+    found = solve_load_distribution(
+        LoadDistributionInputs(pair, Load(130.0, 157.0), pinion_material=steel, wheel_material=steel)
+    )
+    single, mesh = found.stiffness.standard_single, found.stiffness.standard_mesh
+    assert mesh / single == pytest.approx(15.23 / 11.48, rel=1e-3)
+    assert single == pytest.approx(11.48e9, rel=0.01), "a dedendum of 1.4 modules, as test gears have"
