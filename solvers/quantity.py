@@ -35,7 +35,7 @@ UNITS = {
     "m2": Unit("m²", 1.0),
     "l_per_min": Unit("l/min", 1e-3 / 60),
     "um": Unit("µm", 1e-6),
-    "um_per_million": Unit("µm per 10⁶ turns", 1e-12),
+    "um_per_million": Unit("µm per million turns", 1e-12),
     "mm3_per_n_m": Unit("mm³/(N m)", 1e-9),
     "deg": Unit("°", pi / 180),
     "mrad": Unit("mrad", 1e-3),

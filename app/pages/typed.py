@@ -214,7 +214,7 @@ def _settled(item: str, decimal: set[str]) -> str:
 
 def _packed(unit: str) -> str:
     """A unit without what parts its factors: W/mK may mean W/(m K), not per millikelvin."""
-    return re.sub(r"[\s()·*]", "", unit)
+    return re.sub(r"[\s()·*]", "", unit).replace("μ", "µ")
 
 
 def _factors(unit: str) -> tuple[frozenset[tuple[str, int]], int] | None:

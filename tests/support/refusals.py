@@ -21,7 +21,7 @@ RULES = {
     # Gears that cannot be made or do not mesh.
     "/v1/(pumping|scuffing|drive-train)": (
         "pointed_tooth pointed_rack no_tip_clearance no_mesh no_involute no_contact flank_interference "
-        "involute_interference form_diameter negative_backlash too_few_teeth tip_diameter missing_property"
+        "involute_interference form_diameter negative_backlash too_few_teeth exclusive tip_diameter missing_property"
     ),
     "/v1/coupling": (
         "misalignment_or_offset pitch_errors_length mixed_law mixed_curve misalignment_range no_load not_turning "

@@ -283,10 +283,10 @@ def _of_distribution(build: Build) -> Build:
 
 OWN = ("section", "flank-pressure")  # of the figures of the load distribution: where the pair can scuff
 FIGURES = (
-    Declaration("flank-temperature", "Contact temperature on the flank", "Xue 2020, Eq. 25", temperature_on_flank),
     Declaration(
         "contact-temperature", "Contact temperature along the path of contact", "Xue 2020, Fig. 22", contact_temperature
     ),
+    Declaration("flank-temperature", "Contact temperature on the flank", "Xue 2020, Eq. 25", temperature_on_flank),
     Declaration("safety", "Safety factor against scuffing along the path of contact", "Xue 2020, Eq. 26", safety_along),
     Declaration("film", "Film along the path of contact", "Xue 2020, Fig. 23", film),
     Declaration(

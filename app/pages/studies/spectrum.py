@@ -82,14 +82,15 @@ def _column(calculation: Calculation, heading: str) -> Column:
         return Column(heading if plain not in {NAME, SHARE} else plain)
     if plain.startswith(SHARE) and plain.removeprefix(SHARE).strip(AROUND_UNIT) == "%":
         return Column(SHARE, -2)
-    alike: dict[int, dict[str, Column]] = {}
+    alike: dict[tuple[int, bool], dict[str, Column]] = {}  # by length; what the form shows counts before names
     for leaf in (leaf for leaf in leaves(calculation.request) if leaf.is_scalar and ITEM not in leaf.path):
         name = leaf.path.rpartition(".")[2]
         labels = {leaf.title, leaf.declared.title, name, words(split_unit(name)[0])}
         for label in filter(plain.startswith, map(str.lower, labels)):
             power = power_between(heading[len(label) :].strip(AROUND_UNIT), leaf.unit)
             if power is not None:
-                alike.setdefault(len(label), {})[leaf.title] = Column(leaf.path, power)
+                shown = label == leaf.title.lower()
+                alike.setdefault((len(label), shown), {})[leaf.title] = Column(leaf.path, power)
     meant = alike[max(alike)] if alike else {heading: Column(heading)}
     if len(meant) > 1:
         raise Unprocessable("table", f"the column {heading} may be {' or '.join(meant)}; write one of these", "cases")
