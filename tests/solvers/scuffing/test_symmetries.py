@@ -146,7 +146,8 @@ def test_no_line_of_the_flank_is_hotter_or_safer(design: LoadDistributionInputs,
     assert found.flank_flash.max() <= flash.blok_max * (1 + 1e-14)
     assert found.film is not None
     assert found.film.dowson_higginson_min is not None
-    assert found.film.dowson_higginson_min <= np.nanmin(found.path.dowson_higginson)
+    if np.isfinite(found.path.dowson_higginson).any():
+        assert found.film.dowson_higginson_min <= np.nanmin(found.path.dowson_higginson)
     if found.distribution.load.face_load_factor is not None:
         assert found.distribution.load.face_load_factor >= 1.0
 
