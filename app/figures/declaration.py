@@ -31,7 +31,7 @@ class Declaration:
     asked_by: str = ""
 
     def is_asked(self, request: Request) -> bool:
-        """Return whether a request asks for what the figure shows."""
+        """Return True if the request has the section that the figure needs."""
         return not self.asked_by or getattr(request, self.asked_by) is not None
 
     def figure(self, request: Request, response: Response) -> Figure:

@@ -45,7 +45,7 @@ def text_of(value: Any) -> str:
 
 
 def number_of(text: str) -> Any:
-    """The number that a single field of a link holds, with a decimal point or comma; what is none stays text.
+    """Read the number in a single field of a link, with a decimal point or comma. Other text stays text.
 
     Digits may stand in groups of three, where that leaves no doubt which mark is the decimal one.
     """
@@ -55,14 +55,14 @@ def number_of(text: str) -> Any:
 
 
 def plain_number_of(text: str) -> Any:
-    """The number with a decimal point that a text is; what is none stays text."""
+    """Read a number with a decimal point. Other text stays text."""
     if _INTEGER.fullmatch(text):
         return int(text)
     return float(text) if _NUMBER.fullmatch(text) and "," not in text else text
 
 
 def in_link(text: str, unit: str | None = None) -> str:
-    """Return the text of a link for a number typed in a field with this unit; text that is no number is unchanged."""
+    """Return the text of a link for a number typed in a field with this unit. Other text is unchanged."""
     if _PLAIN.fullmatch(text) and not _DOUBTFUL.fullmatch(text):
         return text
     parts = _parts(text)
@@ -79,7 +79,7 @@ def in_link(text: str, unit: str | None = None) -> str:
 
 
 def list_in_link(text: str, unit: str | None = None) -> str:
-    """Return the text of a link for numbers typed or pasted in a field of several; unchanged if one is no number."""
+    """Return the text of a link for a typed or pasted list. The text is unchanged if an item is not a number."""
     items = _items(text.translate(_TIDY), unit)
     if items is None:
         return text + DOUBT
@@ -111,13 +111,13 @@ def table_in_link(text: str) -> str:
 
 
 def separator_of(text: str) -> str:
-    """Return what parts the columns of a table: tabs, as a spreadsheet copies them, or semicolons."""
+    """Return the separator of a table's columns: a tab, as spreadsheets copy them, or a semicolon."""
     first = next((line for line in text.splitlines() if line.strip()), "")
     return next((each for each in "\t;" if each in first), "\t")
 
 
 def scaled(value: Any, power: int) -> Any:
-    """Return a number times a power of ten, rounded once; what is no number is unchanged."""
+    """Return a number times a power of ten, rounded once. Other values are unchanged."""
     return float(Decimal(str(value)).scaleb(power)) if power and isinstance(value, int | float) else value
 
 
@@ -139,7 +139,7 @@ def power_between(typed: str | None, own: str | None) -> int | None:
 
 
 def question(text: str) -> str:
-    """Return what to ask about a text with two readings, as it stands in a link; empty if it has only one."""
+    """Return the question about a text of a link with two readings. It is empty if the text has one reading."""
     asked = text.removesuffix(DOUBT)
     if asked == text and not _AMBIGUOUS.fullmatch(text):
         return ""
@@ -207,13 +207,13 @@ def _has_several(item: str) -> bool:
 
 
 def _settled(item: str, decimal: set[str]) -> str:
-    """A doubtful number with a fourth decimal where other numbers of its list tell that its mark is the decimal one."""
+    """Add a fourth decimal to a doubtful number if other numbers of its list use its mark as the decimal mark."""
     found = _DOUBTFUL.match(item)
     return f"{item[: found.end()]}0{item[found.end() :]}" if found and found[2] in decimal else item
 
 
 def _packed(unit: str) -> str:
-    """A unit without what parts its factors: W/mK may mean W/(m K), not per millikelvin."""
+    """Return a unit without blanks, brackets and dots: W/mK means W/(m K), not per millikelvin."""
     return re.sub(r"[\s()·*]", "", unit).replace("μ", "µ")
 
 

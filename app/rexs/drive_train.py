@@ -84,7 +84,7 @@ class _DriveTrain:
         self._x = _cross(self._y, z)
 
     def fill(self) -> bool:
-        """Set all fields; False where the shafts' sections do not make a shaft."""
+        """Fill in the request for a drive train. Return False if the sections do not make a shaft."""
         stage = self._stage
         faces = [stage.face_interval(place) for place in (0, 1)]
         start = max(each[0] for each in faces if each is not None)

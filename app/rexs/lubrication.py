@@ -1,4 +1,4 @@
-"""The oil of a mesh: what it is, how it comes to the teeth, how warm both are, and their friction."""
+"""Read the oil of a mesh, its supply, the temperatures of oil and teeth, and the friction."""
 
 from app.rexs import table
 from app.rexs.model import Component
@@ -35,7 +35,7 @@ class Lubrication:
         self._base_oil(oil)
 
     def _base_oil(self, oil: Component) -> None:
-        """The kind of oil by the type of a standard, else by words; one that is not modelled is never another kind."""
+        """Read the kind of oil from its standard type, else from words. A kind that is not modelled is a finding."""
         path, texts = "lubricant.kind", {}
         for name in (*table.OIL_TYPES, *table.OIL_WORDS):
             texts[name] = self._reading.text(oil, name)

@@ -20,7 +20,7 @@ class Modifications:
         self._carried = [(place, each) for place in (0, 1) for each in self._of_working_flank(place)]  # place of gear
 
     def fill(self) -> None:
-        """Set all fields."""
+        """Fill in the modifications of the request from the flanks of both gears."""
         self._relief("tip_relief", ("tip_relief", "root_relief"))
         self._relief("root_relief", ("root_relief", "tip_relief"))
         self._crowning("profile_crowning", "profile_crowning_um", ("_at_tip", "_at_root"))

@@ -107,7 +107,7 @@ class Reading:
     used_of_case: set[tuple[int, str]] = field(default_factory=set)
 
     def in_case(self, case: LoadCase | None) -> "Reading":
-        """The same model as it is in a load case."""
+        """Return a reading of the model with the values of a load case in place of its own."""
         found = copy(self)  # with what is known of its shafts
         found.case, found.used_of_case = case, set()
         return found
@@ -344,7 +344,7 @@ def rounded(value: Any) -> Any:
 
 
 def why_unused(type_: str, name: str) -> str:
-    """The reason why an attribute of a type of component is not used."""
+    """Return the reason why an attribute of a component type is not used."""
     return next(why for types, names, why in IGNORED if re.fullmatch(types, type_) and re.search(names, name))
 
 

@@ -48,7 +48,7 @@ def _pair(reading: Reading, stage: Component) -> Pair | None:
 
 
 def _teeth(reading: Reading, stage: Component, gear: Component) -> int | None:
-    """The number of teeth of an external gear; every other gear is a finding."""
+    """Read the number of teeth of an external gear. A gear of any other kind is a finding."""
     if gear.type != "cylindrical_gear":
         what = "a ring gear; pairs with one" if gear.type == "ring_gear" else "other pairs than two external gears"
         reading.find("stage_not_modelled", stage, None, f"{what} are not modelled; the stage is left out")
@@ -244,7 +244,7 @@ class StageDraft(Draft):
         self.put(row.field, *known[0], row.name)
 
     def _transverse_modules(self) -> list[tuple[float, Component]]:
-        """Normal modules from the transverse ones: pressure angle and profile shifts of REXS count the normal one."""
+        """Convert a transverse module into the normal one, to which pressure angle and profile shifts refer."""
         cosine = cos(radians(self.fields.get(table.HELIX_ANGLE.field, 0.0)))
         known = self.known(self.gears, table.TRANSVERSE_MODULE)
         if known:
@@ -266,7 +266,7 @@ class StageDraft(Draft):
         self.put("gears.hand", "right" if pinion >= 0.0 else "left", gear, row.name)
 
     def _helix_angle(self, gear: Component) -> float | None:
-        """Helix angle of a gear [deg]: at the reference circle, else from the one at the base circle.
+        """Read the helix angle at the reference circle [deg], or calculate it from the base helix angle.
 
         sin beta = sin beta_b / cos alpha_n, tan beta = tan beta_b / cos alpha_t.
         """
@@ -505,7 +505,7 @@ class StageDraft(Draft):
             self.reading.find("centre_distance", self.stage, "center_distance", message)
 
     def _load(self) -> None:
-        """Torque and speed from the shafts' loads, else what the file says of the gear itself."""
+        """Read torque and speed from the loads of the shafts, else from the gear."""
         load = self.load(self.flow)
         own = (table.GEAR_TORQUE, self.gear_data(0)), (table.GEAR_SPEED, (self.gears[0],))
         for (row, origins), what in zip(own, ("torque", "speed"), strict=True):

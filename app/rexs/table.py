@@ -336,7 +336,7 @@ IGNORED = (
     (".*", _RESULTS, "a result of the program that wrote the file"),
     (".*", "", "the models have no such input"),
 )
-"""Why attributes are not used: patterns of the type of component and of the attribute; the first that fits counts."""
+"""Reasons why attributes are not used, by component type and attribute. The first pattern that fits counts."""
 
 CUSTOM = "custom_tribodrive_"
 STANDARD_FROM = {"face_load_factor_contact_stress": 2}

@@ -150,7 +150,7 @@ class _Case(NamedTuple):
 
 
 def _cases(stage: StageDraft, pair: Pair, flows: list[Flow]) -> list[_Case]:
-    """The load spectrum as changes of the stage's fields: torque, speed, and what a case itself states."""
+    """Return the load spectrum: for each load case the changes of torque, speed and the inputs that the case states."""
     found = []
     shares, reason = _shares([flow.reading for flow in flows])
     load_sources = stage.load_sources

@@ -191,11 +191,11 @@ groups(
 
 
 class CouplingProportions(Derived, of=si.Coupling, only=("face_width", "tooth_height", "tooth_stiffness")):
-    """Proportions and stiffness of the tooth, where the request left them open."""
+    """Proportions and stiffness of the teeth, as used if the request omits them."""
 
 
 class CouplingDerived(CouplingProportions, of=results.Derived):
-    """Proportions and stiffness of the tooth and viscosity of its oil, where the request left them open."""
+    """Proportions and stiffness of the teeth and viscosity of the oil, as used if the request omits them."""
 
 
 class CouplingResponse(Response, of=results.CouplingResult):

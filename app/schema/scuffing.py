@@ -231,7 +231,10 @@ class Micropitting(Section, of=si.MicropittingCheck):
     exclusive: ClassVar = (("failure_load_stage", "permissible_ratio"),)
 
     def unused(self) -> dict[str, bool]:
-        """Mark the test and its factors as unused if the ratio is given, and the surfaces if their factor is."""
+        """Mark the test and its factors as unused if the permissible ratio is given.
+
+        Mark the surfaces as unused if the material factor is given.
+        """
         given = self.permissible_ratio is not None
         return dict.fromkeys(("failure_load_stage", "material_factor"), given) | {
             "surface": given or self.failure_load_stage is None or self.material_factor is not None
@@ -338,7 +341,7 @@ class MeshInOil(Request):
         return self.micropitting is not None and not relief and self.gears.helix_angle_deg == 0.0
 
     def unused(self) -> dict[str, bool]:
-        """Mark what does not count without an oil, in closed form, or without a film by the standard."""
+        """Mark inputs as unused without an oil, in closed form, or without a film by the standard."""
         dry, standard = not self.lubricant.known, self._standard_film_asked
         no_film = dry or self.model.lubrication == "closed_form"
         of_the_film = (name for name in Micropitting.model_fields if not name.startswith("wear"))

@@ -61,7 +61,7 @@ def _film_notices(
 
 
 def load_notices(inputs: DriveTrainInputs, load: FaceLoad) -> Iterator[Notice]:
-    """Load at an end of the face or lifted off, what is assumed of the heat."""
+    """Warn of load at an end of the face, of flanks that lift off, and of an assumed wall response."""
     if load.face_load_at in {0.0, 1.0}:
         message = f"the face carries most at its end y/b = {load.face_load_at:.0f}"
         yield Notice("edge_load", message, "mesh.distribution.modifications.helix_slope")

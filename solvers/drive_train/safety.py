@@ -1,6 +1,6 @@
 """Scuffing over the whole flank of a unit: bulk temperatures that vary along the face, flash temperature, safety."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -17,12 +17,9 @@ from solvers.scuffing.results import LoadDistribution, Place
 from solvers.scuffing.safety import safety_factor
 from solvers.scuffing.safety_results import ThermalPath
 from solvers.scuffing.thermal.blok import blok_flash
-from solvers.scuffing.thermal.flank import SURVEY_POINTS, contact_at_points, find_hottest, map_flash
+from solvers.scuffing.thermal.flank import SURVEY_POINTS, FaceFunction, contact_at_points, find_hottest, map_flash
 from solvers.scuffing.thermal.thermal_path import thermal_paths
 from solvers.scuffing.thermal.verdict import unknown_points
-
-FaceFunction = Callable[[FloatArray], FloatArray]
-"""A value at the distance y [m] from the end that meshes first."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,7 +104,7 @@ def _feature_points(inputs: DriveTrainInputs, mesh: LoadDistribution, bulk: Face
 
 
 def _with_line(peak: Peak | None, along: FloatArray, across: FloatArray, on_line: FloatArray) -> Peak | None:
-    """Return the peak over the flank, or that of the feature line where it is higher; None if one is not known."""
+    """Return the higher of the peaks over the flank and on the feature line; None if either is unknown."""
     if peak is None or np.isnan(on_line).any():
         return None
     top = int(np.argmax(on_line))

@@ -39,7 +39,7 @@ class BearingHeat:
 
 @record
 class HeatFlow:
-    """A flow of heat [W] from one node of the network to another."""
+    """Flow of heat between two nodes of the network [W]."""
 
     from_node: str = quantity("origin of the heat", text="node of the network, or source")
     to_node: str = quantity("target of the heat", text="node of the network, or oil, ambient")

@@ -462,7 +462,7 @@ class Temperatures:
 
     @property
     def lubricant_factor(self) -> float | None:
-        """X_L of the scuffing test; None without one."""
+        """Return X_L of the scuffing test; None without a test."""
         return None if self.scuffing_test is None else self.scuffing_test.lubricant_factor
 
 

@@ -51,7 +51,7 @@ def of_the_oil(use: str, found: dict[str, Any]) -> dict[str, Any]:
 @pytest.mark.parametrize("sheet", SHEETS)
 @pytest.mark.parametrize("use", USES)
 def test_every_default_by_the_kind_of_oil_differs_from_a_mineral_oil_s(use: str, sheet: str) -> None:
-    """All but the specific heat, which only that of a polyalphaolefin does."""
+    """The default properties differ between kinds of oil. The specific heat differs for polyalphaolefins only."""
     path = USES[use][2]
     mineral = assumed(answer(use, {**SHEETS[sheet], "kind": "mineral"}), "kind of oil", path)
     assert len(mineral) >= 2

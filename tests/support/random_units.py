@@ -1,4 +1,4 @@
-"""Random gear units, and the same unit turned, or seen in a mirror."""
+"""Random gear units, and images of a unit: rotated or mirrored."""
 
 from dataclasses import replace
 from math import pi, radians

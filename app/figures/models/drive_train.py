@@ -248,12 +248,12 @@ def losses(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
 
 
 def mesh_as_drawn(inputs: DriveTrainInputs, _: DriveTrainResult) -> Scuffing | None:
-    """Solve the mesh alone without modifications, with what shafts and heat add left out."""
+    """Solve the mesh without modifications, on rigid shafts and without heat."""
     return micropitting.solve_unmodified(contact_of(inputs))
 
 
 def where_micropitting_starts(inputs: DriveTrainInputs, result: DriveTrainResult, plain: Scuffing | None) -> Figure:
-    """Film over roughness over the flank, its least value marked, beside that of the unmodified mesh alone."""
+    """Draw the film ratio over the flank with its least value, beside the ratio of the unmodified mesh."""
     answer = micropitting.answered(result.micropitting)
     return micropitting.over_flanks(inputs.mesh, answer, result.flank, plain)
 

@@ -23,7 +23,7 @@ FILM_OVER_ROUGHNESS = "film over roughness"
 
 
 def solve_unmodified(inputs: ScuffingInputs, *_: Scuffing) -> Scuffing | None:
-    """Solve a pair without modifications and misalignment by formulas, with values in the units shown.
+    """Solve the pair without its modifications and misalignment, in closed form. Values are in the units shown.
 
     None if the pair is that one.
     """
@@ -34,7 +34,7 @@ def solve_unmodified(inputs: ScuffingInputs, *_: Scuffing) -> Scuffing | None:
 
 
 def where_it_starts(inputs: ScuffingInputs, result: Scuffing, plain: Scuffing | None) -> Figure:
-    """Film over roughness over the flank, its least value marked, beside that of the unmodified pair."""
+    """Draw the film ratio over the flank with its least value, beside the ratio of the unmodified pair."""
     answer = answered(result.micropitting)
     return over_flanks(inputs, answer, result.flank, plain)
 
@@ -51,7 +51,7 @@ def answered(answer: Micropitting | None) -> Micropitting:
 
 
 class _Case(NamedTuple):
-    """A pair that is drawn: what it is, its least film ratio and its maps."""
+    """Name, least film ratio and maps of a pair in the figure."""
 
     title: str | None
     local: LocalFilm
@@ -66,7 +66,7 @@ class _Case(NamedTuple):
 def over_flanks(
     inputs: ScuffingInputs, answer: Micropitting, flank: HeatedFlank | FlankMaps, plain: Scuffing | None
 ) -> Figure:
-    """Maps of the film ratio of a pair and of the unmodified one, on one scale of colours."""
+    """Draw the film ratio of a pair and of the unmodified pair. Both maps share one scale of colours."""
     cases = [_Case(None, answer.local, flank)]
     if plain is not None and plain.micropitting is not None:
         cases = [_Case("as described", answer.local, flank), _Case(AS_DRAWN, plain.micropitting.local, plain.flank)]
@@ -89,7 +89,7 @@ def _place(local: LocalFilm) -> str:
 
 
 def _film_map(width: float, case: _Case, permissible: float | None, ends: tuple[float, float], *, bar: bool) -> Panel:
-    """A map of the film ratio with its least value; the permissible one stands in it as a line."""
+    """Return a map of the film ratio with its least value marked and the permissible ratio as a contour."""
     film, local = axis(case.flank, "micropitting_ratio", FILM_OVER_ROUGHNESS), case.local
     inside = permissible is not None and float(np.nanmin(case.grid)) < permissible < float(np.nanmax(case.grid))
     mapped = Map(
@@ -111,7 +111,7 @@ def _film_map(width: float, case: _Case, permissible: float | None, ends: tuple[
 def film_lines(
     answer: Micropitting, psi: Values, ratio: Values, thermal_film: Values | None, roughness: float
 ) -> Panel:
-    """Film over roughness along a line, the thermal film's beside it, and the permissible one; film and Ra in um."""
+    """Return the ratios of film and thermal film along a line, and the permissible ratio; film and Ra in um."""
     lines = [Line("at the contact temperature", psi, ratio)]
     if thermal_film is not None:
         lines.append(Line("thermal EHL", psi, thermal_film / roughness, Hue.VERMILLION))
@@ -126,7 +126,7 @@ def film_lines(
 
 
 def wear_on_flank(inputs: ScuffingInputs, result: Scuffing | DriveTrainResult) -> Figure:
-    """Depth of wear over the flanks of pinion and wheel, on one scale of colours."""
+    """Draw the depth of wear over the flanks of pinion and wheel. Both maps share one scale of colours."""
     wear, flank = result.wear, result.flank
     if wear is None:
         raise NoFigure("not_asked", "Give a wear coefficient to have the wear of the flanks", "micropitting")

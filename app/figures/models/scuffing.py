@@ -52,7 +52,7 @@ def temperature_on_flank(inputs: ScuffingInputs, result: Scuffing) -> Figure:
 
 
 def heat_over_flank(width: float, flank: Flank | FlankMaps, shown: Axis, grid: Values, limit: float | None) -> Panel:
-    """A map of a temperature over the flank of a face width [m]; the critical one stands in it as a line."""
+    """Return a map of a temperature over the flank with the critical temperature as a contour; face width [m]."""
     if not np.isfinite(grid).all():
         message = "The loaded path of contact reaches a base circle, where no temperature is defined"
         raise NoFigure("no_temperature", message, "gears")
@@ -105,7 +105,7 @@ def _paths(result: Scuffing) -> dict[str, ScuffingPath]:
 
 
 def _along(inputs: ScuffingInputs, result: Scuffing, finding: str, panel: Callable[[ScuffingPath], Panel]) -> Figure:
-    """A panel along each line checked, on one scale, with the points of the path and where the check does not hold."""
+    """Return one panel per checked line, on one scale, with the points of the path and the invalid ranges."""
     points, panels = _points(inputs, result), list[Panel]()
     for path in _paths(result).values():
         drawn = panel(path)
@@ -174,7 +174,7 @@ def safety_along(inputs: ScuffingInputs, result: Scuffing) -> Figure:
 
 
 def _safeties(path: ScuffingPath, above_oil: float, reserve: float) -> list[Line]:
-    """Safety factors along a path, by thermal EHL and by Blok, where the contact is hotter than the oil."""
+    """Return safety factors along a path by thermal EHL and by Blok, where the contact is hotter than the oil."""
     *flanks, blok = _flashes(path)
     flashes = [replace(blok, role=Role.RESULT)]
     if flanks:
@@ -210,7 +210,7 @@ def film(inputs: ScuffingInputs, result: Scuffing) -> Figure:
 
 
 def film_against_micropitting(inputs: ScuffingInputs, result: Scuffing) -> Figure:
-    """Film over roughness at the contact temperature along the lines, and the permissible one."""
+    """Draw the film ratio at the contact temperature along the lines, and the permissible ratio."""
     answer, pair = micropitting.answered(result.micropitting), inputs.distribution
     roughness = (pair.pinion_material.roughness + pair.wheel_material.roughness) / 2 / UM
 
@@ -225,7 +225,7 @@ def film_against_micropitting(inputs: ScuffingInputs, result: Scuffing) -> Figur
 
 
 def friction(inputs: ScuffingInputs, result: Scuffing) -> Figure:
-    """Coefficient of friction and film pressure along the lines, from thermal EHL, beside the mean one of Blok's."""
+    """Draw local friction and film pressure by thermal EHL along the lines, and the mean friction of Blok's formula."""
     _with_oil(result)
     mean = result.flash.friction_coefficient
     solved = {name: (path.psi, path.thermal) for name, path in _paths(result).items() if path.thermal is not None}

@@ -77,7 +77,7 @@ async def ask_for_unit(http: Request) -> Response:
 
 @pages.post("/rexs", response_class=HTMLResponse)
 async def open_unit(http: Request) -> Response:
-    """Redirect to the page of the unit, to which the back button returns; a page too large to be kept is sent at once.
+    """Redirect to the page of the unit, so that the back button returns to it. Send a page too large to keep.
 
     A file that cannot be read is answered with the reason.
     """

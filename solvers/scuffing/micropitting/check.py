@@ -8,7 +8,7 @@ from solvers.arrays import FloatArray
 from solvers.notices import Notice
 from solvers.scuffing.contact_slices import Peak
 from solvers.scuffing.inputs import MicropittingCheck, ScuffingInputs
-from solvers.scuffing.micropitting.local import FaceFunction, FlankFilm, find_least, flank_film
+from solvers.scuffing.micropitting.local import FlankFilm, find_least, flank_film
 from solvers.scuffing.micropitting.notices import hot_film_notices, range_notices, standard_notices
 from solvers.scuffing.micropitting.oil_test import film_of_test, permissible_ratio
 from solvers.scuffing.micropitting.results import (
@@ -21,7 +21,7 @@ from solvers.scuffing.micropitting.results import (
 )
 from solvers.scuffing.micropitting.standard import characteristic_points, has_standard_film, solve_standard
 from solvers.scuffing.results import LoadDistribution
-from solvers.scuffing.thermal.flank import FlashMap
+from solvers.scuffing.thermal.flank import FaceFunction, FlashMap
 
 LIKELY_BELOW, UNLIKELY_ABOVE = 1.0, 2.0  # of the safety factor; common practice
 
@@ -43,7 +43,7 @@ def check_micropitting(
     thermal_film: float | None,
     bulk: FaceFunction | None = None,
 ) -> CheckedFlank:
-    """Compare the film over the flank with the one that the oil's micropitting test asks for.
+    """Compare the film over the flank with the permissible film from the oil's micropitting test.
 
     Parameters
     ----------
@@ -149,7 +149,7 @@ def _safety(ratio: float | None, permissible: float | None) -> float | None:
 
 
 def verdict(safety: float) -> Verdict:
-    """Return what practice says of a safety factor."""
+    """Return the verdict of practice on a safety factor."""
     if safety < LIKELY_BELOW:
         return "micropitting is likely"
     return "micropitting is unlikely" if safety > UNLIKELY_ABOVE else "limited margin"

@@ -1,6 +1,5 @@
 """Method A of ISO/TR 15144-1: the film over the whole flank under the load that the flank has."""
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -11,12 +10,16 @@ from solvers.scuffing.inputs import ScuffingInputs
 from solvers.scuffing.micropitting.film import Conditions, Contacts, films
 from solvers.scuffing.micropitting.mean_values import mean_friction
 from solvers.scuffing.results import ContactPoints, LoadDistribution
-from solvers.scuffing.thermal.flank import FlashMap, contact_at_points, contacts_under_load, find_largest, on_diagonals
+from solvers.scuffing.thermal.flank import (
+    FaceFunction,
+    FlashMap,
+    contact_at_points,
+    contacts_under_load,
+    find_largest,
+    on_diagonals,
+)
 
 LEAST = 1e-9  # ratio below which films are equally thin
-
-FaceFunction = Callable[[FloatArray], FloatArray]
-"""Bulk temperature [K] at distances y [m] from the end that meshes first."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -41,7 +41,7 @@ def range_notices(given: LoadDistributionInputs, path: PathOfContact) -> Iterato
 def standard_notices(
     given: LoadDistributionInputs, path: PathOfContact, standard: StandardFilm | None
 ) -> Iterator[Notice]:
-    """Say why there is no film by method B."""
+    """Warn that method B has no film, with the reason."""
     if standard is not None:
         return
     reasons = {

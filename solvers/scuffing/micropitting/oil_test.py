@@ -1,4 +1,4 @@
-"""The micropitting test of an oil: its gears C-GF at the load stage at which they fail."""
+"""Film ratio in the micropitting test of an oil: test gears C-GF at the failure load stage."""
 
 from functools import cache
 from math import pi

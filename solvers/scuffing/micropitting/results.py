@@ -42,7 +42,7 @@ class LocalPoint:
 
 @record
 class LocalFilm:
-    """Method A: the film over the flank under its own load; what is not known is None."""
+    """Film over the flank under its own load (method A). Unknown values are None."""
 
     safety: float | None = quantity(
         "safety factor against micropitting",

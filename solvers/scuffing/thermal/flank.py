@@ -30,6 +30,10 @@ FlankFunction = Callable[[FloatArray, FloatArray], FloatArray]
 """A value at points x, y [m] of the flank, arrays of one shape."""
 
 
+FaceFunction = Callable[[FloatArray], FloatArray]
+"""A value at distances y [m] from the end that meshes first."""
+
+
 @dataclass(frozen=True, slots=True)
 class FlashMap:
     """Blok's flash temperature [K] at x (n,) and y (m,) [m] of the flank, shape (n, m); NaN where it has no limit.
@@ -112,7 +116,7 @@ def find_hottest(
     given: LoadDistributionInputs,
     distribution: LoadDistribution,
     flash: FlashMap,
-    bulk: Callable[[FloatArray], FloatArray] | None = None,
+    bulk: FaceFunction | None = None,
 ) -> Peak | None:
     """Find where flash temperature, or bulk and flash together, are largest over the flank.
 
@@ -186,29 +190,34 @@ def formula_film(inputs: ScuffingInputs, points: ContactPoints) -> FloatArray:
 
 
 def on_diagonals(distribution: LoadDistribution, peak: Peak, function: FlankFunction) -> Peak:
-    """Return the peak, or that of the feature line or its mirror image if a value there is higher."""
-    plane = distribution.path_of_contact.plane
-    x, y = np.linspace(0.0, plane.path_length, SURVEY_POINTS), np.linspace(0.0, plane.face_width, SURVEY_POINTS)
-    values = function(x, y)
-    top = int(np.argmax(values))
-    line = Peak(float(values[top]), float(x[top]), float(y[top]))
-    highest = max(peak, line, key=lambda place: place.value)
-    return _or_on_mirrored_line(distribution, highest, function)
+    """Return the peak, or the peak along the feature line or its mirror image if that is higher."""
+    along_feature_line = _peak_along(distribution, function, mirrored=False)
+    return _or_on_mirrored_line(distribution, max(peak, along_feature_line, key=_height), function)
 
 
 def _or_on_mirrored_line(distribution: LoadDistribution, peak: Peak, function: FlankFunction) -> Peak:
-    """Return the peak, or that of the other diagonal of a spur pair's flank if it is higher.
+    """Return the peak, or the peak along the other diagonal of a spur pair's flank if that is higher.
 
-    The points of the feature line count as well as what is found over the flank. In its mirror image a spur pair's
-    feature line is the other diagonal: with both, a pair and its image have one largest value.
+    The points of the feature line count as well as the places of the search. In its mirror image a spur pair's feature
+    line is the other diagonal: with both, a pair and its image have one largest value.
     """
-    plane = distribution.path_of_contact.plane
-    if plane.tan_base_helix > 0.0:
+    if distribution.path_of_contact.plane.tan_base_helix > 0.0:
         return peak
-    x, y = np.linspace(0.0, plane.path_length, SURVEY_POINTS), np.linspace(plane.face_width, 0.0, SURVEY_POINTS)
+    return max(peak, _peak_along(distribution, function, mirrored=True), key=_height)
+
+
+def _peak_along(distribution: LoadDistribution, function: FlankFunction, *, mirrored: bool) -> Peak:
+    """Find the largest value of a function along the feature line, or along the other diagonal of the flank."""
+    plane = distribution.path_of_contact.plane
+    ends = (plane.face_width, 0.0) if mirrored else (0.0, plane.face_width)
+    x, y = np.linspace(0.0, plane.path_length, SURVEY_POINTS), np.linspace(*ends, SURVEY_POINTS)
     values = function(x, y)
     top = int(np.argmax(values))
-    return max(peak, Peak(float(values[top]), float(x[top]), float(y[top])), key=lambda place: place.value)
+    return Peak(float(values[top]), float(x[top]), float(y[top]))
+
+
+def _height(peak: Peak) -> float:
+    return peak.value
 
 
 def find_largest(grid: FlashMap, values: FloatArray, function: FlankFunction) -> Peak:

@@ -138,7 +138,10 @@ def without_thermal(flash: Flash, film: Film) -> tuple[Flash, Film]:
 def _extreme(
     lines: Sequence[CheckedLine], curves: Sequence[FloatArray], *, largest: bool
 ) -> tuple[float, float, float] | None:
-    """Return the extreme value of all lines, and its profile (fraction) and face position [m]; None if all are NaN."""
+    """Return the extreme value of all lines with its profile position (fraction) and face position [m].
+
+    None if the lines have no value.
+    """
     values = np.concatenate(curves)
     if not _any_number(values):
         return None
@@ -173,7 +176,7 @@ def path_notices(
     safety: Safety | None,
     unknown: int,
 ) -> tuple[Notice, ...]:
-    """Warnings: points without a film, unsolved points that may decide, a safety factor without a meaning.
+    """List warnings about points without a film, unsolved points that may decide, and safety without a meaning.
 
     A note says so if the feature line alone would have another risk than the flank.
     """

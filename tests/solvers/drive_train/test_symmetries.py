@@ -60,7 +60,7 @@ def turned_face(name: str, values: FloatArray) -> FloatArray:
 
 
 def image_of(one: DriveTrainResult, plane: FloatArray, axis: float, *, face_turned: bool) -> Expected:
-    """What becomes of an answer where vectors are multiplied by a matrix in X and Y, and by 1 or -1 in Z."""
+    """Return the expected image of an answer: vectors are multiplied by a matrix in X and Y, and by 1 or -1 in Z."""
     before = leaves(one)
     handed = np.linalg.det(plane) * axis  # moments and angles are no vectors: a mirror turns them once more
 

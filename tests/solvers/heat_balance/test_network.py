@@ -35,7 +35,7 @@ def plain(network: Network) -> Network:
 
 
 def constant(network: Network) -> Network:
-    """Oil of one viscosity."""
+    """Return an oil whose viscosity does not depend on temperature."""
     return changed(network, {"oil.viscosity": lambda _: 0.02})
 
 

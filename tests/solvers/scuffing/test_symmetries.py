@@ -197,7 +197,7 @@ def test_a_corner_off_the_feature_line_decides_and_a_note_says_so() -> None:
 
 
 def test_face_load_factor_of_an_even_load_is_one() -> None:
-    """At a helix angle of 45 degrees the resolution gave 0.99999."""
+    """The factor is at least 1 by definition. At a helix angle of 45 degrees it used to be 0.99999."""
     gears = GearPairInputs(GearTeeth(20), GearTeeth(60), 2e-3, 20e-3, helix_angle=np.radians(45.0))
     found = solve_load_distribution(LoadDistributionInputs(gears, Load(100.0, 100.0)))
     assert found.load.face_load_factor is not None
