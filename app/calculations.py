@@ -99,7 +99,11 @@ COUPLING = Stage("coupling", 7, ("pahl-axial-displacement",))
 SLEEVE = Stage("coupling sleeve", 58, ("pahl-sleeve-orbit", "pahl-z-arrangement"))
 LOADS = Stage("load distribution", 63, ("fzg-type-a",))
 PUMPING = Stage("pumping", 111, ("milian-case-1", "milian-case-1-pocket-chain"))
-LINE_CONTACT = Stage("line contact", 154, ("xue-line-contact", "xue-line-contact-isothermal", "xue-pair-1-thermal"))
+LINE_CONTACT = Stage(
+    "line contact",
+    157,
+    ("xue-line-contact", "xue-line-contact-isothermal", "xue-pair-1-thermal", "starter-industrial-micropitting"),
+)
 DRIVE_TRAIN = Stage("drive train", 10, ("starter-turbo-gear-drive-train",))
 
 CALCULATIONS = (
