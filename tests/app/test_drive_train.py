@@ -74,8 +74,9 @@ def test_teeth_yield_before_they_slide_by_default(post: Post) -> None:
 
 @pytest.mark.slow
 def test_the_film_is_asked_by_default(post: Post) -> None:
+    """The hottest place is a point of the profile line: 50 equidistant points alone say 3.0844, 201 points 3.0814."""
     safety = answered(post, {"model": GONE})["safety"]
-    assert safety["thermal_ehl_profile"] == pytest.approx(3.084, abs=0.003)
+    assert safety["thermal_ehl_profile"] == pytest.approx(3.081, abs=0.001)
     assert safety["minimum"] == safety["blok_flank"]
 
 
