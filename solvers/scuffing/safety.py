@@ -135,18 +135,23 @@ def _lines(
     even = np.linspace(0.0, 1.0, inputs.path_points)
     survey = _line_at(inputs, distribution, np.linspace(0.0, 1.0, SURVEY_POINTS))
     flash, film = blok_flash(inputs.distribution, survey.points), formula_film(inputs, survey.points)
-    psi = [*even]
-    for curve, extreme in ((flash, np.nanargmax), (film, np.nanargmin)):
-        if np.isfinite(curve[survey.points.in_contact]).any():
-            psi.append(survey.psi[extreme(curve)])
+    added = [
+        survey.psi[extreme(curve)]
+        for curve, extreme in ((flash, np.nanargmax), (film, np.nanargmin))
+        if np.isfinite(curve[survey.points.in_contact]).any()
+    ]
     if survey.points.undefined.any():
-        psi.append(survey.psi[np.argmax(survey.points.undefined)])
-    feature = _line_at(inputs, distribution, np.unique(psi))
+        added.append(survey.psi[np.argmax(survey.points.undefined)])
+    feature = _line_at(inputs, distribution, np.unique([*even, *added]))
     if hottest is None:
         return [feature], None
-    place = hottest.x / distribution.path_of_contact.length
-    profile = _line_at(inputs, distribution, np.unique([*even, place]), hottest.y)
-    return [feature, profile] if hottest.value > (1.0 + AS_HOT) * np.max(flash) else [feature], profile
+    on_line = int(np.argmax(flash))
+    hotter = hottest.value > (1.0 + AS_HOT) * flash[on_line]
+    psi, face = hottest.x / distribution.path_of_contact.length, hottest.y
+    if flash[on_line] > hottest.value:
+        psi, face = survey.psi[on_line], float(survey.face[on_line])
+    profile = _line_at(inputs, distribution, np.unique([*even, psi]), face)
+    return [feature, profile] if hotter else [feature], profile
 
 
 def _or_along(inputs: ScuffingInputs, distribution: LoadDistribution, line: _Line, thinnest: Peak) -> Peak:

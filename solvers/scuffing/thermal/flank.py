@@ -22,8 +22,8 @@ from solvers.scuffing.results import ContactPoints, LoadDistribution
 from solvers.scuffing.thermal.blok import blok_flash
 
 SURVEY_POINTS = 4001  # of the formulas along the feature line, to find where they are largest and smallest
-ZOOMS = 2  # each narrows the place of a maximum by a factor of 6
-ZOOM_POINTS = 13  # points between the neighbours of a top, along the path and across the face, at each zoom
+REACHES = (2, 1, 1)  # of each zoom to both sides, in steps of the grid before: a factor of 2, 4 and 4
+ZOOM_POINTS = 9  # along the path and across the face, at each zoom
 
 FlankFunction = Callable[[FloatArray, FloatArray], FloatArray]
 """A value at points x, y [m] of the flank, arrays of one shape."""
@@ -144,7 +144,7 @@ def find_hottest(
         return temperature if bulk is None else temperature + bulk(y)
 
     peak = find_largest(flash, flash.flash if bulk is None else flash.flash + bulk(flash.y), value)
-    return _or_on_mirrored_line(distribution, peak, value)
+    return _or_beside(distribution, peak, value)
 
 
 def find_thinnest(inputs: ScuffingInputs, distribution: LoadDistribution, flash: FlashMap) -> Peak | None:
@@ -167,7 +167,7 @@ def find_thinnest(inputs: ScuffingInputs, distribution: LoadDistribution, flash:
     known[np.arange(flash.x.size), heaviest] = thinness(flash.x, flash.y[heaviest])
     if not known.any():
         return None
-    peak = _or_on_mirrored_line(distribution, find_largest(flash, known, thinness), thinness)
+    peak = _or_beside(distribution, find_largest(flash, known, thinness), thinness)
     return Peak(1.0 / peak.value, peak.x, peak.y)
 
 
@@ -191,18 +191,34 @@ def formula_film(inputs: ScuffingInputs, points: ContactPoints) -> FloatArray:
 def on_diagonals(distribution: LoadDistribution, peak: Peak, function: FlankFunction) -> Peak:
     """Return the peak, or the peak along the feature line or its mirror image if that is higher."""
     along_feature_line = _peak_along(distribution, function, mirrored=False)
-    return _or_on_mirrored_line(distribution, max(peak, along_feature_line, key=_height), function)
+    return _or_beside(distribution, max(peak, along_feature_line, key=_height), function)
 
 
-def _or_on_mirrored_line(distribution: LoadDistribution, peak: Peak, function: FlankFunction) -> Peak:
-    """Return the peak, or the peak along the other diagonal of a spur pair's flank if that is higher.
+def _or_beside(distribution: LoadDistribution, peak: Peak, function: FlankFunction) -> Peak:
+    """Return the peak, or a higher one along its profile line or along the other diagonal of a spur pair's flank.
 
     The points of the feature line count as well as the places of the search. In its mirror image a spur pair's feature
     line is the other diagonal: with both, a pair and its image have one largest value.
     """
+    peak = max(peak, _peak_at_kinks(distribution, function, peak), key=_height)
     if distribution.path_of_contact.plane.tan_base_helix > 0.0:
         return peak
     return max(peak, _peak_along(distribution, function, mirrored=True), key=_height)
+
+
+def _peak_at_kinks(distribution: LoadDistribution, function: FlankFunction, peak: Peak) -> Peak:
+    """Find the largest value where contact lines of the roll positions meet the profile line through a peak.
+
+    Between roll positions the approach is straight. At its kinks, which may lie closer together than any points of the
+    search, a load that another pair of teeth takes over has its largest value.
+    """
+    plane, rolls = distribution.path_of_contact.plane, distribution.balance.rolls
+    phase = rolls.phase[rolls.side == 0.0]  # at the others a spur gear's load jumps: both sides are places of the map
+    lines = np.add.outer(plane.base_pitch * np.arange(line_count(plane)), phase).ravel()
+    x = np.clip(lines - peak.y * plane.tan_base_helix, 0.0, plane.path_length)
+    values = function(x, np.full(x.size, peak.y))
+    top = int(np.argmax(np.where(np.isnan(values), -np.inf, values)))
+    return Peak(float(values[top]), float(x[top]), peak.y)
 
 
 def _peak_along(distribution: LoadDistribution, function: FlankFunction, *, mirrored: bool) -> Peak:
@@ -230,19 +246,19 @@ def find_largest(grid: FlashMap, values: FloatArray, function: FlankFunction) ->
     each, (i, k) = np.arange(highest.size), (highest, across[highest])
     x, y = np.tile(grid.x, (highest.size, 1)), np.tile(grid.y, (highest.size, 1))
     found = values[i, k], x[each, i], y[each, k]
-    for _ in range(ZOOMS):
-        x, y = _around(x, i), _around(y, k)
+    for reach in REACHES:
+        x, y = _around(x, i, reach), _around(y, k, reach)
         near = function(np.repeat(x[:, :, None], y.shape[1], axis=2), np.repeat(y[:, None, :], x.shape[1], axis=1))
         i, k = np.divmod(np.argmax(near.reshape(highest.size, -1), axis=1), y.shape[1])
         found = near[each, i, k], x[each, i], y[each, k]
     return Peak(*(float(numbers[np.argmax(found[0])]) for numbers in found))
 
 
-def _around(places: FloatArray, top: IntArray) -> FloatArray:
-    """Return equidistant places between the neighbours of one in each row, with that one in place of the nearest."""
+def _around(places: FloatArray, top: IntArray, reach: int) -> FloatArray:
+    """Return equidistant places as far as `reach` steps from one in each row, with that one instead of the nearest."""
     each, last = np.arange(top.size), places.shape[1] - 1
     held = places[each, top]
-    low, high = places[each, np.maximum(top - 1, 0)], places[each, np.minimum(top + 1, last)]
+    low, high = places[each, np.maximum(top - reach, 0)], places[each, np.minimum(top + reach, last)]
     near = np.linspace(low, high, ZOOM_POINTS, axis=1)
     near[each, np.argmin(np.abs(near - held[:, None]), axis=1)] = held
     return near
