@@ -22,7 +22,7 @@ from solvers.coupling.tooth_loads import LOADED, floating_loads, largest_value
 from solvers.errors import InvalidInput, NoSolution
 
 MAX_SWEEPS = 50  # limit; a path that has not settled by then does not
-REPEAT_TOLERANCE = 1e-12  # of the path's size: near rounding
+REPEAT_TOLERANCE = 1e-12  # m, near the rounding of a path of some ten micrometres
 HIGHEST_ORDER = 12  # harmonics of the path; the result says how much twice as many change
 REFINEMENTS = (2, 3)  # of the rotor angles, to see how certain an orbit is
 

@@ -317,6 +317,8 @@ def largest_value(angles: FloatArray, values_at: Callable[[FloatArray], FloatArr
         top, before, after = (values[rows, highest + shift] for shift in (0, -1, 1))
         reach = np.where((top >= before) & (top >= after), 1.5 * top - 0.5 * np.minimum(before, after), -np.inf)
         peaks = np.flatnonzero(reach >= largest)
+        if not peaks.size:
+            break
         step /= _FINER
         places = places[peaks, highest[peaks]][:, None] + step * np.arange(-_FINER, _FINER + 1)
         values = values_at(places.ravel()).reshape(places.shape)

@@ -28,6 +28,7 @@ from tests.support.random_units import units
 
 # Limits of handbooks and of checks, in metres per second: an answer says which side of them it is on.
 ABSOLUTE = r"^warnings$"
+DIFFERENCES = {r"_uncertainty$|^pulsation\.": 1e-7}
 
 
 def other_units(random: Generator) -> Units:
@@ -45,20 +46,27 @@ def test_coupling(random: Generator) -> None:
 
 @seeds(5, 100)
 def test_sleeve_orbit(random: Generator) -> None:
-    """An orbit repeats to 1e-12 m, which is 1e-5 of a small one and decides how many sweeps are made."""
+    """An orbit repeats to 1e-12 m, of which the twelfth order of its force makes 144 times as much."""
     inputs, units = random_inputs(random, errors=True, single=True), other_units(random)
     one, other = solve_orbit(inputs), solve_orbit(in_other_units(inputs, units))
+    tolerance = 1e-5 + 144 * 1e-12 / min(one.max_displacement, other.max_displacement)
     without = rf"{ABSOLUTE}|^sweeps$|^change$|uncertainty$"
-    assert not differences(one, other, rescaled(units), without=without, tolerance=1e-5)
+    assert not differences(one, other, rescaled(units), without=without, tolerance=tolerance)
 
 
 @seeds(4, 200)
 def test_pumping(random: Generator) -> None:
-    """A slice that enters its stroke at the very time of a picture may be drawn there at rest or not."""
+    """A slice that enters its stroke at the very time of a picture may be drawn there at rest or not.
+
+    Marching through the gas makes more of rounding: up to 5e-9 in 200 draws, and 9e-9 of uncertainties and pulsations,
+    which are differences. Units of length, mass or time alone make less than 1e-9.
+    """
     setup = random_setup(random, PumpingModel(slices=int(random.integers(10, 50))))
     inputs, units = PumpingInputs(setup, random_speed(random, setup)), other_units(random)
     one, other = solve_pumping(inputs), solve_pumping(in_other_units(inputs, units))
-    assert not differences(one, other, rescaled(units), without=rf"{ABSOLUTE}|\.field\.")
+    assert not differences(
+        one, other, rescaled(units), without=rf"{ABSOLUTE}|\.field\.", tolerance=1e-8, loose=DIFFERENCES
+    )
 
 
 @seeds(25, 1000)
