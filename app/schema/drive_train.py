@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import partial
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import BeforeValidator, Field
 
@@ -134,6 +134,7 @@ class ToothHeat(Section, of=si.Heat):
 class TrainTemperatures(ContactTemperatures, of=si.DriveTrainInputs, only=("local_bulk",)):
     """Temperatures of contact and oil."""
 
+    bulk_method: Literal["given", "estimated"] = "estimated"
     bulk_c: Annotated[
         float | None,
         Input.of(

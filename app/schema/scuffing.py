@@ -6,12 +6,14 @@ from typing import Annotated, Any, ClassVar, Self
 from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
+from app.schema.cooling import GearCooling
 from app.schema.gears import GearMaterials, ScuffingGears
 from app.schema.line_contact import FilmModel
 from app.schema.model import Derived, Group, Request, Response, Section, groups
 from app.schema.oil import Oil
 from app.schema.quantities import Input, View
 from solvers.contact import ehl
+from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs
 from solvers.lubricants import OilInUse
 from solvers.materials import Solid
@@ -19,6 +21,7 @@ from solvers.oils import OilChoice
 from solvers.scuffing import inputs as si
 from solvers.scuffing import results, safety_results
 from solvers.scuffing.micropitting import results as film_results
+from solvers.scuffing.thermal.pair_heat import is_beyond_the_estimate
 
 
 class FlankModifications(Section, of=si.Modifications, without=("lead_curve",)):
@@ -152,7 +155,12 @@ groups(
         "Safety factor against scuffing.",
         {
             "blok_factor": View(
-                headline=1, limit=1.0, bound="lower", needs="temperatures.scuffing_c", verdict=".verdict"
+                headline=1,
+                limit=1.0,
+                bound="lower",
+                needs="temperatures.scuffing_c",
+                verdict=".verdict",
+                band="heat.band.safety",
             ),
             "feature_line_factor": View(limit=1.0, bound="lower"),
             "thermal_ehl_factor": View(limit=1.0, bound="lower"),
@@ -200,14 +208,21 @@ class ContactTemperatures(Section, of=si.Temperatures):
 
     @model_validator(mode="after")
     def one_bulk(self) -> Self:
-        """One bulk temperature."""
-        if self.bulk_method == "estimated" and self.bulk_c is not None:
-            raise PydanticCustomError("exclusive", "bulk_c and an estimated bulk are both given; keep one")
+        """One bulk temperature; the heat balance is for jets."""
+        if self.bulk_method != "given" and self.bulk_c is not None:
+            method = "an estimated bulk" if self.bulk_method == "estimated" else "a bulk by heat balance"
+            raise PydanticCustomError("exclusive", "bulk_c and {method} are both given; keep one", {"method": method})
+        if self.bulk_method == "heat_balance" and self.oil_supply != "spray":
+            raise PydanticCustomError(
+                "exclusive",
+                "the heat balance is for gears under jets, oil_supply spray; for gears that dip into oil set bulk_method "
+                "to estimated, or give bulk_c as measured",
+            )
         return self
 
     def unused(self) -> dict[str, bool]:
-        """Mark the bulk temperature as unused if it is estimated."""
-        return {"bulk_c": self.bulk_method == "estimated"}
+        """Mark the bulk temperature as unused unless it is given."""
+        return {"bulk_c": self.bulk_method != "given"}
 
 
 class ScuffingTemperatures(ContactTemperatures):
@@ -217,7 +232,7 @@ class ScuffingTemperatures(ContactTemperatures):
     def known_bulk(self) -> Self:
         """The method `given` needs a bulk temperature."""
         if self.bulk_method == "given" and self.bulk_c is None:
-            raise PydanticCustomError("missing_bulk", "give bulk_c, or bulk_method estimated")
+            raise PydanticCustomError("missing_bulk", "give bulk_c, or bulk_method estimated or heat_balance")
         return self
 
 
@@ -241,7 +256,7 @@ class Micropitting(Section, of=si.MicropittingCheck):
         }
 
 
-class MeshModel(LoadDistributionModel, FilmModel, of=si.ScuffingInputs, without=("line", "micropitting")):
+class MeshModel(LoadDistributionModel, FilmModel, of=si.ScuffingInputs, without=("line", "micropitting", "cooling")):
     """Choices where the paper leaves room, and physics and resolution of the film."""
 
     friction: si.FrictionMethod = "iso_tr_13989"
@@ -347,7 +362,7 @@ class MeshInOil(Request):
         of_the_film = (name for name in Micropitting.model_fields if not name.startswith("wear"))
         return dict.fromkeys((f"micropitting.{name}" for name in of_the_film), dry) | {
             "micropitting.quality_grade": dry or not standard,
-            "temperatures.oil_supply": self.temperatures.bulk_method != "estimated" and not standard,
+            "temperatures.oil_supply": self.temperatures.bulk_method == "given" and not standard,
             "lubricant": dry,
             "temperatures": dry,
             "model.rheology": no_film,
@@ -374,17 +389,46 @@ class MeshInOil(Request):
 
 
 class ScuffingRequest(MeshInOil, GearPairRequest):
-    """A loaded gear pair, its oil and temperatures."""
+    """A loaded gear pair, its oil, its cooling and its temperatures."""
 
     friction_coefficient: Annotated[float | None, PRACTICAL_FRICTION] = None
     lubricant: Annotated[Oil, Input("oil")] = Oil()
     temperatures: Annotated[ScuffingTemperatures, Input("temperatures", text="temperatures of teeth and oil")] = (
         ScuffingTemperatures()
     )
+    cooling: Annotated[GearCooling, Input.of(si.ScuffingInputs, "cooling")] = GearCooling()
     micropitting: Annotated[Micropitting | None, Input.of(si.ScuffingInputs, "micropitting")] = None
     model: Annotated[ScuffingModel, Input("model", text="choices where the paper leaves room", advanced=True)] = (
         ScuffingModel()
     )
+
+    @model_validator(mode="after")
+    def balance_where_the_estimate_ends(self) -> Self:
+        """Ask for the heat balance of jets where no method is named, if the pair is fast or its cooling is given."""
+        temperatures = self.temperatures
+        if "bulk_method" in temperatures.model_fields_set or temperatures.oil_supply != "spray":
+            return self
+        if not self.lubricant.known or not (self.cooling.is_given or self._is_fast()):
+            return self
+        balanced = temperatures.model_copy(update={"bulk_method": "heat_balance"})
+        balanced.model_fields_set.discard("bulk_method")  # is a default
+        request = self.model_copy(update={"temperatures": balanced})
+        if "temperatures" not in self.model_fields_set:
+            request.model_fields_set.discard("temperatures")
+        return request
+
+    def _is_fast(self) -> bool:
+        """Whether the pitch line runs faster than the estimate of the bulk temperature holds for."""
+        try:
+            return is_beyond_the_estimate(self.gears.si(GearPairInputs), self.load.si(si.Load).pinion_speed)
+        except InvalidInput:  # no pair; the solver says why
+            return False
+
+    def unused(self) -> dict[str, bool]:
+        """Also the cooling without a heat balance, and what a pair has no part of."""
+        balanced = self.lubricant.known and self.temperatures.bulk_method == "heat_balance"
+        of_a_unit = ("cooling.bearing_film_share", "cooling.casing.mass_kg")
+        return super().unused() | {"cooling": not balanced} | dict.fromkeys(of_a_unit, True)
 
     def inputs(self) -> si.ScuffingInputs:
         """The solver's inputs."""

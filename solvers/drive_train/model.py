@@ -87,7 +87,7 @@ def solve(inputs: DriveTrainInputs, start: FloatArray | None = None) -> DriveTra
     system, mesh, thermal = prepared.unit, prepared.mesh, prepared.thermal
     found = settle(inputs, prepared, start)
     spread = distribution(inputs.mesh.distribution, mesh.prepared, found.balance)
-    contact, spread = in_force(contact_of(inputs), spread)
+    contact, spread, _ = in_force(contact_of(inputs), spread)
     inputs = replace(inputs, mesh=contact)
     hubs = hubs_of(system, found)
     couplings = coupling_results(system, found, hubs)

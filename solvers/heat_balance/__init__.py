@@ -16,6 +16,7 @@ from solvers.heat_balance.model import (
     HeatBalanceInputs,
     backlash_loss,
     calibrated,
+    cooling_in_force,
     network_of,
     unusual_values,
 )
@@ -41,6 +42,7 @@ __all__ = [
     "WarmUp",
     "backlash_loss",
     "calibrated",
+    "cooling_in_force",
     "cooling_oil",
     "cylinders_capacity",
     "journal_leakage",

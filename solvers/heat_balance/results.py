@@ -41,8 +41,8 @@ class BearingHeat:
 class HeatFlow:
     """Flow of heat between two nodes of the network [W]."""
 
-    from_node: str = quantity("origin of the heat", text="node of the network, or source")
-    to_node: str = quantity("target of the heat", text="node of the network, or oil, ambient")
+    from_: str = quantity("origin of the heat", text="node of the network, or source")
+    to: str = quantity("target of the heat", text="node of the network, or oil, ambient")
     carrier: str = quantity("what carries the heat")
     power: float = quantity("heat flow", "P", unit="w")
 
@@ -85,6 +85,18 @@ class HeatBand:
     pinion_flank: Range = quantity("band of the pinion's flank", unit="c", index="low, high")
     wheel_flank: Range = quantity("band of the wheel's flank", unit="c", index="low, high")
     safety: Range | None = quantity("band of the safety", default=None, index="low, high")
+
+
+@record
+class CoolingInForce:
+    """What of the cooling a request may leave open, as the balance has it: flow [m^3/s], losses [W]."""
+
+    gear_flow: float = quantity("oil flow to the gears used", "Q_g", unit="l_per_min")
+    wetting_share: float = quantity("wetting share used", "w")
+    rewetting_share: float = quantity("rewetting share used", "w_r")
+    fling_off_factor: float = quantity("fling-off factor used", "f")
+    windage: float = quantity("windage used", "P_wind", unit="w")
+    other: float = quantity("other losses used", "P_other", unit="w")
 
 
 @record
