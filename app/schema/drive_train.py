@@ -134,7 +134,15 @@ class ToothHeat(Section, of=si.Heat):
 class TrainTemperatures(ContactTemperatures, of=si.DriveTrainInputs, only=("local_bulk",)):
     """Temperatures of contact and oil."""
 
-    bulk_method: Literal["given", "estimated"] = "estimated"
+    bulk_method: Annotated[
+        Literal["given", "estimated"],
+        Input.of(
+            mesh.Temperatures,
+            "bulk_method",
+            text="given, or estimated from oil, its supply and flash; estimated if none is given",
+            assumed="estimated from the oil, its supply and the mean flash temperature, of flanks flooded with oil",
+        ),
+    ] = "estimated"
     bulk_c: Annotated[
         float | None,
         Input.of(

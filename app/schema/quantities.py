@@ -53,7 +53,7 @@ class _Declaration(Quantity):
 class Input(_Declaration):
     """The declaration of a field of a request."""
 
-    in_schema = ("symbol", "source", "assumed", "default_text", "advanced", "tolerance", "relative_tolerance")
+    in_schema = ("symbol", "source", "assumed", "default_text", "advanced", "folded", "tolerance", "relative_tolerance")
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
         """The type's own schema; numbers are finite, in range, no text or booleans; lists have their length."""

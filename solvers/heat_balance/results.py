@@ -65,8 +65,8 @@ class HeatLosses:
 class Balance:
     """Heat supplied and removed [W], and their difference over the heat supplied."""
 
-    supplied: float = quantity("heat supplied", unit="w")
-    removed: float = quantity("heat removed", unit="w")
+    supplied: float = quantity("heat supplied", "P_in", unit="w")
+    removed: float = quantity("heat removed", "P_out", unit="w")
     error: float = quantity("error of the balance", text="difference over the heat supplied")
 
 
@@ -82,9 +82,9 @@ class BulkEstimates:
 class HeatBand:
     """Least and greatest temperatures [K] if much or little oil reaches the flanks, and the safety with them."""
 
-    pinion_flank: Range = quantity("band of the pinion's flank", unit="c", index="low, high")
-    wheel_flank: Range = quantity("band of the wheel's flank", unit="c", index="low, high")
-    safety: Range | None = quantity("band of the safety", default=None, index="low, high")
+    pinion_flank: Range = quantity("band of the pinion's flank", "θ_F1", unit="c", index="low, high")
+    wheel_flank: Range = quantity("band of the wheel's flank", "θ_F2", unit="c", index="low, high")
+    safety: Range | None = quantity("band of the safety", "S_B", default=None, index="low, high")
 
 
 @record
@@ -123,7 +123,7 @@ class Heat:
     estimates: BulkEstimates = quantity("estimates of the bulk")
     band: HeatBand | None = quantity("band of the balance")
     wheel_deviation: float | None = quantity(
-        "deviation of the wheel", unit="k", text="calculated less measured, where both gears are measured"
+        "deviation of the wheel", "Δθ_2", unit="k", text="calculated less measured, where both gears are measured"
     )
     backlash_loss: float | None = quantity(
         "loss of backlash by heat",

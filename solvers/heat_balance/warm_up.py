@@ -42,7 +42,7 @@ class WarmUp:
         "time to 95 %", "t_95", unit="s", index="nodes", text="null for a node that stays within 5 % or is not there"
     )
     greatest_difference: float = quantity("greatest difference of the bodies", "Δθ_max", unit="k")
-    greatest_difference_at: float = quantity("time of the greatest difference", unit="s")
+    greatest_difference_at: float = quantity("time of the greatest difference", "t_Δ", unit="s")
     curves: WarmUpCurves = quantity("over time", detail="curves")
 
 
