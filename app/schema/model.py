@@ -431,6 +431,10 @@ class Response(Group):
         """The solver's result that the response was read from, in SI; None where there is none."""
         return self._result
 
+    def remarks(self) -> dict[str, str]:
+        """How well results are known, where that is to stand beside them: texts by path."""
+        return {}
+
     def read_from(self, result: Any) -> Self:
         """The response with the solver's result kept beside it, for its figures."""
         self._result = result

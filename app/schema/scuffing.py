@@ -15,6 +15,7 @@ from app.schema.quantities import Input, View
 from solvers.contact import ehl
 from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs
+from solvers.heat_balance.notices import KNOWN_WITHIN
 from solvers.lubricants import OilInUse
 from solvers.materials import Solid
 from solvers.oils import OilChoice
@@ -282,6 +283,7 @@ ESTER_FACTOR = (
     "coefficient of friction is given, that of a polyalphaolefin"
 )
 ESTER_FILM = f"{ESTER_FACTOR}; the film against micropitting takes the pressure-viscosity coefficient of a mineral oil"
+NOT_VALIDATED, KNOWN = "not_validated", f"known to about ±{KNOWN_WITHIN:g} K"
 GIVEN_BULK = (
     "a given bulk temperature does not follow the oil: with a hotter oil alone the stated safety rises, because it "
     "counts the temperatures above the oil's"
@@ -448,3 +450,7 @@ class ScuffingResponse(LoadDistributionResponse, of=safety_results.Scuffing):
 
     flank: HeatedFlankFields | None
     derived: ScuffingOilDerived
+
+    def remarks(self) -> dict[str, str]:
+        """Say how well the bulk temperature of a heat balance is known that no measured temperature narrows."""
+        return {"contact_temperature.bulk_c": KNOWN} if NOT_VALIDATED in {each.code for each in self.warnings} else {}

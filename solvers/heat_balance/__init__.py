@@ -9,6 +9,7 @@ from solvers.heat_balance import model
 from solvers.heat_balance.bearings import Journal, Operation, journal_leakage
 from solvers.heat_balance.capacities import Capacities, cylinders_capacity, loaded_teeth_capacity
 from solvers.heat_balance.conduction import rod_conductance
+from solvers.heat_balance.flow_curve import FlowCurve, over_the_flow
 from solvers.heat_balance.inputs import Casing, Cooling, Measured
 from solvers.heat_balance.losses import MeshHeat, share_to_pinion
 from solvers.heat_balance.model import (
@@ -33,6 +34,7 @@ __all__ = [
     "Cooling",
     "CoolingOil",
     "GearGeometry",
+    "FlowCurve",
     "Heat",
     "HeatBalanceInputs",
     "Journal",
@@ -48,6 +50,7 @@ __all__ = [
     "journal_leakage",
     "loaded_teeth_capacity",
     "network_of",
+    "over_the_flow",
     "rod_conductance",
     "share_to_pinion",
     "solve",

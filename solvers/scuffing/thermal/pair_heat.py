@@ -51,19 +51,24 @@ def pair_heat(inputs: ScuffingInputs, distribution: LoadDistribution, estimate: 
         `heat_balance` or `thermal_runaway`.
 
     """
+    heat = heat_balance.solve(balance_inputs(inputs, distribution, estimate))
+    return with_backlash_loss(heat, distribution.path_of_contact.pair)
+
+
+def balance_inputs(
+    inputs: ScuffingInputs, distribution: LoadDistribution, estimate: float | None = None
+) -> HeatBalanceInputs:
+    """Return what the balance of a pair depends on; parameters are those of `pair_heat`."""
     oil, path = inputs.known_oil, distribution.path_of_contact
     assert oil is not None
-    heat = heat_balance.solve(
-        HeatBalanceInputs(
-            cooling=inputs.cooling,
-            oil=cooling_oil(oil, inputs.temperatures.oil),
-            gears=gear_geometries(inputs.distribution, path),
-            mesh=mesh_heat(inputs, distribution),
-            centre_distance=path.pair.centre_distance,
-            iso_tr_13989_bulk=estimate,
-        )
+    return HeatBalanceInputs(
+        cooling=inputs.cooling,
+        oil=cooling_oil(oil, inputs.temperatures.oil),
+        gears=gear_geometries(inputs.distribution, path),
+        mesh=mesh_heat(inputs, distribution),
+        centre_distance=path.pair.centre_distance,
+        iso_tr_13989_bulk=estimate,
     )
-    return with_backlash_loss(heat, path.pair)
 
 
 def with_backlash_loss(heat: Heat, pair: GearPair) -> Heat:
