@@ -66,16 +66,44 @@ class Measured:
     """
 
     pinion_flank: float | None = quantity(
-        "measured flank of the pinion", "θ_F1", unit="c", default=None, ge=-50, le=400, tolerance=3, default_text="not measured"
+        "measured flank of the pinion",
+        "θ_F1",
+        unit="c",
+        default=None,
+        ge=-50,
+        le=400,
+        tolerance=3,
+        default_text="not measured",
     )
     pinion_body: float | None = quantity(
-        "measured body of the pinion", "θ_B1", unit="c", default=None, ge=-50, le=400, tolerance=3, default_text="not measured"
+        "measured body of the pinion",
+        "θ_B1",
+        unit="c",
+        default=None,
+        ge=-50,
+        le=400,
+        tolerance=3,
+        default_text="not measured",
     )
     wheel_flank: float | None = quantity(
-        "measured flank of the wheel", "θ_F2", unit="c", default=None, ge=-50, le=400, tolerance=3, default_text="not measured"
+        "measured flank of the wheel",
+        "θ_F2",
+        unit="c",
+        default=None,
+        ge=-50,
+        le=400,
+        tolerance=3,
+        default_text="not measured",
     )
     wheel_body: float | None = quantity(
-        "measured body of the wheel", "θ_B2", unit="c", default=None, ge=-50, le=400, tolerance=3, default_text="not measured"
+        "measured body of the wheel",
+        "θ_B2",
+        unit="c",
+        default=None,
+        ge=-50,
+        le=400,
+        tolerance=3,
+        default_text="not measured",
     )
     drain: float | None = quantity(
         "measured drain",

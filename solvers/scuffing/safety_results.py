@@ -362,7 +362,9 @@ class Scuffing:
     )
     wear: Wear | None = quantity("wear", text="mild wear; null without a wear coefficient")
     heat: Heat | None = quantity(
-        "heat balance", default=None, text="null unless the bulk temperature is asked for by heat balance, of a known oil"
+        "heat balance",
+        default=None,
+        text="null unless the bulk temperature is asked for by heat balance, of a known oil",
     )
     flank_flash: FloatArray
     flank_film_ratio: FloatArray | None
