@@ -216,8 +216,8 @@ class ContactTemperatures(Section, of=si.Temperatures):
         if self.bulk_method == "heat_balance" and self.oil_supply != "spray":
             raise PydanticCustomError(
                 "exclusive",
-                "the heat balance is for gears under jets, oil_supply spray; for gears that dip into oil set bulk_method "
-                "to estimated, or give bulk_c as measured",
+                "the heat balance is for gears under jets, oil_supply spray; for gears that dip into oil set "
+                "bulk_method to estimated, or give bulk_c as measured",
             )
         return self
 

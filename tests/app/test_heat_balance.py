@@ -1,6 +1,8 @@
 """The heat balance of a pair in requests and answers: when it is taken, what it says, what is refused and drawn."""
 
 import json
+from collections.abc import Mapping
+from types import MappingProxyType
 from typing import Any
 
 import httpx
@@ -280,7 +282,7 @@ def test_no_equilibrium_is_no_solution_with_a_residual() -> None:
 # Views
 
 
-def figure(which: str, changes: dict[str, Any] = {}) -> Figure:
+def figure(which: str, changes: Mapping[str, Any] = MappingProxyType({})) -> Figure:
     calculation = BY_PATH[SCUFFING]
     request = calculation.request.model_validate(changed(FAST, changes))
     (declaration,) = (each for each in calculation.figures if each.name == which)

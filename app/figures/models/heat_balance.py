@@ -92,7 +92,7 @@ def _out_of(heat: Heat, gear: str) -> dict[str, float]:
 
 
 def temperatures(heat: Heat, oil: float) -> Figure:
-    """Draw the temperature of every node, flanks with their band, beside the oil [°C] and the estimates of standards."""
+    """Draw the temperature of every node, flanks with their band, beside the oil [°C] and the standard's estimate."""
     band = heat.band
     rows = [
         Row("pinion, loaded flank", heat.pinion.flank, Hue.VERMILLION, None if band is None else band.pinion_flank),

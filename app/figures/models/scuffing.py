@@ -87,7 +87,7 @@ def contact_temperature(inputs: ScuffingInputs, result: Scuffing) -> Figure:
 
 
 def _bulk_of(result: Scuffing, surface: str) -> float:
-    """Return the bulk temperature [°C] of pinion or wheel, where a heat balance tells their flanks apart, or of both."""
+    """Return the bulk temperature [°C] of pinion or wheel if a heat balance tells their flanks apart, else of both."""
     if result.heat is not None and surface in {"pinion", "wheel"}:
         return result.heat.pinion.flank if surface == "pinion" else result.heat.wheel.flank
     return present(result.contact_temperature).bulk

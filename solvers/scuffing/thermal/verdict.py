@@ -51,7 +51,8 @@ def unknown_points(paths: Sequence[ThermalPath], bulks: Sequence[FloatArray]) ->
 def hotter_surface(path: ThermalPath, bulk: FloatArray) -> FloatArray:
     """Return the temperature of the hotter surface at each point [K]; `bulk` [K] as in `unknown_points`."""
     pinion, wheel = np.broadcast_to(bulk, (2, path.pinion_flash.size))
-    return np.fmax(path.pinion_flash + pinion, path.wheel_flash + wheel)
+    hotter: FloatArray = np.fmax(path.pinion_flash + pinion, path.wheel_flash + wheel)
+    return hotter
 
 
 def largest_flash(lines: Sequence[CheckedLine], hottest: Peak | None, path_length: float) -> Flash:
