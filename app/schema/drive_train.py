@@ -3,10 +3,12 @@
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import partial
-from typing import Annotated, Any, ClassVar, Literal
+from typing import Annotated, Any, ClassVar, Self
 
-from pydantic import BeforeValidator, Field
+from pydantic import BeforeValidator, Field, model_validator
+from pydantic_core import PydanticCustomError
 
+from app.schema.cooling import GearCooling
 from app.schema.coupling import CrownedCoupling
 from app.schema.gears import BacklashGears, GearMaterials
 from app.schema.model import Group, Response, Section, groups
@@ -22,6 +24,7 @@ from app.schema.scuffing import (
     MeshModel,
     Micropitting,
     ScuffingLoad,
+    how_well_known,
 )
 from solvers.coupling.inputs import Coupling, CouplingDesign, CouplingOil
 from solvers.drive_train import derived, results
@@ -134,22 +137,14 @@ class ToothHeat(Section, of=si.Heat):
 class TrainTemperatures(ContactTemperatures, of=si.DriveTrainInputs, only=("local_bulk",)):
     """Temperatures of contact and oil."""
 
-    bulk_method: Annotated[
-        Literal["given", "estimated"],
-        Input.of(
-            mesh.Temperatures,
-            "bulk_method",
-            text="given, or estimated from oil, its supply and flash; estimated if none is given",
-            assumed="estimated from the oil, its supply and the mean flash temperature, of flanks flooded with oil",
-        ),
-    ] = "estimated"
     bulk_c: Annotated[
         float | None,
         Input.of(
             mesh.Temperatures,
             "bulk",
             text="bulk temperature of the contact, at which the oil enters",
-            default_text="the mean of the tooth temperatures where one of them is given, else estimated",
+            default_text="the mean of the tooth temperatures where one of them is given, else by the bulk temperature "
+            "method",
             assumed="the mean of the two tooth temperatures",
         ),
     ] = None
@@ -192,6 +187,7 @@ class DriveTrainRequest(MeshInOil):
     lubricant: Annotated[Oil, Input("oil")] = Oil()
     temperatures: Annotated[TrainTemperatures, Input("temperatures", text="of contact and oil")] = TrainTemperatures()
     friction_coefficient: Annotated[float | None, PRACTICAL_FRICTION] = None
+    cooling: Annotated[GearCooling, Input.of(mesh.ScuffingInputs, "cooling")] = GearCooling()
     micropitting: Annotated[Micropitting | None, Input.of(mesh.ScuffingInputs, "micropitting")] = None
     states: Annotated[list[si.State], Input.of(si.DriveTrainInputs, "states")] = Field(
         default_factory=partial(list[si.State], ("hot",))
@@ -200,9 +196,26 @@ class DriveTrainRequest(MeshInOil):
         TrainModel()
     )
 
+    @model_validator(mode="after")
+    def bodies_hold_the_pumped_heat(self) -> Self:
+        """With a heat balance tooth temperatures are its bodies, which hold the pumped heat."""
+        if not self.is_balanced:
+            return self
+        thermal = self.thermal
+        if "bulk_includes_pumping" in thermal.model_fields_set and not thermal.bulk_includes_pumping:
+            raise PydanticCustomError(
+                "exclusive", "thermal.bulk_includes_pumping is true with the heat balance, whose bodies hold that heat"
+            )
+        known = thermal.model_copy(update={"bulk_includes_pumping": True})
+        return self.model_copy(update={"thermal": known})
+
+    def running(self) -> tuple[GearPairInputs, mesh.Load]:
+        """The pair and its load."""
+        return self.gears.pair(RACK_A), self.operation.si(mesh.Load)
+
     def inputs(self) -> si.DriveTrainInputs:
         """The solver's inputs. Raises InvalidInput no_oil where a plain bearing has neither a viscosity nor an oil."""
-        scuffing = self.scuffing_inputs(self.gears.pair(RACK_A), self.operation.si(mesh.Load))
+        scuffing = self.scuffing_inputs(*self.running())
         return self.si(
             si.DriveTrainInputs,
             self.model,
@@ -252,6 +265,8 @@ class DriveTrainRequest(MeshInOil):
             super().unused()
             | dict.fromkeys(("couplings", "model.coupling_friction"), not coupled)
             | dict.fromkeys(("thermal.wall_response", "thermal.wall_response_wheel"), not self.effects.thermal)
+            | dict.fromkeys(("thermal.pinion_bulk_c", "thermal.wheel_bulk_c"), self.is_balanced)
+            | dict.fromkeys(("cooling.pumping_w", "cooling.casing.mass_kg"), True)
         )
 
 
@@ -283,7 +298,7 @@ groups(
             "blok_flank": View(limit=1.0, bound="lower"),
             "thermal_ehl_feature": View(limit=1.0, bound="lower"),
             "thermal_ehl_profile": View(limit=1.0, bound="lower"),
-            "minimum": View(headline=1, limit=1.0, bound="lower"),
+            "minimum": View(headline=1, limit=1.0, bound="lower", band="heat.band.safety"),
         },
     ),
     TrainFlash=(results.FlashPlaces, "Largest flash temperature by Blok."),
@@ -358,3 +373,7 @@ class TrainStates(Group, of=results.States):
 
 class DriveTrainResponse(Response, of=results.DriveTrainResult):
     """A gear unit whole; sections are missing where there is no solution."""
+
+    def remarks(self) -> dict[str, str]:
+        """Say how well the flanks of a heat balance are known that no measured temperature narrows."""
+        return how_well_known(self, "heat.pinion.flank_c", "heat.wheel.flank_c")

@@ -1,5 +1,6 @@
 """Scuffing of a gear pair: requests and answers of /v1/scuffing and of its load distribution."""
 
+from abc import abstractmethod
 from dataclasses import replace
 from typing import Annotated, Any, ClassVar, Self
 
@@ -332,6 +333,33 @@ class MeshInOil(Request):
             )
         return self
 
+    @model_validator(mode="after")
+    def balance_where_the_estimate_ends(self) -> Self:
+        """Ask for the heat balance of jets where no method is named, if the pair is fast or its cooling is given."""
+        temperatures = self.temperatures
+        if "bulk_method" in temperatures.model_fields_set or temperatures.oil_supply != "spray":
+            return self
+        if not self.lubricant.known or not (self.cooling.is_given or self._is_fast()):
+            return self
+        balanced = temperatures.model_copy(update={"bulk_method": "heat_balance"})
+        balanced.model_fields_set.discard("bulk_method")  # is a default
+        request = self.model_copy(update={"temperatures": balanced})
+        if "temperatures" not in self.model_fields_set:
+            request.model_fields_set.discard("temperatures")
+        return request
+
+    @abstractmethod
+    def running(self) -> tuple[GearPairInputs, si.Load]:
+        """The pair and its load."""
+
+    def _is_fast(self) -> bool:
+        """Whether the pitch line runs faster than the estimate of the bulk temperature holds for."""
+        try:
+            gears, load = self.running()
+            return is_beyond_the_estimate(gears, load.pinion_speed)
+        except InvalidInput:  # no pair; the solver says why
+            return False
+
     def scuffing_inputs(self, gears: GearPairInputs, load: si.Load) -> si.ScuffingInputs:
         """The solver's inputs for this pair and load."""
         return self.si(
@@ -342,6 +370,11 @@ class MeshInOil(Request):
             oil=self.lubricant.si(OilChoice).resolve(),
             film=self.model.si(ehl.Model),
         )
+
+    @property
+    def is_balanced(self) -> bool:
+        """Whether the bulk temperature comes from a heat balance."""
+        return self.lubricant.known and self.temperatures.bulk_method == "heat_balance"
 
     @property
     def _lubricant_factor_asked(self) -> bool:
@@ -365,6 +398,7 @@ class MeshInOil(Request):
         return dict.fromkeys((f"micropitting.{name}" for name in of_the_film), dry) | {
             "micropitting.quality_grade": dry or not standard,
             "temperatures.oil_supply": self.temperatures.bulk_method == "given" and not standard,
+            "cooling": not self.is_balanced,
             "lubricant": dry,
             "temperatures": dry,
             "model.rheology": no_film,
@@ -404,41 +438,27 @@ class ScuffingRequest(MeshInOil, GearPairRequest):
         ScuffingModel()
     )
 
-    @model_validator(mode="after")
-    def balance_where_the_estimate_ends(self) -> Self:
-        """Ask for the heat balance of jets where no method is named, if the pair is fast or its cooling is given."""
-        temperatures = self.temperatures
-        if "bulk_method" in temperatures.model_fields_set or temperatures.oil_supply != "spray":
-            return self
-        if not self.lubricant.known or not (self.cooling.is_given or self._is_fast()):
-            return self
-        balanced = temperatures.model_copy(update={"bulk_method": "heat_balance"})
-        balanced.model_fields_set.discard("bulk_method")  # is a default
-        request = self.model_copy(update={"temperatures": balanced})
-        if "temperatures" not in self.model_fields_set:
-            request.model_fields_set.discard("temperatures")
-        return request
-
-    def _is_fast(self) -> bool:
-        """Whether the pitch line runs faster than the estimate of the bulk temperature holds for."""
-        try:
-            return is_beyond_the_estimate(self.gears.si(GearPairInputs), self.load.si(si.Load).pinion_speed)
-        except InvalidInput:  # no pair; the solver says why
-            return False
+    def running(self) -> tuple[GearPairInputs, si.Load]:
+        """The pair and its load."""
+        return self.gears.si(GearPairInputs), self.load.si(si.Load)
 
     def unused(self) -> dict[str, bool]:
-        """Also the cooling without a heat balance, and what a pair has no part of."""
-        balanced = self.lubricant.known and self.temperatures.bulk_method == "heat_balance"
+        """Also what a pair has no part of."""
         of_a_unit = ("cooling.bearing_film_share", "cooling.casing.mass_kg")
-        return super().unused() | {"cooling": not balanced} | dict.fromkeys(of_a_unit, True)
+        return super().unused() | dict.fromkeys(of_a_unit, True)
 
     def inputs(self) -> si.ScuffingInputs:
         """The solver's inputs."""
-        return self.scuffing_inputs(self.gears.si(GearPairInputs), self.load.si(si.Load))
+        return self.scuffing_inputs(*self.running())
 
 
 class ScuffingOilDerived(ScuffingDerived, of=(safety_results.ScuffingDerived, OilInUse)):
     """Load and lengths, and the oil as it enters the contact."""
+
+
+def how_well_known(response: Response, *paths: str) -> dict[str, str]:
+    """Say beside temperatures of a heat balance how well they are known if no measured one narrows them."""
+    return dict.fromkeys(paths, KNOWN) if NOT_VALIDATED in {each.code for each in response.warnings} else {}
 
 
 class HeatedFlankFields(Group, of=safety_results.HeatedFlank):
@@ -453,4 +473,4 @@ class ScuffingResponse(LoadDistributionResponse, of=safety_results.Scuffing):
 
     def remarks(self) -> dict[str, str]:
         """Say how well the bulk temperature of a heat balance is known that no measured temperature narrows."""
-        return {"contact_temperature.bulk_c": KNOWN} if NOT_VALIDATED in {each.code for each in self.warnings} else {}
+        return how_well_known(self, "contact_temperature.bulk_c")

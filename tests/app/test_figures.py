@@ -50,7 +50,7 @@ FIGURES = {
     "/v1/scuffing/line-contact": "contact film-temperature heat",
     "/v1/drive-train": (
         "shafts section shaft-lines gap slope-parts face-load flank-load contact-temperature micropitting wear "
-        "journals thrust losses"
+        "journals thrust losses heat-flows node-temperatures oil-flow"
     ),
 }
 BALANCE = {"safety-band", "heat-flows", "node-temperatures", "oil-flow"}

@@ -16,6 +16,7 @@ from app.examples import examples
 from app.figures.data import Figure, NoFigure
 from app.pages.results import cards, groups
 from app.schema.scuffing import ScuffingRequest
+from solvers.lubricants import Lubricant
 from tests.support.fast_pairs import random_request
 from tests.support.requests import GONE, accepted, changed, solved
 
@@ -365,3 +366,100 @@ def test_random_pairs_converge_or_say_why_not(count: int) -> None:
     outcomes = [check(random_request(random)) for _ in range(count)]
     assert outcomes.count("ok") > 0.8 * count
     assert set(outcomes) <= {"ok", "no_solution", "no_tip_clearance", "oil_temperature", "pointed_tooth"}
+
+
+# Units
+
+UNIT = "/v1/drive-train"
+TURBO, TYPED = "starter-turbo-gear-heat", "starter-turbo-gear-drive-train"
+
+
+def unit(changes: Mapping[str, Any] = MappingProxyType({}), name: str = TURBO) -> dict[str, Any]:
+    return solved(UNIT, examples()[name].request, changes)
+
+
+def test_a_unit_takes_it_above_60_metres_per_second_unless_a_bulk_is_typed() -> None:
+    def method_of(changes: dict[str, Any], name: str = TURBO) -> Any:
+        return unit(changes | {"cooling": GONE}, name)["inputs"]["temperatures"]["bulk_method"]
+
+    assert method_of({}) == "heat_balance"
+    assert method_of({}, TYPED) == "given"
+    assert method_of({"temperatures.bulk_c": 90}) == "given"
+    assert method_of({"thermal.pinion_bulk_c": 95, "thermal.wheel_bulk_c": 80}) == "given"
+    assert method_of({"temperatures.oil_supply": "dip"}) == "estimated"
+    assert method_of({"operation.pinion_speed_rpm": 4000}) == "estimated"
+
+
+def test_a_units_balance_is_told_in_full() -> None:
+    found = unit()
+    heat = found["heat"]
+    assert len(heat["bearings"]) == 4
+    assert heat["gear_flow_l_per_min"] == pytest.approx(140)
+    assert heat["total_flow_l_per_min"] > 200
+    low, high = heat["band"]["safety"]
+    assert low < found["safety"]["minimum"] < high
+    assert found["inputs"]["thermal"]["bulk_includes_pumping"] is True
+    assert found["derived"]["cooling"]["gear_flow_l_per_min"] == pytest.approx(140)
+    films = [
+        bearing["viscosity_pa_s"]
+        for shaft in ("pinion_shaft", "wheel_shaft")
+        for bearing in found["derived"][shaft]["bearings"]
+    ]
+    oil = Lubricant(0.0095, 360.0, 16e-9, 0.03, 850.0)
+    at_films = [oil.viscosity_at(0.0, bearing["film_c"] + 273.15) for bearing in heat["bearings"]]
+    assert films == pytest.approx(at_films, rel=2e-3)
+    assumed = {each["field"] for each in found["assumptions"]}
+    assert "cooling.bearing_film_share" in assumed
+    assert not {"cooling.pumping_w", "thermal.pinion_bulk_c", "thermal.wheel_bulk_c"} & assumed
+    losses = found["losses"]
+    parts = ("coupling", "pumping", "mesh", "bearings", "oil_acceleration", "windage", "other")
+    assert losses["total_w"] == pytest.approx(sum(losses[f"{part}_w"] for part in parts))
+    again = solved(UNIT, found["inputs"])
+    assert {**again, "assumptions": found["assumptions"]} == found
+
+
+def test_a_typed_bulk_keeps_a_units_answer() -> None:
+    found = unit(name=TYPED)
+    assert found["heat"] is None
+    assert found["losses"]["windage_w"] is None
+    assert "not_validated" not in codes(found)
+
+
+def test_one_measured_temperature_narrows_a_units_band() -> None:
+    plain, known = unit(), unit(name="starter-turbo-gear-heat-measured")
+    assert known["heat"]["pinion"]["body_c"] == pytest.approx(80, abs=1e-3)
+    widths = [np.diff(found["heat"]["band"]["safety"])[0] for found in (plain, known)]
+    assert widths[1] < 0.5 * widths[0]
+
+
+def test_bodies_of_a_balance_hold_the_pumped_heat() -> None:
+    with pytest.raises(InvalidBody) as refusal:
+        answer(UNIT, changed(examples()[TURBO].request, {"thermal.bulk_includes_pumping": False}))
+    (fault,) = refusal.value.faults
+    assert fault.code == "exclusive"
+
+
+def test_a_unit_without_an_oil_has_no_balance() -> None:
+    journals = {
+        f"{shaft}.bearings.{place}.viscosity_pa_s": 0.014
+        for shaft in ("pinion_shaft", "wheel_shaft")
+        for place in (0, 1)
+    }
+    found = unit({"lubricant": GONE, "temperatures.bulk_method": "heat_balance", **journals})
+    assert found["heat"] is None
+    assert "no_oil" in codes(found)
+
+
+@pytest.mark.parametrize("which", ["heat-flows", "node-temperatures", "oil-flow", "losses"])
+def test_figures_of_a_unit(which: str) -> None:
+    calculation = BY_PATH[UNIT]
+    request = calculation.request.model_validate(examples()[TURBO].request)
+    response = evaluate(calculation, request)
+    (declaration,) = (each for each in calculation.figures if each.name == which)
+    shown = declaration.figure(request, response)
+    assert shown.panels
+    if which == "node-temperatures":
+        assert {row.value for row in shown.panels[0].rows} >= {each.outlet_c for each in response.heat.bearings}
+    if which == "oil-flow":
+        pinion = shown.panels[0].lines[0]
+        assert np.interp(140.0, pinion.x, pinion.y) == pytest.approx(response.heat.pinion.flank_c, abs=1e-3)

@@ -21,7 +21,7 @@ KILOWATT, KELVIN = UNITS["kw"].scale, UNITS["c"].offset
 ROOM = 0.3  # of the range, beside bars of temperatures: they do not start at zero
 SMALL = 2e-3  # of the heat supplied: smaller flows are left out
 FLOWS = np.geomspace(0.25, 4.0, 33)  # times that of the case
-WETTINGS = ("all oil on the flanks", "nominal", "little oil on the flanks")
+CASES = ("cool end of the band", "nominal", "hot end of the band")
 SUPPLY = {
     "friction of the mesh": "friction of the mesh",
     "friction of the bearing": "friction of the bearings",
@@ -152,23 +152,29 @@ def _own_flow(heat: Heat) -> Level:
 
 
 def oil_flow(inputs: ScuffingInputs, result: Scuffing, curve: FlowCurve) -> Figure:
-    """Draw flanks, drain and safety over the oil flow, with the flows at which the safety reaches the verdicts' limits.
+    """Draw flanks, drain and safety of a pair over the oil flow, with the flows at which verdicts change."""
+    heat, safety, largest = known(result.heat), result.safety, result.flash.blok_max
+    scuffing = None if safety is None or largest is None else (safety.scuffing, largest)
+    return over_the_oil_flow(heat, curve, inputs.temperatures.oil - KELVIN, scuffing)
 
-    The flash temperature is that of the case.
+
+def over_the_oil_flow(heat: Heat, curve: FlowCurve, oil: float, scuffing: tuple[float, float] | None) -> Figure:
+    """Draw flanks and drain over the oil flow, and the safety with the flows at which its verdict changes.
+
+    `scuffing` are the scuffing temperature [°C] and the rise of the contact over the bulk [K], which the flow does not
+    change; `oil` is the temperature of the supplied oil [°C].
     """
-    heat = known(result.heat)
-    panels, finding = what_the_flow_does(heat, curve), _flank_change(heat, curve)
-    safety, largest = result.safety, result.flash.blok_max
-    if safety is not None and largest is not None:
-        flow = curve.flow / UNITS["l_per_min"].scale
+    panels = what_the_flow_does(heat, curve)
+    if scuffing is not None:
+        limit, rise = scuffing
         bulk = (curve.pinion_flank + curve.wheel_flank) / 2 - KELVIN
-        factors = _factors(safety, inputs.temperatures.oil - KELVIN, bulk + largest)
-        line = Line("safety", flow, factors, named=False)
-        marks = [mark for limit in (HIGH_RISK_BELOW, LOW_RISK_ABOVE) for mark in _reached(line, limit)]
+        factors = _factors(limit, oil, bulk + rise)
+        line = Line("safety", curve.flow / UNITS["l_per_min"].scale, factors, named=False)
+        marks = [mark for verdict in (HIGH_RISK_BELOW, LOW_RISK_ABOVE) for mark in _reached(line, verdict)]
         y = axis(Safety, "blok_factor", "safety factor against scuffing")
         levels = [*_verdicts(factors), Level(heat.gear_flow, "", vertical=True)]
         panels.append(Panel(x=panels[0].x, y=y, lines=[line], marks=marks, levels=levels))
-    return Figure(finding, panels, unsolved=int(np.isnan(curve.drain).sum()))
+    return Figure(_flank_change(heat, curve), panels, unsolved=int(np.isnan(curve.drain).sum()))
 
 
 def _flank_change(heat: Heat, curve: FlowCurve) -> str:
@@ -179,9 +185,9 @@ def _flank_change(heat: Heat, curve: FlowCurve) -> str:
     return f"twice the oil: pinion flank {number(double, '°C')} instead of {number(heat.pinion.flank, '°C')}"
 
 
-def _factors(safety: Safety, oil: float, contact: Values) -> Values:
-    """Return the safety at contact temperatures [°C]; NaN where it has no meaning."""
-    return values([safety_factor(safety.scuffing, oil, float(each)) if each > oil else None for each in contact])
+def _factors(scuffing: float, oil: float, contact: Values) -> Values:
+    """Return the safety against a scuffing temperature at contact temperatures [°C]; NaN where it has no meaning."""
+    return values([safety_factor(scuffing, oil, float(each)) if each > oil else None for each in contact])
 
 
 def _verdicts(factors: Values) -> list[Level]:
@@ -214,8 +220,8 @@ def safety_over_the_band(inputs: ScuffingInputs, result: Scuffing) -> Figure:
     estimate = heat.estimates.iso_tr_13989_bulk
     ends = sorted([*cases, *([] if estimate is None else [estimate])])
     bulk = np.linspace(ends[0] - 2.0, ends[-1] + 2.0, 101)
-    line = Line("safety", bulk, _factors(safety, oil, bulk + largest), named=False)
-    points = dict(zip(WETTINGS, cases, strict=True)) | ({} if estimate is None else {"ISO/TR 13989-1": estimate})
+    line = Line("safety", bulk, _factors(safety.scuffing, oil, bulk + largest), named=False)
+    points = dict(zip(CASES, cases, strict=True)) | ({} if estimate is None else {"ISO/TR 13989-1": estimate})
     marks = []
     for name, at in points.items():
         factor = safety_factor(safety.scuffing, oil, at + largest)

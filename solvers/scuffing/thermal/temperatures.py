@@ -43,12 +43,14 @@ def in_force(
 ) -> tuple[ScuffingInputs, LoadDistribution, Heat | None]:
     """Inputs and load distribution with friction, temperatures and oil as numbers, and the heat balance if asked for.
 
+    Flanks that are known already, as a unit's are, have no balance of their own.
     Raises what its parts raise: `with_friction`, `pair_heat` and `with_temperatures`.
     """
     inputs, distribution = with_friction(inputs, distribution)
-    heat = None
-    if inputs.temperatures.bulk_method == "heat_balance" and inputs.known_oil is not None:
-        heat = pair_heat(inputs, distribution, _estimated_bulk(inputs, distribution))
+    heat, temperatures = None, inputs.temperatures
+    unknown = temperatures.bulk_method == "heat_balance" and temperatures.flanks is None
+    if unknown and inputs.known_oil is not None:
+        heat = pair_heat(inputs, distribution, estimated_bulk(inputs, distribution))
         inputs = with_flanks(inputs, heat)
     return with_temperatures(inputs, distribution), distribution, heat
 
@@ -85,7 +87,7 @@ def with_temperatures(inputs: ScuffingInputs, distribution: LoadDistribution) ->
     if oil is None:
         return replace(inputs, temperatures=replace(temperatures, bulk=None))
     if temperatures.bulk_method == "estimated":
-        temperatures = replace(temperatures, bulk=_estimated_bulk(inputs, distribution))
+        temperatures = replace(temperatures, bulk=estimated_bulk(inputs, distribution))
     if temperatures.scuffing_test is not None:
         test = temperatures.scuffing_test
         factor = _oil_factor(oil, TEST_TEMPERATURE) if test.lubricant_factor is None else test.lubricant_factor
@@ -166,7 +168,7 @@ def _oil_factor(oil: OilSheet | Lubricant, temperature: float) -> float:
     return lubricant_factor(lubricant.viscosity_at(0.0, temperature), lubricant.kind)
 
 
-def _estimated_bulk(inputs: ScuffingInputs, distribution: LoadDistribution) -> float | None:
+def estimated_bulk(inputs: ScuffingInputs, distribution: LoadDistribution) -> float | None:
     """Return the bulk temperature [K] by the mean flash temperature; None where that is not defined.
 
     The mean is that of the part that is checked. A tooth has one bulk temperature, whichever end of its face carries:
