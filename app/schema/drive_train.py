@@ -27,11 +27,12 @@ from app.schema.scuffing import (
     how_well_known,
 )
 from solvers.coupling.inputs import Coupling, CouplingDesign, CouplingOil
-from solvers.drive_train import derived, results
+from solvers.drive_train import derived, results, warm_up
 from solvers.drive_train import inputs as si
 from solvers.drive_train.shafts import thrust_budget
 from solvers.errors import InvalidInput
 from solvers.gears.inputs import GROUND_FILLET, RACK_A, GearPairInputs
+from solvers.heat_balance.warm_up import WarmUp, WarmUpCurves
 from solvers.lubricants import OilInUse
 from solvers.pumping import inputs as pumping
 from solvers.scuffing import inputs as mesh
@@ -270,6 +271,31 @@ class DriveTrainRequest(MeshInOil):
         )
 
 
+class WarmUpRequest(DriveTrainRequest, of=warm_up.WarmUpInputs):
+    """A gear unit that starts and warms up; its bulk temperature comes from the heat balance."""
+
+    balance_is_default: ClassVar = True
+
+    @model_validator(mode="after")
+    def with_a_balance(self) -> Self:
+        """Refuse a bulk temperature that is given or estimated."""
+        if self.lubricant.known and not self.is_balanced:
+            raise PydanticCustomError(
+                "not_asked",
+                "a warm-up needs the heat balance: set temperatures.bulk_method to heat_balance, oil_supply to spray, "
+                "and leave out bulk temperatures",
+            )
+        return self
+
+    def unused(self) -> dict[str, bool]:
+        """The mass of a casing counts; other states are not asked for."""
+        return super().unused() | {"cooling.casing.mass_kg": False, "states": True}
+
+    def inputs(self) -> warm_up.WarmUpInputs:  # type: ignore[override]
+        """The solver's inputs."""
+        return self.si(warm_up.WarmUpInputs, unit=super().inputs())
+
+
 groups(
     BearingLoad=(results.BearingResult, "A bearing; what only a plain one has is null of others."),
     ShaftThrust=(
@@ -357,7 +383,7 @@ class MisalignmentState(MisalignmentSummary, of=results.Misalignment):
     """Gap over the face with its curves."""
 
 
-class TrainSummary(Group, of=results.DriveTrainResult, without=("flank", "states")):
+class TrainSummary(Group, of=results.DriveTrainResult, without=("flank", "states", "heat")):
     """The unit in another state, in short."""
 
     misalignment: MisalignmentSummary
@@ -369,6 +395,22 @@ class TrainStates(Group, of=results.States):
     """The unit in other states than the one described."""
 
     cold: TrainSummary | None
+
+
+groups(
+    WarmUpCurves=(WarmUpCurves, "Over time."),
+    WarmUpOfNodes=(WarmUp, "How every node warms up.", {"greatest_difference": View(headline=1)}),
+    AlignmentAtTimes=(warm_up.AlignmentOverTime, "Load and safety at five times."),
+)
+
+
+class WarmUpResponse(Response, of=warm_up.UnitWarmUp):
+    """A gear unit that warms up; sections are missing where there is no solution."""
+
+    views: ClassVar = {
+        "least_safety": View(headline=2, limit=1.0, bound="lower", needs="temperatures.scuffing_c"),
+        "largest_face_load_factor": View(headline=3),
+    }
 
 
 class DriveTrainResponse(Response, of=results.DriveTrainResult):

@@ -308,6 +308,7 @@ class MeshInOil(Request):
     `methods` are the fields that are "given" where one of these values is, unless the request says otherwise.
     """
 
+    balance_is_default: ClassVar = False  # at any speed
     methods: ClassVar[dict[str, tuple[str, ...]]] = {
         "model.friction": ("friction_coefficient",),
         "temperatures.bulk_method": ("temperatures.bulk_c",),
@@ -339,7 +340,8 @@ class MeshInOil(Request):
         temperatures = self.temperatures
         if "bulk_method" in temperatures.model_fields_set or temperatures.oil_supply != "spray":
             return self
-        if not self.lubricant.known or not (self.cooling.is_given or self._is_fast()):
+        asked = self.balance_is_default or self.cooling.is_given
+        if not self.lubricant.known or not (asked or self._is_fast()):
             return self
         balanced = temperatures.model_copy(update={"bulk_method": "heat_balance"})
         balanced.model_fields_set.discard("bulk_method")  # is a default

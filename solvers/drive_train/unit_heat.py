@@ -6,6 +6,7 @@ temperature of the balance. Losses and loads of the bearings follow from these.
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from functools import partial
 from math import hypot
 
 import numpy as np
@@ -21,7 +22,7 @@ from solvers.drive_train.results import TrainSafety
 from solvers.drive_train.shafts.bearings import friction_and_eccentricity
 from solvers.drive_train.shafts.influence import Unit
 from solvers.errors import NoSolution
-from solvers.heat_balance import Heat, HeatBalanceInputs, Journal, Operation, rod_conductance
+from solvers.heat_balance import Heat, HeatBalanceInputs, Journal, rod_conductance
 from solvers.scuffing.inputs import ScuffingInputs
 from solvers.scuffing.model import distribution
 from solvers.scuffing.safety import safety_factor
@@ -216,19 +217,15 @@ def _journals(system: Unit, found: Equilibrium, face: tuple[float, float]) -> It
                     shaft_conductance=rod_conductance(
                         _sections_between(side.shaft, face, bearing.position), SHAFT_CONDUCTIVITY
                     ),
-                    operate=_operation(bearing, load, side.speed),
+                    operate=partial(_operate, bearing, load, side.speed),
                     oil_flow=bearing.oil_flow,
                 )
 
 
-def _operation(bearing: JournalBearing, load: float, speed: float) -> Operation:
+def _operate(bearing: JournalBearing, load: float, speed: float, viscosity: float) -> tuple[float, float]:
     """Return friction and eccentricity of a bearing at a viscosity; at its own if it does not run in the gears' oil."""
-
-    def operate(viscosity: float) -> tuple[float, float]:
-        film = replace(bearing, viscosity=viscosity) if bearing.in_gear_oil else bearing
-        return friction_and_eccentricity(film, load, speed)
-
-    return operate
+    film = replace(bearing, viscosity=viscosity) if bearing.in_gear_oil else bearing
+    return friction_and_eccentricity(film, load, speed)
 
 
 def _places(shaft: Shaft) -> Iterator[tuple[float, float, float, float]]:

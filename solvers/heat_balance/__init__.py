@@ -9,6 +9,7 @@ from solvers.heat_balance import model
 from solvers.heat_balance.bearings import Journal, Operation, journal_leakage
 from solvers.heat_balance.capacities import Capacities, cylinders_capacity, loaded_teeth_capacity
 from solvers.heat_balance.conduction import rod_conductance
+from solvers.heat_balance.fling_off import TOOTH_HEIGHT
 from solvers.heat_balance.flow_curve import FlowCurve, over_the_flow
 from solvers.heat_balance.inputs import Casing, Cooling, Measured
 from solvers.heat_balance.losses import MeshHeat, share_to_pinion
@@ -29,6 +30,7 @@ from solvers.plausibility import guarded
 solve = guarded(model.solve, unusual_values)
 
 __all__ = [
+    "TOOTH_HEIGHT",
     "Capacities",
     "Casing",
     "Cooling",

@@ -34,7 +34,7 @@ class BearingHeat:
     outlet: float = quantity("oil that leaves the bearing", "θ_J", unit="c")
     film: float = quantity("film temperature of the bearing", "θ_f", unit="c")
     oil_flow: float = quantity("oil flow of the bearing", "Q_B", unit="l_per_min")
-    friction_power: float = quantity("friction power of the bearing", "P_B", unit="w")
+    friction_power: float = quantity("friction power in the balance", "P_B", unit="w")
 
 
 @record
@@ -58,7 +58,7 @@ class HeatLosses:
     bearings: float = quantity("bearing losses", "P_B", unit="w")
     couplings: float = quantity("coupling losses", "P_C", unit="w", text="outside of the balance")
     other: float = quantity("other losses", "P_other", unit="w")
-    total: float = quantity("total loss", "P_V", unit="w")
+    total: float = quantity("total heat of the losses", "P_V", unit="w")
 
 
 @record

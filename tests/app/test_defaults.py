@@ -224,6 +224,8 @@ def test_a_unit_takes_friction_from_its_oil_and_the_bulk_from_its_teeth() -> Non
 
 def test_a_unit_that_says_nothing_of_its_teeth_estimates_the_bulk() -> None:
     request = {**TURBO, "thermal": {"wall_response": 0.6}}
+    assert solved(TRAIN, request, {})["inputs"]["temperatures"]["bulk_method"] == "heat_balance"
+    request |= {"temperatures": {**TURBO["temperatures"], "oil_supply": "dip"}}
     cool, warm = (solved(TRAIN, request, {"temperatures.oil_c": oil}) for oil in (50, 60))
     assert cool["inputs"]["temperatures"]["bulk_method"] == "estimated"
     assert "bulk_lower_bound" in codes(cool)
