@@ -213,7 +213,7 @@ CALCULATIONS = (
     Calculation(
         path="/v1/drive-train/warm-up",
         title="Warm-up of a unit",
-        summary="How a gear unit warms up: temperatures over time, backlash, load along the face and scuffing meanwhile",
+        summary="How a gear unit warms up: temperatures over time, backlash, load on the flanks and scuffing meanwhile",
         source="own derivation, heat balance",
         request=drive_train_schema.WarmUpRequest,
         solve=drive_train.solve_warm_up,

@@ -376,7 +376,7 @@ class MeshInOil(Request):
     @property
     def is_balanced(self) -> bool:
         """Whether the bulk temperature comes from a heat balance."""
-        return self.lubricant.known and self.temperatures.bulk_method == "heat_balance"
+        return bool(self.lubricant.known) and self.temperatures.bulk_method == "heat_balance"
 
     @property
     def _lubricant_factor_asked(self) -> bool:

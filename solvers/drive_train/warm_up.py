@@ -6,8 +6,8 @@ from math import cos
 import numpy as np
 
 from solvers import heat_balance, plausibility
-from solvers.arrays import FloatArray, frozen
-from solvers.drive_train.inputs import DriveTrainInputs, JournalBearing, Shaft
+from solvers.arrays import ROUNDING, FloatArray, frozen
+from solvers.drive_train.inputs import DriveTrainInputs, JournalBearing, Shaft, torsion_diameter
 from solvers.drive_train.outcome import Outcome, outcome_of
 from solvers.drive_train.prepared import prepare, settle
 from solvers.drive_train.unit_heat import WarmUnit, asks_for_balance, at_temperatures, warm_unit
@@ -168,13 +168,28 @@ def _capacities(unit: DriveTrainInputs, warm: WarmUnit) -> Capacities:
         )
         for gear, material in zip(gears, materials, strict=True)
     ]
-    rotors = [_rotor(shaft, material) for shaft, material in zip(unit.shafts, materials, strict=True)]
+    pair = given.gears
+    rotors = [
+        _rotor(shaft, material, torsion_diameter(pair, own) * (1.0 - ROUNDING), 2 * gear.reference_radius)
+        for shaft, material, own, gear in zip(unit.shafts, materials, (pair.pinion, pair.wheel), gears, strict=True)
+    ]
     mass = unit.mesh.cooling.casing.mass
     return Capacities((rotors[0], rotors[1]), (teeth[0], teeth[1]), None if mass is None else mass * STEEL_HEAT)
 
 
-def _rotor(shaft: Shaft, material: Solid) -> float:
-    sections = tuple((one.length, one.outer_diameter, one.inner_diameter) for one in shaft.sections)
+def _rotor(shaft: Shaft, material: Solid, solid: float, reference: float) -> float:
+    """Return the heat capacity of a rotor [J/K]; a section as thick as `solid` [m] carries teeth.
+
+    Teeth and their spaces hold as much as a cylinder of the `reference` diameter [m].
+    """
+    sections = tuple(
+        (
+            one.length,
+            max(one.outer_diameter, reference) if one.outer_diameter >= solid else one.outer_diameter,
+            one.inner_diameter,
+        )
+        for one in shaft.sections
+    )
     return cylinders_capacity(sections, shaft.density, material.specific_heat)
 
 
@@ -184,7 +199,7 @@ def _times(found: WarmUp) -> FloatArray:
     greatest = found.greatest_difference_at
     if not 0.0 < greatest < end:
         return np.linspace(0.0, end, TIMES)
-    return np.array([0.0, greatest / 2, greatest, (greatest + end) / 2, end])
+    return np.array([0.0, greatest / 2, greatest, np.sqrt(greatest * end), end])
 
 
 def _outcome_at(unit: DriveTrainInputs, network: Network, found: WarmUp, time: float) -> Outcome:

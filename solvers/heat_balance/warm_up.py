@@ -84,7 +84,7 @@ def warm_up(network: Network, capacities: Capacities, start: float, until: float
     rises = path(times)
     difference = rises[BODIES[0]] - rises[BODIES[1]]
     greatest = int(np.argmax(np.abs(difference)))
-    shown = np.linspace(0.0, end, SHOWN + 1)
+    shown = end * np.linspace(0.0, 1.0, SHOWN + 1) ** 2  # dense at the start, where most happens
     drawn = path(shown)
     return WarmUp(
         nodes=network.nodes,

@@ -1,6 +1,7 @@
 """The heat balance of a pair in requests and answers: when it is taken, what it says, what is refused and drawn."""
 
 import json
+import pickle
 from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Any
@@ -223,7 +224,7 @@ def test_flanks_rise_and_fall_as_they_must(path: str) -> None:
 
 def test_like_gears_of_a_spur_pair_are_equally_warm() -> None:
     gears = {"pinion.teeth": 60, "wheel.teeth": 60, "helix_angle_deg": 0}
-    like = {f"gears.{name}": value for name, value in gears.items()} | {"modifications": {}}
+    like: dict[str, Any] = {f"gears.{name}": value for name, value in gears.items()} | {"modifications": {}}
     pinion, wheel = flanks(asked(like))
     assert pinion == pytest.approx(wheel, abs=1e-6)
 
@@ -463,3 +464,87 @@ def test_figures_of_a_unit(which: str) -> None:
     if which == "oil-flow":
         pinion = shown.panels[0].lines[0]
         assert np.interp(140.0, pinion.x, pinion.y) == pytest.approx(response.heat.pinion.flank_c, abs=1e-3)
+
+
+# Warm-up
+
+WARM_UP, COLD = "/v1/drive-train/warm-up", "starter-turbo-gear-warm-up"
+
+
+def started(changes: Mapping[str, Any] = MappingProxyType({})) -> dict[str, Any]:
+    return answer(WARM_UP, changed(examples()[COLD].request, {"detail": "curves", **changes}))
+
+
+def test_a_unit_that_starts_from_cold() -> None:
+    """From the temperature of the start to the running unit; the pinion is ahead for the first minutes."""
+    found, running = started(), unit({"cooling.casing": {"area_m2": 8, "mass_kg": 2500}})
+    warm = found["warm_up"]
+    final = dict(zip(warm["nodes"], warm["final_c"], strict=True))
+    assert final["pinion_flank"] == pytest.approx(running["heat"]["pinion"]["flank_c"], abs=1e-3)
+    assert found["heat"]["pinion"]["flank_c"] == pytest.approx(running["heat"]["pinion"]["flank_c"], abs=1e-6)
+    assert [row[0] for row in zip(*warm["curves"]["temperature_c"], strict=True)] == pytest.approx([20.0] * 10)
+    assert 15 < warm["greatest_difference_k"] < 22
+    assert 120 < warm["greatest_difference_at_s"] < 180
+    times = dict(zip(warm["nodes"], warm["time_95_s"], strict=True))
+    assert times["bearing_1"] < 30 < times["pinion_flank"] < times["wheel_flank"]
+    assert times["casing"] is None  # it takes hours
+    own = found["alignment"]
+    assert len(own["time_s"]) == 5
+    assert own["time_s"][0] == 0.0
+    assert warm["greatest_difference_at_s"] in own["time_s"]
+    assert found["least_safety"] == min(own["safety"])
+    assert found["largest_face_load_factor"] == max(own["face_load_factor"])
+    assert 0.0 < found["least_backlash_um"] < 300
+
+
+def test_the_worked_warm_up() -> None:
+    """From 50 C 95 % after 280 to 340 and 770 to 840 s; from 20 C the bodies differ by 19.7 K at 153 s."""
+    plain = {"cooling.casing": GONE, "cooling.gear_flow_l_per_min": 140.08, "friction_coefficient": 0.04}
+    found = started({**plain, "start_c": 50, "until_s": GONE})
+    warm = found["warm_up"]
+    times = dict(zip(warm["nodes"], warm["time_95_s"], strict=True))
+    for name, low, high in (("pinion", 280, 340), ("wheel", 770, 840)):
+        assert low - 40 < times[f"{name}_flank"] <= times[f"{name}_body"] < high + 20
+    assert 5 < times["bearing_1"] < 20
+    assert found["least_backlash_um"] is None
+    cold = started({**plain, "until_s": GONE})["warm_up"]
+    assert cold["greatest_difference_k"] == pytest.approx(19.7, abs=0.4)
+    assert cold["greatest_difference_at_s"] == pytest.approx(153, abs=8)
+
+
+@pytest.mark.parametrize(
+    ("changes", "code"),
+    [
+        ({"temperatures.bulk_method": "estimated"}, "not_asked"),
+        ({"temperatures.bulk_c": 90}, "not_asked"),
+        ({"temperatures.oil_supply": "dip"}, "not_asked"),
+    ],
+)
+def test_a_warm_up_without_a_balance(changes: dict[str, Any], code: str) -> None:
+    with pytest.raises(InvalidBody) as refusal:
+        started(changes)
+    assert [fault.code for fault in refusal.value.faults] == [code]
+
+
+def test_a_casing_that_warms_up_has_a_mass() -> None:
+    with pytest.raises(Unprocessable) as refusal:
+        started({"cooling.casing.mass_kg": GONE})
+    assert (refusal.value.code, refusal.value.path) == ("missing_mass", "cooling.casing.mass_kg")
+
+
+def test_a_slow_unit_warms_up_by_its_balance_too() -> None:
+    found = started({"operation.pinion_speed_rpm": 3000, "operation.power_kw": 3000})
+    assert found["inputs"]["temperatures"]["bulk_method"] == "heat_balance"
+    assert "low_speed" in codes(found)
+
+
+@pytest.mark.parametrize("name", [STARTER, TURBO, COLD])
+def test_results_and_answers_can_be_kept(name: str) -> None:
+    """Pages keep them in bytes."""
+    example = examples()[name]
+    calculation = BY_PATH[example.endpoint]
+    request = calculation.request.model_validate(example.request)
+    response = evaluate(calculation, request)
+    kept = pickle.loads(pickle.dumps((request, response.result)))  # noqa: S301  our own
+    assert kept[0] == request
+    assert type(kept[1]) is type(response.result)

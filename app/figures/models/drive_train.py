@@ -232,7 +232,7 @@ def losses(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
     """What the unit loses, and where."""
     found, bearings = result.losses, (*inputs.pinion_shaft.bearings, *inputs.wheel_shaft.bearings)
     plain = any(isinstance(each, JournalBearing) for each in bearings)  # no friction is known of other bearings
-    powers = (
+    powers: tuple[tuple[str, float | None, Hue], ...] = (
         ("plain bearings" if plain else "bearings", found.bearings if plain else None, Hue.BLUE),
         ("mesh", found.mesh, Hue.VERMILLION),
         ("pumping of air and mist", found.pumping, Hue.GREEN),

@@ -45,18 +45,12 @@ def alignment(_: WarmUpInputs, result: UnitWarmUp) -> Figure:
     """Draw face load factor and safety at five times."""
     own, time = result.alignment, axis(AlignmentOverTime, "time")
     factor = Line("face load factor", own.time, own.face_load_factor, Hue.BLUE, named=False)
-    panels, finding = (
-        [Panel(x=time, y=axis(AlignmentOverTime, "face_load_factor", magnitude=False), lines=[factor])],
-        "",
-    )
+    factor_axis = axis(AlignmentOverTime, "face_load_factor", magnitude=False)
+    known = [place for place, value in enumerate(own.face_load_factor) if np.isfinite(value)]
+    marks = [factor.mark(place, number(float(own.face_load_factor[place]))) for place in known]
+    panels, finding = [Panel(x=time, y=factor_axis, lines=[factor], marks=marks)], ""
     if result.largest_face_load_factor is not None:
         finding = f"K_Hβ up to {number(result.largest_face_load_factor)}"
-        panels[0] = Panel(
-            x=time,
-            y=panels[0].y,
-            lines=[factor],
-            marks=[factor.mark(place, number(value)) for place, value in enumerate(own.face_load_factor)],
-        )
     if np.isfinite(own.safety).any():
         line = Line("safety", own.time, own.safety, Hue.VERMILLION, named=False)
         marks = [line.mark(place, number(value)) for place, value in enumerate(own.safety) if np.isfinite(value)]
