@@ -52,6 +52,7 @@ FIGURES = {
         "shafts section shaft-lines gap slope-parts face-load flank-load contact-temperature micropitting wear "
         "journals thrust losses heat-flows node-temperatures oil-flow"
     ),
+    "/v1/drive-train/warm-up": "warm-up alignment",
 }
 BALANCE = {"safety-band", "heat-flows", "node-temperatures", "oil-flow"}
 MICROPITTING = {"micropitting", "micropitting-film", "wear"}
@@ -65,6 +66,7 @@ CASES = {
     "/v1/scuffing": "xue-pair-1-scuffing",
     "/v1/scuffing/line-contact": "xue-line-contact",
     "/v1/drive-train": GENERATOR,
+    "/v1/drive-train/warm-up": "starter-turbo-gear-warm-up",
 }
 # Figures that the physics of an example leaves out, and why.
 WITHOUT = {
