@@ -65,9 +65,8 @@ def chapter_of(calculation: Calculation) -> Chapter:
 
 
 @cache
-def method_of(calculation: Calculation) -> dict[str, Any]:
-    """The method of a calculation in brief, without links: a report is printed."""
-    chapter = chapter_of(calculation)
+def method_of(chapter: Chapter) -> dict[str, Any]:
+    """The method of a chapter in brief, without links: a report is printed."""
     numbered = [each for each in equations().values() if each.chapter == chapter.name]
     return {
         "title": chapter.title,

@@ -10,8 +10,9 @@ from typing import Any, NamedTuple
 from unicodedata import category
 
 from app.errors import Unprocessable
+from app.manual import Chapter, chapters
 from app.pages.cases import Asked, Case
-from app.pages.manual import method_of
+from app.pages.manual import chapter_of, method_of
 from app.pages.query import REPORT_NAMES, Pairs
 from app.pages.results import flattened, resolved, texts_of
 from app.pages.typesetting import cited
@@ -45,8 +46,14 @@ def context(asked: Asked, case: Case, host: str) -> dict[str, Any]:
         "command": for_shell((host or LOCAL) + asked.root, case),
         "link": link,
         "link_text": link if len(link) <= LONGEST_LINK else f"{link[:LONGEST_LINK]}…",
-        "method": method_of(case.calculation),
+        "methods": [method_of(chapter) for chapter in _chapters_behind(case)],
     }
+
+
+def _chapters_behind(case: Case) -> list[Chapter]:
+    """The chapter about the calculation, and those about the sections of its answer that were asked for."""
+    sections = [name for name in type(case.response).model_fields if getattr(case.response, name) is not None]
+    return [chapter_of(case.calculation), *(chapters()[name] for name in sections if name in chapters())]
 
 
 def _said(name: str, text: str, longest: int) -> str:

@@ -48,7 +48,7 @@ LOADED = 1e-6
 SLIDING_VELOCITY_LIMIT = 0.12
 """Steady sliding of gear couplings [m/s], Tribology Handbook B4.6; transients may tilt 1.6 times as far."""
 GRAVITY = 9.80665  # m/s^2, standard gravity (CGPM 1901)
-_PEAKS = (8, 2)  # chosen: samples around which each search is for a maximum, as neighbours may hide the highest
+_SEARCHES = 2  # chosen: searches, each around every sample whose neighbours may hide the highest
 _FINER = 8  # chosen: steps of a search in one of the search before, so that two meet a peak within 1/128 of a step
 
 
@@ -312,11 +312,11 @@ def largest_value(angles: FloatArray, values_at: Callable[[FloatArray], FloatArr
     places = angles[:, None] + step * np.array([-1.0, 0.0, 1.0])
     values = np.stack((np.roll(coarse, 1), coarse, np.roll(coarse, -1)), axis=1)
     largest = coarse.max()
-    for count in _PEAKS:
+    for _ in range(_SEARCHES):
         rows, highest = np.arange(len(values)), values[:, 1:-1].argmax(axis=1) + 1
         top, before, after = (values[rows, highest + shift] for shift in (0, -1, 1))
         reach = np.where((top >= before) & (top >= after), 1.5 * top - 0.5 * np.minimum(before, after), -np.inf)
-        peaks = np.argsort(reach)[-count:]
+        peaks = np.flatnonzero(reach >= largest)
         step /= _FINER
         places = places[peaks, highest[peaks]][:, None] + step * np.arange(-_FINER, _FINER + 1)
         values = values_at(places.ravel()).reshape(places.shape)

@@ -112,7 +112,7 @@ def _parts(
     """Write the loaded stretches of a line, of which none holds a kink; their number and length in y [m]."""
     edges, (first_y, last_y) = np.empty(MOST_EDGES), ends
     last = smooth_parts(mesh.gap, line, mesh.plane.tan_base_helix, ends, edges) - 1
-    count, length = 0, 0.0
+    count, length, stations = 0, 0.0, (mesh.gap.lead.size - 1) / mesh.gap.face_width
     for k in range(last):
         low, high = edges[k], edges[k + 1]
         if high <= low:
@@ -122,7 +122,8 @@ def _parts(
             found = 1
         else:
             pieces = ceil(slices * (high - low) / (last_y - first_y) - 1e-9)
-            samples = 2 * pieces * ceil(LEAST_SAMPLES / (2 * pieces))  # middles of whole lines' slices are among them
+            least = max(LEAST_SAMPLES, ceil(stations * (high - low)))
+            samples = 2 * pieces * ceil(least / (2 * pieces))  # middles of whole lines' slices are among them
             found = loaded_zones(mesh.gap, mesh.plane, line, (low, high), samples, reach, zones[count:])
         for start, end in zones[count : count + found]:
             length += end - start

@@ -44,6 +44,7 @@ MAX_HALVINGS = 8  # of the steps between roll positions
 MOST_ADDED = 1000  # roll positions
 LEAST_LINE_LOAD = 0.1  # N/m, mean; the approach it makes is near the rounding of large gaps
 LEAST_SPREAD = 1e-12  # m, of a kinematic error
+BESIDE = 1e-12  # of the path: how far beside a jump of the load its two sides are looked at, above rounding
 
 
 Start = tuple[FloatArray, FloatArray]
@@ -303,7 +304,7 @@ def error_at(
 
     The end of the path belongs to the roll position that leaves it, not to the next.
     """
-    line = min(x, plane.path_length * (1.0 - 1e-9)) + y * plane.tan_base_helix
+    line = min(x, plane.path_length * (1.0 - BESIDE)) + y * plane.tan_base_helix
     position = line - int(line / plane.base_pitch) * plane.base_pitch
     while index > 0 and phase[index] > position:
         index -= 1

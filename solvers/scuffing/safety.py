@@ -68,7 +68,9 @@ def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
     whole = inputs.line == "flank"
     hottest = find_hottest(given, distribution, flash_map) if whole else None
     thinnest = find_thinnest(inputs, distribution, flash_map) if whole else None
-    lines = _lines(inputs, distribution, hottest)
+    lines, beside = _lines(inputs, distribution, hottest)
+    if thinnest is not None and beside is not None:
+        thinnest = _or_along(inputs, distribution, beside, thinnest)
     warnings, unknown = (*distribution.warnings, *oil_notices(inputs, distribution.path_of_contact)), 0
     paths = [_closed_form_path(inputs, line) for line in lines]
     if inputs.lubrication == "thermal_ehl" and bulk is not None:
@@ -130,11 +132,14 @@ def _line_at(
     return _Line(frozen(psi), frozen(across), points)
 
 
-def _lines(inputs: ScuffingInputs, distribution: LoadDistribution, hottest: Peak | None) -> list[_Line]:
-    """Return the feature line, and the profile line through the hottest point if that is hotter than the line.
+def _lines(
+    inputs: ScuffingInputs, distribution: LoadDistribution, hottest: Peak | None
+) -> tuple[list[_Line], _Line | None]:
+    """Return the lines to check, and the profile line through the hottest point even if it is not one of them.
 
-    Both are equidistant but for the places where Blok's flash temperature is largest and the film of the formula
-    thinnest. Without these, a maximum would depend on the number of points.
+    The lines are the feature line, and the profile line if that is hotter. Both are equidistant but for the places
+    where Blok's flash temperature is largest and the film of the formula thinnest. Without these, a maximum would
+    depend on the number of points.
     """
     even = np.linspace(0.0, 1.0, inputs.path_points)
     survey = _line_at(inputs, distribution, np.linspace(0.0, 1.0, SURVEY_POINTS))
@@ -145,11 +150,26 @@ def _lines(inputs: ScuffingInputs, distribution: LoadDistribution, hottest: Peak
             psi.append(survey.psi[extreme(curve)])
     if survey.points.undefined.any():
         psi.append(survey.psi[np.argmax(survey.points.undefined)])
-    lines = [_line_at(inputs, distribution, np.unique(psi))]
-    if hottest is not None and hottest.value > (1.0 + AS_HOT) * np.max(flash):
-        place = hottest.x / distribution.path_of_contact.length
-        lines.append(_line_at(inputs, distribution, np.unique([*even, place]), hottest.y))
-    return lines
+    feature = _line_at(inputs, distribution, np.unique(psi))
+    if hottest is None:
+        return [feature], None
+    place = hottest.x / distribution.path_of_contact.length
+    profile = _line_at(inputs, distribution, np.unique([*even, place]), hottest.y)
+    return [feature, profile] if hottest.value > (1.0 + AS_HOT) * np.max(flash) else [feature], profile
+
+
+def _or_along(inputs: ScuffingInputs, distribution: LoadDistribution, line: _Line, thinnest: Peak) -> Peak:
+    """Return the thinnest film by the formula, or the thinnest of a line's points if that is thinner.
+
+    Whether the profile line is checked depends on the feature line, which in the mirror image of a spur pair is another
+    one. Its points always count, so that both have one thinnest film.
+    """
+    film = formula_film(inputs, line.points)
+    if np.isnan(film).all():
+        return thinnest
+    k = int(np.nanargmin(film))
+    along = Peak(float(film[k]), float(line.psi[k]) * distribution.path_of_contact.length, float(line.face[k]))
+    return min(thinnest, along, key=lambda peak: peak.value)
 
 
 def _surfaces(temperatures: Temperatures, line: _Line) -> FloatArray:

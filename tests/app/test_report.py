@@ -9,6 +9,7 @@ import pytest
 
 from app.examples import examples
 from app.manual import NAMES
+from app.manual.equations import equations
 from app.pages import views
 from app.pages.manual import chapter_page, contents_page, functions_page
 from app.pages.query import pairs_of
@@ -68,6 +69,15 @@ def test_assumptions_have_units_and_reasons() -> None:
     on_page = page(SCUFFING)
     on_page = on_page[on_page.index("<h2>Assumptions") :]
     assert re.search(r'880</td><td class="unit">kg/m³</td>', on_page)
+
+
+def test_the_equations_are_those_of_every_section_that_was_asked_for() -> None:
+    plain, checked = report(SCUFFING), report("starter-industrial-micropitting")
+    assert "<p>Xue 25 " in plain
+    assert "<h2>Method: Micropitting" not in plain
+    assert "<p>Xue 25 " in checked
+    numbers = {each.number for each in equations().values() if each.chapter == "micropitting"}
+    assert {number for number in numbers if f"<p>{number} " in checked} == numbers
 
 
 def test_customers_read_secondary_source() -> None:

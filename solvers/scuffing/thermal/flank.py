@@ -17,14 +17,13 @@ from solvers.scuffing.contact_lines import line_count
 from solvers.scuffing.contact_slices import Peak
 from solvers.scuffing.flank_results import TOPS, contact_points, tops
 from solvers.scuffing.inputs import LoadDistributionInputs, ScuffingInputs
-from solvers.scuffing.load_balance import LoadBalance, line_loads
+from solvers.scuffing.load_balance import BESIDE, LoadBalance, line_loads
 from solvers.scuffing.results import ContactPoints, LoadDistribution
 from solvers.scuffing.thermal.blok import blok_flash
 
 SURVEY_POINTS = 4001  # of the formulas along the feature line, to find where they are largest and smallest
 ZOOMS = 2  # each narrows the place of a maximum by a factor of 6
 ZOOM_POINTS = 13  # points between the neighbours of a top, along the path and across the face, at each zoom
-BESIDE = 1e-12  # of the path: how far beside a jump of the load its two sides are looked at, above rounding
 
 FlankFunction = Callable[[FloatArray, FloatArray], FloatArray]
 """A value at points x, y [m] of the flank, arrays of one shape."""

@@ -108,3 +108,12 @@ def test_a_crest_narrower_than_a_slice_carries_a_light_load_alone() -> None:
     result = solve(changed(inputs, shape))
     assert result.load.max_at is not None
     assert result.load.max_at.face_fraction == pytest.approx(0.5, abs=0.02)
+
+
+def test_two_crests_of_a_lead_curve_carry_whatever_the_number_of_slices() -> None:
+    """The slices lay beside one of them: no balance, or half as much again on the other."""
+    inputs = changed(draw_load(np.random.default_rng([38, 72])), {"gears.helix_angle": 0.0})
+    loads = [
+        solve(changed(inputs, {"resolution.slices": slices})).load.max_line_load for slices in (15, 25, 31, 51, 201)
+    ]
+    assert loads == pytest.approx([loads[-1]] * len(loads), rel=0.05)
