@@ -11,6 +11,7 @@ from app.figures.models import line_contact as line_contact_figures
 from app.figures.models import load_distribution as load_figures
 from app.figures.models import pumping as pumping_figures
 from app.figures.models import scuffing as scuffing_figures
+from app.figures.models import warm_up as warm_up_figures
 from app.schema import coupling as coupling_schema
 from app.schema import drive_train as drive_train_schema
 from app.schema import line_contact as line_contact_schema
@@ -208,6 +209,17 @@ CALCULATIONS = (
         stage=DRIVE_TRAIN,
         figures=drive_train_figures.FIGURES,
         cost=_two_thermal_paths,
+    ),
+    Calculation(
+        path="/v1/drive-train/warm-up",
+        title="Warm-up of a unit",
+        summary="How a gear unit warms up: temperatures over time, backlash, load on the flanks and scuffing meanwhile",
+        source="own derivation, heat balance",
+        request=drive_train_schema.WarmUpRequest,
+        solve=drive_train.solve_warm_up,
+        response=drive_train_schema.WarmUpResponse,
+        stage=DRIVE_TRAIN,
+        figures=warm_up_figures.FIGURES,
     ),
 )
 

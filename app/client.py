@@ -113,6 +113,10 @@ class _Endpoints(ABC, Generic[Answer, Stream]):
         """A complete gear unit: couplings, shafts, bearings, mesh."""
         return self.solve("/v1/drive-train", request)
 
+    def warm_up(self, request: Json) -> Answer:
+        """How a gear unit warms up: temperatures over time, load and safety meanwhile."""
+        return self.solve("/v1/drive-train/warm-up", request)
+
     def sweep(self, request: Json, *, progress: bool = False) -> Stream:
         """One endpoint at many points: a grid, a list of cases or a random sample."""
         return self.study("/v1/sweep", request, progress=progress)

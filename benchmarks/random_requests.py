@@ -33,6 +33,7 @@ SHARES = {
     "/v1/pumping/choking-speed": 0.02,
     "/v1/scuffing": 0.02,
     "/v1/drive-train": 0.02,
+    "/v1/drive-train/warm-up": 0.01,
 }
 Schema = dict[str, Any]
 

@@ -99,6 +99,8 @@ class Quantity:
         Reason behind a default that is ours and not the paper's; a result that rests on the default lists it.
     advanced
         An option of model or resolution.
+    folded
+        An input that few users know: a form shows it on demand.
     tolerance, relative_tolerance
         What manufacture or measurement usually leaves open, in the shown unit; and as a share of the value where that
         is more. Every input that may be zero has a tolerance, by which a sensitivity moves it.
@@ -130,6 +132,7 @@ class Quantity:
     default_text: str | None = None
     assumed: str | None = None
     advanced: bool = False
+    folded: bool = False
     tolerance: float | None = None
     relative_tolerance: float | None = None
     if_above: str | None = None

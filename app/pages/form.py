@@ -190,7 +190,7 @@ def _branch(branch: Branch, path: str, state: State, item: int | None = None) ->
     unused = (branch.optional or branch.repeated or state.required == IF_USED) and not given
     return _section(
         branch.title if item is None else f"{branch.title} {item + 1}",
-        _blocks(branch, f"{path}.", replace(state, required=IF_USED if unused else REQUIRED)),
+        _with_folded(branch, path, replace(state, required=IF_USED if unused else REQUIRED)),
         state,
         [path],
         description=branch.description if item is None else "",
@@ -198,6 +198,20 @@ def _branch(branch: Branch, path: str, state: State, item: int | None = None) ->
         needed=branch.required and not branch.optional and item is None,
         advanced=branch.advanced,
     )
+
+
+def _with_folded(branch: Branch, path: str, state: State) -> Iterator[Block]:
+    """The blocks of a section; behind them, in a section of their own, the fields that few users know."""
+    folded = {f"{path}.{_last(leaf.path)}" for leaf in branch.leaves if leaf.declared.folded}
+    behind = list[Block]()
+    for block in _blocks(branch, f"{path}.", state):
+        if isinstance(block, FieldView) and block.name in folded:
+            behind.append(block)
+        else:
+            yield block
+    if behind:
+        name = f"{path}.advanced"
+        yield _section("advanced", behind, state, sorted(folded), path=name, id=anchor(name), fault=None)
 
 
 def _rows(branch: Branch, path: str, state: State) -> Section:

@@ -18,6 +18,7 @@ from app.pages.results import flattened, resolved, texts_of
 from app.pages.typesetting import cited
 from app.schema.fields import Leaf, leaf_at
 
+SECTION_CHAPTERS = {"heat": "heat-balance"}  # where the chapter about a section has another name
 LOCAL = "http://localhost:8000"
 LONGEST_LINK = 240  # as text; what it leads to is the whole
 _element = re.compile(r"(\.\d+){1,2}$")  # of a list or a matrix of numbers
@@ -52,7 +53,8 @@ def context(asked: Asked, case: Case, host: str) -> dict[str, Any]:
 
 def _chapters_behind(case: Case) -> list[Chapter]:
     """The chapter about the calculation, and those about the sections of its answer that were asked for."""
-    sections = [name for name in type(case.response).model_fields if getattr(case.response, name) is not None]
+    present = (name for name in type(case.response).model_fields if getattr(case.response, name) is not None)
+    sections = [SECTION_CHAPTERS.get(name, name) for name in present]
     return [chapter_of(case.calculation), *(chapters()[name] for name in sections if name in chapters())]
 
 

@@ -6,7 +6,7 @@ from itertools import groupby
 from typing import Any, NamedTuple
 
 from app.pages.typesetting import shown, words
-from app.schema.fields import Branch, Leaf, headlines, leaf_at, tree
+from app.schema.fields import ITEM, Branch, Leaf, headlines, leaf_at, tree
 from app.schema.model import Documented, Response
 
 NOT_RESULTS = frozenset(
@@ -30,8 +30,8 @@ class Entry(NamedTuple):
 class Row:
     """A line of a table: the value, or the items of a list; `before` is that of the variant, `change` lies between.
 
-    `remark` is the reason of an assumption, or the verdict on a number that decides, whose `level` is good, near, bad
-    or plain.
+    `remark` is the reason of an assumption, how well a result is known, or the verdict on a number that decides, whose
+    `level` is good, near, bad or plain.
     """
 
     leaf: Leaf
@@ -79,12 +79,14 @@ def values_by_path(response: Documented | None) -> dict[str, Any]:
 
 def groups(response: Documented, before: Documented | None = None) -> dict[str, list[Row]]:
     """Every scalar and short list of the answer by the title of its group, beside those of a variant."""
-    old = values_by_path(before)
+    old, remarks = values_by_path(before), response.remarks() if isinstance(response, Response) else {}
     tables: dict[str, list[Row]] = {}
     for group, leaf, path, value in entries(response):
+        if ITEM in leaf.path and leaf.detail != "summary":  # a long list, which a figure shows
+            continue
         if leaf.is_scalar or (leaf.declared.index and not leaf.axes and leaf.dimensions == 1):
             row = _row(leaf, path, value, old.get(path), label=leaf.declared.title)
-            tables.setdefault(group or "result", []).append(row)
+            tables.setdefault(group or "result", []).append(replace(row, remark=remarks.get(path, "")))
     return tables
 
 
@@ -174,8 +176,18 @@ def cards(response: Documented, inputs: dict[str, Any], before: Documented | Non
             level, verdict = "near", f"{verdict}; see the warnings"
         value = known.get(leaf.path)
         row = _row(leaf, leaf.path, value, old.get(leaf.path), label=leaf.title, digits=DIGITS)
+        row = replace(row, items=_with_band(row.items, leaf, known), before=_with_band(row.before, leaf, old))
         found.append(replace(row, unit="" if value is None else row.unit, level=level, remark=verdict))
     return found
+
+
+def _with_band(items: tuple[str, ...], leaf: Leaf, known: dict[str, Any]) -> tuple[str, ...]:
+    """A headline with the ends of its band, if it has one: 2.28 (1.95 to 2.58)."""
+    ends = known.get(leaf.view.band) if leaf.view.band else None
+    if not ends:
+        return items
+    low, high = (shown(end, DIGITS) for end in ends)
+    return (f"{', '.join(items)} ({low} to {high})",)
 
 
 def _size(value: Any) -> float:
@@ -197,9 +209,12 @@ def _verdict(response: Documented, leaf: Leaf, known: dict[str, Any]) -> tuple[s
     limit = known.get(view.limit) if isinstance(view.limit, str) else view.limit
     if view.bound is None or limit is None or isinstance(value, bool):
         return "plain", ""
-    level, standing = _standing(value, limit, greatest_is_best=view.greatest_is_best)
+    ends = (known.get(view.band) if view.band else None) or [value]
+    worse = min(ends) if view.greatest_is_best else max(ends)
+    level, standing = _standing(worse, limit, greatest_is_best=view.greatest_is_best)
     name = f"{shown(limit, 4)} {leaf.unit or ''}".strip()
-    return level, f"{judge.title}: {words(said)}" if judge and said is not None else standing.format(name)
+    verdict = f"{judge.title}: {words(said)}" if judge and said is not None else standing.format(name)
+    return level, f"{verdict}, at the worse end of the band" if len(ends) > 1 else verdict
 
 
 def _standing(value: float, limit: float, *, greatest_is_best: bool) -> tuple[str, str]:

@@ -236,6 +236,8 @@ class _DriveTrain:
             for row in table.JOURNAL:
                 if (value := reading.number(bearing, row)) is not None:
                     made[row.field] = value / 2.0 if row.field == "radial_clearance_um" else value
+            if made.get("oil_flow_l_per_min", 1.0) <= 0.0:  # not known; the balance takes what leaks
+                del made["oil_flow_l_per_min"]
             relative = reading.number(bearing, "relative_clearance_plain_bearing")
             bore = reading.number(bearing, table.BEARING_BORE)
             if "radial_clearance_um" not in made and relative is not None and bore is not None:

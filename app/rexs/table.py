@@ -25,6 +25,7 @@ UNITS = (
     {"J/(kgK)": 1.0, "kJ/(kgK)": 1e3},
     {"1/GPa": 1e-9, "mm^2/N": 1e-6, "1/MPa": 1e-6, "1/Pa": 1.0},
     {"m/s^2": 1.0},
+    {"l/min": 1e-3 / 60.0, "l/s": 1e-3, "m^3/s": 1.0, "m^3/h": 1.0 / 3600.0},
 )
 """Units of each quantity as files spell them, without blanks, and their size in SI.
 
@@ -195,6 +196,7 @@ JOURNAL = (
     Row("width_mm", ("width",), "mm"),
     Row("radial_clearance_um", ("diameter_clearance_plain_bearing",), "um"),  # half of it
     Row("film_temperature_c", ("lubricant_feed_temperature",), "C"),
+    Row("oil_flow_l_per_min", ("lubricant_flow_through_bearing",), "l/min"),
 )
 OIL_TYPES = (
     "lubricant_type_iso_6336_2019",

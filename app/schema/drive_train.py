@@ -3,10 +3,12 @@
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import partial
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, Any, ClassVar, Self
 
-from pydantic import BeforeValidator, Field
+from pydantic import BeforeValidator, Field, model_validator
+from pydantic_core import PydanticCustomError
 
+from app.schema.cooling import GearCooling
 from app.schema.coupling import CrownedCoupling
 from app.schema.gears import BacklashGears, GearMaterials
 from app.schema.model import Group, Response, Section, groups
@@ -22,13 +24,15 @@ from app.schema.scuffing import (
     MeshModel,
     Micropitting,
     ScuffingLoad,
+    how_well_known,
 )
 from solvers.coupling.inputs import Coupling, CouplingDesign, CouplingOil
-from solvers.drive_train import derived, results
+from solvers.drive_train import derived, results, warm_up
 from solvers.drive_train import inputs as si
 from solvers.drive_train.shafts import thrust_budget
 from solvers.errors import InvalidInput
 from solvers.gears.inputs import GROUND_FILLET, RACK_A, GearPairInputs
+from solvers.heat_balance.warm_up import WarmUp, WarmUpCurves
 from solvers.lubricants import OilInUse
 from solvers.pumping import inputs as pumping
 from solvers.scuffing import inputs as mesh
@@ -140,7 +144,8 @@ class TrainTemperatures(ContactTemperatures, of=si.DriveTrainInputs, only=("loca
             mesh.Temperatures,
             "bulk",
             text="bulk temperature of the contact, at which the oil enters",
-            default_text="the mean of the tooth temperatures where one of them is given, else estimated",
+            default_text="the mean of the tooth temperatures where one of them is given, else by the bulk temperature "
+            "method",
             assumed="the mean of the two tooth temperatures",
         ),
     ] = None
@@ -183,6 +188,7 @@ class DriveTrainRequest(MeshInOil):
     lubricant: Annotated[Oil, Input("oil")] = Oil()
     temperatures: Annotated[TrainTemperatures, Input("temperatures", text="of contact and oil")] = TrainTemperatures()
     friction_coefficient: Annotated[float | None, PRACTICAL_FRICTION] = None
+    cooling: Annotated[GearCooling, Input.of(mesh.ScuffingInputs, "cooling")] = GearCooling()
     micropitting: Annotated[Micropitting | None, Input.of(mesh.ScuffingInputs, "micropitting")] = None
     states: Annotated[list[si.State], Input.of(si.DriveTrainInputs, "states")] = Field(
         default_factory=partial(list[si.State], ("hot",))
@@ -191,9 +197,26 @@ class DriveTrainRequest(MeshInOil):
         TrainModel()
     )
 
+    @model_validator(mode="after")
+    def bodies_hold_the_pumped_heat(self) -> Self:
+        """With a heat balance tooth temperatures are its bodies, which hold the pumped heat."""
+        if not self.is_balanced:
+            return self
+        thermal = self.thermal
+        if "bulk_includes_pumping" in thermal.model_fields_set and not thermal.bulk_includes_pumping:
+            raise PydanticCustomError(
+                "exclusive", "thermal.bulk_includes_pumping is true with the heat balance, whose bodies hold that heat"
+            )
+        known = thermal.model_copy(update={"bulk_includes_pumping": True})
+        return self.model_copy(update={"thermal": known})
+
+    def running(self) -> tuple[GearPairInputs, mesh.Load]:
+        """The pair and its load."""
+        return self.gears.pair(RACK_A), self.operation.si(mesh.Load)
+
     def inputs(self) -> si.DriveTrainInputs:
         """The solver's inputs. Raises InvalidInput no_oil where a plain bearing has neither a viscosity nor an oil."""
-        scuffing = self.scuffing_inputs(self.gears.pair(RACK_A), self.operation.si(mesh.Load))
+        scuffing = self.scuffing_inputs(*self.running())
         return self.si(
             si.DriveTrainInputs,
             self.model,
@@ -243,7 +266,34 @@ class DriveTrainRequest(MeshInOil):
             super().unused()
             | dict.fromkeys(("couplings", "model.coupling_friction"), not coupled)
             | dict.fromkeys(("thermal.wall_response", "thermal.wall_response_wheel"), not self.effects.thermal)
+            | dict.fromkeys(("thermal.pinion_bulk_c", "thermal.wheel_bulk_c"), self.is_balanced)
+            | dict.fromkeys(("cooling.pumping_w", "cooling.casing.mass_kg"), True)
         )
+
+
+class WarmUpRequest(DriveTrainRequest, of=warm_up.WarmUpInputs):
+    """A gear unit that starts and warms up; its bulk temperature comes from the heat balance."""
+
+    balance_is_default: ClassVar = True
+
+    @model_validator(mode="after")
+    def with_a_balance(self) -> Self:
+        """Refuse a bulk temperature that is given or estimated."""
+        if self.lubricant.known and not self.is_balanced:
+            raise PydanticCustomError(
+                "not_asked",
+                "a warm-up needs the heat balance: set temperatures.bulk_method to heat_balance, oil_supply to spray, "
+                "and leave out bulk temperatures",
+            )
+        return self
+
+    def unused(self) -> dict[str, bool]:
+        """The mass of a casing counts; other states are not asked for."""
+        return super().unused() | {"cooling.casing.mass_kg": False, "states": True}
+
+    def inputs(self) -> warm_up.WarmUpInputs:  # type: ignore[override]
+        """The solver's inputs."""
+        return self.si(warm_up.WarmUpInputs, unit=super().inputs())
 
 
 groups(
@@ -274,7 +324,7 @@ groups(
             "blok_flank": View(limit=1.0, bound="lower"),
             "thermal_ehl_feature": View(limit=1.0, bound="lower"),
             "thermal_ehl_profile": View(limit=1.0, bound="lower"),
-            "minimum": View(headline=1, limit=1.0, bound="lower"),
+            "minimum": View(headline=1, limit=1.0, bound="lower", band="heat.band.safety"),
         },
     ),
     TrainFlash=(results.FlashPlaces, "Largest flash temperature by Blok."),
@@ -333,7 +383,7 @@ class MisalignmentState(MisalignmentSummary, of=results.Misalignment):
     """Gap over the face with its curves."""
 
 
-class TrainSummary(Group, of=results.DriveTrainResult, without=("flank", "states")):
+class TrainSummary(Group, of=results.DriveTrainResult, without=("flank", "states", "heat")):
     """The unit in another state, in short."""
 
     misalignment: MisalignmentSummary
@@ -347,5 +397,25 @@ class TrainStates(Group, of=results.States):
     cold: TrainSummary | None
 
 
+groups(
+    WarmUpCurves=(WarmUpCurves, "Over time."),
+    WarmUpOfNodes=(WarmUp, "How every node warms up.", {"greatest_difference": View(headline=1)}),
+    AlignmentAtTimes=(warm_up.AlignmentOverTime, "Load and safety at five times."),
+)
+
+
+class WarmUpResponse(Response, of=warm_up.UnitWarmUp):
+    """A gear unit that warms up; sections are missing where there is no solution."""
+
+    views: ClassVar = {
+        "least_safety": View(headline=2, limit=1.0, bound="lower", needs="temperatures.scuffing_c"),
+        "largest_face_load_factor": View(headline=3),
+    }
+
+
 class DriveTrainResponse(Response, of=results.DriveTrainResult):
     """A gear unit whole; sections are missing where there is no solution."""
+
+    def remarks(self) -> dict[str, str]:
+        """Say how well the flanks of a heat balance are known that no measured temperature narrows."""
+        return how_well_known(self, "heat.pinion.flank_c", "heat.wheel.flank_c")

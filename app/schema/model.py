@@ -3,7 +3,8 @@
     class CouplingModel(Section, of=si.ModelOptions):
         \"\"\"Choices where the paper leaves room.\"\"\"
 
-has a field for each declaration on `si.ModelOptions`, named with the suffix of its unit. What stands in the class
+has a field for each declaration on `si.ModelOptions`, named with the suffix of its unit, and without the underscore at
+its end where it would be a word of Python (`from_`). What stands in the class
 itself is an ordinary field of pydantic: under the name of a filled field it changes the type or the default, and with
 `Input` or `Output` beside the type it replaces the declaration; `Input.of(Record, "field", text=...)` changes part of
 one. Sections of answers that add nothing are rows of `groups`. Requests give the solver's dataclasses in SI
@@ -84,7 +85,7 @@ class Documented(BaseModel):
         if unknown := {*only, *vars(cls).get("views", {})} - {*declared}:
             raise TypeError(f"{cls.__name__} names fields that are not declared: {', '.join(sorted(unknown))}")
         names = {  # in the interface
-            name: name if each.unit in {None, cls.member_unit} else f"{name}_{each.unit}"
+            name: name.rstrip("_") if each.unit in {None, cls.member_unit} else f"{name}_{each.unit}"
             for name, (_, each) in declared.items()
         }
         inherited = {each.name for base in cls.__bases__ for each in members(base) if each.record}
@@ -429,6 +430,10 @@ class Response(Group):
     def result(self) -> Any:
         """The solver's result that the response was read from, in SI; None where there is none."""
         return self._result
+
+    def remarks(self) -> dict[str, str]:
+        """How well results are known, where that is to stand beside them: texts by path."""
+        return {}
 
     def read_from(self, result: Any) -> Self:
         """The response with the solver's result kept beside it, for its figures."""

@@ -53,7 +53,7 @@ class _Declaration(Quantity):
 class Input(_Declaration):
     """The declaration of a field of a request."""
 
-    in_schema = ("symbol", "source", "assumed", "default_text", "advanced", "tolerance", "relative_tolerance")
+    in_schema = ("symbol", "source", "assumed", "default_text", "advanced", "folded", "tolerance", "relative_tolerance")
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
         """The type's own schema; numbers are finite, in range, no text or booleans; lists have their length."""
@@ -93,7 +93,8 @@ class View:
     `limit` is the number, or the dotted field of request or answer, that bounds the value; `bound` says on which side a
     verdict finds the value safe: below an upper limit, above a lower one. `needs` is the request field without which
     there is no value, `verdict` the field of the answer that judges it in words, or as a truth that is bad; beside the
-    value where it begins with a dot. `percent` values are shares that pages show in per cent.
+    value where it begins with a dot. `band` is the field of the answer that holds the ends of its range of uncertainty,
+    of which the worse one is judged. `percent` values are shares that pages show in per cent.
     """
 
     headline: int | None = None
@@ -102,6 +103,7 @@ class View:
     needs: str | None = None
     verdict: str | None = None
     percent: bool = False
+    band: str | None = None
 
     @property
     def greatest_is_best(self) -> bool:
@@ -113,7 +115,7 @@ class View:
 class Output(View, _Declaration):
     """The declaration of a field of a response."""
 
-    in_schema = ("symbol", "source", "axis", "index", "headline", "limit", "bound", "needs", "verdict")
+    in_schema = ("symbol", "source", "axis", "index", "headline", "limit", "bound", "needs", "verdict", "band")
 
     @property
     def axes(self) -> tuple[str, ...]:

@@ -1,24 +1,29 @@
 """Scuffing of a gear pair: requests and answers of /v1/scuffing and of its load distribution."""
 
+from abc import abstractmethod
 from dataclasses import replace
 from typing import Annotated, Any, ClassVar, Self
 
 from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
+from app.schema.cooling import GearCooling
 from app.schema.gears import GearMaterials, ScuffingGears
 from app.schema.line_contact import FilmModel
 from app.schema.model import Derived, Group, Request, Response, Section, groups
 from app.schema.oil import Oil
 from app.schema.quantities import Input, View
 from solvers.contact import ehl
+from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs
+from solvers.heat_balance.notices import KNOWN_WITHIN
 from solvers.lubricants import OilInUse
 from solvers.materials import Solid
 from solvers.oils import OilChoice
 from solvers.scuffing import inputs as si
 from solvers.scuffing import results, safety_results
 from solvers.scuffing.micropitting import results as film_results
+from solvers.scuffing.thermal.pair_heat import is_beyond_the_estimate
 
 
 class FlankModifications(Section, of=si.Modifications, without=("lead_curve",)):
@@ -152,7 +157,12 @@ groups(
         "Safety factor against scuffing.",
         {
             "blok_factor": View(
-                headline=1, limit=1.0, bound="lower", needs="temperatures.scuffing_c", verdict=".verdict"
+                headline=1,
+                limit=1.0,
+                bound="lower",
+                needs="temperatures.scuffing_c",
+                verdict=".verdict",
+                band="heat.band.safety",
             ),
             "feature_line_factor": View(limit=1.0, bound="lower"),
             "thermal_ehl_factor": View(limit=1.0, bound="lower"),
@@ -200,14 +210,21 @@ class ContactTemperatures(Section, of=si.Temperatures):
 
     @model_validator(mode="after")
     def one_bulk(self) -> Self:
-        """One bulk temperature."""
-        if self.bulk_method == "estimated" and self.bulk_c is not None:
-            raise PydanticCustomError("exclusive", "bulk_c and an estimated bulk are both given; keep one")
+        """One bulk temperature; the heat balance is for jets."""
+        if self.bulk_method != "given" and self.bulk_c is not None:
+            method = "an estimated bulk" if self.bulk_method == "estimated" else "a bulk by heat balance"
+            raise PydanticCustomError("exclusive", "bulk_c and {method} are both given; keep one", {"method": method})
+        if self.bulk_method == "heat_balance" and self.oil_supply != "spray":
+            raise PydanticCustomError(
+                "exclusive",
+                "the heat balance is for gears under jets, oil_supply spray; for gears that dip into oil set "
+                "bulk_method to estimated, or give bulk_c as measured",
+            )
         return self
 
     def unused(self) -> dict[str, bool]:
-        """Mark the bulk temperature as unused if it is estimated."""
-        return {"bulk_c": self.bulk_method == "estimated"}
+        """Mark the bulk temperature as unused unless it is given."""
+        return {"bulk_c": self.bulk_method != "given"}
 
 
 class ScuffingTemperatures(ContactTemperatures):
@@ -217,7 +234,7 @@ class ScuffingTemperatures(ContactTemperatures):
     def known_bulk(self) -> Self:
         """The method `given` needs a bulk temperature."""
         if self.bulk_method == "given" and self.bulk_c is None:
-            raise PydanticCustomError("missing_bulk", "give bulk_c, or bulk_method estimated")
+            raise PydanticCustomError("missing_bulk", "give bulk_c, or bulk_method estimated or heat_balance")
         return self
 
 
@@ -241,7 +258,7 @@ class Micropitting(Section, of=si.MicropittingCheck):
         }
 
 
-class MeshModel(LoadDistributionModel, FilmModel, of=si.ScuffingInputs, without=("line", "micropitting")):
+class MeshModel(LoadDistributionModel, FilmModel, of=si.ScuffingInputs, without=("line", "micropitting", "cooling")):
     """Choices where the paper leaves room, and physics and resolution of the film."""
 
     friction: si.FrictionMethod = "iso_tr_13989"
@@ -267,6 +284,7 @@ ESTER_FACTOR = (
     "coefficient of friction is given, that of a polyalphaolefin"
 )
 ESTER_FILM = f"{ESTER_FACTOR}; the film against micropitting takes the pressure-viscosity coefficient of a mineral oil"
+NOT_VALIDATED, KNOWN = "not_validated", f"known to about ±{KNOWN_WITHIN:g} K"
 GIVEN_BULK = (
     "a given bulk temperature does not follow the oil: with a hotter oil alone the stated safety rises, because it "
     "counts the temperatures above the oil's"
@@ -290,6 +308,7 @@ class MeshInOil(Request):
     `methods` are the fields that are "given" where one of these values is, unless the request says otherwise.
     """
 
+    balance_is_default: ClassVar = False  # at any speed
     methods: ClassVar[dict[str, tuple[str, ...]]] = {
         "model.friction": ("friction_coefficient",),
         "temperatures.bulk_method": ("temperatures.bulk_c",),
@@ -315,6 +334,34 @@ class MeshInOil(Request):
             )
         return self
 
+    @model_validator(mode="after")
+    def balance_where_the_estimate_ends(self) -> Self:
+        """Ask for the heat balance of jets where no method is named, if the pair is fast or its cooling is given."""
+        temperatures = self.temperatures
+        if "bulk_method" in temperatures.model_fields_set or temperatures.oil_supply != "spray":
+            return self
+        asked = self.balance_is_default or self.cooling.is_given
+        if not self.lubricant.known or not (asked or self._is_fast()):
+            return self
+        balanced = temperatures.model_copy(update={"bulk_method": "heat_balance"})
+        balanced.model_fields_set.discard("bulk_method")  # is a default
+        request = self.model_copy(update={"temperatures": balanced})
+        if "temperatures" not in self.model_fields_set:
+            request.model_fields_set.discard("temperatures")
+        return request
+
+    @abstractmethod
+    def running(self) -> tuple[GearPairInputs, si.Load]:
+        """The pair and its load."""
+
+    def _is_fast(self) -> bool:
+        """Whether the pitch line runs faster than the estimate of the bulk temperature holds for."""
+        try:
+            gears, load = self.running()
+            return is_beyond_the_estimate(gears, load.pinion_speed)
+        except InvalidInput:  # no pair; the solver says why
+            return False
+
     def scuffing_inputs(self, gears: GearPairInputs, load: si.Load) -> si.ScuffingInputs:
         """The solver's inputs for this pair and load."""
         return self.si(
@@ -325,6 +372,11 @@ class MeshInOil(Request):
             oil=self.lubricant.si(OilChoice).resolve(),
             film=self.model.si(ehl.Model),
         )
+
+    @property
+    def is_balanced(self) -> bool:
+        """Whether the bulk temperature comes from a heat balance."""
+        return bool(self.lubricant.known) and self.temperatures.bulk_method == "heat_balance"
 
     @property
     def _lubricant_factor_asked(self) -> bool:
@@ -347,7 +399,8 @@ class MeshInOil(Request):
         of_the_film = (name for name in Micropitting.model_fields if not name.startswith("wear"))
         return dict.fromkeys((f"micropitting.{name}" for name in of_the_film), dry) | {
             "micropitting.quality_grade": dry or not standard,
-            "temperatures.oil_supply": self.temperatures.bulk_method != "estimated" and not standard,
+            "temperatures.oil_supply": self.temperatures.bulk_method == "given" and not standard,
+            "cooling": not self.is_balanced,
             "lubricant": dry,
             "temperatures": dry,
             "model.rheology": no_film,
@@ -374,25 +427,40 @@ class MeshInOil(Request):
 
 
 class ScuffingRequest(MeshInOil, GearPairRequest):
-    """A loaded gear pair, its oil and temperatures."""
+    """A loaded gear pair, its oil, its cooling and its temperatures."""
 
     friction_coefficient: Annotated[float | None, PRACTICAL_FRICTION] = None
     lubricant: Annotated[Oil, Input("oil")] = Oil()
     temperatures: Annotated[ScuffingTemperatures, Input("temperatures", text="temperatures of teeth and oil")] = (
         ScuffingTemperatures()
     )
+    cooling: Annotated[GearCooling, Input.of(si.ScuffingInputs, "cooling")] = GearCooling()
     micropitting: Annotated[Micropitting | None, Input.of(si.ScuffingInputs, "micropitting")] = None
     model: Annotated[ScuffingModel, Input("model", text="choices where the paper leaves room", advanced=True)] = (
         ScuffingModel()
     )
 
+    def running(self) -> tuple[GearPairInputs, si.Load]:
+        """The pair and its load."""
+        return self.gears.si(GearPairInputs), self.load.si(si.Load)
+
+    def unused(self) -> dict[str, bool]:
+        """Also what a pair has no part of."""
+        of_a_unit = ("cooling.bearing_film_share", "cooling.casing.mass_kg")
+        return super().unused() | dict.fromkeys(of_a_unit, True)
+
     def inputs(self) -> si.ScuffingInputs:
         """The solver's inputs."""
-        return self.scuffing_inputs(self.gears.si(GearPairInputs), self.load.si(si.Load))
+        return self.scuffing_inputs(*self.running())
 
 
 class ScuffingOilDerived(ScuffingDerived, of=(safety_results.ScuffingDerived, OilInUse)):
     """Load and lengths, and the oil as it enters the contact."""
+
+
+def how_well_known(response: Response, *paths: str) -> dict[str, str]:
+    """Say beside temperatures of a heat balance how well they are known if no measured one narrows them."""
+    return dict.fromkeys(paths, KNOWN) if NOT_VALIDATED in {each.code for each in response.warnings} else {}
 
 
 class HeatedFlankFields(Group, of=safety_results.HeatedFlank):
@@ -404,3 +472,7 @@ class ScuffingResponse(LoadDistributionResponse, of=safety_results.Scuffing):
 
     flank: HeatedFlankFields | None
     derived: ScuffingOilDerived
+
+    def remarks(self) -> dict[str, str]:
+        """Say how well the bulk temperature of a heat balance is known that no measured temperature narrows."""
+        return how_well_known(self, "contact_temperature.bulk_c")

@@ -2,11 +2,12 @@
 
 Data flows inputs, checks -> shafts (shafts, bearings and couplings as one flexibility matrix) -> gap (its equilibrium
 with the mesh, and its parts by cause) -> elements, losses, safety. `model.solve` calls all of these and notices;
-`states.solve` calls `model.solve` for the hot and for the cold unit. Own derivation; sources are given with the
+`states.solve` calls `model.solve` for the hot and for the cold unit. `unit_heat` brings the heat balance and the unit
+together, `warm_up` follows both over time. Own derivation; sources are given with the
 equations.
 """
 
-from solvers.drive_train import states
+from solvers.drive_train import states, warm_up
 from solvers.drive_train.inputs import (
     Alignment,
     Arrangement,
@@ -23,9 +24,11 @@ from solvers.drive_train.inputs import (
 )
 from solvers.drive_train.notices import unusual_values
 from solvers.drive_train.results import DriveTrainResult
+from solvers.drive_train.warm_up import UnitWarmUp, WarmUpInputs
 from solvers.plausibility import guarded
 
 solve = guarded(states.solve, unusual_values)
+solve_warm_up = guarded(warm_up.solve, warm_up.unusual_values)
 
 __all__ = [
     "Alignment",
@@ -41,5 +44,8 @@ __all__ = [
     "ShaftBearing",
     "ShaftSection",
     "UnitCoupling",
+    "UnitWarmUp",
+    "WarmUpInputs",
     "solve",
+    "solve_warm_up",
 ]

@@ -2,6 +2,8 @@
 
 from solvers.coupling.inputs import Coupling
 from solvers.drive_train.inputs import DriveTrainInputs, JournalBearing, Shaft, ShaftName
+from solvers.heat_balance import Heat, cooling_in_force
+from solvers.heat_balance.results import CoolingInForce
 from solvers.lubricants import OilInUse, oil_in_use
 from solvers.quantity import quantity, record
 from solvers.scuffing.inputs import TR_13989
@@ -57,7 +59,10 @@ class DerivedTemperatures:
     """Bulk temperature of the contact and scuffing temperature [K]; None where there is none."""
 
     bulk: float | None = quantity(
-        "bulk temperature used", "θ_M", unit="c", text="given, the teeth's mean, or estimated; null without an oil"
+        "bulk temperature used",
+        "θ_M",
+        unit="c",
+        text="given, the teeth's mean, estimated, or by heat balance; null without an oil",
     )
     scuffing: float | None = quantity(
         "scuffing temperature used", "θ_S", unit="c", text="given or by a test; null with neither"
@@ -86,9 +91,10 @@ class Derived:
     thermal: DerivedHeat = quantity("heat used")
     lubricant: OilInUse | None = quantity("oil used", text="of the gears, as it enters the contact; null with none")
     temperatures: DerivedTemperatures = quantity("temperatures used")
+    cooling: CoolingInForce | None = quantity("cooling used", default=None, text="null without a heat balance")
 
 
-def derived(inputs: DriveTrainInputs, mesh: LoadDistribution) -> Derived:
+def derived(inputs: DriveTrainInputs, mesh: LoadDistribution, heat: Heat | None = None) -> Derived:
     """What the description left open, as it was used."""
     ratio = inputs.mesh.distribution.gears.pinion.teeth / inputs.mesh.distribution.gears.wheel.teeth
     lengths, lubricant = mesh.derived, inputs.mesh.lubricant
@@ -118,6 +124,7 @@ def derived(inputs: DriveTrainInputs, mesh: LoadDistribution) -> Derived:
             inputs.mesh.temperatures.scuffing,
             inputs.mesh.temperatures.lubricant_factor,
         ),
+        cooling=None if heat is None else cooling_in_force(inputs.mesh.cooling, heat),
     )
 
 

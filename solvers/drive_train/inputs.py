@@ -89,6 +89,8 @@ class JournalBearing:
     """A plain bearing; lengths [m], viscosity of its film [Pa s].
 
     `radial_clearance` None is 1.5e-3 of the journal's radius. `offset` (X, Y) is of the bore against the datum axis.
+    With `in_gear_oil` the viscosity is that of the gears' oil, which follows the film's temperature in a heat balance;
+    `oil_flow` [m^3/s] there takes the place of what leaks at the sides.
     """
 
     position: float
@@ -97,6 +99,8 @@ class JournalBearing:
     viscosity: float
     radial_clearance: float | None = None
     offset: Vector2 = (0.0, 0.0)
+    in_gear_oil: bool = False
+    oil_flow: float | None = None
 
     @property
     def clearance(self) -> float:
@@ -178,7 +182,8 @@ class ShaftBearing:
         ge=1e-5,
         le=100,
         default_text="the gears' oil at the film temperature",
-        assumed=f"the gears' oil at the film temperature, which is {FILM_ABOVE_OIL:.0f} K above the oil's unless given",
+        assumed=f"the gears' oil at the film temperature: that of the heat balance if there is one, else "
+        f"{FILM_ABOVE_OIL:.0f} K above the oil's unless given",
     )
     film_temperature: float | None = quantity(
         "film temperature of the bearing",
@@ -189,7 +194,17 @@ class ShaftBearing:
         le=300,
         tolerance=5,
         text="temperature at which the oil's viscosity is taken where none is given",
-        default_text=f"oil temperature and {FILM_ABOVE_OIL:.0f} K",
+        default_text=f"by the heat balance if there is one, else oil temperature and {FILM_ABOVE_OIL:.0f} K",
+    )
+    oil_flow: float | None = quantity(
+        "oil flow to the bearing",
+        "Q_B",
+        unit="l_per_min",
+        default=None,
+        ge=0.01,
+        le=1000,
+        text="used by the heat balance",
+        default_text="what leaks at the sides of the film",
     )
     stiffness: tuple[Vector2, Vector2] | None = quantity(
         "bearing stiffness",
@@ -225,7 +240,16 @@ class ShaftBearing:
                 raise InvalidInput("no_oil", message, "viscosity")
             film = oil_temperature + FILM_ABOVE_OIL if self.film_temperature is None else self.film_temperature
             viscosity = lubricant_at(oil, film).viscosity_at(0.0, film)
-        return JournalBearing(self.position, self.diameter, self.width, viscosity, self.radial_clearance, self.offset)
+        return JournalBearing(
+            position=self.position,
+            diameter=self.diameter,
+            width=self.width,
+            viscosity=viscosity,
+            radial_clearance=self.radial_clearance,
+            offset=self.offset,
+            in_gear_oil=self.viscosity is None and self.film_temperature is None,
+            oil_flow=self.oil_flow,
+        )
 
 
 def bearings_of(

@@ -7,6 +7,7 @@ from solvers.drive_train.gap.balance import Equilibrium
 from solvers.drive_train.inputs import DriveTrainInputs
 from solvers.drive_train.results import CouplingResult, ForceBalance, ShaftResult, TrainLosses
 from solvers.drive_train.shafts.influence import ShaftPorts, Unit
+from solvers.heat_balance import Heat
 
 
 def train_losses(
@@ -15,18 +16,22 @@ def train_losses(
     pumping: float,
     shafts: tuple[ShaftResult, ShaftResult],
     couplings: tuple[CouplingResult, ...],
+    heat: Heat | None = None,
 ) -> TrainLosses:
-    """Losses [W] of all parts; `mesh` and `pumping` are the models' own.
+    """Losses [W] of all parts; `mesh` and `pumping` are the models' own, others those of the heat balance.
 
     Without the mesh's no sum is known; where they exceed the power there is no efficiency.
     """
     bearings = sum(bearing.friction_power for shaft in shafts for bearing in shaft.bearings)
     coupling = sum(one.friction_power for one in couplings)
+    parts: tuple[float | None, float | None, float | None] = (None, None, None)
+    if heat is not None:
+        parts, mesh = (heat.losses.oil_acceleration, heat.losses.windage, heat.losses.other), heat.losses.mesh
     if mesh is None:
-        return TrainLosses(coupling, pumping, None, bearings, None, None)
-    total = coupling + pumping + mesh + bearings
+        return TrainLosses(coupling, pumping, None, bearings, *parts, None, None)
+    total = coupling + pumping + mesh + bearings + sum(part for part in parts if part is not None)
     power = inputs.mesh.distribution.load.transmitted_power
-    return TrainLosses(coupling, pumping, mesh, bearings, total, 1 - total / power if power > total else None)
+    return TrainLosses(coupling, pumping, mesh, bearings, *parts, total, 1 - total / power if power > total else None)
 
 
 def force_balance(unit: Unit, found: Equilibrium, torques: tuple[float, float], force: float) -> ForceBalance:

@@ -8,8 +8,9 @@ from solvers.arrays import FloatArray
 from solvers.drive_train.gap.balance import Equilibrium
 from solvers.drive_train.gap.face_curves import face_slope
 from solvers.drive_train.inputs import DriveTrainInputs
-from solvers.drive_train.model import Prepared, prepare, settle
+from solvers.drive_train.prepared import Prepared, prepare, settle
 from solvers.drive_train.safety import contact_of, flank_heat
+from solvers.drive_train.unit_heat import asks_for_balance, warm_unit
 from solvers.scuffing.model import distribution
 from solvers.scuffing.thermal.temperatures import in_force
 
@@ -37,6 +38,11 @@ class Outcome:
 
 def outcome(inputs: DriveTrainInputs, start: FloatArray | None = None) -> Outcome:
     """The figures of a unit, from the gap of a similar one where given. Raises what `model.solve` raises."""
+    if asks_for_balance(inputs):
+        warm = warm_unit(
+            replace(inputs, mesh=replace(inputs.mesh, cooling=replace(inputs.mesh.cooling, band=False))), start
+        )
+        return outcome_of(warm.inputs, warm.prepared, warm.found)
     prepared = prepare(inputs)
     return outcome_of(inputs, prepared, settle(inputs, prepared, start))
 
@@ -44,7 +50,7 @@ def outcome(inputs: DriveTrainInputs, start: FloatArray | None = None) -> Outcom
 def outcome_of(inputs: DriveTrainInputs, prepared: Prepared, found: Equilibrium) -> Outcome:
     """The figures of a unit whose gap is known; the thermal film is left out."""
     spread = distribution(inputs.mesh.distribution, prepared.mesh.prepared, found.balance)
-    contact, spread = in_force(contact_of(inputs), spread)
+    contact, spread, _ = in_force(contact_of(inputs), spread)
     closed = replace(inputs, mesh=replace(contact, lubrication="closed_form"))
     heat = flank_heat(closed, spread, prepared.thermal)
     shares = np.trapezoid(spread.flank.line_load, axis=0)

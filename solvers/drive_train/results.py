@@ -1,9 +1,13 @@
 """Results of a drive train; SI units, read-only arrays. Vectors are (X, Y), gaps positive where the flanks part."""
 
+from collections.abc import Callable
+
 from solvers.arrays import FloatArray
 from solvers.drive_train.derived import Derived
 from solvers.drive_train.inputs import Vector2
 from solvers.drive_train.shafts.thrust_budget import Thrust
+from solvers.heat_balance import FlowCurve
+from solvers.heat_balance.results import Heat
 from solvers.notices import Notice
 from solvers.quantity import computed, quantity, record
 from solvers.scuffing.inputs import ISO_TR_15144, TR_13989
@@ -227,13 +231,21 @@ class TrainSafety:
 class TrainLosses:
     """Power [W] lost in couplings, to pumping, in mesh and plain bearings; efficiency None where they exceed it.
 
-    Where the mesh's coefficient of friction is not known, its loss, the total and the efficiency are None.
+    Where the mesh's coefficient of friction is not known, its loss, the total and the efficiency are None. With a heat
+    balance the mesh's loss is that at the flanks' temperature, and the total holds also what it adds.
     """
 
     coupling: float = quantity("loss of the couplings", "P_C", unit="w")
     pumping: float = quantity("loss by pumping", "P_P", unit="w", text="of air and mist between the teeth")
     mesh: float | None = quantity("loss of the mesh", "P_V", unit="w", text="null without a coefficient of friction")
     bearings: float = quantity("loss of the plain bearings", "P_B", unit="w")
+    oil_acceleration: float | None = quantity(
+        "loss by acceleration of the oil", "P_acc", unit="w", text="null without a heat balance"
+    )
+    windage: float | None = quantity("loss by windage", "P_wind", unit="w", text="null without a heat balance")
+    other: float | None = quantity(
+        "loss in seals and other parts", "P_other", unit="w", text="as given for the heat balance; null without one"
+    )
     total: float | None = quantity("total loss", "P_L", unit="w", text="null without the loss of the mesh")
     efficiency: float | None = quantity("efficiency", "η", text="null without power, or where the losses exceed it")
 
@@ -303,8 +315,8 @@ class States:
 class DriveTrainResult:
     """The unit's answer; `mesh` is the load distribution under the gap that all agreed on.
 
-    `contact_temperature` is the map [profile, face] by Blok [K]; `film_ratio` is that of the film against micropitting,
-    None if it is not asked for.
+    `over_the_flow` gives the temperatures of its balance at other oil flows [m^3/s]. `contact_temperature` is the map
+    [profile, face] by Blok [K]; `film_ratio` is that of the film against micropitting, None if it is not asked for.
     """
 
     misalignment: Misalignment = quantity("misalignment", text="gap over the face, by causes")
@@ -322,6 +334,10 @@ class DriveTrainResult:
         "micropitting", text="film against micropitting; null if not asked for, without an oil or a bulk temperature"
     )
     wear: Wear | None = quantity("wear", text="mild wear; null without a wear coefficient")
+    heat: Heat | None = quantity(
+        "heat balance", text="null unless the bulk temperature is asked for by heat balance, of a known oil"
+    )
+    over_the_flow: Callable[[FloatArray], FlowCurve] | None
     mesh: LoadDistribution
     contact_temperature: FloatArray
     film_ratio: FloatArray | None

@@ -19,7 +19,7 @@ from solvers.scuffing.safety_results import ThermalPath
 from solvers.scuffing.thermal.blok import blok_flash
 from solvers.scuffing.thermal.flank import SURVEY_POINTS, FaceFunction, contact_at_points, find_hottest, map_flash
 from solvers.scuffing.thermal.thermal_path import thermal_paths
-from solvers.scuffing.thermal.verdict import unknown_points
+from solvers.scuffing.thermal.verdict import hotter_surface, unknown_points
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,7 +37,7 @@ class FlankHeat:
 def contact_of(inputs: DriveTrainInputs) -> ScuffingInputs:
     """The mesh with its bulk temperature: where it is given and no number, the mean of the tooth temperatures."""
     temperatures = inputs.mesh.temperatures
-    if temperatures.bulk is not None or temperatures.bulk_method == "estimated":
+    if temperatures.bulk is not None or temperatures.bulk_method != "given":
         return inputs.mesh
     mean = (inputs.heat.pinion_bulk + inputs.heat.wheel_bulk) / 2
     return replace(inputs.mesh, temperatures=replace(temperatures, bulk=mean))
@@ -137,21 +137,29 @@ def _thermal_lines(
     hottest: Peak,
     bulk: FaceFunction,
 ) -> tuple[tuple[ThermalPath, ...], list[FloatArray], tuple[Notice, ...]]:
-    """Solve the feature line (x, y) and the profile line through the hottest point; both with their bulk [K]."""
+    """Solve the feature line (x, y) and the profile line through the hottest point; both with bulk temperatures [K]."""
     even = np.linspace(0.0, mesh.path_of_contact.plane.path_length, inputs.mesh.path_points)
     profile = np.unique([*even, hottest.x])
     places = [feature, (profile, np.full(profile.size, hottest.y))]
     paths, warnings = thermal_paths(
         inputs.mesh, [contact_at_points(inputs.mesh.distribution, mesh, *line) for line in places]
     )
-    return paths, [bulk(y) for _, y in places], warnings
+    return paths, [_of_both_surfaces(inputs, bulk(y)) for _, y in places], warnings
+
+
+def _of_both_surfaces(inputs: DriveTrainInputs, bulk: FloatArray) -> FloatArray:
+    """Return the bulk temperatures of pinion and wheel, two rows [K], of the mean of both at points."""
+    surfaces, mean = inputs.mesh.temperatures.surfaces, inputs.mesh.temperatures.bulk
+    assert surfaces is not None
+    assert mean is not None
+    return bulk + (np.array(surfaces) - mean)[:, None]
 
 
 def _hottest_surface(path: ThermalPath, bulk: FloatArray) -> float | None:
     """Return the hottest flank surface [K] along a line by thermal EHL; None if points not solved may decide."""
     if set(path.status) == {"unloaded"} or unknown_points([path], [bulk]):
         return None
-    return float(np.nanmax(np.fmax(path.pinion_flash, path.wheel_flash) + bulk))
+    return float(np.nanmax(hotter_surface(path, bulk)))
 
 
 def _thinnest_film(paths: Sequence[ThermalPath], bulks: Sequence[FloatArray]) -> float | None:

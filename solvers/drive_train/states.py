@@ -7,6 +7,7 @@ from solvers.drive_train import model
 from solvers.drive_train.inputs import DriveTrainInputs
 from solvers.drive_train.results import DriveTrainResult, States
 from solvers.errors import InvalidInput, NoSolution
+from solvers.heat_balance import Cooling
 from solvers.notices import Notice
 
 
@@ -33,10 +34,10 @@ def solve(inputs: DriveTrainInputs, start: FloatArray | None = None) -> DriveTra
 def cold(inputs: DriveTrainInputs) -> DriveTrainInputs:
     """Every tooth at the reference temperature, nothing pumped warm, supports that have not grown.
 
-    The contact's bulk temperature is a tooth's as well, unless it is given.
+    The contact's bulk temperature is a tooth's as well, unless it is given; there is no heat to balance.
     """
     heat, reference = inputs.heat, inputs.heat.reference
-    mesh = inputs.mesh
+    mesh = replace(inputs.mesh, cooling=Cooling())
     if not inputs.bulk_given:
         mesh = replace(mesh, temperatures=replace(mesh.temperatures, bulk=reference, bulk_method="given"))
     return replace(

@@ -9,6 +9,8 @@ from solvers.heat_balance import model
 from solvers.heat_balance.bearings import Journal, Operation, journal_leakage
 from solvers.heat_balance.capacities import Capacities, cylinders_capacity, loaded_teeth_capacity
 from solvers.heat_balance.conduction import rod_conductance
+from solvers.heat_balance.fling_off import TOOTH_HEIGHT
+from solvers.heat_balance.flow_curve import FlowCurve, over_the_flow
 from solvers.heat_balance.inputs import Casing, Cooling, Measured
 from solvers.heat_balance.losses import MeshHeat, share_to_pinion
 from solvers.heat_balance.model import (
@@ -16,6 +18,7 @@ from solvers.heat_balance.model import (
     HeatBalanceInputs,
     backlash_loss,
     calibrated,
+    cooling_in_force,
     network_of,
     unusual_values,
 )
@@ -27,10 +30,12 @@ from solvers.plausibility import guarded
 solve = guarded(model.solve, unusual_values)
 
 __all__ = [
+    "TOOTH_HEIGHT",
     "Capacities",
     "Casing",
     "Cooling",
     "CoolingOil",
+    "FlowCurve",
     "GearGeometry",
     "Heat",
     "HeatBalanceInputs",
@@ -41,11 +46,13 @@ __all__ = [
     "WarmUp",
     "backlash_loss",
     "calibrated",
+    "cooling_in_force",
     "cooling_oil",
     "cylinders_capacity",
     "journal_leakage",
     "loaded_teeth_capacity",
     "network_of",
+    "over_the_flow",
     "rod_conductance",
     "share_to_pinion",
     "solve",

@@ -14,15 +14,19 @@ MEASURED_WITHIN = 3.0  # K, chosen: uncertainty of a measured temperature
 
 @dataclass(frozen=True, slots=True)
 class Extreme:
-    """How well the oil cools at one end of the band; None is as in the nominal case."""
+    """How well the oil cools at one end of the band; None is as in the nominal case.
+
+    `measured` is added to the measured temperature of a gear [K].
+    """
 
     wetting_share: float
     fling_off_factor: float
+    measured: float
     rewetting_share: float | None = None
 
 
-WELL_COOLED = Extreme(wetting_share=1.0, fling_off_factor=1.5)
-POORLY_COOLED = Extreme(wetting_share=0.2, fling_off_factor=0.7, rewetting_share=0.5)
+WELL_COOLED = Extreme(wetting_share=1.0, fling_off_factor=1.5, measured=-MEASURED_WITHIN)
+POORLY_COOLED = Extreme(wetting_share=0.2, fling_off_factor=0.7, measured=MEASURED_WITHIN, rewetting_share=0.5)
 
 
 def extreme_network(network: Network, cooling: Cooling, extreme: Extreme) -> Network:
@@ -44,7 +48,8 @@ def extreme_network(network: Network, cooling: Cooling, extreme: Extreme) -> Net
 
     Notes
     -----
-    Eq. H21. With a measured temperature of a gear the wetting share is fitted again, as near as it comes.
+    Eq. H21. With a measured temperature of a gear the wetting share is fitted again to the temperature at the end of
+    its own uncertainty, as near as it comes.
 
     """
     spray = network.spray
@@ -55,18 +60,20 @@ def extreme_network(network: Network, cooling: Cooling, extreme: Extreme) -> Net
     varied = replace(network, spray=spray)
     if cooling.measured.rotors:
         node, temperature = next(iter(cooling.measured.rotors.items()))
-        return _fitted_again(varied, node, temperature)
+        return _fitted_again(varied, node, temperature + extreme.measured)
     return wetted(varied, extreme.wetting_share) if cooling.wetting_share is None else varied
 
 
 def _fitted_again(network: Network, node: str, temperature: float) -> Network:
     """Return the network with the wetting share that gives the node its temperature, or comes nearest to it."""
+    place, wanted = network.nodes.index(node), temperature - network.oil.inlet
+    all_oil = wetted(network, MOST_WETTING)
+    if float(equilibrium(all_oil).rises[place]) >= wanted:  # no share cools that well
+        return all_oil
     try:
         return with_rotor(network, node, temperature)
     except InvalidInput:
-        place, wanted = network.nodes.index(node), temperature - network.oil.inlet
-        ends = [wetted(network, share) for share in (LEAST_WETTING, MOST_WETTING)]
-        return min(ends, key=lambda end: abs(float(equilibrium(end).rises[place]) - wanted))
+        return wetted(network, LEAST_WETTING)
 
 
 def flank_cases(network: Network, cooling: Cooling, nominal: FloatArray) -> tuple[tuple[float, float], ...]:

@@ -8,11 +8,15 @@ from scipy.optimize import brentq
 from solvers.arrays import FloatArray
 from solvers.errors import InvalidInput, NoSolution
 from solvers.heat_balance.network import MIST, Network
-from solvers.heat_balance.solution import equilibrium
+from solvers.heat_balance.solution import DIFFERENCE, equilibrium
 
 LEAST_WETTING, MOST_WETTING = 0.02, 1.0
 TRIED_SHARES = np.geomspace(MOST_WETTING, LEAST_WETTING, 8)
 CLOSE = 1e-7  # of the wetting share
+SHARE_STEP = 1e-5  # of the logarithm of the wetting share, and of the scale of the other losses, in differences
+MOST_FITS, LARGEST_FIT = 20, 1.0  # steps, and the most that the logarithm of the share moves in one of them
+FITTED = 1e-6  # K; of the last step
+MET = 1e-5  # K; of the measured temperature
 
 
 def wetted(network: Network, share: float) -> Network:
@@ -43,9 +47,8 @@ def drain_rise(network: Network, rises: FloatArray) -> float:
 
 def oil_flows(network: Network, rises: FloatArray) -> FloatArray:
     """Return the flow of oil through each plain bearing [m^3/s]."""
-    films = [network.film_temperature(float(rise)) for rise in rises[MIST + 1 :]]
-    pairs = zip(network.journals, films, strict=False)
-    return np.array([journal.loss_and_flow(network.oil.viscosity(film))[1] for journal, film in pairs])
+    outlets = [float(rise) for rise in rises[MIST + 1 : MIST + 1 + len(network.journals)]]
+    return np.array([network.operation(number, outlet)[1] for number, outlet in enumerate(outlets)])
 
 
 def with_drain(network: Network, drain: float) -> Network:
@@ -124,13 +127,20 @@ def with_rotor(network: Network, node: str, temperature: float, drain: float | N
 
     """
     place, wanted = network.nodes.index(node), temperature - network.oil.inlet
+    fitted = _fitted(network, place, wanted, None if drain is None else drain - network.oil.inlet)
+    if fitted is not None:
+        return fitted
 
     def with_share(share: float) -> Network:
         varied = wetted(network, share)
         return varied if drain is None else with_drain(varied, drain)
 
+    near: FloatArray | None = None
+
     def excess(share: float) -> float:
-        return float(equilibrium(with_share(share)).rises[place]) - wanted
+        nonlocal near
+        near = equilibrium(with_share(share), near).rises
+        return float(near[place]) - wanted
 
     reached: list[tuple[float, float]] = []
     for share in map(float, TRIED_SHARES):
@@ -143,6 +153,55 @@ def with_rotor(network: Network, node: str, temperature: float, drain: float | N
         if len(reached) > 1 and reached[-1][1] * reached[-2][1] < 0.0:
             return with_share(float(brentq(excess, reached[-1][0], reached[-2][0], xtol=CLOSE)))
     raise _unreachable(node, temperature, [gap + temperature for _, gap in reached])
+
+
+def _fitted(network: Network, place: int, wanted: float, drain: float | None) -> Network | None:
+    """Return the network with the share, and the other losses, that give a node its rise [K] and the drain its own.
+
+    Newton's method for the rises of the other nodes, the logarithm of the share and the other losses together; it
+    starts from all oil on the flanks. None if it does not converge to a share from 0.02 to 1 and an equilibrium there.
+    """
+    try:
+        start = equilibrium(wetted(network, MOST_WETTING)).rises
+    except NoSolution:
+        return None
+    scale = network.oil.heat_capacity * network.spray.flow
+    unknown = np.concatenate([start, [0.0] if drain is None else [0.0, network.other / scale]])
+    unknown[place] = wanted
+    free = [number for number in range(unknown.size) if number != place]
+    steps = np.full(unknown.size, DIFFERENCE)
+    steps[network.size] = SHARE_STEP
+
+    def varied(values: FloatArray) -> Network:
+        other = network.other if drain is None else float(values[-1]) * scale
+        return replace(wetted(network, float(np.exp(values[network.size]))), other=other)
+
+    def residual(values: FloatArray) -> FloatArray:
+        tried, rises = varied(values), values[: network.size]
+        gained = tried.residual(rises)
+        return gained if drain is None else np.append(gained, scale * (drain_rise(tried, rises) - drain))
+
+    try:
+        for _ in range(MOST_FITS):
+            here = residual(unknown)
+            moved = [unknown + steps * (np.arange(unknown.size) == number) for number in free]
+            slopes = [(residual(one) - here) / steps[number] for one, number in zip(moved, free, strict=True)]
+            step = np.linalg.solve(np.array(slopes).T, -here)
+            turn = abs(step[free.index(network.size)])
+            unknown[free] += step * min(1.0, LARGEST_FIT / turn if turn > 0.0 else 1.0)
+            if float(np.abs(step).max()) < FITTED:
+                break
+            if unknown[network.size] > LARGEST_FIT:  # far beyond all oil on the flanks
+                return None
+        else:
+            return None
+        share = float(np.exp(unknown[network.size]))
+        if not LEAST_WETTING <= share <= MOST_WETTING:
+            return None
+        meets = equilibrium(varied(unknown), unknown[: network.size]).rises
+    except (NoSolution, InvalidInput, np.linalg.LinAlgError, FloatingPointError):
+        return None
+    return varied(unknown) if abs(float(meets[place]) - wanted) < MET else None
 
 
 def _unreachable(node: str, temperature: float, reached: list[float]) -> InvalidInput:

@@ -66,16 +66,44 @@ class Measured:
     """
 
     pinion_flank: float | None = quantity(
-        "measured flank of the pinion", "θ_F1", unit="c", default=None, ge=-50, le=400, tolerance=3
+        "measured flank of the pinion",
+        "θ_F1",
+        unit="c",
+        default=None,
+        ge=-50,
+        le=400,
+        tolerance=3,
+        default_text="not measured",
     )
     pinion_body: float | None = quantity(
-        "measured body of the pinion", "θ_B1", unit="c", default=None, ge=-50, le=400, tolerance=3
+        "measured body of the pinion",
+        "θ_B1",
+        unit="c",
+        default=None,
+        ge=-50,
+        le=400,
+        tolerance=3,
+        default_text="not measured",
     )
     wheel_flank: float | None = quantity(
-        "measured flank of the wheel", "θ_F2", unit="c", default=None, ge=-50, le=400, tolerance=3
+        "measured flank of the wheel",
+        "θ_F2",
+        unit="c",
+        default=None,
+        ge=-50,
+        le=400,
+        tolerance=3,
+        default_text="not measured",
     )
     wheel_body: float | None = quantity(
-        "measured body of the wheel", "θ_B2", unit="c", default=None, ge=-50, le=400, tolerance=3
+        "measured body of the wheel",
+        "θ_B2",
+        unit="c",
+        default=None,
+        ge=-50,
+        le=400,
+        tolerance=3,
+        default_text="not measured",
     )
     drain: float | None = quantity(
         "measured drain",
@@ -85,6 +113,7 @@ class Measured:
         ge=-50,
         le=400,
         tolerance=2,
+        default_text="not measured",
         text="all oil that leaves the unit, that of the bearings too",
     )
 
@@ -120,6 +149,7 @@ class Cooling:
         le=60,
         tolerance=2,
         assumed="20 K, usual of turbo gear units",
+        folded=True,
     )
     flow_to_pinion: float = quantity(
         "share of the oil for the pinion",
@@ -130,6 +160,7 @@ class Cooling:
         le=1,
         tolerance=0.1,
         assumed="both gears get as much",
+        folded=True,
     )
     jets: Jets = quantity(
         "direction of the jets", default="into_mesh", assumed="into the mesh; jets against the outlet brake more"
@@ -143,6 +174,7 @@ class Cooling:
         le=80,
         tolerance=5,
         assumed="20 m/s, a pressure of 2 bar",
+        folded=True,
     )
     wetting_share: float | None = quantity(
         "wetting share",
@@ -155,6 +187,7 @@ class Cooling:
         text="share of the oil that reaches the flanks",
         default_text=f"{WETTING_SHARE:g}",
         assumed="0.5, the middle of 0.2 to 1; unknown without a measured temperature",
+        folded=True,
     )
     rewetting_share: float | None = quantity(
         "rewetting share",
@@ -167,6 +200,7 @@ class Cooling:
         text="share of what is missing from a flooded film that oil out of the mist fills up",
         default_text=f"{REWETTING_SHARE:g}",
         assumed="0, the safe side",
+        folded=True,
     )
     fling_off_factor: float | None = quantity(
         "fling-off factor",
@@ -179,6 +213,7 @@ class Cooling:
         text="factor on the cooling by the film",
         default_text=f"{FLING_OFF_FACTOR:g}",
         assumed="1, the derived cooling",
+        folded=True,
     )
     mist_convection_factor: float = quantity(
         "mist convection factor",
@@ -190,6 +225,7 @@ class Cooling:
         tolerance=1,
         text="cooling by mist over that by air",
         assumed="3; the mist carries oil",
+        folded=True,
     )
     pumping_to_teeth: float = quantity(
         "share of the pumped heat for the teeth",
@@ -200,6 +236,7 @@ class Cooling:
         le=1,
         tolerance=0.05,
         assumed="a tenth; the gas leaves the mesh with the rest",
+        folded=True,
     )
     pumping: float = quantity(
         "pumping loss",
@@ -223,6 +260,7 @@ class Cooling:
         text="of both gears",
         default_text="by Mauz",
         assumed="by Mauz, the lowest of three formulas",
+        folded=True,
     )
     other: float | None = quantity(
         "other losses into the oil mist",
@@ -235,6 +273,7 @@ class Cooling:
         text="seals, thrust bearing, churning",
         default_text="0",
         assumed="none",
+        folded=True,
     )
     bearing_film_share: float = quantity(
         "film share of a bearing's rise",
@@ -245,12 +284,13 @@ class Cooling:
         tolerance=0.1,
         text="rise of the film over that of the oil that leaves",
         assumed="0.8 (Cameron; quoted, not verified)",
+        folded=True,
     )
     band: bool = quantity(
-        "band", default=True, text="also the temperatures of much and of little oil on the flanks", advanced=True
+        "band", default=True, text="also the temperatures of much and of little oil on the flanks", folded=True
     )
-    casing: Casing = quantity("casing", default_factory=Casing)
     measured: Measured = quantity("measured temperatures", default_factory=Measured)
+    casing: Casing = quantity("casing", default_factory=Casing)
 
     def jet_velocity(self) -> float:
         """Return the velocity of the jets [m/s], negative against the outlet."""

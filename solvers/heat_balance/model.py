@@ -14,13 +14,14 @@ from solvers.heat_balance.calibration import drain_rise, oil_flows, with_drain, 
 from solvers.heat_balance.fling_off import turning_teeth
 from solvers.heat_balance.inputs import Cooling
 from solvers.heat_balance.losses import MeshHeat, flow_by_rise, ts_6336_22_bulk_rise, windage
-from solvers.heat_balance.network import BODIES, FLANKS, MIST, CasingWalls, CooledGear, Network, Spray
+from solvers.heat_balance.network import BODIES, FLANKS, MIST, CasingWalls, CooledGear, Flow, Network, Spray
 from solvers.heat_balance.notices import heat_notices, unusual_flow
 from solvers.heat_balance.oil import CoolingOil
 from solvers.heat_balance.results import (
     Balance,
     BearingHeat,
     BulkEstimates,
+    CoolingInForce,
     GearTemperatures,
     Heat,
     HeatBand,
@@ -101,9 +102,10 @@ def solve(inputs: HeatBalanceInputs) -> Heat:
     state = equilibrium(network)
     cases, unsolved = _cases(network, cooling, state)
     bands = flank_band(cases, cooling) if len(cases) > 1 else None
+    flows = network.flows(state.rises)
     return Heat(
-        pinion=_gear(network, 0, state.rises),
-        wheel=_gear(network, 1, state.rises),
+        pinion=_gear(network, 0, state.rises, flows),
+        wheel=_gear(network, 1, state.rises, flows),
         mist=network.oil.inlet + float(state.rises[MIST]),
         drain=network.oil.inlet + drain_rise(network, state.rises),
         casing=network.oil.inlet + float(state.rises[-1]) if network.casing else None,
@@ -112,9 +114,9 @@ def solve(inputs: HeatBalanceInputs) -> Heat:
         wetting_share=network.spray.wetting_share,
         friction_to_pinion=network.mesh.share_to_pinion,
         bearings=tuple(_bearings(network, state.rises)),
-        flows=tuple(_flows(network, state.rises)),
-        losses=_losses(network, state.rises, inputs.couplings),
-        balance=_balance(network, state.rises),
+        flows=tuple(_flows(network, flows)),
+        losses=_losses(network, flows, inputs.couplings),
+        balance=_balance(network, flows),
         estimates=_estimates(inputs),
         band=HeatBand(*bands) if bands else None,
         wheel_deviation=_deviation(network, cooling, state.rises),
@@ -217,11 +219,9 @@ def _cases(
         return nominal, (Notice("band_unsolved", message, "cooling.wetting_share"),)
 
 
-def _gear(network: Network, gear: int, rises: FloatArray) -> GearTemperatures:
+def _gear(network: Network, gear: int, rises: FloatArray, flows: list[Flow]) -> GearTemperatures:
     cooling, flank = network.cooling(gear, rises), FLANKS[gear]
-    friction = [
-        flow.power for flow in network.flows(rises) if flow.target == flank and flow.carrier == "friction of the mesh"
-    ]
+    friction = [flow.power for flow in flows if flow.target == flank and flow.carrier == "friction of the mesh"]
     return GearTemperatures(
         flank=network.oil.inlet + float(rises[flank]),
         body=network.oil.inlet + float(rises[BODIES[gear]]),
@@ -235,22 +235,22 @@ def _gear(network: Network, gear: int, rises: FloatArray) -> GearTemperatures:
 
 
 def _bearings(network: Network, rises: FloatArray) -> Iterator[BearingHeat]:
-    for journal, rise in zip(network.journals, rises[MIST + 1 :], strict=False):
-        film = network.film_temperature(float(rise))
-        power, flow = journal.loss_and_flow(network.oil.viscosity(film))
-        yield BearingHeat(network.oil.inlet + float(rise), film, flow, power)
+    for number in range(len(network.journals)):
+        rise = float(rises[MIST + 1 + number])
+        power, flow = network.operation(number, rise)
+        yield BearingHeat(network.oil.inlet + rise, network.film_temperature(rise), flow, power)
 
 
-def _flows(network: Network, rises: FloatArray) -> Iterator[HeatFlow]:
+def _flows(network: Network, flows: list[Flow]) -> Iterator[HeatFlow]:
     """Every flow of heat that is not nothing."""
-    for flow in network.flows(rises):
+    for flow in flows:
         if flow.power != 0.0:
             yield HeatFlow(network.places[flow.origin], network.places[flow.target], flow.carrier, flow.power)
 
 
-def _losses(network: Network, rises: FloatArray, couplings: float) -> HeatLosses:
+def _losses(network: Network, flows: list[Flow], couplings: float) -> HeatLosses:
     powers: dict[str, float] = {}
-    for flow in network.flows(rises):
+    for flow in flows:
         powers[flow.carrier] = powers.get(flow.carrier, 0.0) + flow.power
     parts = {
         "mesh": powers["friction of the mesh"],
@@ -264,8 +264,8 @@ def _losses(network: Network, rises: FloatArray, couplings: float) -> HeatLosses
     return HeatLosses(**parts, total=sum(parts.values()))
 
 
-def _balance(network: Network, rises: FloatArray) -> Balance:
-    oil, ambient, source = network.gains(network.flows(rises))[network.size :]
+def _balance(network: Network, flows: list[Flow]) -> Balance:
+    oil, ambient, source = network.gains(flows)[network.size :]
     supplied, removed = -float(source), float(oil + ambient)
     return Balance(supplied, removed, (supplied - removed) / supplied if supplied else 0.0)
 
@@ -318,6 +318,18 @@ def backlash_loss(
     rises = np.array([heat.pinion.body, heat.wheel.body]) - heat.casing
     loss = 2 * np.tan(working_pressure_angle) * expansion * np.dot(working_radii, rises)
     return replace(heat, backlash_loss=float(loss))
+
+
+def cooling_in_force(cooling: Cooling, heat: Heat) -> CoolingInForce:
+    """Return what stands for the values of the cooling that were left open."""
+    return CoolingInForce(
+        gear_flow=heat.gear_flow,
+        wetting_share=heat.wetting_share,
+        rewetting_share=cooling.rewetting,
+        fling_off_factor=cooling.factor,
+        windage=heat.losses.windage,
+        other=heat.losses.other,
+    )
 
 
 def unusual_values(inputs: HeatBalanceInputs, heat: Heat) -> Iterator[Notice]:

@@ -136,12 +136,32 @@ class Network:
         """The lowest temperature that is given [K]."""
         return min(self.oil.inlet, self.casing.ambient) if self.casing else self.oil.inlet
 
+    @cached_property
+    def _coolings(self) -> dict[tuple[int, float], FlingOff]:
+        """Fling-off cooling by gear and temperature of its flank: a Jacobian by differences asks for few of them."""
+        return {}
+
     def cooling(self, gear: int, rises: FloatArray) -> FlingOff:
         """Return the fling-off cooling of gear 0 or 1."""
         flank = self.oil.inlet + float(rises[FLANKS[gear]])
-        return fling_off(
-            self.oil, self.gears[gear].flanks, self.spray.wetting(gear), self.spray.fling_off_factor, flank
-        )
+        known = self._coolings.get((gear, flank))
+        if known is None:
+            wetting, factor = self.spray.wetting(gear), self.spray.fling_off_factor
+            known = self._coolings[gear, flank] = fling_off(self.oil, self.gears[gear].flanks, wetting, factor, flank)
+        return known
+
+    @cached_property
+    def _operations(self) -> dict[tuple[int, float], tuple[float, float]]:
+        """Friction power and flow of each bearing by the rise of the oil that leaves it."""
+        return {}
+
+    def operation(self, number: int, outlet: float) -> tuple[float, float]:
+        """Return friction power [W] and flow [m^3/s] of a bearing by the rise of the oil that leaves it [K]."""
+        known = self._operations.get((number, outlet))
+        if known is None:
+            viscosity = self.oil.viscosity(self.film_temperature(outlet))
+            known = self._operations[number, outlet] = self.journals[number].loss_and_flow(viscosity)
+        return known
 
     def flows(self, rises: FloatArray) -> list[Flow]:
         """List every flow of heat in the network.
@@ -171,8 +191,8 @@ class Network:
             flows.extend(self._sources(gear, rises))
             flows.extend(self._oil_cooling(gear, rises))
             flows.extend(self._mist_convection(gear, rises))
-        for number, journal in enumerate(self.journals):
-            flows.extend(self._bearing(journal, MIST + 1 + number, rises))
+        for number in range(len(self.journals)):
+            flows.extend(self._bearing(number, rises))
         if self.casing:
             flows.extend(self._casing(self.casing, rises))
         return flows
@@ -224,11 +244,11 @@ class Network:
         yield Flow(MIST, BODIES[gear], rim * (mist + rise - body), "mist on the rim")
         yield Flow(MIST, BODIES[gear], faces * (mist + rise / 2 - body), "mist on the faces")
 
-    def _bearing(self, journal: Journal, node: int, rises: FloatArray) -> Iterator[Flow]:
+    def _bearing(self, number: int, rises: FloatArray) -> Iterator[Flow]:
         """Friction of a bearing, the oil that leaves it, the shaft that leads to it."""
-        outlet = float(rises[node])
-        power, flow = journal.loss_and_flow(self.oil.viscosity(self.film_temperature(outlet)))
-        body = BODIES[journal.gear]
+        journal, node = self.journals[number], MIST + 1 + number
+        outlet, body = float(rises[node]), BODIES[journal.gear]
+        power, flow = self.operation(number, outlet)
         yield Flow(self.size + 2, node, power, "friction of the bearing")
         yield Flow(node, self.size, self.oil.heat_capacity * flow * outlet, "oil of the bearing")
         yield Flow(body, node, journal.shaft_conductance * (float(rises[body]) - outlet), "shaft")

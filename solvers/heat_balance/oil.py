@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 from solvers.lubricants import Lubricant
 from solvers.oils import OilSheet, lubricant_at
@@ -50,7 +51,7 @@ def cooling_oil(oil: OilSheet | Lubricant, inlet: float) -> CoolingOil:
     supplied = lubricant_at(oil, inlet)
     return CoolingOil(
         inlet=inlet,
-        viscosity=oil.viscosity if isinstance(oil, OilSheet) else lambda kelvin: oil.viscosity_at(0.0, kelvin),
+        viscosity=oil.viscosity if isinstance(oil, OilSheet) else partial(oil.viscosity_at, 0.0),
         density=supplied.density_at(0.0, inlet),
         specific_heat=supplied.specific_heat,
         thermal_conductivity=supplied.thermal_conductivity,

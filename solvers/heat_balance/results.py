@@ -34,15 +34,15 @@ class BearingHeat:
     outlet: float = quantity("oil that leaves the bearing", "θ_J", unit="c")
     film: float = quantity("film temperature of the bearing", "θ_f", unit="c")
     oil_flow: float = quantity("oil flow of the bearing", "Q_B", unit="l_per_min")
-    friction_power: float = quantity("friction power of the bearing", "P_B", unit="w")
+    friction_power: float = quantity("friction power in the balance", "P_B", unit="w")
 
 
 @record
 class HeatFlow:
     """Flow of heat between two nodes of the network [W]."""
 
-    from_node: str = quantity("origin of the heat", text="node of the network, or source")
-    to_node: str = quantity("target of the heat", text="node of the network, or oil, ambient")
+    from_: str = quantity("origin of the heat", text="node of the network, or source")
+    to: str = quantity("target of the heat", text="node of the network, or oil, ambient")
     carrier: str = quantity("what carries the heat")
     power: float = quantity("heat flow", "P", unit="w")
 
@@ -58,15 +58,15 @@ class HeatLosses:
     bearings: float = quantity("bearing losses", "P_B", unit="w")
     couplings: float = quantity("coupling losses", "P_C", unit="w", text="outside of the balance")
     other: float = quantity("other losses", "P_other", unit="w")
-    total: float = quantity("total loss", "P_V", unit="w")
+    total: float = quantity("total heat of the losses", "P_V", unit="w")
 
 
 @record
 class Balance:
     """Heat supplied and removed [W], and their difference over the heat supplied."""
 
-    supplied: float = quantity("heat supplied", unit="w")
-    removed: float = quantity("heat removed", unit="w")
+    supplied: float = quantity("heat supplied", "P_in", unit="w")
+    removed: float = quantity("heat removed", "P_out", unit="w")
     error: float = quantity("error of the balance", text="difference over the heat supplied")
 
 
@@ -82,9 +82,21 @@ class BulkEstimates:
 class HeatBand:
     """Least and greatest temperatures [K] if much or little oil reaches the flanks, and the safety with them."""
 
-    pinion_flank: Range = quantity("band of the pinion's flank", unit="c", index="low, high")
-    wheel_flank: Range = quantity("band of the wheel's flank", unit="c", index="low, high")
-    safety: Range | None = quantity("band of the safety", default=None, index="low, high")
+    pinion_flank: Range = quantity("band of the pinion's flank", "θ_F1", unit="c", index="low, high")
+    wheel_flank: Range = quantity("band of the wheel's flank", "θ_F2", unit="c", index="low, high")
+    safety: Range | None = quantity("band of the safety", "S_B", default=None, index="low, high")
+
+
+@record
+class CoolingInForce:
+    """What of the cooling a request may leave open, as the balance has it: flow [m^3/s], losses [W]."""
+
+    gear_flow: float = quantity("oil flow to the gears used", "Q_g", unit="l_per_min")
+    wetting_share: float = quantity("wetting share used", "w")
+    rewetting_share: float = quantity("rewetting share used", "w_r")
+    fling_off_factor: float = quantity("fling-off factor used", "f")
+    windage: float = quantity("windage used", "P_wind", unit="w")
+    other: float = quantity("other losses used", "P_other", unit="w")
 
 
 @record
@@ -111,7 +123,7 @@ class Heat:
     estimates: BulkEstimates = quantity("estimates of the bulk")
     band: HeatBand | None = quantity("band of the balance")
     wheel_deviation: float | None = quantity(
-        "deviation of the wheel", unit="k", text="calculated less measured, where both gears are measured"
+        "deviation of the wheel", "Δθ_2", unit="k", text="calculated less measured, where both gears are measured"
     )
     backlash_loss: float | None = quantity(
         "loss of backlash by heat",

@@ -26,7 +26,7 @@ class WarmUpCurves:
     """Temperatures [K] over time [s]; columns of `temperature` are the nodes."""
 
     time: FloatArray = quantity("time", "t", unit="s")
-    temperature: FloatArray = quantity("temperatures of the nodes", "θ", unit="c", axis=("time", "nodes"))
+    temperature: FloatArray = quantity("temperatures of the nodes", "θ", unit="c", axis=("time", "warm_up.nodes"))
     difference: FloatArray = quantity(
         "pinion's body over the wheel's", "Δθ", unit="k", axis="time", text="decides backlash and alignment"
     )
@@ -36,13 +36,13 @@ class WarmUpCurves:
 class WarmUp:
     """A warm-up: final temperatures [K], when each node has made 95 % of its way [s], the bodies' difference."""
 
-    nodes: tuple[str, ...] = quantity("nodes")
-    final: FloatArray = quantity("final temperatures", "θ_∞", unit="c", axis="nodes")
+    nodes: tuple[str, ...] = quantity("nodes", index="flanks and bodies, mist, bearings, casing")
+    final: FloatArray = quantity("final temperatures", "θ_∞", unit="c", index="nodes")
     time_95: tuple[float | None, ...] = quantity(
         "time to 95 %", "t_95", unit="s", index="nodes", text="null for a node that stays within 5 % or is not there"
     )
     greatest_difference: float = quantity("greatest difference of the bodies", "Δθ_max", unit="k")
-    greatest_difference_at: float = quantity("time of the greatest difference", unit="s")
+    greatest_difference_at: float = quantity("time of the greatest difference", "t_Δ", unit="s")
     curves: WarmUpCurves = quantity("over time", detail="curves")
 
 
@@ -84,7 +84,7 @@ def warm_up(network: Network, capacities: Capacities, start: float, until: float
     rises = path(times)
     difference = rises[BODIES[0]] - rises[BODIES[1]]
     greatest = int(np.argmax(np.abs(difference)))
-    shown = np.linspace(0.0, end, SHOWN + 1)
+    shown = end * np.linspace(0.0, 1.0, SHOWN + 1) ** 2  # dense at the start, where most happens
     drawn = path(shown)
     return WarmUp(
         nodes=network.nodes,

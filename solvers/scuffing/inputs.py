@@ -7,6 +7,7 @@ from typing import Literal
 from solvers.contact import ehl
 from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs
+from solvers.heat_balance.inputs import Cooling
 from solvers.lubricants import Lubricant
 from solvers.materials import Solid
 from solvers.oils import OilSheet
@@ -18,7 +19,7 @@ ISO_TR_15144 = "ISO/TR 15144-1:2014, as read in a public implementation"
 TR_13989 = "ISO/TR 13989-1, as read in a public implementation"
 
 FrictionMethod = Literal["given", "iso_tr_13989"]
-BulkMethod = Literal["given", "estimated"]
+BulkMethod = Literal["given", "estimated", "heat_balance"]
 OilSupply = Literal["spray", "dip", "submerged"]
 
 ToothModel = Literal["ishikawa", "parabola"]
@@ -402,8 +403,9 @@ class Temperatures:
     """Bulk temperature of the teeth and of the oil they draw in, oil temperature, scuffing temperature [K].
 
     With bulk_method "estimated" the bulk follows from the oil, its supply and Blok's flash temperature, and `bulk` is
-    None until it does. The scuffing temperature is a property of oil and material that the paper does not give: a
-    number, or what a test says; with neither there is no safety.
+    None until it does; with "heat_balance" it is the mean of both `flanks` [K] that the balance of losses and oil
+    gives. The scuffing temperature is a property of oil and material that the paper does not give: a number, or what a
+    test says; with neither there is no safety.
     """
 
     bulk: float | None = quantity(
@@ -423,8 +425,11 @@ class Temperatures:
         None,
         TR_13989,
         default="given",
-        text="given, or estimated from oil, its supply and flash; estimated if none is given",
-        assumed="estimated from the oil, its supply and the mean flash temperature, of flanks flooded with oil",
+        text="given, estimated from oil, its supply and flash, or by the heat balance of losses and oil; if none is "
+        "given the balance above 60 m/s with jets of a known oil and wherever something is said of the cooling, else "
+        "the estimate",
+        assumed="if no bulk temperature is given: the heat balance above 60 m/s or with a cooling, for there the "
+        "estimate is a lower bound; else the estimate, from the oil, its supply and the mean flash temperature",
     )
     oil_supply: OilSupply = quantity(
         "lubrication system factor",
@@ -459,6 +464,14 @@ class Temperatures:
     scuffing_test: ScuffingTest | None = quantity(
         "scuffing test", default=None, text="instead of the temperature: the stage at which the oil fails"
     )
+    flanks: tuple[float, float] | None = None
+
+    @property
+    def surfaces(self) -> tuple[float, float] | None:
+        """Bulk temperatures of pinion and wheel [K]: of both flanks if a balance gives them, else the one bulk."""
+        if self.flanks is not None or self.bulk is None:
+            return self.flanks
+        return self.bulk, self.bulk
 
     @property
     def lubricant_factor(self) -> float | None:
@@ -551,6 +564,8 @@ class ScuffingInputs:
 
     line: "flank" checks the whole flank, "feature_line" the paper's diagonal from A1 to E2 alone.
 
+    `cooling` is for the bulk temperature by heat balance alone.
+
     An `oil` takes the place of the lubricant, as it is at the bulk temperature; with neither there are no film, contact
     temperature and safety. friction: "given" is the coefficient of the distribution,
     "iso_tr_13989" the mean coefficient of that report for Blok, and Schlenk's for the losses.
@@ -599,6 +614,11 @@ class ScuffingInputs:
     )
     micropitting: MicropittingCheck | None = quantity(
         "micropitting and wear", default=None, text="check of the film against micropitting; null: none"
+    )
+    cooling: Cooling = quantity(
+        "cooling",
+        default_factory=Cooling,
+        text="how the oil reaches the teeth, what else heats it, and what was measured; of the heat balance",
     )
 
     @property

@@ -4,6 +4,7 @@ The closed forms are Blok's flash temperature (Eq. 25) and Dowson and Higginson'
 solution is asked for along two lines: the paper's feature line, and the profile line through the hottest point.
 """
 
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -11,6 +12,7 @@ import numpy as np
 
 from solvers.arrays import FloatArray, frozen
 from solvers.contact.film import thickness_ratio
+from solvers.heat_balance import Heat, cooling_in_force
 from solvers.lubricants import OilInUse, oil_in_use
 from solvers.oils import OilSheet
 from solvers.scuffing.contact_slices import Peak, reaches_base_circle
@@ -43,6 +45,7 @@ from solvers.scuffing.thermal.temperatures import in_force, oil_notices
 from solvers.scuffing.thermal.thermal_path import thermal_paths
 from solvers.scuffing.thermal.verdict import (
     CheckedLine,
+    hotter_surface,
     largest_flash,
     path_notices,
     thinnest_film,
@@ -59,7 +62,7 @@ def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
     Without an oil or a bulk temperature there are neither film nor contact temperature nor safety. Raises what
     `model.solve` and `in_force` raise, and what the thermal EHL solver raises if it refuses every point.
     """
-    inputs, distribution = in_force(inputs, solve(inputs.distribution))
+    inputs, distribution, heat = in_force(inputs, solve(inputs.distribution))
     given, bulk = inputs.distribution, inputs.temperatures.bulk
     flash_map = map_flash(given, distribution)
     whole = inputs.line == "flank"
@@ -74,7 +77,7 @@ def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
         thermal, notices = thermal_paths(inputs, [line.points for line in lines])
         paths = [_with_thermal(inputs, *both) for both in zip(paths, thermal, strict=True)]
         warnings += notices
-        unknown = unknown_points(thermal, [np.full(line.face.size, bulk) for line in lines])
+        unknown = unknown_points(thermal, [_surfaces(inputs.temperatures, line) for line in lines])
     checked = [CheckedLine(path, line.face) for path, line in zip(paths, lines, strict=True)]
     length = distribution.path_of_contact.length
     flash, film = largest_flash(checked, hottest, length), thinnest_film(checked, thinnest, length, given)
@@ -85,8 +88,10 @@ def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
     flash = replace(flash, friction_coefficient=inputs.distribution.friction_coefficient)
     micropitting = check_micropitting(inputs, distribution, flash_map, film.thermal_ehl_min)
     paths = [_with_film_ratio(micropitting, *both) for both in zip(paths, lines, strict=True)]
-    contact = None if bulk is None else _contact_temperature(bulk, flash)
+    contact = None if bulk is None else _contact_temperature(inputs.temperatures, bulk, flash, checked)
     safety = None if contact is None else _safety(inputs.temperatures, contact, flash)
+    if heat is not None:
+        heat, safety = _with_band(inputs.temperatures, heat, flash, safety)
     return Scuffing(
         distribution=distribution,
         flash=flash,
@@ -97,10 +102,14 @@ def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
         hottest_path=paths[1] if len(paths) > 1 else None,
         micropitting=micropitting.answer,
         wear=wear_asked_for(inputs.micropitting, distribution),
+        heat=heat,
         flank_flash=frozen(flash_map.flash[flash_map.mapped]),
         flank_film_ratio=None if micropitting.ratio is None else frozen(micropitting.ratio),
-        derived=_derived(inputs, distribution.derived),
-        warnings=warnings + micropitting.warnings + path_notices(distribution, paths, contact, safety, unknown),
+        derived=_derived(inputs, distribution.derived, heat),
+        warnings=warnings
+        + (() if heat is None else heat.warnings)
+        + micropitting.warnings
+        + path_notices(distribution, paths, contact, safety, unknown),
         unsolved_points=sum(path.status.count(status) for path in paths for status in ("no_solution", "refused")),
     )
 
@@ -168,16 +177,41 @@ def _or_along(inputs: ScuffingInputs, distribution: LoadDistribution, line: _Lin
     return min(thinnest, along, key=lambda peak: peak.value)
 
 
-def _contact_temperature(bulk: float, flash: Flash) -> ContactTemperature:
-    """Bulk [K] and flash."""
+def _surfaces(temperatures: Temperatures, line: _Line) -> FloatArray:
+    """Return the bulk temperatures of pinion and wheel at the points of a line, two rows [K]."""
+    return np.broadcast_to(np.array(temperatures.surfaces)[:, None], (2, line.face.size))
+
+
+def _contact_temperature(
+    temperatures: Temperatures, bulk: float, flash: Flash, lines: Sequence[CheckedLine]
+) -> ContactTemperature:
+    """Bulk [K] and flash; by thermal EHL of either surface from its own bulk."""
+    thermal = None
+    if flash.thermal_ehl_max is not None:
+        surfaces = np.array(temperatures.surfaces)[:, None]
+        solved = [line.path.thermal for line in lines if line.path.thermal is not None]
+        thermal = float(np.nanmax(np.concatenate([hotter_surface(path, surfaces) for path in solved])))
     return ContactTemperature(
-        bulk=bulk,
-        blok_max=None if flash.blok_max is None else bulk + flash.blok_max,
-        thermal_ehl_max=None if flash.thermal_ehl_max is None else bulk + flash.thermal_ehl_max,
+        bulk=bulk, blok_max=None if flash.blok_max is None else bulk + flash.blok_max, thermal_ehl_max=thermal
     )
 
 
-def _derived(inputs: ScuffingInputs, mesh: Derived) -> ScuffingDerived:
+def _with_band(
+    temperatures: Temperatures, heat: Heat, flash: Flash, safety: Safety | None
+) -> tuple[Heat, Safety | None]:
+    """Return the balance with the safety at the ends of its band, and the safety with the verdict of the lower end."""
+    if safety is None or safety.blok_factor is None or flash.blok_max is None or heat.band is None:
+        return heat, safety
+    contacts = [sum(flanks) / 2 + flash.blok_max for flanks in heat.flank_cases]
+    factors = [safety_factor(safety.scuffing, temperatures.oil, contact) for contact in contacts]
+    known = [factor for factor in factors if factor is not None]
+    if len(known) < len(factors):
+        return heat, safety
+    band = replace(heat.band, safety=(min(known), max(known)))
+    return replace(heat, band=band), replace(safety, verdict=scuffing_risk(min(known)))
+
+
+def _derived(inputs: ScuffingInputs, mesh: Derived, heat: Heat | None) -> ScuffingDerived:
     """What follows from the inputs for mesh and oil."""
     sheet = inputs.oil if isinstance(inputs.oil, OilSheet) else None
     return ScuffingDerived(
@@ -186,6 +220,7 @@ def _derived(inputs: ScuffingInputs, mesh: Derived) -> ScuffingDerived:
         kinematic_viscosity_100=None if sheet is None else sheet.kinematic_viscosity_100,
         density_15=None if sheet is None else sheet.reference_density,
         lubricant_factor=inputs.temperatures.lubricant_factor,
+        cooling=None if heat is None else cooling_in_force(inputs.cooling, heat),
     )
 
 

@@ -4,6 +4,7 @@ from typing import Literal
 
 from solvers.arrays import FloatArray
 from solvers.contact.film import Regime
+from solvers.heat_balance.results import CoolingInForce, Heat
 from solvers.lubricants import OilInUse
 from solvers.notices import Notice
 from solvers.quantity import computed, quantity, record
@@ -90,9 +91,18 @@ class Flash:
 
 @record
 class ContactTemperature:
-    """Bulk temperature t_M and largest contact temperature t_B = t_M + t_f [K] (Eq. 16); None where t_f is."""
+    """Bulk temperature t_M and largest contact temperature t_B = t_M + t_f [K] (Eq. 16); None where t_f is.
 
-    bulk: float = quantity("bulk temperature used", "θ_M", f"{XUE}, Eq. 16", unit="c", text="given or estimated")
+    By thermal EHL t_M is that of the surface, where a heat balance tells the flanks of the gears apart.
+    """
+
+    bulk: float = quantity(
+        "bulk temperature used",
+        "θ_M",
+        f"{XUE}, Eq. 16",
+        unit="c",
+        text="given, estimated, or the mean of both flanks by the heat balance",
+    )
     blok_max: float | None = quantity(
         "contact temperature by Blok",
         "θ_B,max",
@@ -187,7 +197,8 @@ class Safety:
         "risk of scuffing",
         None,
         "ISO/TR 13989-1, quoted, not verified against the standard",
-        text="by Blok's factor: below 1 high, to 2 moderate, above low; null without it",
+        text="by Blok's factor, at the lower end of its band if there is one: below 1 high, to 2 moderate, above low; "
+        "null without it",
         default=None,
     )
 
@@ -210,6 +221,7 @@ class ScuffingDerived:
     lubricant_factor: float | None = quantity(
         "lubricant factor of the scuffing test used", "X_L", TR_13989, text="null without a scuffing test"
     )
+    cooling: CoolingInForce | None = quantity("cooling used", default=None, text="null without a heat balance")
 
 
 @record
@@ -349,6 +361,11 @@ class Scuffing:
         "micropitting", text="film against micropitting; null if not asked for, without an oil or a bulk temperature"
     )
     wear: Wear | None = quantity("wear", text="mild wear; null without a wear coefficient")
+    heat: Heat | None = quantity(
+        "heat balance",
+        default=None,
+        text="null unless the bulk temperature is asked for by heat balance, of a known oil",
+    )
     flank_flash: FloatArray
     flank_film_ratio: FloatArray | None
     derived: ScuffingDerived = quantity("load, lengths and oil used")

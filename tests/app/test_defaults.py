@@ -16,6 +16,7 @@ from app.schema.scuffing import ScuffingRequest
 from tests.support.requests import CONTACT, COUPLING, GONE, refused, solved
 
 COUPLED, SCUFFING, TRAIN = "/v1/coupling", "/v1/scuffing", "/v1/drive-train"
+METHODS = "give bulk_c, or bulk_method estimated or heat_balance"
 STAGE: dict[str, Any] = {
     "gears": {
         "pinion": {"teeth": 25},
@@ -84,7 +85,7 @@ def test_a_bulk_temperature_says_by_itself_that_it_is_given() -> None:
     given = solved(SCUFFING, STAGE, {"temperatures.bulk_c": 86.85})
     assert given["inputs"]["temperatures"]["bulk_method"] == "given"
     assert given["contact_temperature"]["bulk_c"] == pytest.approx(86.85)
-    assert refused(SCUFFING, STAGE, {"temperatures.bulk_method": "given"}) == "give bulk_c, or bulk_method estimated"
+    assert refused(SCUFFING, STAGE, {"temperatures.bulk_method": "given"}) == METHODS
 
 
 def test_a_coefficient_of_friction_says_by_itself_that_it_is_given() -> None:
@@ -223,6 +224,8 @@ def test_a_unit_takes_friction_from_its_oil_and_the_bulk_from_its_teeth() -> Non
 
 def test_a_unit_that_says_nothing_of_its_teeth_estimates_the_bulk() -> None:
     request = {**TURBO, "thermal": {"wall_response": 0.6}}
+    assert solved(TRAIN, request, {})["inputs"]["temperatures"]["bulk_method"] == "heat_balance"
+    request |= {"temperatures": {**TURBO["temperatures"], "oil_supply": "dip"}}
     cool, warm = (solved(TRAIN, request, {"temperatures.oil_c": oil}) for oil in (50, 60))
     assert cool["inputs"]["temperatures"]["bulk_method"] == "estimated"
     assert "bulk_lower_bound" in codes(cool)

@@ -43,13 +43,18 @@ FIGURES = {
         "section flank-load flank-pressure modification modification-traces contact-line-load transmission-error "
         "path-of-contact stiffness load-sharing pair-share"
     ),
-    "/v1/scuffing": "contact-temperature safety film friction micropitting micropitting-film wear",
+    "/v1/scuffing": (
+        "contact-temperature safety safety-band heat-flows node-temperatures oil-flow film friction micropitting "
+        "micropitting-film wear"
+    ),
     "/v1/scuffing/line-contact": "contact film-temperature heat",
     "/v1/drive-train": (
         "shafts section shaft-lines gap slope-parts face-load flank-load contact-temperature micropitting wear "
-        "journals thrust losses"
+        "journals thrust losses heat-flows node-temperatures oil-flow"
     ),
+    "/v1/drive-train/warm-up": "warm-up alignment",
 }
+BALANCE = {"safety-band", "heat-flows", "node-temperatures", "oil-flow"}
 MICROPITTING = {"micropitting", "micropitting-film", "wear"}
 # One ordinary case of each endpoint, drawn in the default run.
 CASES = {
@@ -61,6 +66,7 @@ CASES = {
     "/v1/scuffing": "xue-pair-1-scuffing",
     "/v1/scuffing/line-contact": "xue-line-contact",
     "/v1/drive-train": GENERATOR,
+    "/v1/drive-train/warm-up": "starter-turbo-gear-warm-up",
 }
 # Figures that the physics of an example leaves out, and why.
 WITHOUT = {
@@ -98,6 +104,8 @@ def reason_to_leave_out(name: str, which: str) -> str | None:
     """Why an example lacks a figure; None where it has it."""
     request, _ = solved(name)
     if which in MICROPITTING and request.micropitting is None:
+        return "not_asked"
+    if which in BALANCE and request.temperatures.bulk_method != "heat_balance":
         return "not_asked"
     if which == "friction" and request.model.lubrication == "closed_form":
         return "closed_form"

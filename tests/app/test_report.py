@@ -78,6 +78,11 @@ def test_the_equations_are_those_of_every_section_that_was_asked_for() -> None:
     assert "<p>Xue 25 " in checked
     numbers = {each.number for each in equations().values() if each.chapter == "micropitting"}
     assert {number for number in numbers if f"<p>{number} " in checked} == numbers
+    balanced = report("starter-turbo-pair-heat")
+    assert "<p>H5 " in balanced
+    assert "<h2>Method: Heat balance" not in plain
+    assert "°C known to about ±15 K" in balanced
+    assert "°C known to about ±15 K" not in report("starter-turbo-pair-heat-measured")
 
 
 def test_customers_read_secondary_source() -> None:

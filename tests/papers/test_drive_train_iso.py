@@ -12,8 +12,8 @@ import pytest
 
 from solvers.drive_train.gap.balance import uniform_force
 from solvers.drive_train.inputs import Arrangement, DriveTrainInputs, Effects, RigidBearing, Shaft, ShaftSection
-from solvers.drive_train.model import prepare
 from solvers.drive_train.outcome import outcome
+from solvers.drive_train.prepared import prepare
 from solvers.drive_train.shafts.shaft import second_moment, shaft_model
 from solvers.published.standard_gears import EXAMPLE_1
 from solvers.scuffing.inputs import Load, LoadDistributionInputs

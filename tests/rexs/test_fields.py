@@ -341,6 +341,15 @@ MEANINGS: list[tuple[str, str, Value, str, str, str, Any]] = [
     ),
     (
         "hydrodynamic_radial_plain_bearing",
+        "lubricant_flow_through_bearing",
+        0.5,
+        "l / s",
+        TRAIN,
+        "pinion_shaft.bearings.0.oil_flow_l_per_min",
+        30.0,
+    ),
+    (
+        "hydrodynamic_radial_plain_bearing",
         "lubricant_feed_temperature",
         60.0,
         "C",
@@ -759,6 +768,7 @@ NOT_IN_FILES = {
     "gears.module_plane": "modules of the request are normal ones",
     "gears.*.tip_diameter_mm": "tip diameters of files become addendum coefficients, as their limits do",
     "*.power_kw": "the torque is given",
+    "cooling.*": "the standard has no oil flow to gears and no measured teeth; its casings are those of plastic gears",
     "micropitting.*": "no version of the standard has a test of micropitting",
     "modifications.*_plane_deviation_um": "the positions of shafts in files are nominal",
     "lubricant.iso_vg": "the viscosities are given",

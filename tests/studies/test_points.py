@@ -24,8 +24,9 @@ VARIED = {
     "/v1/scuffing": "temperatures.oil_c",
     "/v1/scuffing/line-contact": "contact.line_load_n_per_mm",
     "/v1/drive-train": "operation.pinion_speed_rpm",
+    "/v1/drive-train/warm-up": "start_c",
 }
-SLOW = {"/v1/scuffing", "/v1/pumping/choking-speed", "/v1/drive-train"}
+SLOW = {"/v1/scuffing", "/v1/pumping/choking-speed", "/v1/drive-train", "/v1/drive-train/warm-up"}
 LOADS = examples()["xue-pair-1-modified"]
 
 

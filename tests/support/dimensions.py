@@ -23,6 +23,10 @@ class Units(NamedTuple):
 # of mass if the mole is chosen to suit, so a molar mass is a temperature times the square of a time over a length's.
 DIMENSIONS: dict[str | None, tuple[float, float, float]] = {
     None: (0, 0, 0),
+    "m2": (2, 0, 0),
+    "l_per_min": (3, 0, -1),
+    "w_per_k": (2, 1, -3),
+    "w_per_m2_k": (0, 1, -3),
     "mm": (1, 0, 0),
     "mm2": (2, 0, 0),
     "mm2_per_s": (2, 0, -1),

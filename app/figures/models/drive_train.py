@@ -9,7 +9,7 @@ import numpy as np
 from app.figures import parts
 from app.figures.data import Axis, Figure, Hue, Level, Line, Mark, NoFigure, Panel, Role, Row, Span, Values, values
 from app.figures.declaration import Declaration
-from app.figures.models import micropitting
+from app.figures.models import heat_balance, micropitting
 from app.figures.models.load_distribution import face, over_flank, section
 from app.figures.models.scuffing import heat_over_flank
 from app.figures.sketches import shafts
@@ -20,6 +20,9 @@ from solvers.drive_train.inputs import DriveTrainInputs, Effects, JournalBearing
 from solvers.drive_train.results import DriveTrainResult, ShaftResult
 from solvers.drive_train.safety import contact_of
 from solvers.drive_train.shafts.bearings import attitude_angle
+from solvers.drive_train.unit_heat import at_temperatures
+from solvers.heat_balance import FlowCurve
+from solvers.quantity import UNITS
 from solvers.scuffing.safety_results import Scuffing
 
 OWN = "own derivation"
@@ -136,7 +139,7 @@ def slope_parts(_: DriveTrainInputs, result: DriveTrainResult) -> Figure:
     return Figure(finding, [Panel(x=slope, y=Axis("cause"), rows=rows)])
 
 
-def effects_apart(inputs: DriveTrainInputs, _: DriveTrainResult) -> dict[str, Values]:
+def effects_apart(inputs: DriveTrainInputs, result: DriveTrainResult) -> dict[str, Values]:
     """Transverse force per face [N/mm] of the unit without each of its effects, and without all."""
     own, variants = inputs.effects, dict[str, Effects]()
     if own.shafts and inputs.acting_couplings:
@@ -146,9 +149,8 @@ def effects_apart(inputs: DriveTrainInputs, _: DriveTrainResult) -> dict[str, Va
         variants["without shafts"] = replace(own, shafts=False)
     if own.thermal or own.shafts:
         variants["mesh alone"] = Effects(shafts=False, coupling=False, thermal=False)
-    plain = replace(
-        inputs, mesh=replace(inputs.mesh, lubrication="closed_form"), states=("hot",)
-    )  # no film is asked for
+    warm = as_warm(inputs, result)
+    plain = replace(warm, mesh=replace(warm.mesh, lubrication="closed_form"), states=("hot",))  # no film is asked for
     solved = {name: solve(replace(plain, effects=effects)) for name, effects in variants.items()}
     return {name: values(each.misalignment.curves.line_force / 1e3) for name, each in solved.items()}
 
@@ -230,12 +232,18 @@ def losses(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
     """What the unit loses, and where."""
     found, bearings = result.losses, (*inputs.pinion_shaft.bearings, *inputs.wheel_shaft.bearings)
     plain = any(isinstance(each, JournalBearing) for each in bearings)  # no friction is known of other bearings
-    powers = (
+    powers: tuple[tuple[str, float | None, Hue], ...] = (
         ("plain bearings" if plain else "bearings", found.bearings if plain else None, Hue.BLUE),
         ("mesh", found.mesh, Hue.VERMILLION),
         ("pumping of air and mist", found.pumping, Hue.GREEN),
         ("couplings", found.coupling, Hue.ORANGE),
     )
+    if result.heat is not None:
+        powers += (
+            ("oil brought to speed", found.oil_acceleration, Hue.SKY),
+            ("windage", found.windage, Hue.PURPLE),
+            ("other parts", found.other, Hue.GREY),
+        )
     rows = [Row(name, np.nan if power is None else power, hue) for name, power, hue in powers]
     finding = "without the loss of the mesh, whose coefficient of friction is not known"
     if found.total is not None:
@@ -247,9 +255,25 @@ def losses(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
     return Figure(finding, [Panel(x=Axis("power lost", "W", symbol="P"), y=Axis("where"), rows=rows)])
 
 
-def mesh_as_drawn(inputs: DriveTrainInputs, _: DriveTrainResult) -> Scuffing | None:
+def as_warm(inputs: DriveTrainInputs, result: DriveTrainResult) -> DriveTrainInputs:
+    """Return the unit at the temperatures of its heat balance, if it has one."""
+    heat, kelvin = result.heat, UNITS["c"].offset
+    if heat is None:
+        return inputs
+    known = iter(heat.bearings)
+    films = [
+        next(known).film + kelvin if isinstance(bearing, JournalBearing) else np.nan
+        for shaft in inputs.shafts
+        for bearing in shaft.bearings
+    ]
+    flanks = (heat.pinion.flank + kelvin, heat.wheel.flank + kelvin)
+    bodies = (heat.pinion.body + kelvin, heat.wheel.body + kelvin)
+    return at_temperatures(inputs, flanks, bodies, films, None if heat.casing is None else heat.casing + kelvin)
+
+
+def mesh_as_drawn(inputs: DriveTrainInputs, result: DriveTrainResult) -> Scuffing | None:
     """Solve the mesh without modifications, on rigid shafts and without heat."""
-    return micropitting.solve_unmodified(contact_of(inputs))
+    return micropitting.solve_unmodified(contact_of(as_warm(inputs, result)))
 
 
 def where_micropitting_starts(inputs: DriveTrainInputs, result: DriveTrainResult, plain: Scuffing | None) -> Figure:
@@ -263,8 +287,39 @@ def wear(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
     return micropitting.wear_on_flank(inputs.mesh, result)
 
 
+def where_heat_goes(_: DriveTrainInputs, result: DriveTrainResult) -> Figure:
+    """Heat supplied, out of the gears, and removed."""
+    return heat_balance.where_heat_goes(heat_balance.known(result.heat))
+
+
+def temperatures(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
+    """Temperatures of flanks, bodies, bearings and casing."""
+    return heat_balance.temperatures(heat_balance.known(result.heat), oil_temperature(inputs))
+
+
+def oil_temperature(inputs: DriveTrainInputs) -> float:
+    """Temperature of the supplied oil [°C]."""
+    return inputs.mesh.temperatures.oil - UNITS["c"].offset
+
+
+def curve_over_the_flow(_: DriveTrainInputs, result: DriveTrainResult) -> FlowCurve:
+    """Solve the balance at a quarter to four times the oil flow, with the losses and loads of the case."""
+    heat = heat_balance.known(result.heat)
+    assert result.over_the_flow is not None
+    return result.over_the_flow(heat_balance.FLOWS * UNITS["l_per_min"].scale * heat.gear_flow)
+
+
+def oil_flow(inputs: DriveTrainInputs, result: DriveTrainResult, curve: FlowCurve) -> Figure:
+    """Flanks, drain and safety over the oil flow to the gears."""
+    scuffing, oil, used = None, oil_temperature(inputs), result.derived.temperatures
+    if result.safety is not None and result.safety.minimum and used.scuffing is not None and used.bulk is not None:
+        scuffing = (used.scuffing, oil + (used.scuffing - oil) / result.safety.minimum - used.bulk)
+    return heat_balance.over_the_oil_flow(heat_balance.known(result.heat), curve, oil, scuffing)
+
+
 LOAD_ALONE = Declaration("face-load", "Load along the face", OWN, partial(face_load, others={}))
 GAP = Declaration("gap", "Gap over the face by parts", OWN, gap)
+METHOD, BALANCE = "temperatures.bulk_method", "heat_balance"
 FIGURES = (
     Declaration("shafts", "Shafts, bearings and couplings", "as described", shafts),
     section(lambda inputs: inputs.mesh.distribution.gears),
@@ -288,4 +343,17 @@ FIGURES = (
     Declaration("journals", "Journals in the clearances of the plain bearings", "Ocvirk 1953", journals),
     Declaration("thrust", "Axial load of the shafts", "API 613, 5th ed.", thrust),
     Declaration("losses", "Losses of the unit", OWN, losses),
+    Declaration("heat-flows", "Where the heat goes", OWN, where_heat_goes, asked_by=METHOD, asked_value=BALANCE),
+    Declaration(
+        "node-temperatures", "Temperatures of the unit", OWN, temperatures, asked_by=METHOD, asked_value=BALANCE
+    ),
+    Declaration(
+        "oil-flow",
+        "What the oil flow does",
+        OWN,
+        oil_flow,
+        compute=curve_over_the_flow,
+        asked_by=METHOD,
+        asked_value=BALANCE,
+    ),
 )

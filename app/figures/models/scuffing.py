@@ -9,7 +9,7 @@ import numpy as np
 from app.figures import parts
 from app.figures.data import Axis, Figure, Hue, Level, Line, NoFigure, Panel, Role, Span, Values, values
 from app.figures.declaration import Build, Declaration, present
-from app.figures.models import load_distribution, micropitting
+from app.figures.models import heat_balance, load_distribution, micropitting
 from app.figures.models.load_distribution import PATH, path_points
 from app.figures.units import MM, UM, axis
 from app.figures.wording import number
@@ -79,11 +79,18 @@ def contact_temperature(inputs: ScuffingInputs, result: Scuffing) -> Figure:
         finding = f"safety factor {', '.join(texts)}" if texts else finding
 
     def panel(path: ScuffingPath) -> Panel:
-        lines = [replace(line, y=contact.bulk + line.y) for line in _flashes(path)]
+        lines = [replace(line, y=_bulk_of(result, line.title) + line.y) for line in _flashes(path)]
         marks = parts.extreme(lines[:-1] or lines, y.unit)
         return Panel(x=PATH, y=y, lines=lines, levels=levels, marks=marks)
 
     return _along(inputs, result, finding, panel)
+
+
+def _bulk_of(result: Scuffing, surface: str) -> float:
+    """Return the bulk temperature [°C] of pinion or wheel if a heat balance tells their flanks apart, else of both."""
+    if result.heat is not None and surface in {"pinion", "wheel"}:
+        return result.heat.pinion.flank if surface == "pinion" else result.heat.wheel.flank
+    return present(result.contact_temperature).bulk
 
 
 def _flashes(path: ScuffingPath) -> list[Line]:
@@ -152,8 +159,8 @@ def safety_along(inputs: ScuffingInputs, result: Scuffing) -> Figure:
     if result.safety is None:
         raise NoFigure("no_scuffing_temperature", "Safety needs a scuffing temperature", "temperatures")
     oil = inputs.temperatures.oil - UNITS["c"].offset
-    above_oil, reserve = present(result.contact_temperature).bulk - oil, result.safety.scuffing - oil
-    drawn = {name: _safeties(path, above_oil, reserve) for name, path in _paths(result).items()}
+    reserve = result.safety.scuffing - oil
+    drawn = {name: _safeties(result, path, oil, reserve) for name, path in _paths(result).items()}
     lines = [line for along in drawn.values() for line in along]
     if not lines:
         raise NoFigure("no_rise", "The contact is nowhere hotter than the oil, so no safety is defined", "temperatures")
@@ -166,21 +173,21 @@ def safety_along(inputs: ScuffingInputs, result: Scuffing) -> Figure:
     limit = Level(1.0, "scuffing below 1", limit=True)
 
     def panel(path: ScuffingPath) -> Panel:
-        own = _safeties(path, above_oil, reserve)
+        own = _safeties(result, path, oil, reserve)
         return Panel(x=PATH, y=y, lines=own, levels=[limit], marks=parts.extreme(own, least=True))
 
     place = f"Ψ = {number(least.x)}" if name == "feature line" else f"{number(least.x)} of the {name}"
     return _along(inputs, result, f"least {number(least.y)} by {method}, at {place}", panel)
 
 
-def _safeties(path: ScuffingPath, above_oil: float, reserve: float) -> list[Line]:
-    """Return safety factors along a path by thermal EHL and by Blok, where the contact is hotter than the oil."""
-    *flanks, blok = _flashes(path)
-    flashes = [replace(blok, role=Role.RESULT)]
+def _safeties(result: Scuffing, path: ScuffingPath, oil: float, reserve: float) -> list[Line]:
+    """Return safety factors along a path by thermal EHL and by Blok, where the contact is hotter than the oil [°C]."""
+    *flanks, blok = (replace(line, y=_bulk_of(result, line.title) + line.y) for line in _flashes(path))
+    contacts = [replace(blok, role=Role.RESULT)]
     if flanks:
         hotter = np.fmax(*(line.y for line in flanks))
-        flashes.insert(0, Line("thermal EHL", blok.x, hotter, Hue.VERMILLION))
-    rises = [(line, np.where(above_oil + line.y > 0.0, above_oil + line.y, np.nan)) for line in flashes]
+        contacts.insert(0, Line("thermal EHL", blok.x, hotter, Hue.VERMILLION))
+    rises = [(line, np.where(line.y > oil, line.y - oil, np.nan)) for line in contacts]
     return [replace(line, y=reserve / rise) for line, rise in rises if np.isfinite(rise).any()]
 
 
@@ -281,13 +288,57 @@ def _of_distribution(build: Build) -> Build:
     return lambda inputs, result: build(inputs.distribution, result.distribution)
 
 
+def _balanced(build: Build) -> Build:
+    """A figure of the heat balance alone."""
+    return lambda _, result: build(heat_balance.known(result.heat))
+
+
+def node_temperatures(inputs: ScuffingInputs, result: Scuffing) -> Figure:
+    """Temperatures of flanks, bodies and mist."""
+    return heat_balance.temperatures(heat_balance.known(result.heat), inputs.temperatures.oil - UNITS["c"].offset)
+
+
 OWN = ("section", "flank-pressure")  # of the figures of the load distribution: where the pair can scuff
+METHOD, BALANCE, DERIVED = "temperatures.bulk_method", "heat_balance", "own derivation, heat balance"
 FIGURES = (
     Declaration(
         "contact-temperature", "Contact temperature along the path of contact", "Xue 2020, Fig. 22", contact_temperature
     ),
     Declaration("flank-temperature", "Contact temperature on the flank", "Xue 2020, Eq. 25", temperature_on_flank),
     Declaration("safety", "Safety factor against scuffing along the path of contact", "Xue 2020, Eq. 26", safety_along),
+    Declaration(
+        "safety-band",
+        "Safety over the bulk temperature",
+        DERIVED,
+        heat_balance.safety_over_the_band,
+        asked_by=METHOD,
+        asked_value=BALANCE,
+    ),
+    Declaration(
+        "heat-flows",
+        "Where the heat goes",
+        DERIVED,
+        _balanced(heat_balance.where_heat_goes),
+        asked_by=METHOD,
+        asked_value=BALANCE,
+    ),
+    Declaration(
+        "node-temperatures",
+        "Temperatures of the gears",
+        DERIVED,
+        node_temperatures,
+        asked_by=METHOD,
+        asked_value=BALANCE,
+    ),
+    Declaration(
+        "oil-flow",
+        "What the oil flow does",
+        DERIVED,
+        heat_balance.oil_flow,
+        compute=heat_balance.curve_over_the_flow,
+        asked_by=METHOD,
+        asked_value=BALANCE,
+    ),
     Declaration("film", "Film along the path of contact", "Xue 2020, Fig. 23", film),
     Declaration(
         "micropitting",

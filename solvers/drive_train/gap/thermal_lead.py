@@ -25,13 +25,17 @@ EXPANSION = 12e-6  # of steel, 1/K
 
 @dataclass(frozen=True, slots=True)
 class GasHeat:
-    """Rise [K] of the gas over the ambient in the spaces of pinion and wheel, at positions over the face [m]."""
+    """Rise [K] of the gas over the ambient in the spaces of pinion and wheel, at positions over the face [m].
+
+    `power` [W] is that of both gears, `powers` of pinion and wheel.
+    """
 
     pinion_position: FloatArray
     pinion_rise: FloatArray
     wheel_position: FloatArray
     wheel_rise: FloatArray
     power: float
+    powers: tuple[float, float]
     warnings: tuple[Notice, ...]
 
 
@@ -58,7 +62,11 @@ def gas_heat(setup: PumpingSetup, pinion_speed: float) -> GasHeat:
     """
     result = pumping.solve(PumpingInputs(setup, pinion_speed))
     (at_pinion, pinion), (at_wheel, wheel) = _profile(result.pinion_spaces), _profile(result.wheel_spaces)
-    return GasHeat(at_pinion, pinion, at_wheel, wheel, result.total.pumping_power, result.warnings)
+    spaces = (result.pinion_spaces, result.wheel_spaces)
+    powers = [0.0 if one is None else one.pumping_power for one in spaces]
+    return GasHeat(
+        at_pinion, pinion, at_wheel, wheel, result.total.pumping_power, (powers[0], powers[1]), result.warnings
+    )
 
 
 def _profile(spaces: SpacesResult | None) -> tuple[FloatArray, FloatArray]:

@@ -79,7 +79,6 @@ def _journal(bearing: JournalBearing, load: FloatArray, speed: float, rotation: 
     along_load = slope * (turn + eccentricity * rotation * swing * turn @ _turn(pi / 2)) @ direction
     secant = eccentricity / force if force > 0.0 else slope
     flexibility = clearance * (np.outer(along_load, direction) + secant * np.outer(turn @ across, across))
-    friction = 2 * pi * bearing.viscosity * speed**2 * (bearing.diameter / 2) ** 3 * bearing.width
     return BearingState(
         load=load,
         displacement=clearance * eccentricity * turn @ direction,
@@ -88,8 +87,23 @@ def _journal(bearing: JournalBearing, load: FloatArray, speed: float, rotation: 
         attitude=attitude,
         minimum_film=clearance * (1 - eccentricity),
         specific_pressure=force / (bearing.diameter * bearing.width),
-        friction_power=friction / (clearance * sqrt(1 - eccentricity**2)),
+        friction_power=_friction(bearing, speed, eccentricity),
     )
+
+
+def _friction(bearing: JournalBearing, speed: float, eccentricity: float) -> float:
+    """Friction power [W]: that of a film as thick as the clearance over sqrt(1 - e^2)."""
+    concentric = 2 * pi * bearing.viscosity * speed**2 * (bearing.diameter / 2) ** 3 * bearing.width
+    return concentric / (bearing.clearance * sqrt(1 - eccentricity**2))
+
+
+def friction_and_eccentricity(bearing: JournalBearing, load: float, speed: float) -> tuple[float, float]:
+    """Friction power [W] and eccentricity ratio of a plain bearing under a load [N] at a speed [rad/s].
+
+    Raises NoSolution journal as `bearing_state` does.
+    """
+    eccentricity = _eccentricity(load / film_force(bearing, speed))
+    return _friction(bearing, speed, eccentricity), eccentricity
 
 
 def _eccentricity(load: float) -> float:

@@ -1,6 +1,7 @@
 """Values of a scuffing check that are estimated where the inputs leave them out: friction, bulk, oil, scuffing limit.
 
-There is no iteration: friction uses the viscosity at the oil temperature, the film that at the bulk temperature.
+There is no iteration: friction uses the viscosity at the oil temperature, the film that at the bulk temperature. The
+bulk by heat balance follows from the losses, of which the coefficient follows the oil within the balance.
 """
 
 from collections.abc import Iterator
@@ -10,6 +11,8 @@ import numpy as np
 
 from solvers.errors import InvalidInput
 from solvers.gears.pair import PathOfContact
+from solvers.heat_balance import Heat
+from solvers.heat_balance.inputs import Cooling
 from solvers.lubricants import Lubricant
 from solvers.notices import Notice
 from solvers.oils import OilSheet, lubricant_at
@@ -18,6 +21,7 @@ from solvers.scuffing.mesh_results import friction_loss
 from solvers.scuffing.results import LoadDistribution
 from solvers.scuffing.thermal.blok import blok_flash
 from solvers.scuffing.thermal.flank import contact_at_points, map_flash, mean_flash
+from solvers.scuffing.thermal.pair_heat import pair_heat, with_flanks
 from solvers.scuffing.thermal.practice import (
     FLOODED_UP_TO,
     TEST_TEMPERATURE,
@@ -34,10 +38,21 @@ STEEL_MODULI = (170e9, 240e9)  # Pa; cast iron and bronze are below, hard metal 
 MEAN_POINTS = 1001  # of the mean flash temperature along the feature line
 
 
-def in_force(inputs: ScuffingInputs, distribution: LoadDistribution) -> tuple[ScuffingInputs, LoadDistribution]:
-    """Inputs and load distribution with friction, temperatures and oil as numbers. Raises what its two parts raise."""
+def in_force(
+    inputs: ScuffingInputs, distribution: LoadDistribution
+) -> tuple[ScuffingInputs, LoadDistribution, Heat | None]:
+    """Inputs and load distribution with friction, temperatures and oil as numbers, and the heat balance if asked for.
+
+    Flanks that are known already, as a unit's are, have no balance of their own.
+    Raises what its parts raise: `with_friction`, `pair_heat` and `with_temperatures`.
+    """
     inputs, distribution = with_friction(inputs, distribution)
-    return with_temperatures(inputs, distribution), distribution
+    heat, temperatures = None, inputs.temperatures
+    unknown = temperatures.bulk_method == "heat_balance" and temperatures.flanks is None
+    if unknown and inputs.known_oil is not None:
+        heat = pair_heat(inputs, distribution, estimated_bulk(inputs, distribution))
+        inputs = with_flanks(inputs, heat)
+    return with_temperatures(inputs, distribution), distribution, heat
 
 
 def with_friction(inputs: ScuffingInputs, distribution: LoadDistribution) -> tuple[ScuffingInputs, LoadDistribution]:
@@ -72,7 +87,7 @@ def with_temperatures(inputs: ScuffingInputs, distribution: LoadDistribution) ->
     if oil is None:
         return replace(inputs, temperatures=replace(temperatures, bulk=None))
     if temperatures.bulk_method == "estimated":
-        temperatures = replace(temperatures, bulk=_estimated_bulk(inputs, distribution))
+        temperatures = replace(temperatures, bulk=estimated_bulk(inputs, distribution))
     if temperatures.scuffing_test is not None:
         test = temperatures.scuffing_test
         factor = _oil_factor(oil, TEST_TEMPERATURE) if test.lubricant_factor is None else test.lubricant_factor
@@ -83,8 +98,9 @@ def with_temperatures(inputs: ScuffingInputs, distribution: LoadDistribution) ->
         message = "the scuffing temperature must lie above the oil temperature"
         raise InvalidInput("scuffing_temperature", message, "temperatures.scuffing")
     bulk = temperatures.bulk
-    if bulk is None and temperatures.bulk_method == "given":
-        raise InvalidInput("missing_bulk", "the method 'given' needs a bulk temperature", "temperatures.bulk")
+    if bulk is None and temperatures.bulk_method != "estimated":
+        message = f"the method '{temperatures.bulk_method}' needs a bulk temperature"
+        raise InvalidInput("missing_bulk", message, "temperatures.bulk")
     if bulk is None:
         return replace(inputs, temperatures=temperatures, oil=oil, lubricant=None)
     if isinstance(oil, OilSheet) and not COLDEST_OIL <= bulk <= HOTTEST_OIL:
@@ -120,6 +136,12 @@ def oil_notices(inputs: ScuffingInputs, path: PathOfContact) -> Iterator[Notice]
             "bound, the contact temperature is higher and the safety lower than stated"
         )
         yield Notice("bulk_lower_bound", message, "temperatures.bulk_method")
+    if inputs.temperatures.bulk_method != "heat_balance" and inputs.cooling != Cooling():
+        message = (
+            f"the bulk temperature is {inputs.temperatures.bulk_method}; what is said of the cooling is used by the "
+            "method heat_balance alone"
+        )
+        yield Notice("cooling_not_used", message, "temperatures.bulk_method", rank="note")
 
 
 def _material_notices(inputs: ScuffingInputs) -> Iterator[Notice]:
@@ -146,7 +168,7 @@ def _oil_factor(oil: OilSheet | Lubricant, temperature: float) -> float:
     return lubricant_factor(lubricant.viscosity_at(0.0, temperature), lubricant.kind)
 
 
-def _estimated_bulk(inputs: ScuffingInputs, distribution: LoadDistribution) -> float | None:
+def estimated_bulk(inputs: ScuffingInputs, distribution: LoadDistribution) -> float | None:
     """Return the bulk temperature [K] by the mean flash temperature; None where that is not defined.
 
     The mean is that of the part that is checked. A tooth has one bulk temperature, whichever end of its face carries:

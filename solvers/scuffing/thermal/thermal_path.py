@@ -29,6 +29,8 @@ def thermal_paths(
 ) -> tuple[tuple[ThermalPath, ...], tuple[Notice, ...]]:
     """Solve every point in contact of the lines, each from its neighbour on its line; oil enters at bulk temperature.
 
+    Surfaces have the bulk temperatures of their gears where a heat balance tells them apart.
+
     A point outside the range of the solver is "refused", one without convergence "no_solution"; neither stops the
     others. The warnings are those of all lines. Raises the solver's InvalidInput if it refuses every point.
     """
@@ -72,9 +74,11 @@ def _solve_line(
 
 def contact_at(inputs: ScuffingInputs, points: ContactPoints, point: int) -> ehl.LineContactInputs:
     """One of the points as the line contact it is, between an oil and a bulk temperature in force."""
-    given, bulk, lubricant = inputs.distribution, inputs.temperatures.bulk, inputs.lubricant
-    assert bulk is not None
+    given, temperatures, lubricant = inputs.distribution, inputs.temperatures, inputs.lubricant
+    assert temperatures.bulk is not None
+    assert temperatures.surfaces is not None
     assert lubricant is not None
+    surface_1, surface_2 = temperatures.surfaces
     return ehl.LineContactInputs(
         contact=ehl.Contact(
             line_load=float(points.line_load[point]),
@@ -85,7 +89,7 @@ def contact_at(inputs: ScuffingInputs, points: ContactPoints, point: int) -> ehl
         surface_1=given.pinion_material,
         surface_2=given.wheel_material,
         lubricant=lubricant,
-        temperatures=ehl.Temperatures(surface_1=bulk, surface_2=bulk, inlet=bulk),
+        temperatures=ehl.Temperatures(surface_1=surface_1, surface_2=surface_2, inlet=temperatures.bulk),
         model=inputs.film,
     )
 

@@ -27,15 +27,18 @@ class CheckedLine(NamedTuple):
 
 
 def unknown_points(paths: Sequence[ThermalPath], bulks: Sequence[FloatArray]) -> int:
-    """Count the unsolved points of the paths that may be the hottest or the thinnest; bulk temperatures [K]."""
+    """Count the unsolved points of the paths that may be the hottest or the thinnest.
+
+    `bulks` [K] are those of the points, or two rows, of pinion and wheel.
+    """
     status = np.concatenate([path.status for path in paths])
     film, film_bound, flank, flash_bound = (
         np.concatenate(values)
         for values in (
             [path.minimum_film for path in paths],
             [path.film_bound for path in paths],
-            [np.fmax(path.pinion_flash, path.wheel_flash) + bulk for path, bulk in zip(paths, bulks, strict=True)],
-            [path.flash_bound + bulk for path, bulk in zip(paths, bulks, strict=True)],
+            [hotter_surface(path, bulk) for path, bulk in zip(paths, bulks, strict=True)],
+            [path.flash_bound + np.max(np.atleast_2d(bulk), axis=0) for path, bulk in zip(paths, bulks, strict=True)],
         )
     )
     missing = np.isin(status, ("no_solution", "refused"))
@@ -43,6 +46,13 @@ def unknown_points(paths: Sequence[ThermalPath], bulks: Sequence[FloatArray]) ->
         return int(missing.sum())
     harmless = (flash_bound <= np.nanmax(flank)) & (film_bound >= np.nanmin(film))
     return int((missing & ~harmless).sum())
+
+
+def hotter_surface(path: ThermalPath, bulk: FloatArray) -> FloatArray:
+    """Return the temperature of the hotter surface at each point [K]; `bulk` [K] as in `unknown_points`."""
+    pinion, wheel = np.broadcast_to(bulk, (2, path.pinion_flash.size))
+    hotter: FloatArray = np.fmax(path.pinion_flash + pinion, path.wheel_flash + wheel)
+    return hotter
 
 
 def largest_flash(lines: Sequence[CheckedLine], hottest: Peak | None, path_length: float) -> Flash:

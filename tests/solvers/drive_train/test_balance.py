@@ -17,8 +17,8 @@ from solvers.drive_train.inputs import (
     Heat,
     RigidBearing,
 )
-from solvers.drive_train.model import prepare, settle
 from solvers.drive_train.outcome import outcome
+from solvers.drive_train.prepared import prepare, settle
 from solvers.drive_train.shafts.coupling_loads import TILTS
 from solvers.drive_train.states import solve
 from solvers.errors import NoSolution

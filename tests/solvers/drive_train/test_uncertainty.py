@@ -9,8 +9,8 @@ import pytest
 
 from solvers.drive_train.gap.balance import uniform_force
 from solvers.drive_train.inputs import DriveTrainInputs, Effects, RigidBearing
-from solvers.drive_train.model import prepare, settle
 from solvers.drive_train.outcome import outcome, outcome_of
+from solvers.drive_train.prepared import prepare, settle
 from solvers.drive_train.states import solve
 from solvers.drive_train.uncertainty import uncertain_inputs
 from solvers.scuffing.inputs import LeadCurve, Resolution

@@ -72,8 +72,8 @@ def test_a_pair_needs_109_litres() -> None:
 
 def test_flows_add_up_to_losses_and_drains() -> None:
     heat = solve(UNIT)
-    supplied = sum(flow.power for flow in heat.flows if flow.from_node == "source")
-    removed = sum(flow.power for flow in heat.flows if flow.to_node in {"oil", "ambient"})
+    supplied = sum(flow.power for flow in heat.flows if flow.from_ == "source")
+    removed = sum(flow.power for flow in heat.flows if flow.to in {"oil", "ambient"})
     assert supplied == pytest.approx(heat.balance.supplied, rel=1e-12)
     assert removed == pytest.approx(supplied, rel=1e-9)
     assert heat.pinion.friction + heat.wheel.friction == pytest.approx(heat.losses.mesh)

@@ -1,0 +1,244 @@
+"""Figures of the heat balance: where the heat goes, how hot every part is, what the oil flow and the wetting do."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from app.figures.data import Axis, Figure, Hue, Level, Line, Mark, NoFigure, Panel, Row, Values, values
+from app.figures.units import axis
+from app.figures.wording import number
+from solvers.heat_balance import FlowCurve, Heat, over_the_flow
+from solvers.quantity import UNITS
+from solvers.scuffing.inputs import ScuffingInputs
+from solvers.scuffing.model import solve
+from solvers.scuffing.safety import safety_factor
+from solvers.scuffing.safety_results import Safety, Scuffing
+from solvers.scuffing.thermal.pair_heat import balance_inputs
+from solvers.scuffing.thermal.practice import HIGH_RISK_BELOW, LOW_RISK_ABOVE
+from solvers.scuffing.thermal.temperatures import with_friction
+
+KILOWATT, KELVIN = UNITS["kw"].scale, UNITS["c"].offset
+ROOM = 0.3  # of the range, beside bars of temperatures: they do not start at zero
+SMALL = 2e-3  # of the heat supplied: smaller flows are left out
+FLOWS = np.geomspace(0.25, 4.0, 33)  # times that of the case
+CASES = ("cool end of the band", "nominal", "hot end of the band")
+SUPPLY = {
+    "friction of the mesh": "friction of the mesh",
+    "friction of the bearing": "friction of the bearings",
+    "windage": "windage",
+    "oil brought to speed": "oil brought to speed",
+    "pumped gas": "pumped gas",
+    "other losses": "other losses",
+}
+AWAY = {"drain": "oil of the gears", "oil of the bearing": "oil of the bearings", "surroundings": "casing, to the air"}
+BY_GEAR = {
+    "oil on the flanks": ("oil on loaded flanks", Hue.BLUE),
+    "oil on the unloaded flanks": ("oil on unloaded flanks", Hue.SKY),
+    "oil out of the mist": ("oil out of the mist", Hue.GREEN),
+    "mist on the rim": ("mist on rim and faces", Hue.ORANGE),
+    "mist on the faces": ("mist on rim and faces", Hue.ORANGE),
+    "shaft": ("shaft, to the bearings", Hue.PURPLE),
+}
+
+
+def known(heat: Heat | None) -> Heat:
+    """Return the balance; raises NoFigure without one."""
+    if heat is None:
+        raise NoFigure("no_oil", "Without an oil there is no heat balance", "lubricant")
+    return heat
+
+
+def where_heat_goes(heat: Heat) -> Figure:
+    """Draw the heat supplied, the heat that leaves each gear by its carriers, and the heat removed."""
+    supplied = heat.balance.supplied / KILOWATT
+    groups = (
+        ("supplied", _summed(heat, SUPPLY, origins={"source"}), Hue.VERMILLION),
+        ("out of the pinion", _out_of(heat, "pinion"), Hue.BLUE),
+        ("out of the wheel", _out_of(heat, "wheel"), Hue.BLUE),
+        ("removed", _summed(heat, AWAY, targets={"oil", "ambient"}), Hue.GREEN),
+    )
+    rows = [
+        Row(f"{place}: {name}", power, hue)
+        for place, powers, hue in groups
+        for name, power in powers.items()
+        if abs(power) > SMALL * supplied
+    ]
+    through_flanks = heat.pinion.friction + heat.wheel.friction
+    finding = f"{number(supplied, 'kW')} in all, {number(through_flanks / KILOWATT, 'kW')} by the flanks"
+    return Figure(finding, [Panel(x=Axis("heat flow", "kW", symbol="P"), y=Axis("where"), rows=rows)])
+
+
+def _summed(
+    heat: Heat, names: dict[str, str], *, origins: set[str] | None = None, targets: set[str] | None = None
+) -> dict[str, float]:
+    """Return the flows from some places, or to some, summed by what carries them [kW], the largest first."""
+    powers: dict[str, float] = {}
+    for flow in heat.flows:
+        if (origins is None or flow.from_ in origins) and (targets is None or flow.to in targets):
+            name = names[flow.carrier]
+            powers[name] = powers.get(name, 0.0) + flow.power / KILOWATT
+    return dict(sorted(powers.items(), key=lambda each: -each[1]))
+
+
+def _out_of(heat: Heat, gear: str) -> dict[str, float]:
+    """Return the heat that leaves a gear by what carries it [kW]; negative where it comes in."""
+    powers: dict[str, float] = {}
+    for flow in heat.flows:
+        inside = [place.startswith(f"{gear}_") for place in (flow.from_, flow.to)]
+        if flow.carrier in BY_GEAR and inside[0] != inside[1]:
+            name = BY_GEAR[flow.carrier][0]
+            powers[name] = powers.get(name, 0.0) + (flow.power if inside[0] else -flow.power) / KILOWATT
+    return dict(sorted(powers.items(), key=lambda each: -each[1]))
+
+
+def temperatures(heat: Heat, oil: float) -> Figure:
+    """Draw the temperature of every node, flanks with their band, beside the oil [°C] and the standard's estimate."""
+    band = heat.band
+    rows = [
+        Row("pinion, loaded flank", heat.pinion.flank, Hue.VERMILLION, None if band is None else band.pinion_flank),
+        Row("pinion, body", heat.pinion.body, Hue.ORANGE),
+        Row("wheel, loaded flank", heat.wheel.flank, Hue.VERMILLION, None if band is None else band.wheel_flank),
+        Row("wheel, body", heat.wheel.body, Hue.ORANGE),
+        Row("mist, drain of the gears", heat.mist, Hue.SKY),
+        *(
+            Row(f"bearing {place}, oil that leaves", bearing.outlet, Hue.BLUE)
+            for place, bearing in enumerate(heat.bearings, start=1)
+        ),
+        *([] if heat.casing is None else [Row("casing", heat.casing, Hue.GREY)]),
+    ]
+    levels = [Level(oil, f"oil {number(oil, '°C')}", vertical=True)]
+    estimate = heat.estimates.iso_tr_13989_bulk
+    if estimate is not None:
+        levels.append(Level(estimate, f"bulk by ISO/TR 13989-1 {number(estimate, '°C')}", vertical=True))
+    finding = f"flanks {number(heat.pinion.flank, '°C')} and {number(heat.wheel.flank, '°C')}"
+    if band is not None:
+        low, high = band.pinion_flank
+        finding = f"{finding}; pinion {number(low)} to {number(high, '°C')} by the oil that reaches it"
+    shown = [level.value for level in levels] + [end for row in rows for end in (row.value, *(row.bounds or ()))]
+    room = ROOM * (max(shown) - min(shown) + 1.0)
+    x = Axis("temperature", "°C", symbol="θ", magnitude=False, limits=(min(shown) - room, max(shown) + 2 * room))
+    return Figure(finding, [Panel(x=x, y=Axis("where"), rows=rows, levels=levels)])
+
+
+def curve_over_the_flow(inputs: ScuffingInputs, result: Scuffing) -> FlowCurve:
+    """Solve the balance of a pair at a quarter to four times its oil flow."""
+    if result.heat is None:
+        raise NoFigure("no_oil", "Without an oil there is no heat balance", "lubricant")
+    balanced, distribution = with_friction(inputs, solve(inputs.distribution))
+    flow = UNITS["l_per_min"].scale * result.heat.gear_flow
+    return over_the_flow(balance_inputs(balanced, distribution), FLOWS * flow)
+
+
+def what_the_flow_does(heat: Heat, curve: FlowCurve) -> list[Panel]:
+    """Return flanks and drain over the oil flow, with the flow of the case."""
+    flow = curve.flow / UNITS["l_per_min"].scale
+    lines = [
+        Line("pinion flank", flow, curve.pinion_flank - KELVIN, Hue.VERMILLION),
+        Line("wheel flank", flow, curve.wheel_flank - KELVIN, Hue.ORANGE),
+        Line("drain", flow, curve.drain - KELVIN, Hue.BLUE),
+    ]
+    return [
+        Panel(
+            x=axis(heat, "gear_flow", "oil flow to the gears", magnitude=False),
+            y=Axis("temperature", "°C", magnitude=False, symbol="θ"),
+            lines=lines,
+            levels=[_own_flow(heat)],
+        )
+    ]
+
+
+def _own_flow(heat: Heat) -> Level:
+    return Level(heat.gear_flow, f"this case {number(heat.gear_flow, 'l/min')}", vertical=True)
+
+
+def oil_flow(inputs: ScuffingInputs, result: Scuffing, curve: FlowCurve) -> Figure:
+    """Draw flanks, drain and safety of a pair over the oil flow, with the flows at which verdicts change."""
+    heat, safety, largest = known(result.heat), result.safety, result.flash.blok_max
+    scuffing = None if safety is None or largest is None else (safety.scuffing, largest)
+    return over_the_oil_flow(heat, curve, inputs.temperatures.oil - KELVIN, scuffing)
+
+
+def over_the_oil_flow(heat: Heat, curve: FlowCurve, oil: float, scuffing: tuple[float, float] | None) -> Figure:
+    """Draw flanks and drain over the oil flow, and the safety with the flows at which its verdict changes.
+
+    `scuffing` are the scuffing temperature [°C] and the rise of the contact over the bulk [K], which the flow does not
+    change; `oil` is the temperature of the supplied oil [°C].
+    """
+    panels = what_the_flow_does(heat, curve)
+    if scuffing is not None:
+        limit, rise = scuffing
+        bulk = (curve.pinion_flank + curve.wheel_flank) / 2 - KELVIN
+        factors = _factors(limit, oil, bulk + rise)
+        line = Line("safety", curve.flow / UNITS["l_per_min"].scale, factors, named=False)
+        marks = [mark for verdict in (HIGH_RISK_BELOW, LOW_RISK_ABOVE) for mark in _reached(line, verdict)]
+        y = axis(Safety, "blok_factor", "safety factor against scuffing")
+        levels = [*_verdicts(factors), Level(heat.gear_flow, "", vertical=True)]
+        panels.append(Panel(x=panels[0].x, y=y, lines=[line], marks=marks, levels=levels))
+    return Figure(_flank_change(heat, curve), panels, unsolved=int(np.isnan(curve.drain).sum()))
+
+
+def _flank_change(heat: Heat, curve: FlowCurve) -> str:
+    """Say what twice the oil would bring."""
+    double = float(np.interp(2.0, FLOWS, curve.pinion_flank)) - KELVIN
+    if np.isnan(double):
+        return f"pinion flank {number(heat.pinion.flank, '°C')}"
+    return f"twice the oil: pinion flank {number(double, '°C')} instead of {number(heat.pinion.flank, '°C')}"
+
+
+def _factors(scuffing: float, oil: float, contact: Values) -> Values:
+    """Return the safety against a scuffing temperature at contact temperatures [°C]; NaN where it has no meaning."""
+    return values([safety_factor(scuffing, oil, float(each)) if each > oil else None for each in contact])
+
+
+def _verdicts(factors: Values) -> list[Level]:
+    """Return the limits of the verdicts that lie near the safeties."""
+    levels = [Level(HIGH_RISK_BELOW, "high risk below 1", limit=True)]
+    if float(np.nanmax(factors)) > (HIGH_RISK_BELOW + LOW_RISK_ABOVE) / 2:
+        levels.append(Level(LOW_RISK_ABOVE, "low risk above 2"))
+    return levels
+
+
+def _reached(line: Line, limit: float) -> Sequence[Mark]:
+    """Return the first point at which a rising line reaches a value."""
+    above = np.flatnonzero(line.y >= limit)
+    if above.size == 0 or above[0] == 0 or np.isnan(line.y[above[0] - 1]):
+        return []
+    place = slice(above[0] - 1, above[0] + 1)
+    flow = float(np.interp(limit, line.y[place], line.x[place]))
+    return [Mark(flow, limit, f"{number(limit)} at {number(flow, 'l/min')}", line.hue)]
+
+
+def safety_over_the_band(inputs: ScuffingInputs, result: Scuffing) -> Figure:
+    """Draw the safety over the bulk temperature, through the ends of the band and the nominal case."""
+    heat, safety, largest = known(result.heat), result.safety, result.flash.blok_max
+    if safety is None or safety.blok_factor is None or largest is None:
+        raise NoFigure("no_scuffing_temperature", "Safety needs a load and a scuffing temperature", "temperatures")
+    if heat.band is None or heat.band.safety is None:
+        raise NoFigure("no_band", "Without a band of the balance there is one safety only", "cooling.band")
+    oil = inputs.temperatures.oil - KELVIN
+    cases = [(first + second) / 2 - KELVIN for first, second in heat.flank_cases]
+    estimate = heat.estimates.iso_tr_13989_bulk
+    ends = sorted([*cases, *([] if estimate is None else [estimate])])
+    bulk = np.linspace(ends[0] - 2.0, ends[-1] + 2.0, 101)
+    line = Line("safety", bulk, _factors(safety.scuffing, oil, bulk + largest), named=False)
+    points = dict(zip(CASES, cases, strict=True)) | ({} if estimate is None else {"ISO/TR 13989-1": estimate})
+    marks = []
+    for name, at in points.items():
+        factor = safety_factor(safety.scuffing, oil, at + largest)
+        if factor is not None:
+            hue = Hue.GREY if name == "ISO/TR 13989-1" else line.hue
+            marks.append(Mark(at, factor, f"{name}: {number(factor)} at {number(at, '°C')}", hue))
+    low, high = heat.band.safety
+    finding = f"safety factor {number(safety.blok_factor)} ({number(low)} to {number(high)})"
+    return Figure(
+        f"{finding}: {safety.verdict} risk at the lower end",
+        [
+            Panel(
+                x=Axis("bulk temperature, mean of both flanks", "°C", magnitude=False, symbol="θ_M"),
+                y=axis(Safety, "blok_factor", "safety factor against scuffing", magnitude=False),
+                lines=[line],
+                levels=_verdicts(line.y),
+                marks=marks,
+            )
+        ],
+    )

@@ -1,0 +1,67 @@
+"""The parts of a unit ready to be brought together, and the gap that they agree on."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from solvers.arrays import FloatArray
+from solvers.drive_train.checks import check_inputs
+from solvers.drive_train.gap.balance import Equilibrium, LoadedMesh, equilibrium
+from solvers.drive_train.gap.hub_balance import free_hubs
+from solvers.drive_train.gap.thermal_lead import ThermalLead, no_heat, thermal_lead
+from solvers.drive_train.inputs import DriveTrainInputs
+from solvers.drive_train.shafts.influence import Unit, unit
+from solvers.scuffing.model import mesh_of
+
+LEAST_POINTS = 400  # of the gap over the face, the stations among them
+
+
+@dataclass(frozen=True, slots=True)
+class Prepared:
+    """Everything but the common gap: shafts and couplings as one system, the mesh under heat, the heat."""
+
+    unit: Unit
+    mesh: LoadedMesh
+    thermal: ThermalLead
+
+
+def prepare(inputs: DriveTrainInputs) -> Prepared:
+    """The parts ready to be brought together. Raises what `check_inputs`, `mesh_of` and `gas_heat` raise."""
+    given = mesh_of(inputs.mesh.distribution)
+    check_inputs(inputs, given.path)
+    system = unit(inputs, given.path)
+    steps = inputs.face_stations - 1
+    points = np.linspace(0.0, given.path.plane.face_width, steps * -(-LEAST_POINTS // steps) + 1)
+    thermal = thermal_lead(inputs, given.path, points) if inputs.effects.thermal else no_heat(points)
+    gap = given.mesh.gap
+    own = np.interp(points, np.linspace(0.0, points[-1], gap.lead.size), gap.lead)
+    heated = gap._replace(profile_slope=gap.profile_slope + thermal.profile_slope)
+    mesh = replace(given, mesh=given.mesh._replace(gap=heated._replace(lead=own)))
+    transmitted = given.tangential_force / inputs.contact_load_factor
+    carried = given.force * given.path.plane.cos_base_helix
+    return Prepared(
+        unit=system,
+        mesh=LoadedMesh(
+            prepared=mesh,
+            fixed=own + thermal.lead,
+            stations=system.stations,
+            force=given.force,
+            slices=inputs.mesh.distribution.resolution.slices,
+            scale=transmitted / carried if carried > 0.0 else 1.0,
+        ),
+        thermal=thermal,
+    )
+
+
+def settle(inputs: DriveTrainInputs, prepared: Prepared, start: FloatArray | None = None) -> Equilibrium:
+    """The gap that mesh, shafts and couplings agree on; without their effect the shafts do not move.
+
+    Raises NoSolution (drive_train, load_balance, journal).
+    """
+    if inputs.effects.shafts:
+        return equilibrium(prepared.unit, prepared.mesh, start)
+    gap = np.zeros(prepared.unit.stations.size)
+    mesh = prepared.mesh
+    response = mesh.respond(gap)
+    force, by_gap = mesh.scale * response.force, mesh.scale * response.derivative
+    return Equilibrium(gap, 0.0, force, free_hubs(prepared.unit, force), mesh.balance(gap), by_gap, 0, 0.0)

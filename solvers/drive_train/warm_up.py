@@ -1,0 +1,233 @@
+"""A unit that warms up: the heat balance over time, and the alignment of its flanks at five times."""
+
+from collections.abc import Iterator
+from math import cos
+
+import numpy as np
+
+from solvers import heat_balance, plausibility
+from solvers.arrays import ROUNDING, FloatArray, frozen
+from solvers.drive_train.inputs import DriveTrainInputs, JournalBearing, Shaft, torsion_diameter
+from solvers.drive_train.outcome import Outcome, outcome_of
+from solvers.drive_train.prepared import prepare, settle
+from solvers.drive_train.unit_heat import WarmUnit, asks_for_balance, at_temperatures, warm_unit
+from solvers.errors import InvalidInput
+from solvers.gears.pair import GearPair
+from solvers.heat_balance import Capacities, Heat, WarmUp, cylinders_capacity, loaded_teeth_capacity
+from solvers.heat_balance.capacities import STEEL_HEAT
+from solvers.heat_balance.network import BODIES, FLANKS, MIST, Network
+from solvers.materials import Solid
+from solvers.notices import Notice
+from solvers.pumping.space.tooth_space import normal_backlash
+from solvers.quantity import quantity, record
+from solvers.scuffing.thermal.pair_heat import STEEL_EXPANSION
+from solvers.sources import ISO_6336, OWN
+
+TIMES = 5
+
+
+@record
+class WarmUpInputs:
+    """A unit and the temperature that everything has as it starts [K]; the time at which the calculation ends [s]."""
+
+    unit: DriveTrainInputs
+    start: float = quantity(
+        "temperature at the start",
+        "θ_start",
+        unit="c",
+        default=20.0,
+        ge=-50,
+        le=150,
+        tolerance=5,
+        text="of gears, bearings, mist and casing",
+        assumed="20 °C, a start from cold; the oil is supplied at its own temperature",
+    )
+    until: float | None = quantity(
+        "end of the warm-up",
+        "t_end",
+        unit="s",
+        default=None,
+        ge=1,
+        le=1e6,
+        default_text="six times the slowest time constant",
+    )
+
+
+@record
+class AlignmentOverTime:
+    """Load and safety at five times of the warm-up [s], each at the temperatures of that time."""
+
+    time: FloatArray = quantity("times of the alignment", "t", unit="s")
+    face_load_factor: FloatArray = quantity("face load factor over time", "K_Hβ", ISO_6336, axis="time", gaps=True)
+    safety: FloatArray = quantity(
+        "safety factor over time",
+        "S_B",
+        text="by Blok over the flank; null without a scuffing temperature",
+        axis="time",
+        gaps=True,
+    )
+    total_slope: FloatArray = quantity("slope by shafts and heat over time", "f_Hβ", unit="um", axis="time")
+
+
+@record(kw_only=True)
+class UnitWarmUp:
+    """A warm-up with the alignment at five times, the worst of it, and the balance that it ends in."""
+
+    warm_up: WarmUp = quantity("warm-up")
+    least_safety: float | None = quantity(
+        "least safety factor of the warm-up", "S_B,min", text="of the five times; null without a scuffing temperature"
+    )
+    largest_face_load_factor: float | None = quantity(
+        "largest face load factor of the warm-up", "K_Hβ,max", ISO_6336, text="of the five times"
+    )
+    least_backlash: float | None = quantity(
+        "least normal backlash of the warm-up",
+        "j_n,min",
+        OWN,
+        unit="um",
+        text="gears against the casing; null without a casing in the balance",
+    )
+    alignment: AlignmentOverTime = quantity("alignment over time", detail="curves")
+    heat: Heat = quantity("heat balance", text="of the running unit, in which the warm-up ends")
+    warnings: tuple[Notice, ...]
+
+
+def solve(inputs: WarmUpInputs) -> UnitWarmUp:
+    """Compute how a unit warms up and how its flanks carry meanwhile.
+
+    Parameters
+    ----------
+    inputs : WarmUpInputs
+        The unit with a heat balance, and the temperature at which it starts.
+
+    Returns
+    -------
+    UnitWarmUp
+        Temperatures over time, load and safety at five times, the least backlash.
+
+    Raises
+    ------
+    InvalidInput
+        `not_asked` without a heat balance, `missing_mass` for a casing without mass; what `warm_unit` raises.
+    NoSolution
+        `warm_up` if the integration fails; what `warm_unit` raises.
+
+    Notes
+    -----
+    Losses are those of the warm unit; only the viscosity changes them (Eq. H24).
+
+    """
+    unit = inputs.unit
+    if not asks_for_balance(unit):
+        message = "a warm-up needs the heat balance: jets of a known oil, and no bulk temperature that is given"
+        raise InvalidInput("not_asked", message, "temperatures.bulk_method")
+    walls = unit.mesh.cooling.casing
+    if walls.area and walls.mass is None:
+        raise InvalidInput("missing_mass", "a casing that warms up needs its mass", "cooling.casing.mass")
+    warm = warm_unit(unit)
+    balance = warm.balance
+    network = heat_balance.calibrated(heat_balance.network_of(balance), balance.cooling)
+    found = heat_balance.warm_up(network, _capacities(unit, warm), inputs.start, inputs.until)
+    times = _times(found)
+    outcomes = [_outcome_at(unit, network, found, float(time)) for time in times]
+    factors = np.array([np.nan if one.face_load_factor is None else one.face_load_factor for one in outcomes])
+    safeties = np.array([np.nan if one.safety is None else one.safety for one in outcomes])
+    return UnitWarmUp(
+        warm_up=found,
+        least_safety=None if np.isnan(safeties).any() else float(safeties.min()),
+        largest_face_load_factor=None if np.isnan(factors).any() else float(factors.max()),
+        least_backlash=_least_backlash(unit, warm, found),
+        alignment=AlignmentOverTime(
+            time=frozen(times),
+            face_load_factor=frozen(factors),
+            safety=frozen(safeties),
+            total_slope=frozen([one.total_slope for one in outcomes]),
+        ),
+        heat=warm.heat,
+        warnings=warm.heat.warnings,
+    )
+
+
+def unusual_values(inputs: WarmUpInputs, _: UnitWarmUp) -> Iterator[Notice]:
+    """Tell of an unusual temperature of the oil."""
+    yield from plausibility.oil_temperature(inputs.unit.mesh.temperatures.oil)
+
+
+def _capacities(unit: DriveTrainInputs, warm: WarmUnit) -> Capacities:
+    """Return the heat capacities of both rotors, their teeth and the casing."""
+    given = unit.mesh.distribution
+    materials, gears = (given.pinion_material, given.wheel_material), warm.balance.gears
+    teeth = [
+        loaded_teeth_capacity(
+            gear.teeth,
+            gear.face_width,
+            gear.module,
+            heat_balance.TOOTH_HEIGHT * gear.module,
+            material.density,
+            material.specific_heat,
+        )
+        for gear, material in zip(gears, materials, strict=True)
+    ]
+    pair = given.gears
+    rotors = [
+        _rotor(shaft, material, torsion_diameter(pair, own) * (1.0 - ROUNDING), 2 * gear.reference_radius)
+        for shaft, material, own, gear in zip(unit.shafts, materials, (pair.pinion, pair.wheel), gears, strict=True)
+    ]
+    mass = unit.mesh.cooling.casing.mass
+    return Capacities((rotors[0], rotors[1]), (teeth[0], teeth[1]), None if mass is None else mass * STEEL_HEAT)
+
+
+def _rotor(shaft: Shaft, material: Solid, solid: float, reference: float) -> float:
+    """Return the heat capacity of a rotor [J/K]; a section as thick as `solid` [m] carries teeth.
+
+    Teeth and their spaces hold as much as a cylinder of the `reference` diameter [m].
+    """
+    sections = tuple(
+        (
+            one.length,
+            max(one.outer_diameter, reference) if one.outer_diameter >= solid else one.outer_diameter,
+            one.inner_diameter,
+        )
+        for one in shaft.sections
+    )
+    return cylinders_capacity(sections, shaft.density, material.specific_heat)
+
+
+def _times(found: WarmUp) -> FloatArray:
+    """Return the times of the alignment: start, end, that of the greatest difference of the bodies, and two more."""
+    end = float(found.curves.time[-1])
+    greatest = found.greatest_difference_at
+    if not 0.0 < greatest < end:
+        return np.linspace(0.0, end, TIMES)
+    return np.array([0.0, greatest / 2, greatest, np.sqrt(greatest * end), end])
+
+
+def _outcome_at(unit: DriveTrainInputs, network: Network, found: WarmUp, time: float) -> Outcome:
+    """Solve the alignment at the temperatures of a time [s]."""
+    curves = found.curves
+    now = np.array([np.interp(time, curves.time, curve) for curve in curves.temperature.T])
+    outlets = iter(now[MIST + 1 :])
+    inlet = network.oil.inlet
+    films = [
+        network.film_temperature(float(next(outlets)) - inlet) if isinstance(bearing, JournalBearing) else np.nan
+        for shaft in unit.shafts
+        for bearing in shaft.bearings
+    ]
+    flanks = (float(now[FLANKS[0]]), float(now[FLANKS[1]]))
+    bodies = (float(now[BODIES[0]]), float(now[BODIES[1]]))
+    casing = float(now[-1]) if network.casing else None
+    warm = at_temperatures(unit, flanks, bodies, films, casing)
+    prepared = prepare(warm)
+    return outcome_of(warm, prepared, settle(warm, prepared))
+
+
+def _least_backlash(unit: DriveTrainInputs, warm: WarmUnit, found: WarmUp) -> float | None:
+    """Return the least normal backlash [m]; None without a casing (Eq. H22)."""
+    if found.nodes[-1] != "casing":
+        return None
+    pair: GearPair = warm.prepared.mesh.prepared.path.pair
+    temperatures = found.curves.temperature
+    rises = [temperatures[:, body] - temperatures[:, -1] for body in BODIES]
+    growth = STEEL_EXPANSION * (pair.pinion_working_radius * rises[0] + pair.wheel_working_radius * rises[1])
+    lost = 2 * np.tan(pair.working_pressure_angle) * growth * cos(pair.working_pressure_angle)
+    return normal_backlash(pair, unit.pumping.normal_backlash) - float(lost.max()) * cos(pair.base_helix_angle)

@@ -1,0 +1,58 @@
+"""Temperatures over the oil flow: what more oil brings."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from solvers.arrays import FloatArray, frozen
+from solvers.errors import NoSolution
+from solvers.heat_balance.calibration import drain_rise
+from solvers.heat_balance.model import HeatBalanceInputs, calibrated, network_of
+from solvers.heat_balance.network import FLANKS, Network
+from solvers.heat_balance.solution import equilibrium
+
+
+@dataclass(frozen=True, slots=True)
+class FlowCurve:
+    """Flanks and drain [K] over the flow to the gears [m^3/s]; NaN where there is no equilibrium."""
+
+    flow: FloatArray
+    pinion_flank: FloatArray
+    wheel_flank: FloatArray
+    drain: FloatArray
+
+
+def over_the_flow(inputs: HeatBalanceInputs, flows: FloatArray) -> FlowCurve:
+    """Solve the balance at other oil flows.
+
+    Parameters
+    ----------
+    inputs : HeatBalanceInputs
+        The pair or unit; what was measured fixes the wetting share at its own flow.
+    flows : FloatArray
+        Flows to the gears, rising [m^3/s].
+
+    Returns
+    -------
+    FlowCurve
+        Temperatures at these flows; losses follow the temperatures only.
+
+    """
+    network = calibrated(network_of(inputs), inputs.cooling)
+    start: FloatArray | None = None
+    rows = []
+    for flow in flows[::-1]:  # from the coolest case on
+        varied = replace(network, spray=replace(network.spray, flow=float(flow)))
+        start, row = _solved(varied, start)
+        rows.append(row)
+    pinion, wheel, drain = network.oil.inlet + np.array(rows[::-1]).T
+    return FlowCurve(frozen(flows), frozen(pinion), frozen(wheel), frozen(drain))
+
+
+def _solved(network: Network, start: FloatArray | None) -> tuple[FloatArray | None, tuple[float, float, float]]:
+    """Return the rises to start the next case from, and those of flanks and drain [K]."""
+    try:
+        rises = equilibrium(network, start).rises
+    except NoSolution:
+        return None, (np.nan, np.nan, np.nan)
+    return rises, (float(rises[FLANKS[0]]), float(rises[FLANKS[1]]), drain_rise(network, rises))

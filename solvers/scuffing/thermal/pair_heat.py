@@ -1,0 +1,152 @@
+"""The heat balance of a loaded pair: what the mesh loses, what the oil takes away, and how hot the flanks are."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from solvers import heat_balance
+from solvers.arrays import FloatArray
+from solvers.gears.inputs import GearPairInputs
+from solvers.gears.pair import GearPair, PathOfContact, gear_pair
+from solvers.heat_balance import GearGeometry, Heat, HeatBalanceInputs, MeshHeat, cooling_oil, share_to_pinion
+from solvers.heat_balance.losses import VISCOSITY_EXPONENT
+from solvers.materials import Solid
+from solvers.scuffing.inputs import LoadDistributionInputs, ScuffingInputs
+from solvers.scuffing.results import LoadDistribution
+from solvers.scuffing.thermal.practice import FLOODED_UP_TO
+
+STEEL_EXPANSION = 12e-6  # 1/K, of gears and casing
+
+
+def is_beyond_the_estimate(gears: GearPairInputs, pinion_speed: float) -> bool:
+    """Return True if the pitch line of a pair runs faster than 60 m/s at a speed of the pinion [rad/s].
+
+    Raises what `gear_pair` raises.
+    """
+    return pinion_speed * gear_pair(gears).pinion_working_radius > FLOODED_UP_TO
+
+
+def pair_heat(inputs: ScuffingInputs, distribution: LoadDistribution, estimate: float | None) -> Heat:
+    """Solve the heat balance of a pair.
+
+    Parameters
+    ----------
+    inputs : ScuffingInputs
+        The pair with a known oil and its cooling.
+    distribution : LoadDistribution
+        Its load distribution with the friction of the losses.
+    estimate : float or None
+        Bulk temperature by ISO/TR 13989-1 [K], which is stated beside the balance.
+
+    Returns
+    -------
+    Heat
+        Temperatures, losses, flows and band of the pair.
+
+    Raises
+    ------
+    InvalidInput
+        `exclusive` or `measured_unreachable` for measured temperatures.
+    NoSolution
+        `heat_balance` or `thermal_runaway`.
+
+    """
+    heat = heat_balance.solve(balance_inputs(inputs, distribution, estimate))
+    return with_backlash_loss(heat, distribution.path_of_contact.pair)
+
+
+def balance_inputs(
+    inputs: ScuffingInputs, distribution: LoadDistribution, estimate: float | None = None
+) -> HeatBalanceInputs:
+    """Return what the balance of a pair depends on; parameters are those of `pair_heat`."""
+    oil, path = inputs.known_oil, distribution.path_of_contact
+    assert oil is not None
+    return HeatBalanceInputs(
+        cooling=inputs.cooling,
+        oil=cooling_oil(oil, inputs.temperatures.oil),
+        gears=gear_geometries(inputs.distribution, path),
+        mesh=mesh_heat(inputs, distribution),
+        centre_distance=path.pair.centre_distance,
+        iso_tr_13989_bulk=estimate,
+    )
+
+
+def with_backlash_loss(heat: Heat, pair: GearPair) -> Heat:
+    """Return the heat with the backlash that gears of steel lose against their casing."""
+    radii = (pair.pinion_working_radius, pair.wheel_working_radius)
+    return heat_balance.backlash_loss(heat, radii, pair.working_pressure_angle, STEEL_EXPANSION)
+
+
+def with_flanks(inputs: ScuffingInputs, heat: Heat) -> ScuffingInputs:
+    """Return the inputs with the flanks of the balance as bulk temperatures of both surfaces."""
+    flanks = (heat.pinion.flank, heat.wheel.flank)
+    return replace(inputs, temperatures=replace(inputs.temperatures, bulk=sum(flanks) / 2, flanks=flanks))
+
+
+def gear_geometries(given: LoadDistributionInputs, path: PathOfContact) -> tuple[GearGeometry, GearGeometry]:
+    """Return both gears as the balance takes them, without shafts."""
+    pair, speed = path.pair, abs(given.load.pinion_speed)
+    speeds = (speed, speed * pair.pinion.teeth / pair.wheel.teeth)
+    pinion, wheel = (
+        GearGeometry(
+            teeth=gear.teeth,
+            face_width=given.gears.face_width,
+            module=given.gears.normal_module,
+            reference_radius=gear.reference_radius,
+            tip_radius=gear.tip_radius,
+            speed=own_speed,
+            conductivity=material.thermal_conductivity,
+        )
+        for gear, own_speed, material in zip(
+            (pair.pinion, pair.wheel), speeds, (given.pinion_material, given.wheel_material), strict=True
+        )
+    )
+    return pinion, wheel
+
+
+def mesh_heat(inputs: ScuffingInputs, distribution: LoadDistribution) -> MeshHeat:
+    """Return the friction of the mesh, which follows the oil unless the user gives its coefficient."""
+    return MeshHeat(
+        power=distribution.friction_loss.power or 0.0,
+        temperature=inputs.temperatures.oil,
+        share_to_pinion=friction_to_pinion(inputs.distribution, distribution),
+        viscosity_exponent=0.0 if inputs.friction == "given" else VISCOSITY_EXPONENT,
+    )
+
+
+def friction_to_pinion(given: LoadDistributionInputs, distribution: LoadDistribution) -> float:
+    """Compute the pinion's share of the friction of a mesh: the heat of each place along the path is that of its face.
+
+    Parameters
+    ----------
+    given : LoadDistributionInputs
+        The pair with its materials.
+    distribution : LoadDistribution
+        Its load distribution.
+
+    Returns
+    -------
+    float
+        Share phi [-] (Eq. H7).
+
+    """
+    path, flank = distribution.path_of_contact, distribution.flank
+    along = flank.profile_fraction * path.plane.path_length
+    speed_1, speed_2 = _surface_speeds(given, path, along)
+    load = np.trapezoid(flank.line_load, flank.face_fraction, axis=1)
+    ratio = _effusivity(given.wheel_material) / _effusivity(given.pinion_material)
+    return share_to_pinion(load * np.abs(speed_1 - speed_2), speed_1, speed_2, along, ratio)
+
+
+def _surface_speeds(
+    given: LoadDistributionInputs, path: PathOfContact, along: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Return the speeds of both surfaces [m/s] at distances from A [m]."""
+    pair, roll = path.pair, path.start + along
+    speed = abs(given.load.pinion_speed)
+    wheel_roll = np.maximum(pair.line_of_action - roll, 0.0)
+    return speed * np.maximum(roll, 0.0), speed * pair.pinion.teeth / pair.wheel.teeth * wheel_roll
+
+
+def _effusivity(solid: Solid) -> float:
+    return float(np.sqrt(solid.thermal_conductivity * solid.density * solid.specific_heat))
