@@ -50,9 +50,9 @@ def outcome(inputs: DriveTrainInputs, start: FloatArray | None = None) -> Outcom
 def outcome_of(inputs: DriveTrainInputs, prepared: Prepared, found: Equilibrium) -> Outcome:
     """The figures of a unit whose gap is known; the thermal film is left out."""
     spread = distribution(inputs.mesh.distribution, prepared.mesh.prepared, found.balance)
-    contact, spread, _ = in_force(contact_of(inputs), spread)
+    contact, spread, flash, _ = in_force(contact_of(inputs), spread)
     closed = replace(inputs, mesh=replace(contact, lubrication="closed_form"))
-    heat = flank_heat(closed, spread, prepared.thermal)
+    heat = flank_heat(closed, spread, flash, prepared.thermal)
     shares = np.trapezoid(spread.flank.line_load, axis=0)
     mean = float(np.trapezoid(shares) / (shares.size - 1))
     slope = face_slope(found.gap)

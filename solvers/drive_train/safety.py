@@ -17,7 +17,13 @@ from solvers.scuffing.results import LoadDistribution, Place
 from solvers.scuffing.safety import safety_factor
 from solvers.scuffing.safety_results import ThermalPath
 from solvers.scuffing.thermal.blok import blok_flash
-from solvers.scuffing.thermal.flank import SURVEY_POINTS, FaceFunction, contact_at_points, find_hottest, map_flash
+from solvers.scuffing.thermal.flank import (
+    SURVEY_POINTS,
+    FaceFunction,
+    FlashMap,
+    contact_at_points,
+    find_hottest,
+)
 from solvers.scuffing.thermal.thermal_path import thermal_paths
 from solvers.scuffing.thermal.verdict import hotter_surface, unknown_points
 
@@ -43,7 +49,7 @@ def contact_of(inputs: DriveTrainInputs) -> ScuffingInputs:
     return replace(inputs.mesh, temperatures=replace(temperatures, bulk=mean))
 
 
-def flank_heat(inputs: DriveTrainInputs, mesh: LoadDistribution, thermal: ThermalLead) -> FlankHeat:
+def flank_heat(inputs: DriveTrainInputs, mesh: LoadDistribution, flash: FlashMap, thermal: ThermalLead) -> FlankHeat:
     """Compute Blok's temperatures on the feature line and over the flank, and thermal EHL on both lines (Eq. D15).
 
     Next to a base circle the temperature has no limit and is left out; without an oil there is no contact temperature.
@@ -57,7 +63,6 @@ def flank_heat(inputs: DriveTrainInputs, mesh: LoadDistribution, thermal: Therma
     along, across = psi * plane.path_length, psi * plane.face_width
     feature = contact_at_points(given, mesh, along, across)
     on_feature = blok_flash(given, feature)
-    flash = map_flash(given, mesh)
     hottest = strongest = _with_line(find_hottest(given, mesh, flash), along, across, on_feature)
     contacts = list[float | None]([None, None])
     known = inputs.mesh.temperatures.bulk is not None

@@ -26,6 +26,7 @@ from solvers.heat_balance import Heat, HeatBalanceInputs, Journal, rod_conductan
 from solvers.scuffing.inputs import ScuffingInputs
 from solvers.scuffing.model import distribution
 from solvers.scuffing.safety import safety_factor
+from solvers.scuffing.thermal.flank import map_flash
 from solvers.scuffing.thermal.pair_heat import balance_inputs, with_backlash_loss
 from solvers.scuffing.thermal.temperatures import estimated_bulk, with_friction
 
@@ -184,7 +185,7 @@ def _balance(
     mesh = prepared.mesh.prepared
     spread = distribution(warm.mesh.distribution, mesh, found.balance)
     contact, spread = with_friction(inputs.mesh, spread)
-    balance = balance_inputs(contact, spread, estimated_bulk(contact, spread))
+    balance = balance_inputs(contact, spread, estimated_bulk(contact, spread, map_flash(contact.distribution, spread)))
     gas = gas_heat(inputs.pumping, inputs.mesh.distribution.load.pinion_speed)
     system, face = prepared.unit, (inputs.face_start, inputs.face_start + inputs.mesh.distribution.gears.face_width)
     couplings = coupling_results(system, found, hubs_of(system, found))

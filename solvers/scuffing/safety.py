@@ -38,7 +38,6 @@ from solvers.scuffing.thermal.flank import (
     find_hottest,
     find_thinnest,
     formula_film,
-    map_flash,
 )
 from solvers.scuffing.thermal.practice import scuffing_risk
 from solvers.scuffing.thermal.temperatures import in_force, oil_notices
@@ -62,9 +61,8 @@ def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
     Without an oil or a bulk temperature there are neither film nor contact temperature nor safety. Raises what
     `model.solve` and `in_force` raise, and what the thermal EHL solver raises if it refuses every point.
     """
-    inputs, distribution, heat = in_force(inputs, solve(inputs.distribution))
+    inputs, distribution, flash_map, heat = in_force(inputs, solve(inputs.distribution))
     given, bulk = inputs.distribution, inputs.temperatures.bulk
-    flash_map = map_flash(given, distribution)
     whole = inputs.line == "flank"
     hottest = find_hottest(given, distribution, flash_map) if whole else None
     thinnest = find_thinnest(inputs, distribution, flash_map) if whole else None

@@ -6,6 +6,7 @@ bulk by heat balance follows from the losses, of which the coefficient follows t
 
 from collections.abc import Iterator
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -20,7 +21,7 @@ from solvers.scuffing.inputs import ScuffingInputs
 from solvers.scuffing.mesh_results import friction_loss
 from solvers.scuffing.results import LoadDistribution
 from solvers.scuffing.thermal.blok import blok_flash
-from solvers.scuffing.thermal.flank import contact_at_points, map_flash, mean_flash
+from solvers.scuffing.thermal.flank import FlashMap, contact_at_points, map_flash, mean_flash
 from solvers.scuffing.thermal.pair_heat import pair_heat, with_flanks
 from solvers.scuffing.thermal.practice import (
     FLOODED_UP_TO,
@@ -38,21 +39,32 @@ STEEL_MODULI = (170e9, 240e9)  # Pa; cast iron and bronze are below, hard metal 
 MEAN_POINTS = 1001  # of the mean flash temperature along the feature line
 
 
-def in_force(
-    inputs: ScuffingInputs, distribution: LoadDistribution
-) -> tuple[ScuffingInputs, LoadDistribution, Heat | None]:
-    """Inputs and load distribution with friction, temperatures and oil as numbers, and the heat balance if asked for.
+class InForce(NamedTuple):
+    """What a check of scuffing starts from, with every estimate as a number.
+
+    `flash` is Blok's flash temperature over the flank, `heat` the balance of a pair that asks for one.
+    """
+
+    inputs: ScuffingInputs
+    distribution: LoadDistribution
+    flash: FlashMap
+    heat: Heat | None
+
+
+def in_force(inputs: ScuffingInputs, distribution: LoadDistribution) -> InForce:
+    """Return inputs and load distribution with friction, temperatures and oil as numbers.
 
     Flanks that are known already, as a unit's are, have no balance of their own.
     Raises what its parts raise: `with_friction`, `pair_heat` and `with_temperatures`.
     """
     inputs, distribution = with_friction(inputs, distribution)
+    flash = map_flash(inputs.distribution, distribution)
     heat, temperatures = None, inputs.temperatures
     unknown = temperatures.bulk_method == "heat_balance" and temperatures.flanks is None
     if unknown and inputs.known_oil is not None:
-        heat = pair_heat(inputs, distribution, estimated_bulk(inputs, distribution))
+        heat = pair_heat(inputs, distribution, estimated_bulk(inputs, distribution, flash))
         inputs = with_flanks(inputs, heat)
-    return with_temperatures(inputs, distribution), distribution, heat
+    return InForce(with_temperatures(inputs, distribution, flash), distribution, flash, heat)
 
 
 def with_friction(inputs: ScuffingInputs, distribution: LoadDistribution) -> tuple[ScuffingInputs, LoadDistribution]:
@@ -76,7 +88,7 @@ def with_friction(inputs: ScuffingInputs, distribution: LoadDistribution) -> tup
     return rubbing, replace(distribution, friction_loss=loss)
 
 
-def with_temperatures(inputs: ScuffingInputs, distribution: LoadDistribution) -> ScuffingInputs:
+def with_temperatures(inputs: ScuffingInputs, distribution: LoadDistribution, flash: FlashMap) -> ScuffingInputs:
     """The inputs with bulk and scuffing temperature as numbers and the oil as it enters the contact.
 
     Without an oil, or where the flash temperature has no mean to estimate the bulk from, neither bulk nor lubricant is
@@ -87,7 +99,7 @@ def with_temperatures(inputs: ScuffingInputs, distribution: LoadDistribution) ->
     if oil is None:
         return replace(inputs, temperatures=replace(temperatures, bulk=None))
     if temperatures.bulk_method == "estimated":
-        temperatures = replace(temperatures, bulk=estimated_bulk(inputs, distribution))
+        temperatures = replace(temperatures, bulk=estimated_bulk(inputs, distribution, flash))
     if temperatures.scuffing_test is not None:
         test = temperatures.scuffing_test
         factor = _oil_factor(oil, TEST_TEMPERATURE) if test.lubricant_factor is None else test.lubricant_factor
@@ -168,7 +180,7 @@ def _oil_factor(oil: OilSheet | Lubricant, temperature: float) -> float:
     return lubricant_factor(lubricant.viscosity_at(0.0, temperature), lubricant.kind)
 
 
-def estimated_bulk(inputs: ScuffingInputs, distribution: LoadDistribution) -> float | None:
+def estimated_bulk(inputs: ScuffingInputs, distribution: LoadDistribution, flash: FlashMap) -> float | None:
     """Return the bulk temperature [K] by the mean flash temperature; None where that is not defined.
 
     The mean is that of the part that is checked. A tooth has one bulk temperature, whichever end of its face carries:
@@ -176,7 +188,7 @@ def estimated_bulk(inputs: ScuffingInputs, distribution: LoadDistribution) -> fl
     """
     given = inputs.distribution
     if inputs.line == "flank":
-        mean = mean_flash(map_flash(given, distribution))
+        mean = mean_flash(flash)
     else:
         psi, plane = np.linspace(0.0, 1.0, MEAN_POINTS), distribution.path_of_contact.plane
         along_line = contact_at_points(given, distribution, psi * plane.path_length, psi * plane.face_width)

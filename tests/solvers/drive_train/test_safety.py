@@ -11,6 +11,7 @@ from solvers.drive_train.safety import FlankHeat, flank_heat
 from solvers.scuffing.inputs import Load, LoadDistributionInputs, ScuffingInputs, Temperatures, angular_speed
 from solvers.scuffing.model import solve
 from solvers.scuffing.safety import solve_scuffing
+from solvers.scuffing.thermal.flank import map_flash
 from tests.support.drive_trains import turbo_gear
 from tests.support.gear_pairs import UNDERCUT_PAIR
 from tests.support.modified_pairs import relieved_pair
@@ -21,7 +22,9 @@ COARSE = ehl.Model(nodes=61, film_nodes=11, refine_mesh=False)
 def heat_of(inputs: ScuffingInputs) -> FlankHeat:
     """Of a pair without shafts that bend or heat that spreads."""
     thermal = no_heat(np.linspace(0.0, inputs.distribution.gears.face_width, 11))
-    return flank_heat(replace(turbo_gear(), mesh=inputs), solve(inputs.distribution), thermal)
+    distribution = solve(inputs.distribution)
+    flash = map_flash(inputs.distribution, distribution)
+    return flank_heat(replace(turbo_gear(), mesh=inputs), distribution, flash, thermal)
 
 
 def test_a_point_too_light_to_matter_keeps_the_verdict() -> None:
