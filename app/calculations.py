@@ -212,7 +212,7 @@ CALCULATIONS = (
     ),
     Calculation(
         path="/v1/drive-train/warm-up",
-        title="Warm-up of a unit",
+        title="Warm-up",
         summary="How a gear unit warms up: temperatures over time, backlash, load on the flanks and scuffing meanwhile",
         source="own derivation, heat balance",
         request=drive_train_schema.WarmUpRequest,

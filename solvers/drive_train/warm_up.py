@@ -1,15 +1,18 @@
 """A unit that warms up: the heat balance over time, and the alignment of its flanks at five times."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 from math import cos
 
 import numpy as np
 
 from solvers import heat_balance, plausibility
 from solvers.arrays import ROUNDING, FloatArray, frozen
+from solvers.drive_train.derived import Derived, derived
 from solvers.drive_train.inputs import DriveTrainInputs, JournalBearing, Shaft, torsion_diameter
 from solvers.drive_train.outcome import Outcome, outcome_of
 from solvers.drive_train.prepared import prepare, settle
+from solvers.drive_train.safety import contact_of
 from solvers.drive_train.unit_heat import WarmUnit, asks_for_balance, at_temperatures, warm_unit
 from solvers.errors import InvalidInput
 from solvers.gears.pair import GearPair
@@ -20,7 +23,9 @@ from solvers.materials import Solid
 from solvers.notices import Notice
 from solvers.pumping.space.tooth_space import normal_backlash
 from solvers.quantity import quantity, record
+from solvers.scuffing.model import distribution
 from solvers.scuffing.thermal.pair_heat import STEEL_EXPANSION
+from solvers.scuffing.thermal.temperatures import in_force
 from solvers.sources import ISO_6336, OWN
 
 TIMES = 5
@@ -89,6 +94,7 @@ class UnitWarmUp:
     )
     alignment: AlignmentOverTime = quantity("alignment over time", detail="curves")
     heat: Heat = quantity("heat balance", text="of the running unit, in which the warm-up ends")
+    derived: Derived = quantity("what was left open, as the running unit uses it")
     warnings: tuple[Notice, ...]
 
 
@@ -144,6 +150,7 @@ def solve(inputs: WarmUpInputs) -> UnitWarmUp:
             total_slope=frozen([one.total_slope for one in outcomes]),
         ),
         heat=warm.heat,
+        derived=_derived(warm),
         warnings=warm.heat.warnings,
     )
 
@@ -151,6 +158,13 @@ def solve(inputs: WarmUpInputs) -> UnitWarmUp:
 def unusual_values(inputs: WarmUpInputs, _: UnitWarmUp) -> Iterator[Notice]:
     """Tell of an unusual temperature of the oil."""
     yield from plausibility.oil_temperature(inputs.unit.mesh.temperatures.oil)
+
+
+def _derived(warm: WarmUnit) -> Derived:
+    """Return what was left open, as the warm unit has it."""
+    spread = distribution(warm.inputs.mesh.distribution, warm.prepared.mesh.prepared, warm.found.balance)
+    contact, spread, *_ = in_force(contact_of(warm.inputs), spread)
+    return derived(replace(warm.inputs, mesh=contact), spread, warm.heat)
 
 
 def _capacities(unit: DriveTrainInputs, warm: WarmUnit) -> Capacities:

@@ -37,7 +37,7 @@ class WarmUp:
     """A warm-up: final temperatures [K], when each node has made 95 % of its way [s], the bodies' difference."""
 
     nodes: tuple[str, ...] = quantity("nodes", index="flanks and bodies, mist, bearings, casing")
-    final: FloatArray = quantity("final temperatures", "θ_∞", unit="c", index="nodes")
+    final: FloatArray = quantity("final temperatures", "θ_end", unit="c", index="nodes")
     time_95: tuple[float | None, ...] = quantity(
         "time to 95 %", "t_95", unit="s", index="nodes", text="null for a node that stays within 5 % or is not there"
     )
