@@ -2,7 +2,7 @@
 
 Data flows inputs, checks -> problem, grid, linear_algebra -> shear -> reynolds, heat -> state -> temperature ->
 newton -> continuation -> measures, refinement -> results, notices. `model.solve` solves one contact, `path.solve_path`
-many.
+many. `equations` is the specification of the kernels: the discrete problem in plain NumPy.
 """
 
 from solvers.contact.ehl import model

@@ -208,7 +208,7 @@ def column_balance(
     film: Film,
     heat: Heat,
 ) -> None:
-    """Heat balance of column i, linearised by its own temperatures: residual, tridiagonal part, responses (Eq. E8).
+    """Heat balance of column i, linearised by its temperatures: residual, tridiagonal part, responses (Eqs. E8, E15).
 
     c [d(psi_zeta t)/dx - d(psi_x t)/dzeta] = (lambda/h) t_zetazeta + h (tau rate + (0.00065 rho0/rho) t u p'), with
     the cross-film flow from continuity (Eq. 23 of the paper leaves it out). Half cells at the walls give the heat

@@ -43,7 +43,7 @@ def uniform_film(problem: Problem, i: int, p: float, g: float, h: float, coeffic
     """Flow coefficients of column i at the inlet temperature; returns the mid-film stress [Pa].
 
     `g` is h dp/dx. Newtonian: A = rho/(12 eta). Ree-Eyring with s = g/(2 tau0): sinh a = eta du s/(tau0 h sinh s) and
-    A = rho/(12 eta) cosh a 3 (s cosh s - sinh s)/s^3, the mid-film stress being tau0 a.
+    A = rho/(12 eta) cosh a 3 (s cosh s - sinh s)/s^3, the mid-film stress being tau0 a (Eq. E7.2).
     """
     laws = problem.laws
     term, term_slope = pressure_part(laws, p)
@@ -59,9 +59,12 @@ def uniform_film(problem: Problem, i: int, p: float, g: float, h: float, coeffic
         return float(np.exp(log_eta) * du / h)
     tau0 = problem.eyring_stress
     s = min(abs(g) / (2.0 * tau0), STRESS_LIMIT)
-    if s < 1e-2:
-        log_sigma, sigma_slope = -s * s / 6.0, -s / 3.0
-        log_phi, phi_slope = s * s / 10.0, s / 5.0
+    if s < 5e-2:
+        square = s * s
+        ratio = 1.0 + square / 6.0 * (1.0 + square / 20.0 * (1.0 + square / 42.0))
+        log_sigma, sigma_slope = -np.log(ratio), -s / 3.0 * (1.0 + square / 10.0 * (1.0 + square / 28.0)) / ratio
+        phi = 1.0 + square / 10.0 * (1.0 + square / 28.0 * (1.0 + square / 54.0))
+        log_phi, phi_slope = np.log(phi), s / 5.0 * (1.0 + square / 14.0 * (1.0 + square / 36.0)) / phi
     else:
         sinh, cosh = np.sinh(s), np.cosh(s)
         log_sigma, sigma_slope = np.log(s / sinh), 1.0 / s - cosh / sinh

@@ -83,7 +83,7 @@ def gradient_stencil(x: FloatArray, i: int, cavitated: BoolArray) -> tuple[int, 
 
 @kernel
 def pressure_gradients(x: FloatArray, pressure: FloatArray, cavitated: BoolArray, gradient: FloatArray) -> None:
-    """dP/dX at the nodes: central, one-sided at the inlet, zero where the film is broken.
+    """dP/dX at the nodes: central, one-sided at the inlet, zero where the film is broken (Eq. E14).
 
     The last node before the rupture looks forward, so that its gradient vanishes with its pressure: a node can join
     the broken film without a jump.
@@ -97,10 +97,13 @@ def pressure_gradients(x: FloatArray, pressure: FloatArray, cavitated: BoolArray
 def _log_mean(a: float, b: float) -> tuple[float, float]:
     """Logarithmic mean of e^a and e^b and its logarithmic derivative by a; exact for an exponential between nodes."""
     half = 0.5 * (a - b)
-    if abs(half) < 1e-3:
-        return np.exp(0.5 * (a + b)) * (1.0 + half * half / 6.0), 0.5 + half / 6.0
-    mean = (np.exp(a) - np.exp(b)) / (a - b)
-    return mean, 0.5 + 0.5 * (1.0 / np.tanh(half) - 1.0 / half)
+    middle = np.exp(0.5 * (a + b))
+    if abs(half) < 1e-2:
+        square = half * half
+        return middle * (1.0 + square / 6.0 * (1.0 + square / 20.0)), 0.5 + half / 6.0 * (1.0 - square / 15.0)
+    rise = np.exp(half)
+    fall = 1.0 / rise
+    return middle * (rise - fall) / (a - b), 0.5 + 0.5 * ((rise + fall) / (rise - fall) - 1.0 / half)
 
 
 @kernel
@@ -114,7 +117,7 @@ def assemble_faces(
     coefficients: FlowCoefficients,
     faces: FaceFluxes,
 ) -> None:
-    """Fluxes m = B H - A H^3 dP/dX through the faces between nodes, with their derivatives (Eq. E7).
+    """Fluxes m = B H - A H^3 dP/dX through the faces between nodes, with their derivatives (Eqs. E7, E13).
 
     The Couette part is extrapolated from the two nodes upstream (second order; first order upwinding thickens the
     film by 12 per cent), the Poiseuille part uses the logarithmic mean of A.
@@ -206,8 +209,8 @@ def flow(
     """Flow coefficients A and B of a column, their derivatives at fixed temperature, and its stream functions.
 
     With phi = rate/stress, F0 = int phi, F1 = int phi (zeta - 1/2), R(zeta) the density above zeta, N0 = int phi R,
-    N1 = int phi (zeta - 1/2) R: A = F1 N0/F0 - N1 and B = u1 R(0) + du N0/F0 (Eq. 17, density varying across the
-    film as well). `total` is R(0).
+    N1 = int phi (zeta - 1/2) R: A = F1 N0/F0 - N1 and B = u1 R(0) + du N0/F0 (Eqs. 17, E7.1, density varying across
+    the film as well). `total` is R(0).
     """
     shear, flows, mid, m = film.shear, film.flow, film.mid, film.shear.stress.shape[1]
     f0, f1, n0, n1 = flow_moments(i, total, shear)

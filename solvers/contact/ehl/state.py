@@ -88,7 +88,7 @@ def evaluate_flow(problem: Problem, grid: Grid, state: State, work: Work) -> boo
 
 @kernel
 def fluid_fractions(problem: Problem, state: State, work: Work) -> float:
-    """Fill the gap with the fraction of fluid that the flux needs where the film is broken; returns the flux.
+    """Fill the gap with the share of fluid that the flux needs where the film is broken; returns the flux (Eq. E8.2).
 
     It is taken where the pressure is largest, since there it does not depend on the pressure gradient.
     """
@@ -101,7 +101,7 @@ def fluid_fractions(problem: Problem, state: State, work: Work) -> float:
 
 @kernel
 def match_stream(problem: Problem, state: State, work: Work) -> None:
-    """Make every column carry the same mass.
+    """Make every column carry the same mass (Eq. E8.1).
 
     A full column makes up for what the surfaces do not drag with the profile of pressure flow; a broken one keeps the
     profile of the last full one in a fraction of the gap. So convection conserves mass on the way to the solution,

@@ -121,7 +121,7 @@ def temperature_step(
 
 @kernel
 def inlet_step(problem: Problem, work: Work, temperature: FloatArray, step: FloatArray) -> None:
-    """First column of `step`: walls at bulk temperature, oil that enters at that of the inlet.
+    """First column of `step`: walls at bulk temperature, oil that enters at that of the inlet (Eq. E8.3).
 
     Oil that leaves has the temperature of the column behind. Which does what follows from the flux and a uniform
     viscosity, so that it cannot change with the temperatures it decides on.
