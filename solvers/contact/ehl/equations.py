@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from solvers.arrays import BoolArray
 from solvers.contact.ehl.grid import Grid
 from solvers.contact.ehl.problem import Problem
+from solvers.contact.ehl.rheology import NEWTONIAN
 from solvers.lubricants import ROELANDS_POLE_TEMPERATURE, ROELANDS_PRESSURE, FluidLaws
 
 Numbers = NDArray[Any]
@@ -84,7 +85,7 @@ def viscosity(laws: FluidLaws, p: Numbers, t: Numbers) -> Numbers:
 
 def effective_fluidity(problem: Problem, tau: Numbers, eta: Numbers) -> Numbers:
     """Return the shear rate over the stress tau [Pa], 1/eta* [1/(Pa s)], at a viscosity eta [Pa s] (Eqs. E4, E5)."""
-    if problem.newtonian == 1:
+    if problem.rheology == NEWTONIAN:
         return np.asarray(1.0 / eta)
     return np.asarray(_sinh_ratio(tau / problem.eyring_stress) / eta)
 
@@ -96,7 +97,7 @@ def mid_film_stress(problem: Problem, eta: Numbers, g: Numbers, h: Numbers) -> N
     """
     zeta, dz = _intervals(eta.shape[1])
     slide = (problem.speed_2 - problem.speed_1) / h
-    if problem.newtonian == 1:
+    if problem.rheology == NEWTONIAN:
         return np.asarray((slide - g * (zeta / eta).sum(axis=1) * dz) / ((1.0 / eta).sum(axis=1) * dz))
     tau0 = problem.eyring_stress
     c_plus = (np.exp(g[:, None] * zeta / tau0) / eta).sum(axis=1) * dz
@@ -140,7 +141,7 @@ def uniform_columns(problem: Problem, p: Numbers, g: Numbers, h: Numbers) -> tup
     inlet = np.full(p.shape, problem.inlet)
     rho, eta = density(problem.laws, p, inlet), viscosity(problem.laws, p, inlet)
     b = rho * 0.5 * (problem.speed_1 + problem.speed_2)
-    if problem.newtonian == 1:
+    if problem.rheology == NEWTONIAN:
         return rho / (12.0 * eta), b
     tau0 = problem.eyring_stress
     s = g / (2.0 * tau0)

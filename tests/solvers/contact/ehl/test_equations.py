@@ -13,7 +13,7 @@ from solvers.contact.ehl import LineContactInputs, Model, equations
 from solvers.contact.ehl.continuation import budget_for, solve_cold
 from solvers.contact.ehl.equations import Carried, Residual
 from solvers.contact.ehl.grid import Grid
-from solvers.contact.ehl.heat import factor_column
+from solvers.contact.ehl.heat import factor_columns
 from solvers.contact.ehl.model import resolution_for
 from solvers.contact.ehl.newton import (
     add_temperature_changes,
@@ -23,8 +23,8 @@ from solvers.contact.ehl.newton import (
     pressure_responses,
 )
 from solvers.contact.ehl.problem import Problem, groups, problem
-from solvers.contact.ehl.reynolds import assemble_jacobian, balance_of_mass
-from solvers.contact.ehl.state import State, Work, evaluate_state, work_arrays
+from solvers.contact.ehl.reynolds import assemble_jacobian, balance_of_mass, mass_flux_slopes
+from solvers.contact.ehl.state import State, Work, evaluate_state, linearise_state, work_arrays
 from solvers.contact.ehl.temperature import inlet_step
 from solvers.lubricants import Lubricant
 from tests.support.line_contacts import at_pressure, random_contacts
@@ -73,6 +73,12 @@ class At(NamedTuple):
         drag = self.work.coefficients.b.value * self.work.height
         return float(drag.max()) * self.problem.gap_scale / self.problem.flux_scale
 
+    def set_jacobian(self, jacobian: FloatArray) -> None:
+        """That of mass and load by (P, H0)."""
+        height, gradient, cavitated = self.work.height, self.work.gradient, self.state.cavitated
+        mass_flux_slopes(self.problem, self.grid, height, gradient, cavitated, self.work.coefficients, self.work.faces)
+        assemble_jacobian(self.grid, cavitated, self.work.faces, jacobian)
+
     @property
     def carried(self) -> Carried:
         film = self.work.film
@@ -105,7 +111,8 @@ def _states(model: Model) -> Iterator[At]:
         state.temperature[1:] += 2.0 * draw.standard_normal((n - 1, model.film_nodes))
         work = work_arrays(n, model.film_nodes)
         if model.thermal:
-            assert not evaluate_state(constants, attempt.grid, state, work, 0.0)  # no guard acts
+            assert not evaluate_state(constants, attempt.grid, state, work)  # no guard acts
+            linearise_state(constants, state, work, 0.0)
         else:
             evaluate_isothermal(constants, attempt.grid, state, work)
         yield At(constants, attempt.grid, state, work)
@@ -140,8 +147,8 @@ def heat_slope_of_kernels(at: At, direction: FloatArray) -> FloatArray:
         slope[i] -= at.work.heat.convection.from_left[i] * dt[i - 1]
         slope[i] -= at.work.heat.convection.from_right[i] * dt[min(i + 1, n - 1)]
         for side, place, heating, gain in (
-            (0, 0, at.problem.surface_heating_1, surfaces.gain_1[i]),
-            (1, m, at.problem.surface_heating_2, surfaces.gain_2[i]),
+            (0, 0, at.problem.surface_heating_1, surfaces.walls[i].gain_1),
+            (1, m, at.problem.surface_heating_2, surfaces.walls[i].gain_2),
         ):
             flux[side, i] = -(slope[i, place] - dt[i, place]) / gain
             slope[i, place] -= heating * (at.grid.heat[i, :i] @ flux[side, :i])
@@ -195,7 +202,7 @@ def test_jacobian_of_an_isothermal_contact(rheology: str) -> None:
     for at in states(ISOTHERMAL[rheology]):
         n = at.grid.x.size
         found, expected = np.empty((2, n + 1, n + 1))
-        assemble_jacobian(at.grid, at.state.cavitated, at.work.faces, found)
+        at.set_jacobian(found)
         for j in at.free:
             changed = np.append(at.state.pressure, at.state.separation).astype(complex)
             changed[j] += 1j * STEP
@@ -209,7 +216,7 @@ def test_jacobian_of_mass_at_given_temperatures(rheology: str) -> None:
     for at in states(THERMAL[rheology]):
         n = at.grid.x.size
         found, expected = np.empty((2, n + 1, n + 1))
-        assemble_jacobian(at.grid, at.state.cavitated, at.work.faces, found)
+        at.set_jacobian(found)
         for j in at.free:
             direction = np.zeros(at.unknowns.size)
             direction[j] = 1.0
@@ -253,10 +260,10 @@ def test_newtons_step_solves_the_linearised_equations(rheology: str) -> None:
     left = at.residual(at.unknowns)
     expected = -np.linalg.solve(dense, np.concatenate([left.mass, [left.load], left.heat.ravel()]))
     at = at._replace(work=work_arrays(n, k))
-    evaluate_state(at.problem, at.grid, at.state, at.work, 0.0)
+    evaluate_state(at.problem, at.grid, at.state, at.work)
+    linearise_state(at.problem, at.state, at.work, 0.0)
     jacobian, residual, pivots = np.empty((n + 1, n + 1)), np.empty(n + 1), np.empty(n + 1, np.int64)
-    for i in range(1, n):
-        factor_column(i, at.work.film, at.work.heat)
+    factor_columns(1, n, at.work.film, at.work.heat)
     factor_jacobian(at.problem, at.grid, at.state, at.work, jacobian, pivots)
     balance_of_mass(at.grid, at.state.pressure, at.state.cavitated, at.work.faces, residual)
     step, step_t = np.zeros(n + 1), np.zeros((n, k))
