@@ -22,14 +22,13 @@ def one_blas_thread() -> Iterator[None]:
 
     Another BLAS, and a system that does not tell which libraries a process has, are left as they are.
     """
-    libraries = _libraries()
-    before = [read() for read, _ in libraries]
-    for _, write in libraries:
+    before = [(write, threads) for read, write in _libraries() if (threads := read()) != 1]
+    for write, _ in before:
         write(1)
     try:
         yield
     finally:
-        for (_, write), threads in zip(libraries, before, strict=True):
+        for write, threads in before:
             write(threads)
 
 

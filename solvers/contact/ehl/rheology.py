@@ -110,25 +110,29 @@ def uniform_shear(problem: Problem, log_eta: float, g: float, h: float) -> tuple
     """What shear does to a film at one temperature: ln(12 eta A/rho), its derivatives by ln eta, G and h, and tau_m.
 
     Newtonian: nothing. Ree-Eyring with s = G/(2 tau0): sinh a = eta du s/(tau0 h sinh s), tau_m = tau0 a and
-    12 eta A/rho = cosh a 3 (s cosh s - sinh s)/s^3 (Eq. E7.2). Near s = 0 by series.
+    12 eta A/rho = cosh a 3 (s cosh s - sinh s)/s^3 (Eq. E7.2). `sigma` is s/sinh s, `phi` the last factor, both by
+    series near s = 0; slopes are those of their logarithms.
     """
     du = problem.speed_2 - problem.speed_1
     if problem.rheology == NEWTONIAN:
         return 0.0, 0.0, 0.0, 0.0, float(np.exp(log_eta) * du / h)
     tau0 = problem.eyring_stress
     s = min(abs(g) / (2.0 * tau0), STRESS_LIMIT)
-    if s < 5e-2:
-        square = s * s
-        ratio = 1.0 + square / 6.0 * (1.0 + square / 20.0 * (1.0 + square / 42.0))
-        log_sigma, sigma_slope = -np.log(ratio), -s / 3.0 * (1.0 + square / 10.0 * (1.0 + square / 28.0)) / ratio
-        phi = 1.0 + square / 10.0 * (1.0 + square / 28.0 * (1.0 + square / 54.0))
-        log_phi, phi_slope = np.log(phi), s / 5.0 * (1.0 + square / 14.0 * (1.0 + square / 36.0)) / phi
+    q = s * s
+    if s < 0.3:
+        ratio = 1.0 + q / 6.0 * (1.0 + q / 20.0 * (1.0 + q / 42.0 * (1.0 + q / 72.0 * (1.0 + q / 110.0))))
+        by_s = s / 3.0 * (1.0 + q / 10.0 * (1.0 + q / 28.0 * (1.0 + q / 54.0 * (1.0 + q / 88.0))))
+        sigma, sigma_slope = 1.0 / ratio, -by_s / ratio
+        phi = 1.0 + q / 10.0 * (1.0 + q / 28.0 * (1.0 + q / 54.0 * (1.0 + q / 88.0 * (1.0 + q / 130.0))))
+        by_s = s / 5.0 * (1.0 + q / 14.0 * (1.0 + q / 36.0 * (1.0 + q / 66.0 * (1.0 + q / 104.0))))
+        phi_slope = by_s / phi
     else:
-        sinh, cosh = np.sinh(s), np.cosh(s)
-        log_sigma, sigma_slope = np.log(s / sinh), 1.0 / s - cosh / sinh
+        rise = np.exp(s)
+        sinh, cosh = 0.5 * (rise - 1.0 / rise), 0.5 * (rise + 1.0 / rise)
+        sigma, sigma_slope = s / sinh, 1.0 / s - cosh / sinh
         moment = s * cosh - sinh
-        log_phi, phi_slope = np.log(3.0 * moment / s**3), s * sinh / moment - 3.0 / s
-    sinh_a = np.exp(log_eta + log_sigma) * du / (tau0 * h)
+        phi, phi_slope = 3.0 * moment / (q * s), s * sinh / moment - 3.0 / s
+    sinh_a = np.exp(log_eta) * sigma * du / (tau0 * h)
     share = sinh_a * sinh_a / (1.0 + sinh_a * sinh_a)
     by_g = (share * sigma_slope + phi_slope) * np.sign(g) / (2.0 * tau0)
-    return 0.5 * np.log1p(sinh_a * sinh_a) + log_phi, share, by_g, -share / h, float(tau0 * np.arcsinh(sinh_a))
+    return 0.5 * np.log1p(sinh_a * sinh_a) + np.log(phi), share, by_g, -share / h, float(tau0 * np.arcsinh(sinh_a))
