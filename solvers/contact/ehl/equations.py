@@ -64,14 +64,46 @@ class Residual(NamedTuple):
 
 
 def density(laws: FluidLaws, p: Numbers, t: Numbers) -> Numbers:
-    """Return the density [kg/m^3] at a pressure [Pa] and a temperature [K]; suction counts as no pressure (Eq. 19)."""
+    """Return the density of the oil (Eq. 19).
+
+    Parameters
+    ----------
+    laws : FluidLaws
+        Constants of the oil's laws.
+    p : (...) array
+        Pressure [Pa]; suction counts as no pressure.
+    t : (...) array
+        Temperature [K].
+
+    Returns
+    -------
+    (...) array
+        Density [kg/m^3].
+
+    """
     p = np.where(p.real > 0.0, p, 0.0)
     compression = laws.pressure_density * p / (1.0 + 1.7e-9 * p)
     return np.asarray(laws.density * (1.0 + compression - laws.thermal_expansion * (t - laws.reference_temperature)))
 
 
 def viscosity(laws: FluidLaws, p: Numbers, t: Numbers) -> Numbers:
-    """Return the viscosity [Pa s] at a pressure [Pa] and a temperature [K]; suction counts as no pressure (Eq. 20)."""
+    """Return the viscosity of the oil after Roelands, or after Barus (Eq. 20).
+
+    Parameters
+    ----------
+    laws : FluidLaws
+        Constants of the oil's laws.
+    p : (...) array
+        Pressure [Pa]; suction counts as no pressure.
+    t : (...) array
+        Temperature [K].
+
+    Returns
+    -------
+    (...) array
+        Viscosity [Pa s].
+
+    """
     p = np.where(p.real > 0.0, p, 0.0)
     if laws.roelands == 0:
         heating = t - laws.reference_temperature
@@ -84,16 +116,49 @@ def viscosity(laws: FluidLaws, p: Numbers, t: Numbers) -> Numbers:
 
 
 def effective_fluidity(problem: Problem, tau: Numbers, eta: Numbers) -> Numbers:
-    """Return the shear rate over the stress tau [Pa], 1/eta* [1/(Pa s)], at a viscosity eta [Pa s] (Eqs. E4, E5)."""
+    """Return 1/eta*, the shear rate over the stress, of the law of shear (Eqs. E4, E5).
+
+    Parameters
+    ----------
+    problem : Problem
+        Constants of the contact.
+    tau : (n, m) array
+        Shear stress in every interval [Pa].
+    eta : (n, m) array
+        Viscosity there [Pa s].
+
+    Returns
+    -------
+    (n, m) array
+        Effective fluidity [1/(Pa s)].
+
+    """
     if problem.rheology == NEWTONIAN:
         return np.asarray(1.0 / eta)
     return np.asarray(_sinh_ratio(tau / problem.eyring_stress) / eta)
 
 
 def mid_film_stress(problem: Problem, eta: Numbers, g: Numbers, h: Numbers) -> Numbers:
-    """Return the stress half way across [Pa] (n,) at which the film slides at u2 - u1.
+    """Return the stress half way across at which the film slides at u2 - u1.
 
-    Eq. E6; for a Newtonian oil the integral is linear in the stress. `eta` (n, m) [Pa s], `g` [Pa] and `h` [m] (n,).
+    Eq. E6; for a Newtonian oil the integral is linear in the stress.
+
+    Parameters
+    ----------
+    problem : Problem
+        Constants of the contact.
+    eta : (n, m) array
+        Viscosity in every interval [Pa s].
+    g : (n,) array
+        G = h dp/dx [Pa].
+    h : (n,) array
+        Film thickness [m].
+
+    Returns
+    -------
+    (n,) array
+        Stress [Pa].
+
     """
     zeta, dz = _intervals(eta.shape[1])
     slide = (problem.speed_2 - problem.speed_1) / h
@@ -109,9 +174,28 @@ def mid_film_stress(problem: Problem, eta: Numbers, g: Numbers, h: Numbers) -> N
 
 
 def columns(problem: Problem, p: Numbers, g: Numbers, h: Numbers, t: Numbers) -> Columns:
-    """Return the film across every node from p [Pa], G [Pa], h [m] (n,) and temperatures t (n, k) [K].
+    """Return the film across every node.
 
     Eq. E7.1 with integrals by the middle of every interval, whose temperature is the mean of its nodes.
+
+    Parameters
+    ----------
+    problem : Problem
+        Constants of the contact.
+    p : (n,) array
+        Pressure [Pa].
+    g : (n,) array
+        G = h dp/dx [Pa].
+    h : (n,) array
+        Film thickness [m].
+    t : (n, k) array
+        Temperature [K].
+
+    Returns
+    -------
+    Columns
+        Density, stress and rate of every interval, flow coefficients and stream functions.
+
     """
     zeta, dz = _intervals(t.shape[1] - 1)
     t_mid = 0.5 * (t[:, 1:] + t[:, :-1])
@@ -137,7 +221,27 @@ def columns(problem: Problem, p: Numbers, g: Numbers, h: Numbers, t: Numbers) ->
 
 
 def uniform_columns(problem: Problem, p: Numbers, g: Numbers, h: Numbers) -> tuple[Numbers, Numbers]:
-    """Return the flow coefficients A [s] and B [kg/(m^2 s)] (n,) of a film at the inlet temperature (Eq. E7.2)."""
+    """Return the flow coefficients of a film at the inlet temperature (Eq. E7.2).
+
+    Parameters
+    ----------
+    problem : Problem
+        Constants of the contact.
+    p : (n,) array
+        Pressure [Pa].
+    g : (n,) array
+        G = h dp/dx [Pa].
+    h : (n,) array
+        Film thickness [m].
+
+    Returns
+    -------
+    a : (n,) array
+        Flow coefficient A [s].
+    b : (n,) array
+        Flow coefficient B [kg/(m^2 s)].
+
+    """
     inlet = np.full(p.shape, problem.inlet)
     rho, eta = density(problem.laws, p, inlet), viscosity(problem.laws, p, inlet)
     b = rho * 0.5 * (problem.speed_1 + problem.speed_2)
@@ -156,9 +260,28 @@ def uniform_columns(problem: Problem, p: Numbers, g: Numbers, h: Numbers) -> tup
 
 
 def face_fluxes(grid: Grid, pressure: Numbers, film: Numbers, a: Numbers, b: Numbers, scale: float) -> Numbers:
-    """Return B H - A H^3 dP/dX at the faces between nodes (n - 1,), where `scale` turns A into the units of B.
+    """Return the mass flux B H - A H^3 dP/dX through the faces between nodes (Eq. E13).
 
-    Eq. E13.
+    Parameters
+    ----------
+    grid : Grid
+        Mesh along the contact.
+    pressure : (n,) array
+        P = p/p_H [-].
+    film : (n,) array
+        H = h R/b^2 [-].
+    a : (n,) array
+        Flow coefficient A [s].
+    b : (n,) array
+        Flow coefficient B [kg/(m^2 s)].
+    scale : float
+        Factor that turns A into the units of B, p_H b^3/R^2 [kg/(m^2 s^2)].
+
+    Returns
+    -------
+    (n - 1,) array
+        Mass flux over b^2/R [kg/(m^2 s)].
+
     """
     dx, d = np.diff(grid.x), b * film
     ratio = np.concatenate([[-0.5], 0.5 * dx[1:] / dx[:-1]])
@@ -169,7 +292,23 @@ def face_fluxes(grid: Grid, pressure: Numbers, film: Numbers, a: Numbers, b: Num
 
 
 def balance_of_mass(pressure: Numbers, cavitated: BoolArray, flux: Numbers) -> Numbers:
-    """Return what flows out of every node less what flows in; where none is balanced, P (Eq. E7)."""
+    """Return what flows out of every node less what flows in, and P where the chapter gives that (Eq. E7).
+
+    Parameters
+    ----------
+    pressure : (n,) array
+        P = p/p_H [-].
+    cavitated : (n,) array of bool
+        Nodes of broken film.
+    flux : (n - 1,) array
+        Mass flux through the faces between nodes, over its scale [-].
+
+    Returns
+    -------
+    (n,) array
+        Residual [-].
+
+    """
     mass = pressure.astype(flux.dtype)
     inside = np.flatnonzero(~cavitated[1:-1]) + 1
     mass[inside] = flux[inside] - flux[inside - 1]
@@ -177,14 +316,45 @@ def balance_of_mass(pressure: Numbers, cavitated: BoolArray, flux: Numbers) -> N
 
 
 def film_thickness(grid: Grid, pressure: Numbers, separation: Any) -> Numbers:
-    """Return H = H0 + X^2/2 + K P (n,) (Eq. 21)."""
+    """Return the film thickness H = H0 + X^2/2 + K P (Eq. 21).
+
+    Parameters
+    ----------
+    grid : Grid
+        Mesh along the contact.
+    pressure : (n,) array
+        P = p/p_H [-].
+    separation : number
+        H0 [-].
+
+    Returns
+    -------
+    (n,) array
+        H = h R/b^2 [-].
+
+    """
     return np.asarray(separation + 0.5 * grid.x**2 + grid.deflection @ pressure)
 
 
 def pressure_gradient(grid: Grid, pressure: Numbers, cavitated: BoolArray) -> Numbers:
-    """Return dP/dX at the nodes (n,).
+    """Return dP/dX at the nodes.
 
     Eq. E14: central; one-sided at the inlet and at the last node of the full film; zero in the broken film.
+
+    Parameters
+    ----------
+    grid : Grid
+        Mesh along the contact.
+    pressure : (n,) array
+        P = p/p_H [-].
+    cavitated : (n,) array of bool
+        Nodes of broken film.
+
+    Returns
+    -------
+    (n,) array
+        Gradient [-].
+
     """
     n = grid.x.size
     node = np.arange(n)
@@ -196,7 +366,21 @@ def pressure_gradient(grid: Grid, pressure: Numbers, cavitated: BoolArray) -> Nu
 
 
 def balance_of_load(grid: Grid, pressure: Numbers) -> Any:
-    """Return the integral of P less pi/2 (Eq. 22)."""
+    """Return the integral of P less pi/2, what carries the load (Eq. 22).
+
+    Parameters
+    ----------
+    grid : Grid
+        Mesh along the contact.
+    pressure : (n,) array
+        P = p/p_H [-].
+
+    Returns
+    -------
+    number
+        Residual [-].
+
+    """
     return grid.weights @ pressure - 0.5 * np.pi
 
 
@@ -205,7 +389,26 @@ def carried_heat(
 ) -> Carried:
     """Return what carries heat along: psi with one mass flow in all columns, and the share of oil (Eqs. E8.1, E8.2).
 
-    `flux` [kg/(s m)] (n - 1,) through the faces counts where the pressure is largest.
+    Parameters
+    ----------
+    problem : Problem
+        Constants of the contact.
+    pressure : (n,) array
+        P = p/p_H [-].
+    film : (n,) array
+        H = h R/b^2 [-].
+    cavitated : (n,) array of bool
+        Nodes of broken film.
+    flux : (n - 1,) array
+        Mass flux through the faces between nodes [kg/(s m)]; that where the pressure is largest counts.
+    at : Columns
+        The film across every node.
+
+    Returns
+    -------
+    Carried
+        Stream function, share of oil and density.
+
     """
     m_dot = flux[pressure.argmax()]
     psi = at.couette + (m_dot - at.couette[:, -1:]) * at.poiseuille
@@ -218,10 +421,33 @@ def carried_heat(
 def balance_of_heat(
     problem: Problem, grid: Grid, g: Numbers, h: Numbers, t: Numbers, at: Columns, carried: Carried
 ) -> Numbers:
-    """Return the heat that every cell loses less the heat that arises in it [W/m^2], (n, k), its first column 0.
+    """Return the heat that every cell loses less the heat that arises in it.
 
     Eqs. E8, E15. Cells reach half way to their neighbours along and across. Those at the surfaces are half cells: what
     they lack is the heat that comes out of the solid.
+
+    Parameters
+    ----------
+    problem : Problem
+        Constants of the contact.
+    grid : Grid
+        Mesh along the contact.
+    g : (n,) array
+        G = h dp/dx [Pa].
+    h : (n,) array
+        Film thickness [m].
+    t : (n, k) array
+        Temperature [K].
+    at : Columns
+        The film across every node.
+    carried : Carried
+        What carries heat along.
+
+    Returns
+    -------
+    (n, k) array
+        Residual [W/m^2]; of the first column, whose temperatures are given, zero.
+
     """
     n, k = t.shape
     m = k - 1
@@ -247,7 +473,27 @@ def balance_of_heat(
 
 
 def surface_temperatures(problem: Problem, grid: Grid, q_1: Numbers, q_2: Numbers) -> tuple[Numbers, Numbers]:
-    """Return the temperatures of both surfaces [K] (n,) from the heat fluxes into them [W/m^2] (n,) (Eq. 24)."""
+    """Return the temperatures of both surfaces, moving line sources (Eq. 24).
+
+    Parameters
+    ----------
+    problem : Problem
+        Constants of the contact.
+    grid : Grid
+        Mesh along the contact.
+    q_1 : (n,) array
+        Heat flux into surface 1 [W/m^2].
+    q_2 : (n,) array
+        Heat flux into surface 2 [W/m^2].
+
+    Returns
+    -------
+    surface_1 : (n,) array
+        Temperature of surface 1 [K].
+    surface_2 : (n,) array
+        Temperature of surface 2 [K].
+
+    """
     return (
         problem.bulk_1 + problem.surface_heating_1 * (grid.heat @ q_1),
         problem.bulk_2 + problem.surface_heating_2 * (grid.heat @ q_2),
@@ -255,7 +501,25 @@ def surface_temperatures(problem: Problem, grid: Grid, q_1: Numbers, q_2: Number
 
 
 def inlet_temperatures(problem: Problem, h: float, t: Numbers, m_dot: float) -> Numbers:
-    """Return the temperatures of the first column [K] (k,), from those of all, t (n, k) (Eq. E8.3)."""
+    """Return the temperatures of the first column (Eq. E8.3).
+
+    Parameters
+    ----------
+    problem : Problem
+        Constants of the contact.
+    h : float
+        Film thickness there [m].
+    t : (n, k) array
+        Temperature of all columns [K].
+    m_dot : float
+        Mass flow [kg/(s m)].
+
+    Returns
+    -------
+    (k,) array
+        Temperature [K].
+
+    """
     zeta = np.linspace(0.0, 1.0, t.shape[1])
     mean = m_dot / (problem.laws.density * h)
     u = problem.speed_1 * (1.0 - zeta) + problem.speed_2 * zeta
@@ -274,9 +538,30 @@ def residual(
     t: Numbers,
     carried: Carried | None = None,
 ) -> Residual:
-    """Return what is left of all equations of a thermal contact: P (n,), H0 and temperatures t (n, k) [K] solve them.
+    """Return what is left of the equations of a thermal contact; P, H0 and temperatures that solve them leave nothing.
 
-    `carried` is what Newton's method holds fixed; without it everything follows from the state.
+    Parameters
+    ----------
+    problem : Problem
+        Constants of the contact.
+    grid : Grid
+        Mesh along the contact.
+    cavitated : (n,) array of bool
+        Nodes of broken film.
+    pressure : (n,) array
+        P = p/p_H [-].
+    separation : number
+        H0 [-].
+    t : (n, k) array
+        Temperature [K].
+    carried : Carried, optional
+        What Newton's method holds fixed; left out, it follows from the state.
+
+    Returns
+    -------
+    Residual
+        Of mass, load and heat.
+
     """
     film = film_thickness(grid, pressure, separation)
     h, p = film * problem.gap_scale, pressure * problem.maximum_pressure
@@ -297,7 +582,29 @@ def residual(
 def isothermal_residual(
     problem: Problem, grid: Grid, cavitated: BoolArray, pressure: Numbers, separation: Any
 ) -> tuple[Numbers, Any]:
-    """Return what is left of the equations of mass (n,) and load of an isothermal contact; P (n,) and H0 solve them."""
+    """Return what is left of the equations of an isothermal contact; P and H0 that solve them leave nothing.
+
+    Parameters
+    ----------
+    problem : Problem
+        Constants of the contact.
+    grid : Grid
+        Mesh along the contact.
+    cavitated : (n,) array of bool
+        Nodes of broken film.
+    pressure : (n,) array
+        P = p/p_H [-].
+    separation : number
+        H0 [-].
+
+    Returns
+    -------
+    mass : (n,) array
+        Residual of mass over the flux scale [-].
+    load : number
+        Residual of the load [-].
+
+    """
     film = film_thickness(grid, pressure, separation)
     h, p = film * problem.gap_scale, pressure * problem.maximum_pressure
     gradient = problem.maximum_pressure / problem.half_width

@@ -88,7 +88,7 @@ def heat_arrays(nodes: int, film_nodes: int) -> Heat:
     return Heat(
         ColumnSystem(lower, pivot, upper, residual, squeeze, Responses(*np.zeros((4, nodes, film_nodes))), sherman),
         Convection(from_left, from_right, np.zeros((nodes, film_nodes + 1))),
-        Surfaces(*np.zeros((2, nodes)), records(nodes, WALLS)),
+        Surfaces(np.zeros(nodes), np.zeros(nodes), records(nodes, WALLS)),
         fluid_fraction,
         generated,
         compression,

@@ -34,9 +34,9 @@ class FaceFluxes(NamedTuple):
 
 def face_arrays(nodes: int) -> FaceFluxes:
     """Room for the faces of `nodes` nodes."""
-    return FaceFluxes(
-        *np.zeros((2, nodes)), np.zeros((nodes, 2)), np.zeros((nodes, 2)), np.zeros((nodes, 5)), np.zeros((nodes, 3))
-    )
+    flux, conductance = np.zeros((2, nodes))
+    by_b, by_log_a = np.zeros((2, nodes, 2))
+    return FaceFluxes(flux, conductance, by_b, by_log_a, np.zeros((nodes, 5)), np.zeros((nodes, 3)))
 
 
 @kernel

@@ -1,6 +1,6 @@
 """The unknowns of a contact, the arrays a solution works in, and the evaluation of one state."""
 
-from typing import NamedTuple
+from typing import NamedTuple, cast
 
 import numpy as np
 
@@ -14,8 +14,8 @@ from solvers.contact.ehl.reynolds import FaceFluxes, face_arrays, film_shape, ma
 from solvers.contact.ehl.rheology import limited_gradient
 from solvers.contact.ehl.shear import Film, film_arrays
 
-# Columns from which the passes start. They are no literals: numba would compile its callee for each of these once more.
-FIRST, NEXT = np.int64(0), np.int64(1)
+# Columns from which passes start; not literals, for each of which numba would compile the passes once more.
+FIRST, NEXT = cast("int", np.int64(0)), cast("int", np.int64(1))
 
 
 class State(NamedTuple):
@@ -57,7 +57,8 @@ class Work(NamedTuple):
 def work_arrays(nodes: int, film_nodes: int) -> Work:
     """Room for one evaluation."""
     return Work(
-        *np.zeros((2, nodes)),
+        np.zeros(nodes),
+        np.zeros(nodes),
         records(nodes, PLACE),
         flow_coefficients(nodes),
         face_arrays(nodes),

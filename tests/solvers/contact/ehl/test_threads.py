@@ -3,7 +3,7 @@
 import pytest
 
 from solvers import blas_threads
-from solvers.contact.ehl import LineContactInputs, Model, continuation
+from solvers.contact.ehl import LineContactInputs, Model, continuation, newton
 from solvers.contact.ehl.model import solve
 from solvers.published.xue import POINT_A
 
@@ -42,7 +42,7 @@ def test_a_contact_is_solved_with_one_thread(monkeypatch: pytest.MonkeyPatch) ->
         met.append(set(threads()))
         return original(*arguments)
 
-    original = continuation.solve_isothermal
+    original = newton.solve_isothermal
     monkeypatch.setattr(continuation, "solve_isothermal", solve_isothermal)
     assert solve(LineContactInputs(POINT_A, model=Model(thermal=False, nodes=61))).status == "ok"
     assert met
