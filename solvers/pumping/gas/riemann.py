@@ -29,7 +29,7 @@ class Conserved(NamedTuple):
 
 @kernel
 def flux(g: float, state: State) -> Conserved:
-    """Flux of a state: (rho u, rho u^2 + p, u (rho E + p)) with rho E = p/(g - 1) + rho u^2/2."""
+    """Flux of a state: (rho u, rho u^2 + p, u (rho E + p)) with rho E = p/(g - 1) + rho u^2/2 (Eq. P6)."""
     rho, u, p = state
     return Conserved(rho * u, rho * u * u + p, u * (g / (g - 1.0) * p + 0.5 * rho * u * u))
 
