@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from solvers.arrays import BoolArray, FloatArray, RecordArray
+from solvers.arrays import BoolArray, FloatArray
 from solvers.compiled import inlined_kernel, kernel
 from solvers.contact.ehl.flow import FlowCoefficients
 from solvers.contact.ehl.grid import Grid
@@ -122,11 +122,21 @@ def mass_flux_slopes(
     coefficients: FlowCoefficients,
     faces: FaceFluxes,
 ) -> None:
-    """Derivatives of `mass_fluxes` by the pressures and the film around each face: first those of B and ln A."""
-    n, (couette_scale, _) = grid.x.size, _flux_scales(problem)
+    """Derivatives of `mass_fluxes` by the pressures and the film around each face.
+
+    First those of B and ln A of each node by P at the node and beside it, and by H: p, G = h dp/dx and h decide them.
+    """
+    n, (couette_scale, _), b, log_a = grid.x.size, _flux_scales(problem), coefficients.b, coefficients.log_a
+    slope = problem.maximum_pressure / problem.half_width
     b_by_p, a_by_p, b_by_h, a_by_h = np.zeros((n, 3)), np.zeros((n, 3)), np.empty(n), np.empty(n)
-    _node_slopes(problem, grid.x, film, gradient, cavitated, coefficients.b, b_by_p, b_by_h)
-    _node_slopes(problem, grid.x, film, gradient, cavitated, coefficients.log_a, a_by_p, a_by_h)
+    for i in range(n):
+        left, right, factor = gradient_stencil(grid.x, i, cavitated)
+        by_gradient, per_node = slope * problem.gap_scale, slope * problem.gap_scale * film[i] * factor
+        for coefficient, by_p, by_h in ((b, b_by_p, b_by_h), (log_a, a_by_p, a_by_h)):
+            by_p[i, 1] += coefficient[i].by_p * problem.maximum_pressure
+            by_p[i, right - i + 1] += coefficient[i].by_g * per_node
+            by_p[i, left - i + 1] -= coefficient[i].by_g * per_node
+            by_h[i] = coefficient[i].by_h * problem.gap_scale + coefficient[i].by_g * by_gradient * gradient[i]
     by_pressure, by_film = faces.by_pressure, faces.by_film
     for i in range(n - 1):
         up, weight = _upstream(grid.x, i)
@@ -141,35 +151,10 @@ def mass_flux_slopes(
         by_pressure[i, 3] -= faces.conductance[i]
         by_height = 3.0 * (of_a + of_next) / (film[i] + film[i + 1])
         by_film[i, 0] = 0.0
-        by_film[i, 1] = (1.0 - weight) * couette_scale * coefficients.b[i].value
+        by_film[i, 1] = (1.0 - weight) * couette_scale * b[i].value
         by_film[i, 1] += of_b * b_by_h[i] + of_a * a_by_h[i] + by_height
         by_film[i, 2] = of_next * a_by_h[i + 1] + by_height
-        by_film[i, up - i + 1] += weight * couette_scale * coefficients.b[up].value + of_up * b_by_h[up]
-
-
-@kernel
-def _node_slopes(
-    problem: Problem,
-    x: FloatArray,
-    film: FloatArray,
-    gradient: FloatArray,
-    cavitated: BoolArray,
-    coefficient: RecordArray,
-    by_pressure: FloatArray,
-    by_film: FloatArray,
-) -> None:
-    """Derivatives of a coefficient at each node by P at the node and beside it (n, 3), zero at first, and by H (n,).
-
-    It depends on p, on h and on G = h dp/dx.
-    """
-    slope = problem.maximum_pressure / problem.half_width
-    for i in range(x.size):
-        left, right, factor = gradient_stencil(x, i, cavitated)
-        by_g = coefficient[i].by_g * slope * problem.gap_scale
-        by_pressure[i, 1] += coefficient[i].by_p * problem.maximum_pressure
-        by_pressure[i, right - i + 1] += by_g * film[i] * factor
-        by_pressure[i, left - i + 1] -= by_g * film[i] * factor
-        by_film[i] = coefficient[i].by_h * problem.gap_scale + by_g * gradient[i]
+        by_film[i, up - i + 1] += weight * couette_scale * b[up].value + of_up * b_by_h[up]
 
 
 @inlined_kernel

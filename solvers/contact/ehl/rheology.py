@@ -105,7 +105,7 @@ def _eyring_rates(problem: Problem, i: int, g: float, tau_m: float, shear: Shear
         shear.effective[i, j], shear.effective_slope[i, j] = fluidity * effective, fluidity * slope * per_tau0
 
 
-@kernel
+@inlined_kernel
 def uniform_shear(problem: Problem, log_eta: float, g: float, h: float) -> tuple[float, float, float, float, float]:
     """What shear does to a film at one temperature: ln(12 eta A/rho), its derivatives by ln eta, G and h, and tau_m.
 
