@@ -1,8 +1,8 @@
 """The lubricated line contact: pressure, film, temperature and friction, isothermal or thermal.
 
-Data flows inputs, checks -> problem, grid, linear_algebra -> shear -> reynolds, heat -> state -> temperature ->
-newton -> continuation -> measures, refinement -> results, notices. `model.solve` solves one contact, `path.solve_path`
-many.
+Data flows inputs, checks -> problem, grid, linear_algebra -> shear -> rheology -> flow -> reynolds, heat -> state ->
+temperature -> newton -> continuation -> measures, refinement -> results, notices. `model.solve` solves one contact,
+`path.solve_path` many. `equations` is the specification of the kernels: the discrete problem in plain NumPy.
 """
 
 from solvers.contact.ehl import model

@@ -8,9 +8,11 @@ from typing import Literal
 import numpy as np
 
 from solvers.arrays import FloatArray
+from solvers.blas_threads import one_blas_thread
 from solvers.contact.ehl.grid import Grid, grid_for
 from solvers.contact.ehl.newton import solve_coupled, solve_isothermal
 from solvers.contact.ehl.problem import Problem
+from solvers.contact.ehl.rheology import REE_EYRING
 from solvers.contact.ehl.state import State, Work, no_steps, work_arrays
 from solvers.contact.ehl.temperature import march_temperatures
 
@@ -148,7 +150,8 @@ def _start(problem: Problem, resolution: Resolution, budget: Budget) -> Attempt:
     isothermal = problem._replace(inlet=resolution.entry_temperature)
     final = not resolution.thermal and resolution.nodes <= COARSEST
     tolerance = TIGHT[0] * 1e-2 if final else LOOSE[0]
-    converged = bool(solve_isothermal(isothermal, grid, state, work, steps, tolerance))
+    with one_blas_thread():
+        converged = bool(solve_isothermal(isothermal, grid, state, work, steps, tolerance))
     budget.charge(resolution, grid.x.size, int(state.history[0].iterations))
     if resolution.thermal:
         march_temperatures(problem, grid, state, work)
@@ -207,7 +210,8 @@ def polish(
     if resolution.thermal:
         converged = bool(solve_coupled(problem, grid, state, work, steps, tolerances[0], tolerances[1]))
     else:
-        converged = bool(solve_isothermal(problem, grid, state, work, steps, tolerances[0] * 1e-2))
+        with one_blas_thread():
+            converged = bool(solve_isothermal(problem, grid, state, work, steps, tolerances[0] * 1e-2))
     budget.charge(resolution, grid.x.size, int(state.history[0].iterations))
     stage: Stage = "coupling" if resolution.thermal else "isothermal"
     return Attempt(grid, state, work, converged=converged, stage=stage)
@@ -250,9 +254,9 @@ def _from_soft_film(problem: Problem, resolution: Resolution, budget: Budget) ->
     attempt: Attempt | None = None
     reached = 0.0
     for stress in SOFT_STRESSES:
-        if problem.newtonian == 0 and stress >= problem.eyring_stress:
+        if problem.rheology == REE_EYRING and stress >= problem.eyring_stress:
             break
-        softer = problem._replace(newtonian=0, eyring_stress=stress)
+        softer = problem._replace(rheology=REE_EYRING, eyring_stress=stress)
         if attempt is None:
             attempt = _start(softer, resolution, budget)
         attempt = polish(softer, resolution, attempt.grid, attempt.state, LOOSE, budget)

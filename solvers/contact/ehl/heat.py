@@ -1,11 +1,15 @@
-"""Heat in the film: finite volumes across each column, linearised and eliminated."""
+"""Heat in the film: finite volumes across each column, linearised and eliminated.
+
+Two passes over the columns: `balance_columns` has the residual, `linearise_balances` its derivatives.
+"""
 
 from typing import NamedTuple
 
 import numpy as np
 
-from solvers.arrays import FloatArray
+from solvers.arrays import FloatArray, RecordArray, floats, records
 from solvers.compiled import inlined_kernel, kernel
+from solvers.contact.ehl.grid import Grid
 from solvers.contact.ehl.linear_algebra import row_product
 from solvers.contact.ehl.problem import Problem
 from solvers.contact.ehl.shear import Film
@@ -26,13 +30,15 @@ class Responses(NamedTuple):
 class ColumnSystem(NamedTuple):
     """The linear system of every column: its factored tridiagonal part (pivot: inverse) and residual (n, k).
 
-    The rank-one part is the response to the mid-film stress; sherman is 1/(1 + v x) (n,).
+    The rank-one part is the response to the mid-film stress; sherman is 1/(1 + v x) (n,). `squeeze` is the heat of
+    compression per kelvin and pascal [W/(m^2 K Pa)].
     """
 
     lower: FloatArray
     pivot: FloatArray
     upper: FloatArray
     residual: FloatArray
+    squeeze: FloatArray
     responses: Responses
     sherman: FloatArray
 
@@ -49,20 +55,16 @@ class Convection(NamedTuple):
     edges: FloatArray
 
 
-class Surfaces(NamedTuple):
-    """Both surfaces at every column (n,): heat flux into them [W/m^2] and what it does.
+WALLS = floats("history_1", "history_2", "change_1", "change_2", "gain_1", "gain_2")
+"""Flash temperature of both surfaces from upstream, its change in a step, and gain (own flux to own temperature)."""
 
-    history (flash temperature from upstream), its change in a step, and gain (own flux to own temperature).
-    """
+
+class Surfaces(NamedTuple):
+    """Both surfaces at every column (n,): heat flux into them [W/m^2], and what it does (of WALLS)."""
 
     flux_1: FloatArray
     flux_2: FloatArray
-    history_1: FloatArray
-    history_2: FloatArray
-    change_1: FloatArray
-    change_2: FloatArray
-    gain_1: FloatArray
-    gain_2: FloatArray
+    walls: RecordArray
 
 
 class Heat(NamedTuple):
@@ -81,12 +83,12 @@ class Heat(NamedTuple):
 
 def heat_arrays(nodes: int, film_nodes: int) -> Heat:
     """Room for `nodes` columns."""
-    lower, pivot, upper, residual, from_left, from_right = np.zeros((6, nodes, film_nodes))
+    lower, pivot, upper, residual, squeeze, from_left, from_right = np.zeros((7, nodes, film_nodes))
     sherman, fluid_fraction, generated, compression = np.zeros((4, nodes))
     return Heat(
-        ColumnSystem(lower, pivot, upper, residual, Responses(*np.zeros((4, nodes, film_nodes))), sherman),
+        ColumnSystem(lower, pivot, upper, residual, squeeze, Responses(*np.zeros((4, nodes, film_nodes))), sherman),
         Convection(from_left, from_right, np.zeros((nodes, film_nodes + 1))),
-        Surfaces(*np.zeros((len(Surfaces._fields), nodes))),
+        Surfaces(np.zeros(nodes), np.zeros(nodes), records(nodes, WALLS)),
         fluid_fraction,
         generated,
         compression,
@@ -111,136 +113,175 @@ def face_edges(stream: FloatArray, edges: FloatArray) -> None:
 @inlined_kernel
 def surface_history(problem: Problem, i: int, surface_matrix: FloatArray, surfaces: Surfaces) -> None:
     """Flash temperatures that the columns upstream of i leave at i, and the gain of its own heat flux (Eq. 24)."""
-    surfaces.history_1[i] = problem.surface_heating_1 * row_product(surface_matrix, i, 0, i, surfaces.flux_1)
-    surfaces.history_2[i] = problem.surface_heating_2 * row_product(surface_matrix, i, 0, i, surfaces.flux_2)
-    surfaces.gain_1[i] = problem.surface_heating_1 * surface_matrix[i, i]
-    surfaces.gain_2[i] = problem.surface_heating_2 * surface_matrix[i, i]
+    surfaces.walls[i].history_1 = problem.surface_heating_1 * row_product(surface_matrix, i, 0, i, surfaces.flux_1)
+    surfaces.walls[i].history_2 = problem.surface_heating_2 * row_product(surface_matrix, i, 0, i, surfaces.flux_2)
+    surfaces.walls[i].gain_1 = problem.surface_heating_1 * surface_matrix[i, i]
+    surfaces.walls[i].gain_2 = problem.surface_heating_2 * surface_matrix[i, i]
 
 
-@inlined_kernel
-def transport(problem: Problem, i: int, width: float, temperature: FloatArray, h: float, heat: Heat) -> None:
-    """Convection (upwind, both ways) and conduction of column i: starts its residual, matrix and responses."""
-    n, nodes = temperature.shape
-    column, edges = heat.column, heat.convection.edges
-    conductance = heat.fluid_fraction[i] * problem.conductivity * (nodes - 1) / h
-    capacity, per_h, right = problem.specific_heat / width, 1.0 / h, min(i + 1, n - 1)
-    for k in range(nodes):
-        t = temperature[i, k]
-        from_left = capacity * max(edges[i - 1, k + 1] - edges[i - 1, k], 0.0)
-        from_right = capacity * max(edges[i, k] - edges[i, k + 1], 0.0)
-        residual = from_left * (t - temperature[i - 1, k]) + from_right * (t - temperature[right, k])
-        lower, upper, conduction = 0.0, 0.0, 0.0
-        if k > 0:
-            lower = capacity * max(edges[i - 1, k] - edges[i, k], 0.0) + conductance
-            residual += lower * (t - temperature[i, k - 1])
-            conduction += conductance * (t - temperature[i, k - 1])
-        if k < nodes - 1:
-            upper = capacity * max(edges[i, k + 1] - edges[i - 1, k + 1], 0.0) + conductance
-            residual += upper * (t - temperature[i, k + 1])
-            conduction += conductance * (t - temperature[i, k + 1])
-        heat.convection.from_left[i, k], heat.convection.from_right[i, k] = from_left, from_right
-        column.lower[i, k], column.upper[i, k] = lower, upper
-        column.pivot[i, k] = from_left + from_right + lower + upper
-        column.residual[i, k] = residual
-        column.responses.by_h[i, k] = conduction * per_h
-
-
-@inlined_kernel
-def dissipation(i: int, h: float, film: Film, heat: Heat) -> None:
-    """Shear heating of column i, half of each interval's to each of its nodes, with its derivatives."""
-    shear, column = film.shear, heat.column
-    m = shear.stress.shape[1]
-    height, per_h, share = 1.0 / m, 1.0 / h, 0.5 * heat.fluid_fraction[i] * h / m
-    by_p, by_g, by_h = film.mid.by_p[i], film.mid.by_g[i], film.mid.by_h[i]
-    total, source, by_stress, warm, pressed, tilted = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-    for k in range(m + 1):
-        sources, stressed, warmed, by_pressure, by_tilt = source, by_stress, warm, pressed, tilted
-        column.lower[i, k] += warm
-        if k < m:
-            rate, stress = shear.rate[i, k], shear.stress[i, k]
-            source = share * stress * rate
-            by_stress = share * (rate + stress * shear.stiffness[i, k])
-            warm = 0.5 * source * shear.by_temperature[i, k]
-            pressed = source * shear.by_pressure[i, k]
-            tilted = by_stress * ((k + 0.5) * height - 0.5)
-            sources, stressed, warmed = sources + source, stressed + by_stress, warmed + warm
-            by_pressure, by_tilt = by_pressure + pressed, by_tilt + tilted
-            column.upper[i, k] += warm
-        total += sources
-        column.residual[i, k] -= sources
-        column.pivot[i, k] -= warmed
-        column.responses.heating[i, k] = -stressed
-        column.responses.by_p[i, k] = by_pressure + stressed * by_p
-        column.responses.by_g[i, k] = by_tilt + stressed * by_g
-        column.responses.by_h[i, k] += sources * per_h + stressed * by_h
-    heat.generated[i] = total
-
-
-@inlined_kernel
-def compress(problem: Problem, i: int, temperature: FloatArray, g: float, h: float, film: Film, heat: Heat) -> None:
-    """Heat of compression of column i, (0.00065 rho0/rho) t u p'."""
-    column, stream, densities, m = heat.column, film.flow.stream, film.shear.density, film.shear.stress.shape[1]
-    per_h, expansion = 1.0 / h, problem.laws.density * problem.laws.thermal_expansion
-    total, edge = 0.0, 0.0
-    for k in range(m + 1):
-        density = 0.5 * (densities[i, max(k - 1, 0)] + densities[i, min(k, m - 1)])
-        above = 0.5 * (stream[i, k] + stream[i, k + 1]) if k < m else stream[i, m]
-        squeeze = expansion * (above - edge) * per_h / (density * density)
-        edge = above
-        source = squeeze * g * temperature[i, k]
-        total += source
-        column.residual[i, k] -= source
-        column.pivot[i, k] -= squeeze * g
-        column.responses.by_g[i, k] += squeeze * temperature[i, k]
-        column.responses.by_h[i, k] -= source * per_h
-    heat.compression[i] = total
-
-
-@inlined_kernel
-def column_balance(
+@kernel
+def balance_columns(
     problem: Problem,
-    i: int,
-    width: float,
+    grid: Grid,
     temperature: FloatArray,
-    g: float,
-    h: float,
+    start: int,
+    stop: int,
+    at: RecordArray,
+    film: Film,
+    heat: Heat,
+) -> None:
+    """Heat balance of columns start..stop, one after the other: the residual, and the heat flux into both surfaces.
+
+    c [d(psi_zeta t)/dx - d(psi_x t)/dzeta] = (lambda/h) t_zetazeta + h (tau rate + (0.00065 rho0/rho) t u p'), with
+    the cross-film flow from continuity (Eq. 23 of the paper leaves it out), in cells around the nodes (Eqs. E8, E15).
+    Half cells at the walls give the heat fluxes q1 = lambda t_z and q2 = -lambda t_z (Eq. 24 prints no sign; heat must
+    flow into both solids); their rows are the surfaces' temperatures. `at` has G = h dp/dx and h of every column (n,).
+    """
+    surfaces, last = heat.surfaces, temperature.shape[1] - 1
+    for i in range(start, stop):
+        exchange(problem, i, grid.weights[i] * problem.half_width, at[i].h, film, heat)
+        column_residual(i, temperature, at[i].g, at[i].h, film, heat)
+        residual = heat.column.residual
+        surfaces.flux_1[i], surfaces.flux_2[i] = -residual[i, 0], -residual[i, last]
+        surface_history(problem, i, grid.heat, surfaces)
+        lacking_1 = temperature[i, 0] - problem.bulk_1 - surfaces.walls[i].history_1
+        lacking_2 = temperature[i, last] - problem.bulk_2 - surfaces.walls[i].history_2
+        residual[i, 0] = lacking_1 + surfaces.walls[i].gain_1 * residual[i, 0]
+        residual[i, last] = lacking_2 + surfaces.walls[i].gain_2 * residual[i, last]
+
+
+@inlined_kernel
+def exchange(problem: Problem, i: int, width: float, h: float, film: Film, heat: Heat) -> None:
+    """What the cells of column i exchange per kelvin [W/(m^2 K)]: by convection, upwind on all sides, and conduction.
+
+    `width` of the column [m]. With it what compression heats per kelvin and pascal: (0.00065 rho0/rho) u/h.
+    """
+    convection, column, edges, psi, rho = (
+        heat.convection,
+        heat.column,
+        heat.convection.edges,
+        film.flow.stream,
+        film.shear.density,
+    )
+    m = rho.shape[1]
+    conductance = heat.fluid_fraction[i] * problem.conductivity * m / h
+    capacity, expansion = problem.specific_heat / width, problem.laws.density * problem.laws.thermal_expansion / h
+    below = psi[i, 0]
+    for k in range(m + 1):
+        convection.from_left[i, k] = capacity * max(edges[i - 1, k + 1] - edges[i - 1, k], 0.0)
+        convection.from_right[i, k] = capacity * max(edges[i, k] - edges[i, k + 1], 0.0)
+        column.lower[i, k] = capacity * max(edges[i - 1, k] - edges[i, k], 0.0) + conductance if k > 0 else 0.0
+        column.upper[i, k] = capacity * max(edges[i, k + 1] - edges[i - 1, k + 1], 0.0) + conductance if k < m else 0.0
+        above = 0.5 * (psi[i, k] + psi[i, k + 1]) if k < m else psi[i, m]
+        density = 0.5 * (rho[i, max(k - 1, 0)] + rho[i, min(k, m - 1)])
+        column.squeeze[i, k] = expansion * (above - below) / (density * density)
+        below = above
+
+
+@inlined_kernel
+def column_residual(i: int, temperature: FloatArray, g: float, h: float, film: Film, heat: Heat) -> None:
+    """Heat that every cell of column i loses, less what shear and compression heat it [W/m^2] (Eq. E15).
+
+    Half of what is sheared in an interval heats either of its nodes.
+    """
+    n, last = temperature.shape[0], temperature.shape[1] - 1
+    column, convection, tau, rate, t = heat.column, heat.convection, film.shear.stress, film.shear.rate, temperature
+    share, right, sheared, compressed, below = 0.5 * heat.fluid_fraction[i] * h / last, min(i + 1, n - 1), 0.0, 0.0, 0.0
+    for k in range(last + 1):
+        lost = convection.from_left[i, k] * (t[i, k] - t[i - 1, k])
+        lost += convection.from_right[i, k] * (t[i, k] - t[right, k])
+        lost += column.lower[i, k] * (t[i, k] - t[i, max(k - 1, 0)])
+        lost += column.upper[i, k] * (t[i, k] - t[i, min(k + 1, last)])
+        above = share * tau[i, k] * rate[i, k] if k < last else 0.0
+        squeezed = column.squeeze[i, k] * g * t[i, k]
+        column.residual[i, k] = lost - below - above - squeezed
+        sheared += below + above
+        compressed += squeezed
+        below = above
+    heat.generated[i], heat.compression[i] = sheared, compressed
+
+
+@kernel
+def linearise_balances(
+    problem: Problem,
+    temperature: FloatArray,
+    start: int,
+    stop: int,
+    at: RecordArray,
     damping: float,
     film: Film,
     heat: Heat,
 ) -> None:
-    """Heat balance of column i, linearised by its own temperatures: residual, tridiagonal part, responses (Eq. E8).
+    """Derivatives of what `balance_columns` left in columns start..stop: tridiagonal part, responses to tau_m, p, G, h.
 
-    c [d(psi_zeta t)/dx - d(psi_x t)/dzeta] = (lambda/h) t_zetazeta + h (tau rate + (0.00065 rho0/rho) t u p'), with
-    the cross-film flow from continuity (Eq. 23 of the paper leaves it out). Half cells at the walls give the heat
-    fluxes q1 = lambda t_z and q2 = -lambda t_z (Eq. 24 prints no sign; heat must flow into both solids); their rows
-    are the surfaces' temperatures. `width` of the cell [m]; `damping` adds heat capacity, in units of conduction.
+    `damping` adds heat capacity, in units of conduction.
     """
-    column, convection, surfaces, m = heat.column, heat.convection, heat.surfaces, film.shear.stress.shape[1]
-    transport(problem, i, width, temperature, h, heat)
-    dissipation(i, h, film, heat)
-    compress(problem, i, temperature, g, h, film, heat)
-    surfaces.flux_1[i], surfaces.flux_2[i] = -column.residual[i, 0], -column.residual[i, m]
-    inertia = damping * np.pi**2 * problem.conductivity / (h * m)
-    for k in range(1, m):
-        column.pivot[i, k] += inertia
-    for k, gain in ((0, surfaces.gain_1[i]), (m, surfaces.gain_2[i])):
-        convection.from_left[i, k] *= gain
-        convection.from_right[i, k] *= gain
-        column.residual[i, k] *= gain
-        column.lower[i, k] *= gain
-        column.upper[i, k] *= gain
-        column.pivot[i, k] = 1.0 + gain * (column.pivot[i, k] + 0.5 * inertia)
-        column.responses.heating[i, k] *= gain
-        column.responses.by_p[i, k] *= gain
-        column.responses.by_g[i, k] *= gain
-        column.responses.by_h[i, k] *= gain
-    column.residual[i, 0] += temperature[i, 0] - problem.bulk_1 - surfaces.history_1[i]
-    column.residual[i, m] += temperature[i, m] - problem.bulk_2 - surfaces.history_2[i]
+    m = temperature.shape[1] - 1
+    for i in range(start, stop):
+        g, h = at[i].g, at[i].h
+        inertia = damping * np.pi**2 * problem.conductivity / (h * m)
+        conductance = heat.fluid_fraction[i] * problem.conductivity * m / h
+        column_slopes(i, temperature, g, h, conductance, inertia, film, heat)
+        _scale_walls(i, inertia, heat)
 
 
 @inlined_kernel
-def factor_column(i: int, film: Film, heat: Heat) -> None:
-    """Thomas factorisation of column i with its four responses, and the Sherman-Morrison term of the rank-one part.
+def column_slopes(
+    i: int, temperature: FloatArray, g: float, h: float, conductance: float, inertia: float, film: Film, heat: Heat
+) -> None:
+    """Derivatives of `column_residual`: rows of the matrix, and right-hand sides of the responses.
+
+    The heat tau rate of an interval depends on its temperature and on p by the viscosity, and on its stress, which
+    tau_m moves in all of them.
+    """
+    shear, mid, column, convection, last = film.shear, film.mid, heat.column, heat.convection, temperature.shape[1] - 1
+    lower, upper, responses, t = column.lower, column.upper, column.responses, temperature
+    dz, per_h, share = 1.0 / last, 1.0 / h, 0.5 * heat.fluid_fraction[i] * h / last
+    by_p, by_g, by_h = mid.by_p[i], mid.by_g[i], mid.by_h[i]
+    source, by_stress, by_t, pressed, tilted = 0.0, 0.0, 0.0, 0.0, 0.0
+    for k in range(last + 1):
+        exchanged = convection.from_left[i, k] + convection.from_right[i, k] + lower[i, k] + upper[i, k]
+        conducted = conductance * (2.0 * t[i, k] - t[i, max(k - 1, 0)] - t[i, min(k + 1, last)])
+        sources, stressed, warmed, by_pressure, by_tilt = source, by_stress, by_t, pressed, tilted
+        lower[i, k] += by_t
+        if k < last:
+            tau, rate = shear.stress[i, k], shear.rate[i, k]
+            source = share * tau * rate
+            by_stress = share * (rate + tau * shear.stiffness[i, k])
+            by_t = 0.5 * source * shear.by_temperature[i, k]
+            pressed = source * shear.by_pressure[i, k]
+            tilted = by_stress * ((k + 0.5) * dz - 0.5)
+            sources, stressed, warmed = sources + source, stressed + by_stress, warmed + by_t
+            by_pressure, by_tilt = by_pressure + pressed, by_tilt + tilted
+            upper[i, k] += by_t
+        squeeze = column.squeeze[i, k]
+        column.pivot[i, k] = exchanged - warmed - squeeze * g + inertia
+        responses.heating[i, k] = -stressed
+        responses.by_p[i, k] = by_pressure + stressed * by_p
+        responses.by_g[i, k] = by_tilt + stressed * by_g + squeeze * t[i, k]
+        responses.by_h[i, k] = (conducted + sources - squeeze * g * t[i, k]) * per_h + stressed * by_h
+
+
+@inlined_kernel
+def _scale_walls(i: int, inertia: float, heat: Heat) -> None:
+    """Make the rows of both half cells those of their surfaces' temperatures; they have half of the inertia."""
+    column, convection, responses, walls = heat.column, heat.convection, heat.column.responses, heat.surfaces.walls[i]
+    for side in range(2):
+        k, gain = (0, walls.gain_1) if side == 0 else (column.pivot.shape[1] - 1, walls.gain_2)
+        column.pivot[i, k] = 1.0 + gain * (column.pivot[i, k] - 0.5 * inertia)
+        column.lower[i, k] *= gain
+        column.upper[i, k] *= gain
+        convection.from_left[i, k] *= gain
+        convection.from_right[i, k] *= gain
+        responses.heating[i, k] *= gain
+        responses.by_p[i, k] *= gain
+        responses.by_g[i, k] *= gain
+        responses.by_h[i, k] *= gain
+
+
+@kernel
+def factor_columns(start: int, stop: int, film: Film, heat: Heat) -> None:
+    """Thomas factorisation of columns start..stop with four responses each, and the Sherman-Morrison term.
 
     In place: `pivot` becomes the inverse pivots, `lower` and `upper` the factors by which a row takes part in the next
     and in the one before. The rank-one part carries what keeps a sliding film from running away: warmer oil shears at
@@ -249,38 +290,39 @@ def factor_column(i: int, film: Film, heat: Heat) -> None:
     column, by_temperature = heat.column, film.mid.by_temperature
     lower, pivot, upper, responses = column.lower, column.pivot, column.upper, column.responses
     m = film.shear.stress.shape[1]
-    inverse = 1.0 / pivot[i, 0]
-    pivot[i, 0] = inverse
-    for k in range(1, m + 1):
-        passed_on = lower[i, k] * inverse
-        inverse = 1.0 / (pivot[i, k] - passed_on * upper[i, k - 1])
-        upper[i, k - 1] *= pivot[i, k - 1]
-        lower[i, k], pivot[i, k] = passed_on, inverse
-        responses.heating[i, k] += passed_on * responses.heating[i, k - 1]
-        responses.by_p[i, k] += passed_on * responses.by_p[i, k - 1]
-        responses.by_g[i, k] += passed_on * responses.by_g[i, k - 1]
-        responses.by_h[i, k] += passed_on * responses.by_h[i, k - 1]
-    heating, p, g, h = 0.0, 0.0, 0.0, 0.0
-    shared, by_p, by_g, by_h = 1.0, 0.0, 0.0, 0.0
-    for k in range(m, -1, -1):
-        inverse, passed_back = pivot[i, k], upper[i, k]
-        heating = responses.heating[i, k] * inverse + passed_back * heating
-        p = responses.by_p[i, k] * inverse + passed_back * p
-        g = responses.by_g[i, k] * inverse + passed_back * g
-        h = responses.by_h[i, k] * inverse + passed_back * h
-        responses.heating[i, k], responses.by_p[i, k] = heating, p
-        responses.by_g[i, k], responses.by_h[i, k] = g, h
-        shared += by_temperature[i, k] * heating
-        by_p += by_temperature[i, k] * p
-        by_g += by_temperature[i, k] * g
-        by_h += by_temperature[i, k] * h
-    sherman = 1.0 / shared
-    column.sherman[i] = sherman
-    for k in range(m + 1):
-        heating = responses.heating[i, k] * sherman
-        responses.by_p[i, k] -= heating * by_p
-        responses.by_g[i, k] -= heating * by_g
-        responses.by_h[i, k] -= heating * by_h
+    for i in range(start, stop):
+        inverse = 1.0 / pivot[i, 0]
+        pivot[i, 0] = inverse
+        for k in range(1, m + 1):
+            passed_on = lower[i, k] * inverse
+            inverse = 1.0 / (pivot[i, k] - passed_on * upper[i, k - 1])
+            upper[i, k - 1] *= pivot[i, k - 1]
+            lower[i, k], pivot[i, k] = passed_on, inverse
+            responses.heating[i, k] += passed_on * responses.heating[i, k - 1]
+            responses.by_p[i, k] += passed_on * responses.by_p[i, k - 1]
+            responses.by_g[i, k] += passed_on * responses.by_g[i, k - 1]
+            responses.by_h[i, k] += passed_on * responses.by_h[i, k - 1]
+        heating, p, g, h = 0.0, 0.0, 0.0, 0.0
+        shared, by_p, by_g, by_h = 1.0, 0.0, 0.0, 0.0
+        for k in range(m, -1, -1):
+            inverse, passed_back = pivot[i, k], upper[i, k]
+            heating = responses.heating[i, k] * inverse + passed_back * heating
+            p = responses.by_p[i, k] * inverse + passed_back * p
+            g = responses.by_g[i, k] * inverse + passed_back * g
+            h = responses.by_h[i, k] * inverse + passed_back * h
+            responses.heating[i, k], responses.by_p[i, k] = heating, p
+            responses.by_g[i, k], responses.by_h[i, k] = g, h
+            shared += by_temperature[i, k] * heating
+            by_p += by_temperature[i, k] * p
+            by_g += by_temperature[i, k] * g
+            by_h += by_temperature[i, k] * h
+        sherman = 1.0 / shared
+        column.sherman[i] = sherman
+        for k in range(m + 1):
+            heating = responses.heating[i, k] * sherman
+            responses.by_p[i, k] -= heating * by_p
+            responses.by_g[i, k] -= heating * by_g
+            responses.by_h[i, k] -= heating * by_h
 
 
 @inlined_kernel

@@ -117,7 +117,7 @@ def multiply(matrix: FloatArray, vector: FloatArray, product: FloatArray) -> Non
 def solved(matrix: FloatArray, residual: FloatArray, step: FloatArray) -> bool:
     """Newton's step (n,) against a residual (n,); False where the system has no finite solution.
 
-    For one right-hand side alone LAPACK is quickest; below two hundred unknowns it wakes no threads.
+    For one right-hand side alone LAPACK is quickest; who calls from Python asks for one thread of it (`blas_threads`).
     """
     try:
         step[:] = np.linalg.solve(matrix, -residual)

@@ -4,25 +4,26 @@ import numpy as np
 
 from solvers.arrays import BoolArray, FloatArray, IntArray
 from solvers.compiled import inlined_kernel, kernel
+from solvers.contact.ehl.flow import FlowCoefficients
 from solvers.contact.ehl.grid import Grid
-from solvers.contact.ehl.heat import factor_column
+from solvers.contact.ehl.heat import factor_columns
 from solvers.contact.ehl.linear_algebra import combine_basis, dot, extend_basis, factor, solved, substitute
 from solvers.contact.ehl.problem import Problem
 from solvers.contact.ehl.reynolds import (
     PATIENCE,
     RUPTURE_TOLERANCE,
-    FlowCoefficients,
     add_flux_changes,
     apply_pressure_step,
-    assemble_faces,
     assemble_jacobian,
     balance_of_mass,
     film_shape,
+    mass_flux_slopes,
+    mass_fluxes,
     pressure_gradients,
     release_cavitated,
 )
-from solvers.contact.ehl.shear import STRESS_LIMIT
-from solvers.contact.ehl.state import State, Work, evaluate_state, fluid_fractions
+from solvers.contact.ehl.rheology import uniform_shear
+from solvers.contact.ehl.state import NEXT, State, Work, evaluate_state, fluid_fractions, linearise_state
 from solvers.contact.ehl.temperature import inlet_step, temperature_step
 from solvers.lubricants import density, log_viscosity, pressure_part
 
@@ -42,38 +43,21 @@ SHRINKING = 0.1  # what the next step is of such a one, if it does
 def uniform_film(problem: Problem, i: int, p: float, g: float, h: float, coefficients: FlowCoefficients) -> float:
     """Flow coefficients of column i at the inlet temperature; returns the mid-film stress [Pa].
 
-    `g` is h dp/dx. Newtonian: A = rho/(12 eta). Ree-Eyring with s = g/(2 tau0): sinh a = eta du s/(tau0 h sinh s) and
-    A = rho/(12 eta) cosh a 3 (s cosh s - sinh s)/s^3, the mid-film stress being tau0 a.
+    `g` is h dp/dx [Pa]. A = rho/(12 eta) for a Newtonian oil, times what the law of shear makes of it; B = rho um
+    (Eq. E7.2).
     """
     laws = problem.laws
     term, term_slope = pressure_part(laws, p)
     log_eta, eta_slope, _ = log_viscosity(laws, term, problem.inlet)
-    by_p = eta_slope * term_slope
-    rho, rho_slope, _ = density(laws, p, problem.inlet)
-    um, du = 0.5 * (problem.speed_1 + problem.speed_2), problem.speed_2 - problem.speed_1
+    eta_by_p = eta_slope * term_slope  # of ln eta
+    rho, rho_by_p, _ = density(laws, p, problem.inlet)
+    sheared, by_eta, by_g, by_h, tau_m = uniform_shear(problem, log_eta, g, h)
+    um = 0.5 * (problem.speed_1 + problem.speed_2)
     log_a, b = coefficients.log_a, coefficients.b
-    log_a.by_g[i], log_a.by_h[i], b.by_g[i], b.by_h[i] = 0.0, 0.0, 0.0, 0.0
-    b.value[i], b.by_p[i] = rho * um, rho_slope * um
-    log_a.value[i], log_a.by_p[i] = np.log(rho / 12.0) - log_eta, rho_slope / rho - by_p
-    if problem.newtonian == 1:
-        return float(np.exp(log_eta) * du / h)
-    tau0 = problem.eyring_stress
-    s = min(abs(g) / (2.0 * tau0), STRESS_LIMIT)
-    if s < 1e-2:
-        log_sigma, sigma_slope = -s * s / 6.0, -s / 3.0
-        log_phi, phi_slope = s * s / 10.0, s / 5.0
-    else:
-        sinh, cosh = np.sinh(s), np.cosh(s)
-        log_sigma, sigma_slope = np.log(s / sinh), 1.0 / s - cosh / sinh
-        moment = s * cosh - sinh
-        log_phi, phi_slope = np.log(3.0 * moment / s**3), s * sinh / moment - 3.0 / s
-    sinh_a = np.exp(log_eta + log_sigma) * du / (tau0 * h)
-    share = sinh_a * sinh_a / (1.0 + sinh_a * sinh_a)
-    log_a.value[i] += 0.5 * np.log1p(sinh_a * sinh_a) + log_phi
-    log_a.by_p[i] += share * by_p
-    log_a.by_h[i] = -share / h
-    log_a.by_g[i] = (share * sigma_slope + phi_slope) * np.sign(g) / (2.0 * tau0)
-    return float(tau0 * np.arcsinh(sinh_a))
+    b[i].value, b[i].by_p, b[i].by_g, b[i].by_h = rho * um, rho_by_p * um, 0.0, 0.0
+    log_a[i].value, log_a[i].by_p = np.log(rho / 12.0) - log_eta + sheared, rho_by_p / rho + (by_eta - 1.0) * eta_by_p
+    log_a[i].by_g, log_a[i].by_h = by_g, by_h
+    return tau_m
 
 
 @kernel
@@ -84,12 +68,11 @@ def evaluate_isothermal(problem: Problem, grid: Grid, state: State, work: Work) 
     pressure_gradients(grid.x, state.pressure, state.cavitated, work.gradient)
     slope = problem.maximum_pressure / problem.half_width
     for i in range(grid.x.size):
-        h = work.height[i] * problem.gap_scale
-        p, g = state.pressure[i] * problem.maximum_pressure, h * work.gradient[i] * slope
+        p, h = state.pressure[i] * problem.maximum_pressure, work.height[i] * problem.gap_scale
+        g = h * work.gradient[i] * slope
+        work.at[i].p, work.at[i].g, work.at[i].h = p, g, h
         work.film.mid.stress[i] = uniform_film(problem, i, p, g, h, work.coefficients)
-    assemble_faces(
-        problem, grid.x, state.pressure, work.height, work.gradient, state.cavitated, work.coefficients, work.faces
-    )
+    mass_fluxes(problem, grid.x, state.pressure, work.height, work.coefficients, work.faces)
 
 
 @kernel
@@ -106,6 +89,7 @@ def solve_isothermal(
     for iteration in range(max_iterations):
         state.history[0].iterations += 1.0
         evaluate_isothermal(problem, grid, state, work)
+        mass_flux_slopes(problem, grid, work.height, work.gradient, state.cavitated, work.coefficients, work.faces)
         rupture_tolerance = 0.0 if iteration < PATIENCE else RUPTURE_TOLERANCE
         changed = release_cavitated(work.faces, state.cavitated, rupture_tolerance)
         balance_of_mass(grid, state.pressure, state.cavitated, work.faces, residual)
@@ -136,8 +120,8 @@ def include_temperature(work: Work) -> None:
     a_slopes, b_slopes = work.film.flow.log_a_by_temperature, work.film.flow.b_by_temperature
     n, nodes = a_slopes.shape
     for i in range(1, n):
-        a_by_p, a_by_g, a_by_h = log_a.by_p[i], log_a.by_g[i], log_a.by_h[i]
-        b_by_p, b_by_g, b_by_h = b.by_p[i], b.by_g[i], b.by_h[i]
+        a_by_p, a_by_g, a_by_h = log_a[i].by_p, log_a[i].by_g, log_a[i].by_h
+        b_by_p, b_by_g, b_by_h = b[i].by_p, b[i].by_g, b[i].by_h
         for k in range(nodes):
             p, g, h = responses.by_p[i, k], responses.by_g[i, k], responses.by_h[i, k]
             a_by_p, a_by_g, a_by_h = (
@@ -150,8 +134,8 @@ def include_temperature(work: Work) -> None:
                 b_by_g + b_slopes[i, k] * g,
                 b_by_h + b_slopes[i, k] * h,
             )
-        log_a.by_p[i], log_a.by_g[i], log_a.by_h[i] = a_by_p, a_by_g, a_by_h
-        b.by_p[i], b.by_g[i], b.by_h[i] = b_by_p, b_by_g, b_by_h
+        log_a[i].by_p, log_a[i].by_g, log_a[i].by_h = a_by_p, a_by_g, a_by_h
+        b[i].by_p, b[i].by_g, b[i].by_h = b_by_p, b_by_g, b_by_h
 
 
 @kernel
@@ -185,7 +169,7 @@ def pressure_responses(
     for i in range(n):
         dp = step[i] * problem.maximum_pressure
         dh = (change[i] - 0.5 * grid.x[i] ** 2) * problem.gap_scale
-        dg = slope * (slopes[i] * work.height[i] * problem.gap_scale + work.gradient[i] * dh)
+        dg = slope * (slopes[i] * work.at[i].h + work.gradient[i] * dh)
         for k in range(given.shape[1]):
             given[i, k] = responses.by_p[i, k] * dp + responses.by_g[i, k] * dg + responses.by_h[i, k] * dh
 
@@ -266,9 +250,7 @@ def factor_jacobian(
 ) -> None:
     """The factored system for (P, H0), with the responses of the columns."""
     include_temperature(work)
-    assemble_faces(
-        problem, grid.x, state.pressure, work.height, work.gradient, state.cavitated, work.coefficients, work.faces
-    )
+    mass_flux_slopes(problem, grid, work.height, work.gradient, state.cavitated, work.coefficients, work.faces)
     assemble_jacobian(grid, state.cavitated, work.faces, jacobian)
     factor(jacobian, pivots)
 
@@ -307,11 +289,11 @@ def solve_coupled(
     damping, before, before_t, relaxation, near = 0.0, np.inf, np.inf, 1.0, False
     for iteration in range(max_iterations):
         state.history[0].iterations += 1.0
-        limited = evaluate_state(problem, grid, state, work, damping)
+        limited = evaluate_state(problem, grid, state, work)
         tolerance = 0.0 if iteration < PATIENCE else RUPTURE_TOLERANCE
         changed = release_cavitated(work.faces, state.cavitated, tolerance)
-        for i in range(1, n):
-            factor_column(i, work.film, work.heat)
+        linearise_state(problem, state, work, damping)
+        factor_columns(NEXT, n, work.film, work.heat)
         fresh = changed or limited or not near
         if fresh:
             factor_jacobian(problem, grid, state, work, jacobian, pivots)
@@ -337,7 +319,7 @@ def solve_coupled(
         before, before_t = last_p, last_t
         taken, joined = take_step(grid, state, step, step_t, scale if within else scale * relaxation)
         if converged and not joined and taken == 1.0:
-            evaluate_state(problem, grid, state, work, 0.0)
+            evaluate_state(problem, grid, state, work)
             return True
         near = last_p < SHORT_STEP and shrinking and undamped and not joined and taken == 1.0
     return False

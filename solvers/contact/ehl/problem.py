@@ -3,10 +3,10 @@
 from dataclasses import dataclass
 from functools import lru_cache
 from math import exp, inf, pi, sqrt
-from typing import NamedTuple
+from typing import NamedTuple, get_args
 
 from solvers.contact import hertz
-from solvers.contact.ehl.inputs import LineContactInputs
+from solvers.contact.ehl.inputs import LineContactInputs, Rheology
 from solvers.contact.film import dowson_higginson_minimum
 from solvers.lubricants import FluidLaws
 from solvers.materials import Solid
@@ -130,7 +130,7 @@ def dowson_higginson_film(inputs: LineContactInputs) -> float:
 class Problem(NamedTuple):
     """SI; surface_heating_i = (b / (pi rho_i c_i u_i lambda_i))^1/2 [K m^2/W] turns Wt q into a flash temperature.
 
-    `flux_scale` is rho0 um b^2/R; `newtonian` and `thermal` are 0 or 1.
+    `flux_scale` is rho0 um b^2/R; `rheology` is the place of the law in `inputs.Rheology`.
     """
 
     laws: FluidLaws
@@ -140,7 +140,7 @@ class Problem(NamedTuple):
     speed_1: float
     speed_2: float
     eyring_stress: float
-    newtonian: int
+    rheology: int
     conductivity: float
     specific_heat: float
     bulk_1: float
@@ -163,7 +163,7 @@ def problem(inputs: LineContactInputs, scales: Groups) -> Problem:
         speed_1=float(contact.speed_1),
         speed_2=float(contact.speed_2),
         eyring_stress=float(inputs.model.eyring_stress),
-        newtonian=int(inputs.model.rheology == "newtonian"),
+        rheology=get_args(Rheology).index(inputs.model.rheology),
         conductivity=float(oil.thermal_conductivity),
         specific_heat=float(oil.specific_heat),
         bulk_1=float(temperatures.surface_1),

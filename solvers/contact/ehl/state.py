@@ -1,25 +1,21 @@
 """The unknowns of a contact, the arrays a solution works in, and the evaluation of one state."""
 
-from typing import NamedTuple
+from typing import NamedTuple, cast
 
 import numpy as np
 
 from solvers.arrays import BoolArray, FloatArray, RecordArray, floats, records
 from solvers.compiled import kernel
+from solvers.contact.ehl.flow import PLACE, FlowCoefficients, evaluate_columns, flow_coefficients, linearise_columns
 from solvers.contact.ehl.grid import Grid
-from solvers.contact.ehl.heat import Heat, column_balance, face_edges, heat_arrays, surface_history
+from solvers.contact.ehl.heat import Heat, balance_columns, face_edges, heat_arrays, linearise_balances
 from solvers.contact.ehl.problem import Problem
-from solvers.contact.ehl.reynolds import (
-    FaceFluxes,
-    FlowCoefficients,
-    assemble_faces,
-    evaluate_column,
-    face_fluxes,
-    film_shape,
-    flow_coefficients,
-    pressure_gradients,
-)
-from solvers.contact.ehl.shear import Film, film_arrays, limited_gradient
+from solvers.contact.ehl.reynolds import FaceFluxes, face_arrays, film_shape, mass_fluxes, pressure_gradients
+from solvers.contact.ehl.rheology import limited_gradient
+from solvers.contact.ehl.shear import Film, film_arrays
+
+# Columns from which passes start; not literals, for each of which numba would compile the passes once more.
+FIRST, NEXT = cast("int", np.int64(0)), cast("int", np.int64(1))
 
 
 class State(NamedTuple):
@@ -44,10 +40,14 @@ def no_steps() -> RecordArray:
 
 
 class Work(NamedTuple):
-    """Quantities that follow from a state: film H and dP/dX (n,); flow, film and heat of every column."""
+    """Quantities that follow from a state: film H and dP/dX (n,); place, flow, film and heat of every column.
+
+    `at` (n,) of PLACE has pressure, pressure gradient and film in SI.
+    """
 
     height: FloatArray
     gradient: FloatArray
+    at: RecordArray
     coefficients: FlowCoefficients
     faces: FaceFluxes
     film: Film
@@ -59,8 +59,9 @@ def work_arrays(nodes: int, film_nodes: int) -> Work:
     return Work(
         np.zeros(nodes),
         np.zeros(nodes),
+        records(nodes, PLACE),
         flow_coefficients(nodes),
-        face_fluxes(nodes),
+        face_arrays(nodes),
         film_arrays(nodes, film_nodes),
         heat_arrays(nodes, film_nodes),
     )
@@ -71,37 +72,34 @@ def evaluate_flow(problem: Problem, grid: Grid, state: State, work: Work) -> boo
     """Film, stress and flow of every column; whether the guard on the pressure gradient acted."""
     film_shape(grid, state.pressure, state.separation[0], work.height)
     pressure_gradients(grid.x, state.pressure, state.cavitated, work.gradient)
-    slope = problem.maximum_pressure / problem.half_width
-    limited = False
+    slope, limited = problem.maximum_pressure / problem.half_width, False
     for i in range(grid.x.size):
-        h = work.height[i] * problem.gap_scale
+        p, h = state.pressure[i] * problem.maximum_pressure, work.height[i] * problem.gap_scale
         g = h * work.gradient[i] * slope
         bounded = limited_gradient(problem, g)
         limited = limited or bounded != g
-        p = state.pressure[i] * problem.maximum_pressure
-        evaluate_column(problem, i, state.temperature, p, bounded, h, work.film, work.coefficients)
-    assemble_faces(
-        problem, grid.x, state.pressure, work.height, work.gradient, state.cavitated, work.coefficients, work.faces
-    )
+        work.at[i].p, work.at[i].g, work.at[i].h = p, bounded, h
+    evaluate_columns(problem, state.temperature, FIRST, grid.x.size, work.at, work.film, work.coefficients)
+    mass_fluxes(problem, grid.x, state.pressure, work.height, work.coefficients, work.faces)
     return limited
 
 
 @kernel
 def fluid_fractions(problem: Problem, state: State, work: Work) -> float:
-    """Fill the gap with the fraction of fluid that the flux needs where the film is broken; returns the flux.
+    """Fill the gap with the share of fluid that the flux needs where the film is broken; returns the flux (Eq. E8.2).
 
     It is taken where the pressure is largest, since there it does not depend on the pressure gradient.
     """
     flux = work.faces.flux[state.pressure.argmax()] * problem.flux_scale
     for i in range(state.pressure.size):
-        drag = work.coefficients.b.value[i] * work.height[i] * problem.gap_scale
+        drag = work.coefficients.b[i].value * work.at[i].h
         work.heat.fluid_fraction[i] = min(flux / drag, 1.0) if state.cavitated[i] else 1.0
     return float(flux)
 
 
 @kernel
 def match_stream(problem: Problem, state: State, work: Work) -> None:
-    """Make every column carry the same mass.
+    """Make every column carry the same mass (Eq. E8.1).
 
     A full column makes up for what the surfaces do not drag with the profile of pressure flow; a broken one keeps the
     profile of the last full one in a fraction of the gap. So convection conserves mass on the way to the solution,
@@ -121,24 +119,25 @@ def match_stream(problem: Problem, state: State, work: Work) -> None:
 
 
 @kernel
-def balance_columns(problem: Problem, grid: Grid, state: State, work: Work, damping: float) -> None:
-    """Heat balance of every column at the present temperatures; `damping` see column_balance."""
-    surfaces = work.heat.surfaces
-    slope = problem.maximum_pressure / problem.half_width
-    surfaces.flux_1[0], surfaces.flux_2[0] = 0.0, 0.0
-    for i in range(1, grid.x.size):
-        h = work.height[i] * problem.gap_scale
-        g = limited_gradient(problem, h * work.gradient[i] * slope)
-        width = grid.weights[i] * problem.half_width
-        surface_history(problem, i, grid.heat, surfaces)
-        column_balance(problem, i, width, state.temperature, g, h, damping, work.film, work.heat)
+def evaluate_state(problem: Problem, grid: Grid, state: State, work: Work) -> bool:
+    """Residual of all columns and faces; whether the guard on the pressure gradient acted.
 
-
-@kernel
-def evaluate_state(problem: Problem, grid: Grid, state: State, work: Work, damping: float) -> bool:
-    """All of the above; whether the guard on the pressure gradient acted. Film that is broken reaches the end."""
+    Film that is broken reaches the end.
+    """
     state.cavitated[-1] = state.cavitated[-2]
     limited = evaluate_flow(problem, grid, state, work)
     match_stream(problem, state, work)
-    balance_columns(problem, grid, state, work, damping)
+    work.heat.surfaces.flux_1[0], work.heat.surfaces.flux_2[0] = 0.0, 0.0
+    balance_columns(problem, grid, state.temperature, NEXT, grid.x.size, work.at, work.film, work.heat)
     return limited
+
+
+@kernel
+def linearise_state(problem: Problem, state: State, work: Work, damping: float) -> None:
+    """Derivatives of the columns of an evaluated state, solved for their responses; `damping` see linearise_balances.
+
+    What carries heat along is held fixed: the stream function, the fluid fraction, the density that is compressed.
+    """
+    n = work.at.size
+    linearise_columns(problem, FIRST, n, work.at, work.film, work.coefficients)
+    linearise_balances(problem, state.temperature, NEXT, n, work.at, damping, work.film, work.heat)

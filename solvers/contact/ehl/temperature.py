@@ -4,19 +4,20 @@ import numpy as np
 
 from solvers.arrays import FloatArray
 from solvers.compiled import inlined_kernel, kernel
+from solvers.contact.ehl.flow import evaluate_columns, linearise_columns
 from solvers.contact.ehl.grid import Grid
 from solvers.contact.ehl.heat import (
     Convection,
     Heat,
-    column_balance,
+    balance_columns,
     face_edges,
-    factor_column,
+    factor_columns,
+    linearise_balances,
     solve_column,
-    surface_history,
 )
 from solvers.contact.ehl.linear_algebra import row_product
 from solvers.contact.ehl.problem import Problem
-from solvers.contact.ehl.reynolds import evaluate_column, film_shape
+from solvers.contact.ehl.reynolds import film_shape
 from solvers.contact.ehl.shear import Film
 from solvers.contact.ehl.state import State, Work
 
@@ -45,16 +46,17 @@ def march_temperatures(problem: Problem, grid: Grid, state: State, work: Work) -
     temperature[0, 0], temperature[0, nodes - 1] = problem.bulk_1, problem.bulk_2
     heat.surfaces.flux_1[0], heat.surfaces.flux_2[0] = 0.0, 0.0
     heat.fluid_fraction[:] = 1.0
+    for i in range(n):
+        work.at[i].p = max(state.pressure[i], 0.0) * problem.maximum_pressure
+        work.at[i].g, work.at[i].h = 0.0, work.height[i] * problem.gap_scale
     for i in range(1, n):
-        h = work.height[i] * problem.gap_scale
-        p = max(state.pressure[i], 0.0) * problem.maximum_pressure
         temperature[i] = temperature[i - 1]
-        surface_history(problem, i, grid.heat, heat.surfaces)
         for _ in range(COLUMN_ITERATIONS):
-            evaluate_column(problem, i, temperature, p, 0.0, h, film, work.coefficients)
-            width = grid.weights[i] * problem.half_width
-            column_balance(problem, i, width, temperature, 0.0, h, 0.0, film, heat)
-            factor_column(i, film, heat)
+            evaluate_columns(problem, temperature, i, i + 1, work.at, film, work.coefficients)
+            linearise_columns(problem, i, i + 1, work.at, film, work.coefficients)
+            balance_columns(problem, grid, temperature, i, i + 1, work.at, film, heat)
+            linearise_balances(problem, temperature, i, i + 1, work.at, 0.0, film, heat)
+            factor_columns(i, i + 1, film, heat)
             step[i] = -heat.column.residual[i]
             solve_column(i, film, heat, step)
             largest = np.abs(step[i]).max()
@@ -84,8 +86,8 @@ def _relax_column(i: int, film: Film, heat: Heat, given: FloatArray, weight: flo
         if i + 1 < n:
             inflow += from_right[i, k] * step[i + 1, k]
         step[i, k] = inflow - weight * residual[i, k]
-    step[i, 0] += heat.surfaces.change_1[i]
-    step[i, m] += heat.surfaces.change_2[i]
+    step[i, 0] += heat.surfaces.walls[i].change_1
+    step[i, m] += heat.surfaces.walls[i].change_2
     solve_column(i, film, heat, step)
     for k in range(m + 1):
         step[i, k] += given[i, k]
@@ -108,12 +110,12 @@ def temperature_step(
     for sweep in range(REVERSE_SWEEPS if reverse > 0 else 1):
         final = sweep == REVERSE_SWEEPS - 1 or reverse == 0
         for i in range(1, n if final else reverse + 1):
-            surfaces.change_1[i] = problem.surface_heating_1 * row_product(grid.heat, i, 0, i, flux_1)
-            surfaces.change_2[i] = problem.surface_heating_2 * row_product(grid.heat, i, 0, i, flux_2)
+            surfaces.walls[i].change_1 = problem.surface_heating_1 * row_product(grid.heat, i, 0, i, flux_1)
+            surfaces.walls[i].change_2 = problem.surface_heating_2 * row_product(grid.heat, i, 0, i, flux_2)
             _relax_column(i, film, heat, given, weight, step)
-            own_1 = step[i, 0] - surfaces.change_1[i] + weight * residual[i, 0]
-            own_2 = step[i, last] - surfaces.change_2[i] + weight * residual[i, last]
-            flux_1[i], flux_2[i] = own_1 / surfaces.gain_1[i], own_2 / surfaces.gain_2[i]
+            own_1 = step[i, 0] - surfaces.walls[i].change_1 + weight * residual[i, 0]
+            own_2 = step[i, last] - surfaces.walls[i].change_2 + weight * residual[i, last]
+            flux_1[i], flux_2[i] = own_1 / surfaces.walls[i].gain_1, own_2 / surfaces.walls[i].gain_2
         if not final:
             for i in range(reverse - 1, 0, -1):
                 _relax_column(i, film, heat, given, weight, step)
@@ -121,14 +123,14 @@ def temperature_step(
 
 @kernel
 def inlet_step(problem: Problem, work: Work, temperature: FloatArray, step: FloatArray) -> None:
-    """First column of `step`: walls at bulk temperature, oil that enters at that of the inlet.
+    """First column of `step`: walls at bulk temperature, oil that enters at that of the inlet (Eq. E8.3).
 
     Oil that leaves has the temperature of the column behind. Which does what follows from the flux and a uniform
     viscosity, so that it cannot change with the temperatures it decides on.
     """
     nodes = step.shape[1]
     u1, u2 = problem.speed_1, problem.speed_2
-    mean = work.film.flow.stream[0, nodes - 1] / (problem.laws.density * work.height[0] * problem.gap_scale)
+    mean = work.film.flow.stream[0, nodes - 1] / (problem.laws.density * work.at[0].h)
     step[0, 0] = problem.bulk_1 - temperature[0, 0]
     step[0, nodes - 1] = problem.bulk_2 - temperature[0, nodes - 1]
     for k in range(1, nodes - 1):

@@ -24,7 +24,7 @@ from solvers.pumping.flow.space_flow import (
     include_speed,
     space_flow,
 )
-from solvers.pumping.gas.riemann import front_face
+from solvers.pumping.gas.riemann import State, front_face
 from solvers.pumping.gas.step import Cells, empty_cells, set_walls, step
 from solvers.pumping.space.face import Stretch
 
@@ -157,20 +157,20 @@ def _fill(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, new_low: int,
 
 
 @kernel
-def _border(gas: Gas, duct: Duct, cells: Cells, low: int, high: int) -> tuple[float, float, float]:
+def _border(gas: Gas, duct: Duct, cells: Cells, low: int, high: int) -> State:
     """State of the border to the slices that come next, where their centres are: a cell's width ahead of the last.
 
     Ambient gas at rest where no cell is active yet.
     """
     if not low < high < duct.cells:
-        return gas.density, 0.0, gas.pressure
+        return State(gas.density, 0.0, gas.pressure)
     last, before = cells.state[high - 1], cells.state[max(high - 2, low)]
     rho = 2.0 * last.density - before.density
     u = 2.0 * last.velocity - before.velocity
     p = 2.0 * last.pressure - before.pressure
     if rho < _STEEP * last.density or p < _STEEP * last.pressure:
         rho, u, p = last.density, last.velocity, last.pressure
-    return front_face(gas, duct.speed / duct.lag, rho, u, p)
+    return front_face(gas, duct.speed / duct.lag, State(rho, u, p))
 
 
 @kernel

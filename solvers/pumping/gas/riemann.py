@@ -1,7 +1,9 @@
-"""Fluxes through the faces of a duct: between two cells (HLLC) and into surroundings at rest (reservoir face).
+"""States of the gas and fluxes through the faces of a duct: between two cells (HLLC), into surroundings at rest.
 
-A state is (density [kg/m^3], velocity [m/s], pressure [Pa]); a flux is (mass, momentum, energy) per area and second.
+Velocities are along the face [m/s], or outwards at a face that opens into the ambient.
 """
+
+from typing import NamedTuple
 
 import numpy as np
 
@@ -9,16 +11,34 @@ from solvers.compiled import kernel
 from solvers.pumping.flow.nozzle import Gas
 
 
-@kernel
-def _flux(g: float, rho: float, u: float, p: float) -> tuple[float, float, float]:
-    return rho * u, rho * u * u + p, u * (g / (g - 1.0) * p + 0.5 * rho * u * u)
+class State(NamedTuple):
+    """Density rho [kg/m^3], velocity u [m/s] and pressure p [Pa]."""
+
+    density: float
+    velocity: float
+    pressure: float
+
+
+class Conserved(NamedTuple):
+    """Mass, momentum and energy: of a flux per area and second [kg/(s m^2), Pa, W/m^2]."""
+
+    mass: float
+    momentum: float
+    energy: float
 
 
 @kernel
-def hllc(
-    g: float, rho_l: float, u_l: float, p_l: float, rho_r: float, u_r: float, p_r: float
-) -> tuple[float, float, float]:
+def flux(g: float, state: State) -> Conserved:
+    """Flux of a state: (rho u, rho u^2 + p, u (rho E + p)) with rho E = p/(g - 1) + rho u^2/2 (Eq. P6)."""
+    rho, u, p = state
+    return Conserved(rho * u, rho * u * u + p, u * (g / (g - 1.0) * p + 0.5 * rho * u * u))
+
+
+@kernel
+def hllc(g: float, left: State, right: State) -> Conserved:
     """HLLC flux with Einfeldt's wave speeds (Toro, Riemann Solvers and Numerical Methods, 2009, section 10.4-10.6)."""
+    rho_l, u_l, p_l = left
+    rho_r, u_r, p_r = right
     c_l, c_r = np.sqrt(g * p_l / rho_l), np.sqrt(g * p_r / rho_r)
     w_l, w_r = np.sqrt(rho_l), np.sqrt(rho_r)
     mean_u = (w_l * u_l + w_r * u_r) / (w_l + w_r)
@@ -26,54 +46,60 @@ def hllc(
     mean_c = np.sqrt((w_l * c_l * c_l + w_r * c_r * c_r) / (w_l + w_r) + spread)
     s_l, s_r = min(u_l - c_l, mean_u - mean_c), max(u_r + c_r, mean_u + mean_c)
     if s_l >= 0.0:
-        return _flux(g, rho_l, u_l, p_l)
+        return flux(g, left)
     if s_r <= 0.0:
-        return _flux(g, rho_r, u_r, p_r)
+        return flux(g, right)
     m_l, m_r = rho_l * (s_l - u_l), rho_r * (s_r - u_r)
     s_m = (p_r - p_l + u_l * m_l - u_r * m_r) / (m_l - m_r)
     if s_m >= 0.0:
-        return _star_flux(g, rho_l, u_l, p_l, s_l, s_m)
-    return _star_flux(g, rho_r, u_r, p_r, s_r, s_m)
+        return _star_flux(g, left, s_l, s_m)
+    return _star_flux(g, right, s_r, s_m)
 
 
 @kernel
-def _star_flux(g: float, rho: float, u: float, p: float, s: float, s_m: float) -> tuple[float, float, float]:
+def _star_flux(g: float, state: State, s: float, s_m: float) -> Conserved:
     """Flux of the state between the outer wave s and the contact s_m."""
-    mass, momentum, energy = _flux(g, rho, u, p)
+    rho, u, p = state
+    outside = flux(g, state)
     total = p / (g - 1.0) + 0.5 * rho * u * u
     star = rho * (s - u) / (s - s_m)
     star_total = star * (total / rho + (s_m - u) * (s_m + p / (rho * (s - u))))
-    return mass + s * (star - rho), momentum + s * (star * s_m - rho * u), energy + s * (star_total - total)
+    return Conserved(
+        outside.mass + s * (star - rho),
+        outside.momentum + s * (star * s_m - rho * u),
+        outside.energy + s * (star_total - total),
+    )
 
 
 @kernel
-def reservoir_face(gas: Gas, rho: float, v: float, p: float) -> tuple[float, float, float, float]:
+def reservoir_face(gas: Gas, cell: State) -> tuple[State, float]:
     """State of a face that opens into the ambient, and how nearly it is sonic (Eq. P8).
 
-    `v` [m/s] is the cell's velocity outwards. Outflow expands to the ambient pressure, at most to Mach 1; inflow
+    The velocity v of the cell is outwards. Outflow expands to the ambient pressure, at most to Mach 1; inflow
     starts from ambient gas at rest. The last value is the Mach number that the ambient pressure asks for, negative
     for inflow: above one the face is choked (or the duct supersonic, and the face has its state).
     """
     g = gas.exponent
+    rho, v, p = cell
     c = np.sqrt(g * p / rho)
     if v >= c:
-        return rho, v, p, v / c
+        return cell, v / c
     invariant = v + 2.0 * c / (g - 1.0)
     c_f = c * (gas.pressure / p) ** (0.5 * (g - 1.0) / g)
     v_f = invariant - 2.0 * c_f / (g - 1.0)
     if v_f < 0.0:
-        rho_f, v_f, p_f = _inflow(gas, invariant, c_f)
-        return rho_f, v_f, p_f, v_f / np.sqrt(g * p_f / rho_f)
+        face = _inflow(gas, invariant, c_f)
+        return face, face.velocity / np.sqrt(g * face.pressure / face.density)
     mach = v_f / c_f
     if mach > 1.0:
         c_f = (g - 1.0) / (g + 1.0) * invariant
         v_f = c_f
     rho_f = rho * (c_f / c) ** (2.0 / (g - 1.0))
-    return rho_f, v_f, rho_f * c_f * c_f / g, mach
+    return State(rho_f, v_f, rho_f * c_f * c_f / g), mach
 
 
 @kernel
-def front_face(gas: Gas, speed: float, rho: float, v: float, p: float) -> tuple[float, float, float]:
+def front_face(gas: Gas, speed: float, cell: State) -> State:
     """State of the border to gas at rest that the stroke runs over at `speed` [m/s], from the cell behind it.
 
     Seen from the border the gas ahead comes in at that speed: the border is a reservoir face in its own frame, the
@@ -95,12 +121,12 @@ def front_face(gas: Gas, speed: float, rho: float, v: float, p: float) -> tuple[
         gas.critical_ratio,
         gas.critical_density_ratio,
     )
-    rho_f, v_f, p_f, _ = reservoir_face(wind, rho, v - head, p)
-    return rho_f, v_f + head, p_f
+    face, _ = reservoir_face(wind, State(cell.density, cell.velocity - head, cell.pressure))
+    return State(face.density, face.velocity + head, face.pressure)
 
 
 @kernel
-def _inflow(gas: Gas, invariant: float, cell_sound_speed: float) -> tuple[float, float, float]:
+def _inflow(gas: Gas, invariant: float, cell_sound_speed: float) -> State:
     """Inflow from rest that meets the gas of the cell at one pressure and velocity, at most sonic.
 
     `cell_sound_speed` is that of the cell's gas brought to ambient pressure: where it is hotter than the ambient a
@@ -114,4 +140,4 @@ def _inflow(gas: Gas, invariant: float, cell_sound_speed: float) -> tuple[float,
     c = stagnation * ratio
     v = -np.sqrt(max(jet * (1.0 - ratio**2), 0.0))  # at rest the root may round beyond one
     rho = gas.density * ratio ** (2.0 / (g - 1.0))
-    return rho, v, rho * c * c / g
+    return State(rho, v, rho * c * c / g)

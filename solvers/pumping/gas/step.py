@@ -17,7 +17,7 @@ from solvers.compiled import kernel
 from solvers.pumping.flow.duct import WALL, Duct, Wall, stroke_share, wall_at
 from solvers.pumping.flow.nozzle import Gas
 from solvers.pumping.gas.leakage import Stage, Walls, implicit_stage
-from solvers.pumping.gas.riemann import front_face, hllc, reservoir_face
+from solvers.pumping.gas.riemann import Conserved, State, flux, front_face, hllc, reservoir_face
 
 _DIAGONAL = 1.0 - np.sqrt(0.5)  # of the two-stage method
 
@@ -183,22 +183,17 @@ def _walls(duct: Duct, now: RecordArray, after: RecordArray, i: int, fraction: f
 
 @kernel
 def _predict(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, dt: float) -> bool:
-    """State in the middle of the step, from each cell's own fluxes (Hancock)."""
+    """State in the middle of the step, from the fluxes of each cell's own state at its two edges (Hancock)."""
     g, share = gas.exponent, 0.5 * dt / duct.width
     w, s, c, area = cells.state, cells.slope, cells.content, cells.face_area
     half, leak = cells.half, cells.leak
     for i in range(low, high):
         left, right = area[i], area[i + 1]
-        rho, u, p = w[i].density, w[i].velocity, w[i].pressure
-        by_rho, by_u, by_p = s[i].density, s[i].velocity, s[i].pressure
-        r_l, u_l, p_l = rho - 0.5 * by_rho, u - 0.5 * by_u, p - 0.5 * by_p
-        r_r, u_r, p_r = rho + 0.5 * by_rho, u + 0.5 * by_u, p + 0.5 * by_p
-        mass = c[i].mass - share * (right * r_r * u_r - left * r_l * u_l)
-        force = p * (right - left)
-        momentum = c[i].momentum - share * (right * (r_r * u_r**2 + p_r) - left * (r_l * u_l**2 + p_l) - force)
-        enthalpy_l = g / (g - 1.0) * p_l + 0.5 * r_l * u_l**2
-        enthalpy_r = g / (g - 1.0) * p_r + 0.5 * r_r * u_r**2
-        energy = c[i].energy - share * (right * u_r * enthalpy_r - left * u_l * enthalpy_l)
+        into, out = flux(g, _edge(w, s, i, -0.5)), flux(g, _edge(w, s, i, 0.5))
+        force = w[i].pressure * (right - left)
+        mass = c[i].mass - share * (right * out.mass - left * into.mass)
+        momentum = c[i].momentum - share * (right * out.momentum - left * into.momentum - force)
+        energy = c[i].energy - share * (right * out.energy - left * into.energy)
         walls = _walls(duct, cells.walls, cells.next_walls, i, 0.5, dt)
         guess = leak[i].latest + 0.5 * dt * leak[i].growth
         stage = implicit_stage(gas, walls, mass, momentum, energy, 0.5 * dt, guess)
@@ -211,64 +206,69 @@ def _predict(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, dt: float)
 
 
 @kernel
-def _edge(w: RecordArray, s: RecordArray, i: int, side: float) -> tuple[float, float, float]:
-    """State w at a cell's edge by the slope s; that of the cell itself where the slope leads too far."""
-    rho, p = w[i].density + side * s[i].density, w[i].pressure + side * s[i].pressure
-    if rho < 0.1 * w[i].density or p < 0.1 * w[i].pressure:
-        return w[i].density, w[i].velocity, w[i].pressure
-    return rho, w[i].velocity + side * s[i].velocity, p
+def _edge(w: RecordArray, s: RecordArray, i: int, side: float) -> State:
+    """State w at a cell's edge by the slope s, `side` cells from its centre."""
+    return State(
+        w[i].density + side * s[i].density,
+        w[i].velocity + side * s[i].velocity,
+        w[i].pressure + side * s[i].pressure,
+    )
+
+
+@kernel
+def _safe_edge(w: RecordArray, s: RecordArray, i: int, side: float) -> State:
+    """State at a cell's edge; that of the cell itself where the slope leads too far."""
+    edge = _edge(w, s, i, side)
+    if edge.density < 0.1 * w[i].density or edge.pressure < 0.1 * w[i].pressure:
+        return State(w[i].density, w[i].velocity, w[i].pressure)
+    return edge
 
 
 @kernel
 def _set_fluxes(gas: Gas, duct: Duct, cells: Cells, low: int, high: int) -> None:
     """Fluxes through all faces, times their areas."""
-    half, slope, flux, area = cells.half, cells.slope, cells.flux, cells.face_area
+    half, slope = cells.half, cells.slope
     for i in range(low + 1, high):
-        rho_l, u_l, p_l = _edge(half, slope, i - 1, 0.5)
-        rho_r, u_r, p_r = _edge(half, slope, i, -0.5)
-        mass, momentum, energy = hllc(gas.exponent, rho_l, u_l, p_l, rho_r, u_r, p_r)
-        flux[i].mass, flux[i].momentum, flux[i].energy = area[i] * mass, area[i] * momentum, area[i] * energy
+        left, right = _safe_edge(half, slope, i - 1, 0.5), _safe_edge(half, slope, i, -0.5)
+        _put_flux(cells, i, 1.0, hllc(gas.exponent, left, right))
     _set_end(gas, cells, low, low, 0)
     if high < duct.cells:
-        _set_front(gas, duct, cells, high)
+        # Through the border to slices whose stroke is to begin, at the state with which they will begin.
+        border = front_face(gas, duct.speed / duct.lag, _safe_edge(half, slope, high - 1, 0.5))
+        _put_flux(cells, high, 1.0, flux(gas.exponent, border))
     else:
         _set_end(gas, cells, high - 1, high, 1)
 
 
 @kernel
-def _set_end(gas: Gas, cells: Cells, cell: int, face: int, end: int) -> None:
-    outward = 2.0 * end - 1.0
-    rho, u, p = _edge(cells.half, cells.slope, cell, 0.5 * outward)
-    rho_f, v, p_f, mach = reservoir_face(gas, rho, outward * u, p)
-    area, g = cells.face_area[face], gas.exponent
-    cells.flux[face].mass = outward * area * rho_f * v
-    cells.flux[face].momentum = area * (rho_f * v * v + p_f)
-    cells.flux[face].energy = outward * area * v * (g / (g - 1.0) * p_f + 0.5 * rho_f * v * v)
-    ends = cells.ends
-    ends[end].demand, ends[end].mach, ends[end].velocity = mach, v / np.sqrt(g * p_f / rho_f), v
+def _put_flux(cells: Cells, face: int, outward: float, through: Conserved) -> None:
+    """Flux through a face times its area; `outward` is the sign of its direction: momentum has none."""
+    fluxes, area = cells.flux, cells.face_area[face]
+    fluxes[face].mass, fluxes[face].energy = outward * area * through.mass, outward * area * through.energy
+    fluxes[face].momentum = area * through.momentum
 
 
 @kernel
-def _set_front(gas: Gas, duct: Duct, cells: Cells, high: int) -> None:
-    """Flux through the border to slices whose stroke is to begin, at the state with which they will begin."""
-    rho, u, p = _edge(cells.half, cells.slope, high - 1, 0.5)
-    rho_f, v, p_f = front_face(gas, duct.speed / duct.lag, rho, u, p)
-    area, g = cells.face_area[high], gas.exponent
-    cells.flux[high].mass = area * rho_f * v
-    cells.flux[high].momentum = area * (rho_f * v * v + p_f)
-    cells.flux[high].energy = area * v * (g / (g - 1.0) * p_f + 0.5 * rho_f * v * v)
+def _set_end(gas: Gas, cells: Cells, cell: int, face: int, end: int) -> None:
+    """Flux through an end that opens into the ambient."""
+    outward, ends = 2.0 * end - 1.0, cells.ends
+    rho, u, p = _safe_edge(cells.half, cells.slope, cell, 0.5 * outward)
+    opening, demand = reservoir_face(gas, State(rho, outward * u, p))
+    _put_flux(cells, face, outward, flux(gas.exponent, opening))
+    sound = np.sqrt(gas.exponent * opening.pressure / opening.density)
+    ends[end].demand, ends[end].mach, ends[end].velocity = demand, opening.velocity / sound, opening.velocity
 
 
 @kernel
 def _correct(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, dt: float) -> bool:
     """Content at the end of the step from the fluxes of its middle, leakage and wall work in two implicit stages."""
-    flux, area, c, h = cells.flux, cells.face_area, cells.content, _DIAGONAL * dt
+    fluxes, area, c, h = cells.flux, cells.face_area, cells.content, _DIAGONAL * dt
     loss, leak = cells.loss, cells.leak
     for i in range(low, high):
-        mass = (flux[i].mass - flux[i + 1].mass) / duct.width
+        mass = (fluxes[i].mass - fluxes[i + 1].mass) / duct.width
         force = cells.half[i].pressure * (area[i + 1] - area[i])
-        momentum = (flux[i].momentum - flux[i + 1].momentum + force) / duct.width
-        energy = (flux[i].energy - flux[i + 1].energy) / duct.width
+        momentum = (fluxes[i].momentum - fluxes[i + 1].momentum + force) / duct.width
+        energy = (fluxes[i].energy - fluxes[i + 1].energy) / duct.width
         early, late, latest = dt - h, h, leak[i].latest
         ahead = 2.0 * (leak[i].halfway - latest)  # growth over the step
         walls = _walls(duct, cells.walls, cells.next_walls, i, _DIAGONAL, dt)

@@ -17,7 +17,7 @@ from solvers.pumping.flow.nozzle import Gas, flux_squared, gas, mass_flux
 from solvers.pumping.flow.space_flow import Record, empty_record
 from solvers.pumping.gas.gas_dynamics import march
 from solvers.pumping.gas.leakage import Stage, Walls, implicit_stage
-from solvers.pumping.gas.riemann import hllc, reservoir_face
+from solvers.pumping.gas.riemann import State, flux, hllc, reservoir_face
 from solvers.pumping.gas.step import empty_cells
 
 AIR = gas(Ambient())
@@ -74,13 +74,17 @@ def test_gas_at_rest_stays_at_rest() -> None:
 
 
 def test_flux_between_equal_states_is_the_exact_flux() -> None:
-    rho, u, p = 1.3, 120.0, 2e5
+    rho, u, p = state = State(1.3, 120.0, 2e5)
     energy = p / 0.4 + 0.5 * rho * u * u
-    assert hllc(1.4, rho, u, p, rho, u, p) == pytest.approx((rho * u, rho * u * u + p, u * (energy + p)), rel=1e-14)
+    assert (
+        hllc(1.4, state, state)
+        == flux(1.4, state)
+        == pytest.approx((rho * u, rho * u * u + p, u * (energy + p)), rel=1e-14)
+    )
 
 
 def test_hllc_keeps_a_contact_at_rest() -> None:
-    assert hllc(1.4, 1.0, 0.0, 1e5, 3.0, 0.0, 1e5) == pytest.approx((0.0, 1e5, 0.0), abs=1e-9)
+    assert hllc(1.4, State(1.0, 0.0, 1e5), State(3.0, 0.0, 1e5)) == pytest.approx((0.0, 1e5, 0.0), abs=1e-9)
 
 
 @RANDOM
@@ -89,7 +93,7 @@ def test_reservoir_face(density: float, mach: float, pressure: float) -> None:
     rho, p = density * AIR.density, pressure * AIR.pressure
     c = np.sqrt(1.4 * p / rho)
     assume(mach + 2 / 0.4 > 0)
-    rho_f, v_f, p_f, demand = reservoir_face(AIR, rho, mach * c, p)
+    (rho_f, v_f, p_f), demand = reservoir_face(AIR, State(rho, mach * c, p))
     c_f = np.sqrt(1.4 * p_f / rho_f)
     assert abs(v_f) <= c_f * (1 + 1e-12) or mach > 1
     if -0.95 * c_f < v_f < 0:  # inflow keeps the stagnation state of the surroundings and the outgoing invariant

@@ -7,7 +7,7 @@ import pytest
 
 from solvers.contact.ehl import LineContactInputs, LineContactResult, Model, Temperatures, continuation
 from solvers.contact.ehl.model import solve
-from solvers.contact.ehl.shear import STRESS_LIMIT
+from solvers.contact.ehl.rheology import STRESS_LIMIT
 from solvers.lubricants import Lubricant
 from solvers.materials import Solid
 from solvers.published.xue import POINT_A

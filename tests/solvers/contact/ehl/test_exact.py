@@ -7,13 +7,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from solvers.arrays import RecordArray, records
 from solvers.contact.ehl import Contact, LineContactInputs, Model
-from solvers.contact.ehl.grid import deflection_matrix, grid_for, heat_matrix
-from solvers.contact.ehl.heat import column_balance, factor_column, heat_arrays, solve_column
+from solvers.contact.ehl.flow import PLACE, evaluate_columns, flow_coefficients, linearise_columns
+from solvers.contact.ehl.grid import Grid, deflection_matrix, grid_for, heat_matrix
+from solvers.contact.ehl.heat import balance_columns, factor_columns, heat_arrays, linearise_balances, solve_column
 from solvers.contact.ehl.linear_algebra import factor, substitute
 from solvers.contact.ehl.newton import uniform_film
 from solvers.contact.ehl.problem import Problem, groups, problem
-from solvers.contact.ehl.reynolds import evaluate_column, flow_coefficients
 from solvers.contact.ehl.shear import film_arrays
 from solvers.lubricants import Lubricant
 
@@ -24,6 +25,13 @@ def constants(oil: Lubricant, rheology: str) -> Problem:
     model = Model(rheology="newtonian") if rheology == "newtonian" else Model()
     inputs = LineContactInputs(POINT, lubricant=oil, model=model)
     return problem(inputs, groups(inputs))
+
+
+def places(*columns: tuple[float, float, float]) -> RecordArray:
+    """p, G and h of columns."""
+    at = records(len(columns), PLACE)
+    at.p, at.g, at.h = np.array(columns).T
+    return at
 
 
 def couette_errors(sliding: float, nodes: int) -> tuple[float, float]:
@@ -40,10 +48,14 @@ def couette_errors(sliding: float, nodes: int) -> tuple[float, float]:
     film, heat, coefficients = film_arrays(2, nodes), heat_arrays(2, nodes), flow_coefficients(2)
     heat.fluid_fraction[:] = 1.0
     t, step = np.full((2, nodes), wall), np.zeros((2, nodes))
+    at = places((0.0, 0.0, height), (0.0, 0.0, height))
+    grid = Grid(np.arange(2.0), np.zeros((2, 2)), np.zeros((2, 2)), np.ones(2))
     for _ in range(60):
-        evaluate_column(fixed, 1, t, 0.0, 0.0, height, film, coefficients)
-        column_balance(fixed, 1, 1e-5, t, 0.0, height, 0.0, film, heat)
-        factor_column(1, film, heat)
+        evaluate_columns(fixed, t, 1, 2, at, film, coefficients)
+        linearise_columns(fixed, 1, 2, at, film, coefficients)
+        balance_columns(fixed, grid, t, 1, 2, at, film, heat)
+        linearise_balances(fixed, t, 1, 2, at, 0.0, film, heat)
+        factor_columns(1, 2, film, heat)
         step[1] = -heat.column.residual[1]
         solve_column(1, film, heat, step)
         t[1] += step[1] * min(1.0, 40.0 / max(float(np.abs(step[1]).max()), 1e-9))
@@ -111,7 +123,7 @@ def test_column_at_one_temperature_is_the_closed_form(rheology: str, p: float, g
     """Xue Eq. 17. Flow and mid-film stress of 200 intervals against sinh's; A and B differ, their flux does not."""
     given_ = constants(Lubricant(), rheology)
     film, coefficients = film_arrays(1, 201), flow_coefficients(1)
-    evaluate_column(given_, 0, np.full((1, 201), 360.0), p, g, h, film, coefficients)
+    evaluate_columns(given_, np.full((1, 201), 360.0), 0, 1, places((p, g, h)), film, coefficients)
     closed = flow_coefficients(1)
     stress = uniform_film(given_, 0, p, g, h, closed)
     numeric, exact = (each.b.value[0] - exp(each.log_a.value[0]) * h * g for each in (coefficients, closed))
@@ -129,12 +141,15 @@ def test_derivatives_of_a_column(rheology: str) -> None:
     def value(p: float, g: float, h: float, warmer: float) -> np.ndarray:
         shifted = t.copy()
         shifted[7] += warmer
-        evaluate_column(given_, 0, shifted[None, :], p, g, h, film, coefficients)
+        at = places((p, g, h))
+        evaluate_columns(given_, shifted[None, :], 0, 1, at, film, coefficients)
+        linearise_columns(given_, 0, 1, at, film, coefficients)
         return np.array([coefficients.log_a.value[0], coefficients.b.value[0], film.mid.stress[0]])
 
     at = np.array([0.9e9, 3e7, 0.5e-6, 0.0])
     value(*at)
-    exact = np.column_stack([coefficients.log_a[1:], coefficients.b[1:]])
+    slopes = ("by_p", "by_g", "by_h")
+    exact = np.array([[coefficients.log_a[name][0], coefficients.b[name][0]] for name in slopes])
     stress = [film.mid.by_p[0], film.mid.by_g[0], film.mid.by_h[0], film.mid.by_temperature[0, 7]]
     by_t = [film.flow.log_a_by_temperature[0, 7], film.flow.b_by_temperature[0, 7]]
     for k, width in enumerate((1e4, 3e2, 5e-12, 1e-3)):

@@ -1,0 +1,659 @@
+"""The discrete line contact in plain NumPy, equation by equation of the manual's chapter: the specification.
+
+The compiled kernels solve `residual` = 0. Nothing here is shared with them or written for speed. The tests hold the
+kernels' residual to this module and the kernels' derivatives to its complex step: every function takes complex arrays
+as well, and none takes the absolute value or the larger of two unknowns.
+
+n nodes lie along the contact, k = m + 1 nodes and m intervals of equal height across it. P = p/p_H, X = x/b and
+H = h R/b^2; zeta is z/h - 1/2 and G = h dp/dx [Pa]; `t` is the chapter's theta, `vartheta` its share of oil.
+"""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from solvers.arrays import BoolArray
+from solvers.contact.ehl.grid import Grid
+from solvers.contact.ehl.problem import Problem
+from solvers.contact.ehl.rheology import NEWTONIAN
+from solvers.lubricants import ROELANDS_POLE_TEMPERATURE, ROELANDS_PRESSURE, FluidLaws
+
+Numbers = NDArray[Any]
+"""An array of real or of complex numbers."""
+
+
+class Columns(NamedTuple):
+    """The film across every node along the contact.
+
+    Density [kg/m^3], shear stress [Pa] and rate [1/s] of every interval (n, m); stress half way across [Pa], flow
+    coefficients A [s] and B [kg/(m^2 s)] (n,); stream functions (n, k) of the flow without pressure gradient
+    [kg/(s m)] and of the flow with it, from 0 to 1.
+    """
+
+    density: Numbers
+    stress: Numbers
+    rate: Numbers
+    mid_stress: Numbers
+    a: Numbers
+    b: Numbers
+    couette: Numbers
+    poiseuille: Numbers
+
+
+class Carried(NamedTuple):
+    """What carries heat: held fixed by every Newton step, renewed after it.
+
+    Stream function psi [kg/(s m)] (n, k), share of oil (n,), density of the oil that is compressed [kg/m^3] (n, m).
+    """
+
+    psi: Numbers
+    vartheta: Numbers
+    density: Numbers
+
+
+class Residual(NamedTuple):
+    """What is left of the equations of mass over the flux scale (n,), of the load, and of heat (n, k).
+
+    Mass is P and heat is a temperature [K] where the chapter gives these; the other rows of heat are [W/m^2].
+    """
+
+    mass: Numbers
+    load: Any
+    heat: Numbers
+
+
+def density(laws: FluidLaws, p: Numbers, t: Numbers) -> Numbers:
+    """Return the density of the oil (Eq. 19).
+
+    Parameters
+    ----------
+    laws : FluidLaws
+        Constants of the oil's laws.
+    p : (...) array
+        Pressure [Pa]; suction counts as no pressure.
+    t : (...) array
+        Temperature [K].
+
+    Returns
+    -------
+    (...) array
+        Density [kg/m^3].
+
+    """
+    p = np.where(p.real > 0.0, p, 0.0)
+    compression = laws.pressure_density * p / (1.0 + 1.7e-9 * p)
+    return np.asarray(laws.density * (1.0 + compression - laws.thermal_expansion * (t - laws.reference_temperature)))
+
+
+def viscosity(laws: FluidLaws, p: Numbers, t: Numbers) -> Numbers:
+    """Return the viscosity of the oil after Roelands, or after Barus (Eq. 20).
+
+    Parameters
+    ----------
+    laws : FluidLaws
+        Constants of the oil's laws.
+    p : (...) array
+        Pressure [Pa]; suction counts as no pressure.
+    t : (...) array
+        Temperature [K].
+
+    Returns
+    -------
+    (...) array
+        Viscosity [Pa s].
+
+    """
+    p = np.where(p.real > 0.0, p, 0.0)
+    if laws.roelands == 0:
+        heating = t - laws.reference_temperature
+        exponent = laws.pressure_viscosity * p - laws.temperature_viscosity * heating
+    else:
+        warmth = (t - ROELANDS_POLE_TEMPERATURE) / (laws.reference_temperature - ROELANDS_POLE_TEMPERATURE)
+        pressed = (1.0 + ROELANDS_PRESSURE * p) ** laws.pressure_exponent
+        exponent = laws.a1 * (pressed * warmth**-laws.temperature_exponent - 1.0)
+    return np.asarray(np.exp(laws.log_viscosity + exponent))
+
+
+def effective_fluidity(problem: Problem, tau: Numbers, eta: Numbers) -> Numbers:
+    """Return 1/eta*, the shear rate over the stress, of the law of shear (Eqs. E4, E5).
+
+    Parameters
+    ----------
+    problem : Problem
+        Constants of the contact.
+    tau : (n, m) array
+        Shear stress in every interval [Pa].
+    eta : (n, m) array
+        Viscosity there [Pa s].
+
+    Returns
+    -------
+    (n, m) array
+        Effective fluidity [1/(Pa s)].
+
+    """
+    if problem.rheology == NEWTONIAN:
+        return np.asarray(1.0 / eta)
+    return np.asarray(_sinh_ratio(tau / problem.eyring_stress) / eta)
+
+
+def mid_film_stress(problem: Problem, eta: Numbers, g: Numbers, h: Numbers) -> Numbers:
+    """Return the stress half way across at which the film slides at u2 - u1.
+
+    Eq. E6; for a Newtonian oil the integral is linear in the stress.
+
+    Parameters
+    ----------
+    problem : Problem
+        Constants of the contact.
+    eta : (n, m) array
+        Viscosity in every interval [Pa s].
+    g : (n,) array
+        G = h dp/dx [Pa].
+    h : (n,) array
+        Film thickness [m].
+
+    Returns
+    -------
+    (n,) array
+        Stress [Pa].
+
+    """
+    zeta, dz = _intervals(eta.shape[1])
+    slide = (problem.speed_2 - problem.speed_1) / h
+    if problem.rheology == NEWTONIAN:
+        return np.asarray((slide - g * (zeta / eta).sum(axis=1) * dz) / ((1.0 / eta).sum(axis=1) * dz))
+    tau0 = problem.eyring_stress
+    c_plus = (np.exp(g[:, None] * zeta / tau0) / eta).sum(axis=1) * dz
+    c_minus = (np.exp(-g[:, None] * zeta / tau0) / eta).sum(axis=1) * dz
+    d = slide / tau0
+    root = np.sqrt(d * d + c_plus * c_minus)
+    e_a = (d + root) / c_plus if problem.speed_2 >= problem.speed_1 else c_minus / (root - d)
+    return np.asarray(tau0 * np.log(e_a))
+
+
+def columns(problem: Problem, p: Numbers, g: Numbers, h: Numbers, t: Numbers) -> Columns:
+    """Return the film across every node.
+
+    Eq. E7.1 with integrals by the middle of every interval, whose temperature is the mean of its nodes.
+
+    Parameters
+    ----------
+    problem : Problem
+        Constants of the contact.
+    p : (n,) array
+        Pressure [Pa].
+    g : (n,) array
+        G = h dp/dx [Pa].
+    h : (n,) array
+        Film thickness [m].
+    t : (n, k) array
+        Temperature [K].
+
+    Returns
+    -------
+    Columns
+        Density, stress and rate of every interval, flow coefficients and stream functions.
+
+    """
+    zeta, dz = _intervals(t.shape[1] - 1)
+    t_mid = 0.5 * (t[:, 1:] + t[:, :-1])
+    rho, eta = density(problem.laws, p[:, None], t_mid), viscosity(problem.laws, p[:, None], t_mid)
+    tau_m = mid_film_stress(problem, eta, g, h)
+    tau = tau_m[:, None] + g[:, None] * zeta
+    phi = effective_fluidity(problem, tau, eta)
+    f0, f1 = phi.sum(axis=1) * dz, (phi * zeta).sum(axis=1) * dz
+    j0, j1 = _half_way(phi) * dz, _half_way(phi * zeta) * dz
+    dragged = rho * (problem.speed_1 + (problem.speed_2 - problem.speed_1) * j0 / f0[:, None]) * dz
+    pressed = rho * ((f1 / f0)[:, None] * j0 - j1) * dz
+    a, b = pressed.sum(axis=1), dragged.sum(axis=1)
+    return Columns(
+        density=rho,
+        stress=tau,
+        rate=phi * tau,
+        mid_stress=tau_m,
+        a=a,
+        b=b,
+        couette=h[:, None] * _from_surface_1(dragged),
+        poiseuille=_from_surface_1(pressed) / a[:, None],
+    )
+
+
+def uniform_columns(problem: Problem, p: Numbers, g: Numbers, h: Numbers) -> tuple[Numbers, Numbers]:
+    """Return the flow coefficients of a film at the inlet temperature (Eq. E7.2).
+
+    Parameters
+    ----------
+    problem : Problem
+        Constants of the contact.
+    p : (n,) array
+        Pressure [Pa].
+    g : (n,) array
+        G = h dp/dx [Pa].
+    h : (n,) array
+        Film thickness [m].
+
+    Returns
+    -------
+    a : (n,) array
+        Flow coefficient A [s].
+    b : (n,) array
+        Flow coefficient B [kg/(m^2 s)].
+
+    """
+    inlet = np.full(p.shape, problem.inlet)
+    rho, eta = density(problem.laws, p, inlet), viscosity(problem.laws, p, inlet)
+    b = rho * 0.5 * (problem.speed_1 + problem.speed_2)
+    if problem.rheology == NEWTONIAN:
+        return rho / (12.0 * eta), b
+    tau0 = problem.eyring_stress
+    s = g / (2.0 * tau0)
+    near = np.abs(s) < 0.5
+    far = np.where(near, 1.0, s)
+    order = np.arange(1, 9)
+    terms = 3.0 * (2.0 * order / np.cumprod(2.0 * order * (2.0 * order + 1.0)))
+    series = (terms * s[..., None] ** (2 * order - 2)).sum(axis=-1)
+    f = np.where(near, series, 3.0 * (far * np.cosh(far) - np.sinh(far)) / far**3)
+    sinh_a = eta * (problem.speed_2 - problem.speed_1) / (tau0 * h) / _sinh_ratio(s)
+    return rho / (12.0 * eta) * np.sqrt(1.0 + sinh_a**2) * f, b
+
+
+def face_fluxes(grid: Grid, pressure: Numbers, film: Numbers, a: Numbers, b: Numbers, scale: float) -> Numbers:
+    """Return the mass flux B H - A H^3 dP/dX through the faces between nodes (Eq. E13).
+
+    Parameters
+    ----------
+    grid : Grid
+        Mesh along the contact.
+    pressure : (n,) array
+        P = p/p_H [-].
+    film : (n,) array
+        H = h R/b^2 [-].
+    a : (n,) array
+        Flow coefficient A [s].
+    b : (n,) array
+        Flow coefficient B [kg/(m^2 s)].
+    scale : float
+        Factor that turns A into the units of B, p_H b^3/R^2 [kg/(m^2 s^2)].
+
+    Returns
+    -------
+    (n - 1,) array
+        Mass flux over b^2/R [kg/(m^2 s)].
+
+    """
+    dx, d = np.diff(grid.x), b * film
+    ratio = np.concatenate([[-0.5], 0.5 * dx[1:] / dx[:-1]])
+    upstream = np.concatenate([d[1:2], d[:-2]])
+    couette = (1.0 + ratio) * d[:-1] - ratio * upstream
+    height = 0.5 * (film[1:] + film[:-1])
+    return np.asarray(couette - scale * _log_mean(a) * height**3 * np.diff(pressure) / dx)
+
+
+def balance_of_mass(pressure: Numbers, cavitated: BoolArray, flux: Numbers) -> Numbers:
+    """Return what flows out of every node less what flows in, and P where the chapter gives that (Eq. E7).
+
+    Parameters
+    ----------
+    pressure : (n,) array
+        P = p/p_H [-].
+    cavitated : (n,) array of bool
+        Nodes of broken film.
+    flux : (n - 1,) array
+        Mass flux through the faces between nodes, over its scale [-].
+
+    Returns
+    -------
+    (n,) array
+        Residual [-].
+
+    """
+    mass = pressure.astype(flux.dtype)
+    inside = np.flatnonzero(~cavitated[1:-1]) + 1
+    mass[inside] = flux[inside] - flux[inside - 1]
+    return np.asarray(mass)
+
+
+def film_thickness(grid: Grid, pressure: Numbers, separation: Any) -> Numbers:
+    """Return the film thickness H = H0 + X^2/2 + K P (Eq. 21).
+
+    Parameters
+    ----------
+    grid : Grid
+        Mesh along the contact.
+    pressure : (n,) array
+        P = p/p_H [-].
+    separation : number
+        H0 [-].
+
+    Returns
+    -------
+    (n,) array
+        H = h R/b^2 [-].
+
+    """
+    return np.asarray(separation + 0.5 * grid.x**2 + grid.deflection @ pressure)
+
+
+def pressure_gradient(grid: Grid, pressure: Numbers, cavitated: BoolArray) -> Numbers:
+    """Return dP/dX at the nodes.
+
+    Eq. E14: central; one-sided at the inlet and at the last node of the full film; zero in the broken film.
+
+    Parameters
+    ----------
+    grid : Grid
+        Mesh along the contact.
+    pressure : (n,) array
+        P = p/p_H [-].
+    cavitated : (n,) array of bool
+        Nodes of broken film.
+
+    Returns
+    -------
+    (n,) array
+        Gradient [-].
+
+    """
+    n = grid.x.size
+    node = np.arange(n)
+    left, right = np.maximum(node - 1, 0), np.minimum(node + 1, n - 1)
+    rupture = np.append(cavitated[1:], False)
+    left[rupture] = node[rupture]
+    slope = (pressure[right] - pressure[left]) / (grid.x[right] - grid.x[left])
+    return np.asarray(np.where(cavitated, 0.0, slope))
+
+
+def balance_of_load(grid: Grid, pressure: Numbers) -> Any:
+    """Return the integral of P less pi/2, what carries the load (Eq. 22).
+
+    Parameters
+    ----------
+    grid : Grid
+        Mesh along the contact.
+    pressure : (n,) array
+        P = p/p_H [-].
+
+    Returns
+    -------
+    number
+        Residual [-].
+
+    """
+    return grid.weights @ pressure - 0.5 * np.pi
+
+
+def carried_heat(
+    problem: Problem, pressure: Numbers, film: Numbers, cavitated: BoolArray, flux: Numbers, at: Columns
+) -> Carried:
+    """Return what carries heat along: psi with one mass flow in all columns, and the share of oil (Eqs. E8.1, E8.2).
+
+    Parameters
+    ----------
+    problem : Problem
+        Constants of the contact.
+    pressure : (n,) array
+        P = p/p_H [-].
+    film : (n,) array
+        H = h R/b^2 [-].
+    cavitated : (n,) array of bool
+        Nodes of broken film.
+    flux : (n - 1,) array
+        Mass flux through the faces between nodes [kg/(s m)]; that where the pressure is largest counts.
+    at : Columns
+        The film across every node.
+
+    Returns
+    -------
+    Carried
+        Stream function, share of oil and density.
+
+    """
+    m_dot = flux[pressure.argmax()]
+    psi = at.couette + (m_dot - at.couette[:, -1:]) * at.poiseuille
+    for i in np.flatnonzero(cavitated):
+        psi[i] = psi[i - 1]
+    vartheta = np.where(cavitated, np.minimum(m_dot / (at.b * film * problem.gap_scale), 1.0), 1.0)
+    return Carried(psi, vartheta, at.density)
+
+
+def balance_of_heat(
+    problem: Problem, grid: Grid, g: Numbers, h: Numbers, t: Numbers, at: Columns, carried: Carried
+) -> Numbers:
+    """Return the heat that every cell loses less the heat that arises in it.
+
+    Eqs. E8, E15. Cells reach half way to their neighbours along and across. Those at the surfaces are half cells: what
+    they lack is the heat that comes out of the solid.
+
+    Parameters
+    ----------
+    problem : Problem
+        Constants of the contact.
+    grid : Grid
+        Mesh along the contact.
+    g : (n,) array
+        G = h dp/dx [Pa].
+    h : (n,) array
+        Film thickness [m].
+    t : (n, k) array
+        Temperature [K].
+    at : Columns
+        The film across every node.
+    carried : Carried
+        What carries heat along.
+
+    Returns
+    -------
+    (n, k) array
+        Residual [W/m^2]; of the first column, whose temperatures are given, zero.
+
+    """
+    n, k = t.shape
+    m = k - 1
+    edges = _edges(carried.psi)
+    here, left, right = slice(1, n), np.arange(n - 1), np.minimum(np.arange(1, n) + 1, n - 1)
+    ours, before = edges[1:], edges[:-1]
+    capacity = (problem.specific_heat / (grid.weights[1:] * problem.half_width))[:, None]
+    conduction = (carried.vartheta * problem.conductivity * m / h)[1:, None]
+    own = t[here]
+    lost = capacity * np.maximum(before[:, 1:] - before[:, :-1], 0.0) * (own - t[left])
+    lost = lost + capacity * np.maximum(ours[:, :-1] - ours[:, 1:], 0.0) * (own - t[right])
+    from_below = capacity * np.maximum(before[:, 1:k] - ours[:, 1:k], 0.0) + conduction
+    from_above = capacity * np.maximum(ours[:, 1:k] - before[:, 1:k], 0.0) + conduction
+    lost[:, 1:] += from_below * (own[:, 1:] - own[:, :-1])
+    lost[:, :-1] += from_above * (own[:, :-1] - own[:, 1:])
+    sheared = 0.5 * carried.vartheta[:, None] * h[:, None] / m * at.stress * at.rate
+    made = _to_nodes(sheared)
+    expansion = problem.laws.density * problem.laws.thermal_expansion
+    rho = np.concatenate([carried.density[:, :1], carried.density, carried.density[:, -1:]], axis=1)
+    rho = 0.5 * (rho[:, 1:] + rho[:, :-1])
+    made = made + expansion * np.diff(_layers(carried.psi), axis=1) / (h[:, None] * rho**2) * g[:, None] * t
+    return np.asarray(np.concatenate([np.zeros((1, k)), lost - made[here]]))
+
+
+def surface_temperatures(problem: Problem, grid: Grid, q_1: Numbers, q_2: Numbers) -> tuple[Numbers, Numbers]:
+    """Return the temperatures of both surfaces, moving line sources (Eq. 24).
+
+    Parameters
+    ----------
+    problem : Problem
+        Constants of the contact.
+    grid : Grid
+        Mesh along the contact.
+    q_1 : (n,) array
+        Heat flux into surface 1 [W/m^2].
+    q_2 : (n,) array
+        Heat flux into surface 2 [W/m^2].
+
+    Returns
+    -------
+    surface_1 : (n,) array
+        Temperature of surface 1 [K].
+    surface_2 : (n,) array
+        Temperature of surface 2 [K].
+
+    """
+    return (
+        problem.bulk_1 + problem.surface_heating_1 * (grid.heat @ q_1),
+        problem.bulk_2 + problem.surface_heating_2 * (grid.heat @ q_2),
+    )
+
+
+def inlet_temperatures(problem: Problem, h: float, t: Numbers, m_dot: float) -> Numbers:
+    """Return the temperatures of the first column (Eq. E8.3).
+
+    Parameters
+    ----------
+    problem : Problem
+        Constants of the contact.
+    h : float
+        Film thickness there [m].
+    t : (n, k) array
+        Temperature of all columns [K].
+    m_dot : float
+        Mass flow [kg/(s m)].
+
+    Returns
+    -------
+    (k,) array
+        Temperature [K].
+
+    """
+    zeta = np.linspace(0.0, 1.0, t.shape[1])
+    mean = m_dot / (problem.laws.density * h)
+    u = problem.speed_1 * (1.0 - zeta) + problem.speed_2 * zeta
+    u = u + 6.0 * (mean - 0.5 * (problem.speed_1 + problem.speed_2)) * zeta * (1.0 - zeta)
+    entering = np.where(u < 0.0, t[1], problem.inlet)
+    entering[0], entering[-1] = problem.bulk_1, problem.bulk_2
+    return np.asarray(entering)
+
+
+def residual(
+    problem: Problem,
+    grid: Grid,
+    cavitated: BoolArray,
+    pressure: Numbers,
+    separation: Any,
+    t: Numbers,
+    carried: Carried | None = None,
+) -> Residual:
+    """Return what is left of the equations of a thermal contact; P, H0 and temperatures that solve them leave nothing.
+
+    Parameters
+    ----------
+    problem : Problem
+        Constants of the contact.
+    grid : Grid
+        Mesh along the contact.
+    cavitated : (n,) array of bool
+        Nodes of broken film.
+    pressure : (n,) array
+        P = p/p_H [-].
+    separation : number
+        H0 [-].
+    t : (n, k) array
+        Temperature [K].
+    carried : Carried, optional
+        What Newton's method holds fixed; left out, it follows from the state.
+
+    Returns
+    -------
+    Residual
+        Of mass, load and heat.
+
+    """
+    film = film_thickness(grid, pressure, separation)
+    h, p = film * problem.gap_scale, pressure * problem.maximum_pressure
+    gradient = problem.maximum_pressure / problem.half_width
+    g = h * pressure_gradient(grid, pressure, cavitated) * gradient
+    at = columns(problem, p, g, h, t)
+    flux = face_fluxes(grid, pressure, film, at.a, at.b, problem.gap_scale**2 * gradient) * problem.gap_scale
+    if carried is None:
+        carried = carried_heat(problem, pressure, film, cavitated, flux, at)
+    heat = balance_of_heat(problem, grid, g, h, t, at, carried)
+    surface_1, surface_2 = surface_temperatures(problem, grid, -heat[:, 0], -heat[:, -1])
+    heat[:, 0], heat[:, -1] = t[:, 0] - surface_1, t[:, -1] - surface_2
+    heat[0] = t[0] - inlet_temperatures(problem, film[0].real * problem.gap_scale, t, carried.psi[0, -1])
+    mass = balance_of_mass(pressure, cavitated, flux / problem.flux_scale)
+    return Residual(mass, balance_of_load(grid, pressure), heat)
+
+
+def isothermal_residual(
+    problem: Problem, grid: Grid, cavitated: BoolArray, pressure: Numbers, separation: Any
+) -> tuple[Numbers, Any]:
+    """Return what is left of the equations of an isothermal contact; P and H0 that solve them leave nothing.
+
+    Parameters
+    ----------
+    problem : Problem
+        Constants of the contact.
+    grid : Grid
+        Mesh along the contact.
+    cavitated : (n,) array of bool
+        Nodes of broken film.
+    pressure : (n,) array
+        P = p/p_H [-].
+    separation : number
+        H0 [-].
+
+    Returns
+    -------
+    mass : (n,) array
+        Residual of mass over the flux scale [-].
+    load : number
+        Residual of the load [-].
+
+    """
+    film = film_thickness(grid, pressure, separation)
+    h, p = film * problem.gap_scale, pressure * problem.maximum_pressure
+    gradient = problem.maximum_pressure / problem.half_width
+    g = h * pressure_gradient(grid, pressure, cavitated) * gradient
+    a, b = uniform_columns(problem, p, g, h)
+    flux = face_fluxes(grid, pressure, film, a, b, problem.gap_scale**2 * gradient) * problem.gap_scale
+    return balance_of_mass(pressure, cavitated, flux / problem.flux_scale), balance_of_load(grid, pressure)
+
+
+def _intervals(m: int) -> tuple[Numbers, float]:
+    """Return zeta half way through every interval (m,) and the height of an interval."""
+    return (np.arange(m) + 0.5) / m - 0.5, 1.0 / m
+
+
+def _half_way(layers: Numbers) -> Numbers:
+    """Return the sums of all layers below and half of its own for every layer (n, m)."""
+    return np.asarray(np.cumsum(layers, axis=1) - 0.5 * layers)
+
+
+def _from_surface_1(layers: Numbers) -> Numbers:
+    """Return the sums of layers (n, m) below every node (n, m + 1)."""
+    return np.asarray(np.concatenate([np.zeros_like(layers[:, :1]), np.cumsum(layers, axis=1)], axis=1))
+
+
+def _to_nodes(intervals: Numbers) -> Numbers:
+    """Return the sums of what the intervals (n, m) on both sides give to every node (n, m + 1)."""
+    none = np.zeros_like(intervals[:, :1])
+    return np.asarray(np.concatenate([intervals, none], axis=1) + np.concatenate([none, intervals], axis=1))
+
+
+def _layers(psi: Numbers) -> Numbers:
+    """Return the stream function between the cells of the nodes across, surfaces included (n, k + 1)."""
+    return np.asarray(np.concatenate([psi[:, :1], 0.5 * (psi[:, 1:] + psi[:, :-1]), psi[:, -1:]], axis=1))
+
+
+def _edges(psi: Numbers) -> Numbers:
+    """Return the stream function between cells at the faces right of the columns; the last face is its column."""
+    layers = _layers(psi)
+    return np.asarray(0.5 * (layers + np.concatenate([layers[1:], layers[-1:]])))
+
+
+def _log_mean(a: Numbers) -> Numbers:
+    """Return the logarithmic means of neighbours (n - 1,), exact for an exponential between them."""
+    return np.asarray(np.sqrt(a[1:]) * np.sqrt(a[:-1]) * _sinh_ratio(0.5 * np.log(a[1:] / a[:-1])))
+
+
+def _sinh_ratio(s: Numbers) -> Numbers:
+    """Return sinh(s)/s, by its series where s is small."""
+    near = np.abs(s) < 0.1
+    far = np.where(near, 1.0, s)
+    series = 1.0 + s**2 / 6.0 * (1.0 + s**2 / 20.0 * (1.0 + s**2 / 42.0 * (1.0 + s**2 / 72.0)))
+    return np.asarray(np.where(near, series, np.sinh(far) / far))

@@ -1,0 +1,138 @@
+"""How oil shears: all that the solver knows of the laws of Newton and of Ree and Eyring.
+
+A law says three things: at which stress half way across a column slides at u2 - u1, how fast every interval shears
+under its stress, with the derivative by the stress, and what both amount to in a film at one temperature. Each has one
+function per law, and one that chooses by `Problem.rheology`. tau = tau_m + G (zeta - 1/2) with G = h dp/dx.
+"""
+
+import numpy as np
+
+from solvers.compiled import inlined_kernel, kernel
+from solvers.contact.ehl.problem import Problem
+from solvers.contact.ehl.shear import Shear
+
+REE_EYRING, NEWTONIAN = range(2)  # in the order of `inputs.Rheology`
+STRESS_LIMIT = 300.0  # of |h dp/dx| / (2 tau0): exp(300)^2 is still a number
+
+
+@kernel
+def limited_gradient(problem: Problem, g: float) -> float:
+    """G = h dp/dx, kept where exp(G/(2 tau0)) is a number; a solution never needs it."""
+    if problem.rheology == NEWTONIAN:
+        return g
+    bound = 2.0 * STRESS_LIMIT * problem.eyring_stress
+    return min(max(g, -bound), bound)
+
+
+@inlined_kernel
+def mid_film_stress(problem: Problem, i: int, g: float, h: float, shear: Shear) -> float:
+    """Stress tau_m half way across column i [Pa] at which the film slides at u2 - u1 (Eq. E6)."""
+    if problem.rheology == NEWTONIAN:
+        return _newtonian_mid_stress(problem, i, g, h, shear)
+    return _eyring_mid_stress(problem, i, g, h, shear)
+
+
+@inlined_kernel
+def _newtonian_mid_stress(problem: Problem, i: int, g: float, h: float, shear: Shear) -> float:
+    """Solve du/h = int (tau_m + G (zeta - 1/2))/eta dzeta for tau_m."""
+    m = shear.fluidity.shape[1]
+    dz, zeroth, first = 1.0 / m, 0.0, 0.0
+    for j in range(m):
+        zeroth += shear.fluidity[i, j] * dz
+        first += shear.fluidity[i, j] * ((j + 0.5) * dz - 0.5) * dz
+    stress: float = ((problem.speed_2 - problem.speed_1) / h - g * first) / zeroth
+    return stress
+
+
+@inlined_kernel
+def _eyring_mid_stress(problem: Problem, i: int, g: float, h: float, shear: Shear) -> float:
+    """Closed form for e^a, where tau_m = tau0 a; the form for du < 0 is the conjugate, free of cancellation."""
+    m = shear.fluidity.shape[1]
+    tau0, dz = problem.eyring_stress, 1.0 / m
+    growth, ratio = np.exp(g * (0.5 * dz - 0.5) / tau0), np.exp(g * dz / tau0)  # e^(G (zeta - 1/2)/tau0) grows by
+    c_plus, c_minus = 0.0, 0.0
+    for j in range(m):
+        c_plus += shear.fluidity[i, j] * growth * dz
+        c_minus += shear.fluidity[i, j] / growth * dz
+        growth *= ratio
+    d = (problem.speed_2 - problem.speed_1) / (h * tau0)
+    root = np.sqrt(d * d + c_plus * c_minus)
+    e_a = (d + root) / c_plus if d >= 0.0 else c_minus / (root - d)
+    stress: float = tau0 * np.log(e_a)
+    return stress
+
+
+@inlined_kernel
+def shear_rates(problem: Problem, i: int, g: float, tau_m: float, shear: Shear) -> None:
+    """Stress, shear rate and effective fluidity of every interval of column i, and their derivatives by the stress.
+
+    Eqs. E4, E5.
+    """
+    if problem.rheology == NEWTONIAN:
+        _newtonian_rates(i, g, tau_m, shear)
+    else:
+        _eyring_rates(problem, i, g, tau_m, shear)
+
+
+@inlined_kernel
+def _newtonian_rates(i: int, g: float, tau_m: float, shear: Shear) -> None:
+    """Rate tau/eta."""
+    m = shear.fluidity.shape[1]
+    for j in range(m):
+        tau, fluidity = tau_m + g * ((j + 0.5) / m - 0.5), shear.fluidity[i, j]
+        shear.stress[i, j], shear.rate[i, j], shear.stiffness[i, j] = tau, tau * fluidity, fluidity
+        shear.effective[i, j], shear.effective_slope[i, j] = fluidity, 0.0
+
+
+@inlined_kernel
+def _eyring_rates(problem: Problem, i: int, g: float, tau_m: float, shear: Shear) -> None:
+    """Rate (tau0/eta) sinh s with s = tau/tau0: its value and derivative share one exponential, e^s."""
+    m = shear.fluidity.shape[1]
+    per_tau0, dz = 1.0 / problem.eyring_stress, 1.0 / m
+    e_s, ratio = np.exp((tau_m + g * (0.5 * dz - 0.5)) * per_tau0), np.exp(g * dz * per_tau0)
+    for j in range(m):
+        tau, fluidity, inverse = tau_m + g * ((j + 0.5) * dz - 0.5), shear.fluidity[i, j], 1.0 / e_s
+        sinh, cosh, s = 0.5 * (e_s - inverse), 0.5 * (e_s + inverse), tau * per_tau0
+        e_s *= ratio
+        if abs(s) < 1e-3:
+            effective, slope = 1.0 + s * s / 6.0, s / 3.0
+        else:
+            over = 1.0 / s
+            effective = sinh * over
+            slope = (cosh - effective) * over
+        shear.stress[i, j], shear.stiffness[i, j] = tau, fluidity * cosh
+        shear.rate[i, j] = tau * fluidity * effective
+        shear.effective[i, j], shear.effective_slope[i, j] = fluidity * effective, fluidity * slope * per_tau0
+
+
+@inlined_kernel
+def uniform_shear(problem: Problem, log_eta: float, g: float, h: float) -> tuple[float, float, float, float, float]:
+    """What shear does to a film at one temperature: ln(12 eta A/rho), its derivatives by ln eta, G and h, and tau_m.
+
+    Newtonian: nothing. Ree-Eyring with s = G/(2 tau0): sinh a = eta du s/(tau0 h sinh s), tau_m = tau0 a and
+    12 eta A/rho = cosh a 3 (s cosh s - sinh s)/s^3 (Eq. E7.2). `sigma` is s/sinh s, `phi` the last factor, both by
+    series near s = 0; slopes are those of their logarithms.
+    """
+    du = problem.speed_2 - problem.speed_1
+    if problem.rheology == NEWTONIAN:
+        return 0.0, 0.0, 0.0, 0.0, float(np.exp(log_eta) * du / h)
+    tau0 = problem.eyring_stress
+    s = min(abs(g) / (2.0 * tau0), STRESS_LIMIT)
+    q = s * s
+    if s < 0.3:
+        ratio = 1.0 + q / 6.0 * (1.0 + q / 20.0 * (1.0 + q / 42.0 * (1.0 + q / 72.0 * (1.0 + q / 110.0))))
+        by_s = s / 3.0 * (1.0 + q / 10.0 * (1.0 + q / 28.0 * (1.0 + q / 54.0 * (1.0 + q / 88.0))))
+        sigma, sigma_slope = 1.0 / ratio, -by_s / ratio
+        phi = 1.0 + q / 10.0 * (1.0 + q / 28.0 * (1.0 + q / 54.0 * (1.0 + q / 88.0 * (1.0 + q / 130.0))))
+        by_s = s / 5.0 * (1.0 + q / 14.0 * (1.0 + q / 36.0 * (1.0 + q / 66.0 * (1.0 + q / 104.0))))
+        phi_slope = by_s / phi
+    else:
+        rise = np.exp(s)
+        sinh, cosh = 0.5 * (rise - 1.0 / rise), 0.5 * (rise + 1.0 / rise)
+        sigma, sigma_slope = s / sinh, 1.0 / s - cosh / sinh
+        moment = s * cosh - sinh
+        phi, phi_slope = 3.0 * moment / (q * s), s * sinh / moment - 3.0 / s
+    sinh_a = np.exp(log_eta) * sigma * du / (tau0 * h)
+    share = sinh_a * sinh_a / (1.0 + sinh_a * sinh_a)
+    by_g = (share * sigma_slope + phi_slope) * np.sign(g) / (2.0 * tau0)
+    return 0.5 * np.log1p(sinh_a * sinh_a) + np.log(phi), share, by_g, -share / h, float(tau0 * np.arcsinh(sinh_a))
