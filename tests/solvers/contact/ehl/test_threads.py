@@ -1,5 +1,7 @@
 """A contact that is solved outside the service's workers has one thread of the BLAS, and gives back what was there."""
 
+from collections.abc import Iterator
+
 import pytest
 
 from solvers import blas_threads
@@ -11,15 +13,15 @@ TWO = 2
 
 
 def threads() -> list[int]:
-    return [read() for read, _ in blas_threads._libraries()]
+    return [library["num_threads"] for library in blas_threads.libraries().info()]
 
 
 @pytest.fixture
-def two_threads() -> None:
-    for _, write in blas_threads._libraries():
-        write(TWO)
-    assert threads()
-    assert set(threads()) == {TWO}
+def two_threads() -> Iterator[None]:
+    with blas_threads.libraries().limit(limits=TWO):
+        assert threads()
+        assert set(threads()) == {TWO}
+        yield
 
 
 @pytest.mark.usefixtures("two_threads")
