@@ -28,7 +28,7 @@ from tests.support.random_units import units
 
 # Limits of handbooks and of checks, in metres per second: an answer says which side of them it is on.
 ABSOLUTE = r"^warnings$"
-DIFFERENCES = {r"_uncertainty$|^pulsation\.": 1e-7}
+DIFFERENCES = {r"_uncertainty$|^pulsation\.|^resolution\.": 1e-7}
 
 
 def other_units(random: Generator) -> Units:
@@ -58,14 +58,19 @@ def test_sleeve_orbit(random: Generator) -> None:
 def test_pumping(random: Generator) -> None:
     """A slice that enters its stroke at the very time of a picture may be drawn there at rest or not.
 
-    Marching through the gas makes more of rounding: up to 5e-9 in 200 draws, and 9e-9 of uncertainties and pulsations,
-    which are differences. Units of length, mass or time alone make less than 1e-9.
+    Of two places that are equally hot the first is told. Marching through the gas makes more of rounding: up to 5e-9 in
+    200 draws, and 3e-8 of uncertainties and pulsations, which are differences. Units of length, mass or time alone make less than 1e-9.
     """
     setup = random_setup(random, PumpingModel(slices=int(random.integers(10, 50))))
     inputs, units = PumpingInputs(setup, random_speed(random, setup)), other_units(random)
     one, other = solve_pumping(inputs), solve_pumping(in_other_units(inputs, units))
     assert not differences(
-        one, other, rescaled(units), without=rf"{ABSOLUTE}|\.field\.", tolerance=1e-8, loose=DIFFERENCES
+        one,
+        other,
+        rescaled(units),
+        without=rf"{ABSOLUTE}|\.field\.|hottest_position$",
+        tolerance=1e-8,
+        loose=DIFFERENCES,
     )
 
 

@@ -107,7 +107,11 @@ def flash_at(design: LoadDistributionInputs, found: Scuffing, profile: float, fa
 
 @examples(FEW, MANY, designs())
 def test_a_pair_is_as_safe_the_other_way_round(design: LoadDistributionInputs) -> None:
-    """The wheel drives: the path is passed from E to A, and the other end of the face meshes first."""
+    """The wheel drives: the path is passed from E to A, and the other end of the face meshes first.
+
+    On the map that users have by default: on one of 21 x 11 points the search leaves 0.3 % along a slanting ridge.
+    """
+    design = replace(design, resolution=replace(design.resolution, profile_points=201, face_points=101))
     gears, shape = design.gears, design.modifications
     ratio = gears.wheel.teeth / gears.pinion.teeth
     reversed_drive = replace(
