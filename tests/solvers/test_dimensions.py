@@ -59,7 +59,8 @@ def test_pumping(random: Generator) -> None:
     """A slice that enters its stroke at the very time of a picture may be drawn there at rest or not.
 
     Of two places that are equally hot the first is told. Marching through the gas makes more of rounding: up to 5e-9 in
-    200 draws, and 3e-8 of uncertainties and pulsations, which are differences. Units of length, mass or time alone make less than 1e-9.
+    200 draws, and 3e-8 of uncertainties and pulsations, which are differences. Units of length, mass or time
+    alone make less than 1e-9.
     """
     setup = random_setup(random, PumpingModel(slices=int(random.integers(10, 50))))
     inputs, units = PumpingInputs(setup, random_speed(random, setup)), other_units(random)
