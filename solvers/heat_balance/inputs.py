@@ -257,6 +257,7 @@ class Cooling:
         default=None,
         ge=0,
         le=1e7,
+        tolerance=100,
         text="of both gears",
         default_text="by Mauz",
         assumed="by Mauz, the lowest of three formulas",

@@ -63,11 +63,11 @@ def pointer(path: str) -> str:
 @pytest.mark.parametrize("value", NO_NUMBERS, ids=lambda each: str(each)[:9])
 @pytest.mark.parametrize("calculation", CALCULATIONS, ids=lambda each: each.path)
 def test_number_fields_refuse_what_is_no_number(client: httpx.Client, calculation: Calculation, value: Any) -> None:
-    """All at once: each is refused for itself, and at most a hundred are told."""
-    paths = set(number_fields(calculation.request))
-    assert len(paths) < 100
-    response = send(client, calculation.path, changed(example_of(calculation), dict.fromkeys(paths, value)))
-    assert {pointer(path) for path in paths} <= pointers(response)
+    """Many at once: each is refused for itself, and at most a hundred are told."""
+    every = sorted(set(number_fields(calculation.request)))
+    for paths in (every[start : start + 90] for start in range(0, len(every), 90)):
+        response = send(client, calculation.path, changed(example_of(calculation), dict.fromkeys(paths, value)))
+        assert {pointer(path) for path in paths} <= pointers(response)
 
 
 @pytest.mark.parametrize("calculation", CALCULATIONS, ids=lambda each: each.path)

@@ -199,6 +199,12 @@ def test_curves_and_maps_are_the_answers_numbers_in_the_unit_of_their_axis(name:
                     continue
                 if which == "film-temperature":
                     shown = shown.T  # noqa: PLW2901  the answer's field is [x][film]
+                if which == "warm-up" and panel.y.title == "temperature":  # a column of the nodes' temperatures
+                    assert any(
+                        np.array_equal(shown, column)
+                        for column in zip(*answer.warm_up.curves.temperature_c, strict=True)
+                    ), title
+                    continue
                 assert answered(answer, unit, np.asarray(shown)), (which, title)
                 seen += 1
     assert seen

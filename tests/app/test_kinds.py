@@ -139,5 +139,6 @@ def test_the_bulk_has_the_share_of_its_lubrication() -> None:
 def test_an_estimate_beyond_its_speed_says_so(velocity: float, warned: bool) -> None:
     """The working pitch radius of the stage is 50.78 mm."""
     speed = velocity / 50.776e-3 * 9.5493
-    found = solved(SCUFFING, STAGE, {"load": {"pinion_torque_n_m": 477.5, "pinion_speed_rpm": speed}})
+    load = {"pinion_torque_n_m": 477.5, "pinion_speed_rpm": speed}
+    found = solved(SCUFFING, STAGE, {"load": load, "temperatures.bulk_method": "estimated"})
     assert ("bulk_lower_bound" in codes(found)) == warned

@@ -129,7 +129,7 @@ def test_the_table(row: int) -> None:
     assert sampled <= found.flash.feature <= 1.025 * sampled
     mapped = float(found.contact_temperature.max()) - UNITS[row].mesh.temperatures.bulk
     assert mapped == pytest.approx(flank, abs=0.07 + 0.06 * (row == 18)), "of the points of the map, as in the table"
-    assert mapped <= found.flash.flank <= 1.008 * mapped
+    assert mapped - 1e-12 <= found.flash.flank <= 1.008 * mapped
     assert 170 / (45 + sampled) == pytest.approx(safe_line, abs=0.0016)  # limit 220 C, oil 50 C, bulk 95 C
     assert found.safety.blok_feature == pytest.approx(170 / (45 + found.flash.feature), rel=1e-12)
     assert found.safety.blok_flank == pytest.approx(safe_flank, abs=0.0021)

@@ -1,4 +1,7 @@
-"""The compiled kernels against the equations in plain NumPy: residual, derivatives by complex step, Newton's step."""
+"""The compiled kernels against the equations in plain NumPy: residual, derivatives by complex step, Newton's step.
+
+The load is balanced by the integral of the pressure (Xue, Eq. 22).
+"""
 
 from collections.abc import Iterator
 from dataclasses import replace
