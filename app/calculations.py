@@ -102,8 +102,14 @@ LOADS = Stage("load distribution", 101, ("fzg-type-a",))
 PUMPING = Stage("pumping", 115, ("milian-case-1", "milian-case-1-pocket-chain"))
 LINE_CONTACT = Stage(
     "line contact",
-    166,
-    ("xue-line-contact", "xue-line-contact-isothermal", "xue-pair-1-thermal", "starter-industrial-micropitting"),
+    167,
+    (
+        "xue-line-contact",
+        "xue-line-contact-isothermal",
+        "xue-pair-1-thermal",
+        "starter-industrial-micropitting",
+        "starter-turbo-pair-heat",
+    ),
 )
 DRIVE_TRAIN = Stage("drive train", 13, ("starter-turbo-gear-drive-train",))
 
