@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 from types import ModuleType
 
+import httpx
 import pytest
 
 from app.calculations import CALCULATIONS
@@ -24,7 +25,9 @@ def package(server: str, tmp_path_factory: pytest.TempPathFactory) -> ModuleType
     kinds = {"x-ndjson": "text/plain", "xml": "application/octet-stream", "zip": "application/octet-stream"}
     overrides = "".join(f"  application/{kind}: {known}\n" for kind, known in kinds.items())
     config.write_text(f"content_type_overrides:\n{overrides}")
-    options = f"--url {server}/openapi.json --meta none --fail-on-warning --config {config}".split()
+    document = folder / "openapi.json"
+    document.write_bytes(httpx.get(f"{server}/openapi.json", timeout=60).content)  # the generator waits 5 s only
+    options = f"--path {document} --meta none --fail-on-warning --config {config}".split()
     path = f"{Path(sys.executable).parent}:{os.environ['PATH']}"  # the generator formats with ruff
     command = [generator, "generate", *options, "--output-path", folder / "tribodrive_client"]
     subprocess.run(command, check=True, env={**os.environ, "PATH": path})
