@@ -5,6 +5,7 @@ query      the query string is the case
 form       fields with what was typed, what they mean and what is wrong with them
 cases      a requested case with the addresses of its views, and its answer, which is kept
 results    headline numbers with verdicts, tables of results
+verdicts   verdicts that compare several numbers, and the answer to the question of a calculation in one sentence
 csv        an answer as a table for spreadsheets
 charts     figures as images at addresses of their own, and their values
 manual     chapters of the manual as pages, and what reports say of them

@@ -153,7 +153,7 @@ def opened(content: bytes, root: str) -> Asked:
     except (InvalidBody, Unreadable, AttributeError, KeyError, RecursionError, TypeError, ValueError):
         raise Unreadable("The file holds no case: JSON with an endpoint and a request") from None
     if endpoint not in BY_PATH:
-        raise Unreadable(f"The endpoint of the case is none of {', '.join(BY_PATH)}")
+        raise Unreadable("The file is a case of a calculation that is not known here")
     return Asked(endpoint.removeprefix("/v1"), pairs, {"title": title} if title else {}, root=root)
 
 

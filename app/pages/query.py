@@ -6,6 +6,7 @@ from typing import Any
 from urllib.parse import parse_qsl, urlencode
 
 from app.errors import Unreadable
+from app.figures.wording import difference_unit
 from app.pages.typed import (
     as_typed,
     in_link,
@@ -96,7 +97,11 @@ def _in_link(model: type[Documented], name: str, text: str, others: dict[str, st
         return items_in_link(text)
     if name in STUDY_NAMES:
         leaf = leaf_at(model, others.get(name.partition(".")[0], ""))  # which is varied, or scatters
-        return in_link(text, leaf.unit if leaf else None)
+        unit = leaf.unit if leaf else None
+        if not name.endswith(".by") or difference_unit(unit) == unit:
+            return in_link(text, unit)
+        deviation = in_link(text, difference_unit(unit))
+        return deviation if deviation != text else in_link(text, unit)
     leaf = leaf_at(model, name) or leaf_at(model, name.rpartition(".")[0].rpartition(".")[0])
     if leaf is None or leaf.options or leaf.kind not in {"number", "integer"}:
         return text

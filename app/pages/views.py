@@ -19,6 +19,7 @@ from app.pages.study_links import studies_of_case, study_links
 from app.pages.templating import example_link, examples_of, page_path, rendered
 from app.pages.typed import as_typed, question
 from app.pages.typesetting import NO_VALUE
+from app.pages.verdicts import conclusion
 from app.schema.fields import headlines, leaf_at
 
 
@@ -51,7 +52,7 @@ def page(asked: Asked) -> Shown:
         keep=_keep(asked, case, variant),
         **found,
         charts=[linked(each, figure, asked) for each, figure in found["figures"]],
-        ready=studies_of_case(asked.calculation, asked.pairs, response.inputs),
+        ready=studies_of_case(asked.calculation, asked.pairs, response.inputs, resolved(response)),
         curves=csv.curves(response),
         code={
             "Python": reports.for_python(reports.LOCAL + asked.root, case),
@@ -152,6 +153,7 @@ def _answered(asked: Asked, case: Case, variant: Case | None, trouble: str, *, c
     return {
         "response": response,
         "cards": cards(response, resolved(response), before),
+        "conclusion": conclusion(response),
         "assumed": assumptions(request, response),
         "groups": groups(response, before),
         "derived": [row for rows in derived.values() for row in rows if row.value != NO_VALUE],

@@ -46,7 +46,7 @@ def test_a_table_as_a_spreadsheet_copies_it() -> None:
         {"name": "full load", "share": 0.98, "set": {}},
     ]
     assert cases_of(SCUFFING, TABLE.replace("\t", ";")) == found
-    assert cases_of(SCUFFING, table_of(found)) == found
+    assert cases_of(SCUFFING, table_of(SCUFFING, found)) == found
     assert cases_of(SCUFFING, " \n") == [{}]
     assert cases_of(SCUFFING, "name\tshare") == [{}]
 
