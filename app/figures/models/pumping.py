@@ -125,7 +125,7 @@ def choking(inputs: ChokingInputs, result: ChokingSpeeds, curves: ChokingCurves)
         parts.curve(x, pressure, curves.pinion_speed, peak, Hue.VERMILLION, levels=clearances),
     ]
     bend = inputs.setup.model.flow is Flow.GAS_DYNAMICS and np.nanmax(mach, initial=0.0) > 1.0
-    bends = "; a bend above 1: from there the gas reaches an end supersonic" if bend else ""
+    bends = "; the curve bends where the gas reaches an end faster than sound" if bend else ""
     return Figure(f"sonic: {', '.join(texts)}{bends}", panels, unsolved=int(np.isnan(mach).sum()))
 
 
