@@ -7,6 +7,7 @@ cases      a requested case with the addresses of its views, and its answer, whi
 results    headline numbers with verdicts, tables of results
 verdicts   verdicts that compare several numbers, and the answer to the question of a calculation in one sentence
 csv        an answer as a table for spreadsheets
+carried    the gears or the coupling of a case in other calculations
 charts     figures as images at addresses of their own, and their values
 manual     chapters of the manual as pages, and what reports say of them
 report     what reports say beside the result, and the case as code

@@ -120,7 +120,8 @@ class Asked:
 
     def beside(self, ref: str) -> str:
         """The page of the case, compared with the case of another query unless that is empty."""
-        return link(self.path, self.pairs, ref=ref, theme=self.theme, title=self.title, sources=SHORT_SOURCES)
+        views = {"ref": ref, "pair": self.views.get("pair"), "theme": self.theme, "title": self.title}
+        return link(self.path, self.pairs, **views, sources=SHORT_SOURCES)
 
     def view(self, name: str, **views: str | None) -> str:
         """The address of a view of the case."""

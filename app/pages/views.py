@@ -9,6 +9,7 @@ from app.evaluate import written as json_written
 from app.figures import Format, written
 from app.pages import csv
 from app.pages import report as reports
+from app.pages.carried import subject_of, uses
 from app.pages.cases import REFUSED, Asked, Case, Fault, faults_of, key_of, solved
 from app.pages.charts import figure_of, figures_of, linked, values_of
 from app.pages.form import State, form
@@ -139,6 +140,8 @@ def _page(asked: Asked, state: State, status: int = 200, keep: dict[str, bytes] 
         sections=form(calculation.request, state),
         examples=[(example, example_link(calculation, example)) for example in examples_of(calculation)],
         studies=study_links(calculation),
+        subject=subject_of(calculation),
+        uses=[] if asked.too_long else uses(asked),
         headlines=headlines(calculation.response),
         **context,
     )
