@@ -11,6 +11,7 @@ carried    the gears or the coupling of a case in other calculations
 charts     figures as images at addresses of their own, and their values
 manual     chapters of the manual as pages, and what reports say of them
 report     what reports say beside the result, and the case as code
+variants   three or more variants of a case in a small table
 views      one view of a case, made in a worker
 overview   pages that belong to no case
 studies    pages of studies, whose results are drawn while they are calculated; study_links: the links to them

@@ -111,7 +111,7 @@ class Asked:
     @property
     def too_long(self) -> bool:
         """Whether a link cannot hold the case."""
-        return len(self.query) + len(self.ref) > LONGEST_QUERY
+        return len(self.query) + len(self.ref) + len(self.views.get("also", "")) > LONGEST_QUERY
 
     @property
     def page(self) -> str:
@@ -120,7 +120,8 @@ class Asked:
 
     def beside(self, ref: str) -> str:
         """The page of the case, compared with the case of another query unless that is empty."""
-        views = {"ref": ref, "pair": self.views.get("pair"), "theme": self.theme, "title": self.title}
+        also = self.views.get("also") if ref else None
+        views = {"ref": ref, "also": also, "pair": self.views.get("pair"), "theme": self.theme, "title": self.title}
         return link(self.path, self.pairs, **views, sources=SHORT_SOURCES)
 
     def view(self, name: str, **views: str | None) -> str:

@@ -36,7 +36,9 @@ STUDY_NAMES = frozenset(
 )
 REPORT_NAMES = {"title": 200, "project": 200, "part": 200, "author": 200, "checker": 200, "notes": 2000}
 """What a report says of its occasion, and how many characters of it at most."""
-VIEW_NAMES = STUDY_NAMES | REPORT_NAMES.keys() | {"paper", "ref", "pair", "theme", "sources", "curve", "unlinked"}
+VIEW_NAMES = (
+    STUDY_NAMES | REPORT_NAMES.keys() | {"paper", "ref", "also", "pair", "theme", "sources", "curve", "unlinked"}
+)
 PICK = "pick:"
 """Before the name of a choice between fields that exclude each other; its value is the field that counts."""
 WRITTEN = "written"

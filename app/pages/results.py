@@ -124,6 +124,11 @@ def _row(leaf: Leaf, path: str, now: Any, before: Any = None, *, label: str, dig
     )
 
 
+def row_of(leaf: Leaf, path: str, value: Any = None, digits: int = DIGITS) -> Row:
+    """Return the line of one value."""
+    return _row(leaf, path, value, label=leaf.title, digits=digits)
+
+
 def texts_of(value: Any, digits: int, of_items: int = 4) -> tuple[str, ...]:
     """A value, or the items of a list, with so many digits; of a matrix its rows."""
     if not isinstance(value, list):

@@ -73,7 +73,7 @@ def test_what_is_missing_is_named_and_marked() -> None:
     html = html_of(asked_by(use.address), 422)
     assert "Not computed yet" in html
     speed = use_of(asked("starter-choking-speed"), BY_PATH["/v1/scuffing"].title)
-    assert "pinion torque or power" in ", ".join(speed.missing)
+    assert "pinion torque or transmitted power" in ", ".join(speed.missing)
     assert any("speed" in each for each in speed.missing)
 
 
