@@ -8,6 +8,7 @@ from app.examples import examples
 from app.pages.cases import Asked, solved
 from app.pages.form import Section, State, form
 from app.pages.query import link, pairs_of
+from app.pages.typesetting import shown
 from app.pages.variants import MOST, SEPARATOR, queries_of, with_this
 from app.pages.views import _deciding
 from app.schema.fields import leaf_at
