@@ -147,7 +147,7 @@ def _axes(sheet: Sheet, figure: Figure) -> list[Axes]:
         each.yaxis.label.set_visible(not figure.beside or panel.y.label != before.y.label)
     ticks = max(text.get_window_extent().width for each in axes for text in each.get_yticklabels())
     left = EDGE + max(TICKS, ticks / sheet.dpi) + EDGE / 2
-    ends = [BAR if each.child_axes else LEGEND if each.get_legend() else END + _widest_value(each) for each in axes]
+    ends = [BAR if each.child_axes else LEGEND if each.get_legend() else END + _beyond(each) for each in axes]
     right, between = (ends[-1], left + max(ends[:-1], default=0.0)) if figure.beside else (max(ends), 0.0)
     sheet.subplots_adjust(
         left=left / width,
@@ -160,7 +160,14 @@ def _axes(sheet: Sheet, figure: Figure) -> list[Axes]:
     return axes
 
 
-def _widest_value(axes: Axes) -> float:
-    """Width of the widest value of a row in inches; other texts have their place within the axes."""
-    texts = [text for text in axes.texts if text.get_gid() is None]
-    return max((text.get_window_extent().width for text in texts), default=0.0) / axes.figure.dpi
+def _beyond(axes: Axes) -> float:
+    """Inches that texts reach beyond the right end of axes: the values of rows, and half of the last tick's name.
+
+    Other texts have their place within the axes.
+    """
+    rows = dict[float, float]()
+    for text in (text for text in axes.texts if text.get_gid() is None):
+        place = round(text.get_window_extent().y0)
+        rows[place] = rows.get(place, 0.0) + text.get_window_extent().width
+    ticks = [text.get_window_extent().width for text in axes.get_xticklabels()]
+    return max([*rows.values(), max(ticks, default=0.0) / 2 - END * axes.figure.dpi, 0.0]) / axes.figure.dpi

@@ -28,7 +28,7 @@ RATIO_TICKS, LINEAR_RATIO = (1.0, 1.5, 2.0, 3.0, 5.0, 7.0), 1.5
 FEW_DECADES = 100.0  # up to this ratio of its ends a logarithmic axis has ticks between its powers of ten
 CROWDED = 0.08  # of the colour bar: a tick nearer to a critical value gives way
 BESIDE_ROWS = 0.4  # of the reach of rows, for texts at their ends
-WIDE = 0.15  # of the longest bar: bounds farther apart have their values at their ends
+WIDE = 0.15  # of the longest bar: the values of bounds farther apart are written
 STEPS = (1, 2, 2.5, 5, 10)  # of ticks, times powers of ten
 NUMBERS = FuncFormatter(lambda value, _: number(value, digits=6))
 
@@ -196,19 +196,15 @@ def _draw_row(axes: Axes, place: int, row: Row) -> None:
 
 
 def _write_value(axes: Axes, place: int, row: Row, panel: Panel) -> None:
-    """The value of a row at its right, and those of its bounds at their ends; rounding errors are zero."""
+    """The value of a row at its right, then those of its bounds if they are far apart; rounding errors are zero."""
     scale = max((abs(each.value) for each in panel.rows if np.isfinite(each.value)), default=0.0)
     value, unit = without_rounding(row.value, scale), panel.x.unit
     text = number(value, unit) if np.isfinite(value) else "not calculated"
-    strong: Style = {"fontsize": TEXT, "fontweight": "bold"}
+    drawn = [end for each in panel.rows if each.name == row.name for end in (each.value, *(each.bounds or ()))]
+    written = _write(axes, text, (np.nanmax([0.0, *drawn]), place), 4, fontsize=TEXT, fontweight="bold")
     if row.bounds is not None and row.bounds[1] - row.bounds[0] > WIDE * scale:
-        low, high = row.bounds
-        _write(axes, number(low, unit), (low, place), -5, color=rcParams["axes.labelcolor"])
-        above = _write(axes, number(high, unit), (high, place), 5, color=rcParams["axes.labelcolor"])
-        _write(axes, text, (1, 0.5), 4, xycoords=above, **strong)
-    else:
-        drawn = [end for each in panel.rows if each.name == row.name for end in (each.value, *(each.bounds or ()))]
-        _write(axes, text, (np.nanmax([0.0, *drawn]), place), 4, **strong)
+        low, high = (number(end) for end in row.bounds)
+        _write(axes, f"({low} to {high})", (1, 0.5), 3, xycoords=written, color=rcParams["axes.labelcolor"])
 
 
 def _write(axes: Axes, text: str, xy: tuple[float, float], offset: float, **style: Any) -> Text:
@@ -302,17 +298,31 @@ def _name(axes: Axes, text: str, xy: tuple[float, float], xycoords: Any = "data"
         axes.annotate(text, xy, (0, 0), xycoords, bbox=patch(), **style)
 
 
+def _keep_clear(text: Text, room: Bbox, rings: list[Bbox]) -> None:
+    """Move the text of an area to another place in it where the ring of a point lies over its middle."""
+    box = text.get_window_extent()
+    free_x, free_y = (room.width - box.width) / 2, (room.height - box.height) / 2
+    for across, up in ((0, 0), (0, 1), (0, -1), (1, 0), (-1, 0), (1, 1), (-1, 1), (1, -1), (-1, -1)):
+        middle = (room.x0 + room.x1) / 2 + across * free_x, (room.y0 + room.y1) / 2 + up * free_y
+        moved = Bbox.from_bounds(middle[0] - box.width / 2, middle[1] - box.height / 2, box.width, box.height)
+        if not any(moved.overlaps(ring) for ring in rings):
+            text.set_position(text.axes.transData.inverted().transform(middle))
+            return
+
+
 def place_texts(axes: Axes, panel: Panel) -> None:
     """Place the texts of areas, as many lines as fit, and those of points, beside them and clear of other texts."""
+    points = (axes.transData.transform((mark.x, mark.y)) for mark in panel.marks)
+    rings = [Bbox([point - RING, point + RING]) for point in points]
     for area in panel.areas:
         room = Bbox([(area.left, area.bottom), (area.right, area.top)]).transformed(axes.transData)
         middle = (area.left * area.right) ** 0.5, (area.bottom * area.top) ** 0.5  # of logarithmic axes
         text = axes.text(*middle, area.text, color=rcParams["axes.labelcolor"], ha="center", va="center")
         while (box := text.get_window_extent()).width > room.width or box.height > room.height:
             text.set_text(text.get_text().rpartition("\n")[0])
+        _keep_clear(text, room, rings)
     taken: list[BboxBase] = [each.get_window_extent() for each in axes.texts if each.get_gid() not in SIDES]
-    rings = (axes.transData.transform((mark.x, mark.y)) for mark in panel.marks)
-    taken += [Bbox([ring - RING, ring + RING]) for ring in rings]
+    taken += rings
     shapes = [line for line in axes.lines if line.get_linestyle() != "None"]
     shapes += [bar for each in axes.containers for bar in each]
     curves = [shape.get_path().transformed(shape.get_transform()) for shape in shapes]
