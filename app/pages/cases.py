@@ -29,6 +29,7 @@ from app.sources import SHORT_SOURCES, changes_since
 from solvers.quantity import Detail
 
 NAME = r"[a-z]\w*(?:[._]\w+)+"  # of a field: words joined by points and underscores
+FILE_NAMES = ("rexs_file", "rexs_sha256", "rexs_stage")  # views that say where a case was read from
 COMPRESSION = 1  # the fastest level of zlib
 REFUSED = (Unreadable, InvalidBody, Unprocessable)
 
@@ -122,16 +123,21 @@ class Asked:
         """The page of the case, compared with the case of another query unless that is empty."""
         also = self.views.get("also") if ref else None
         views = {"ref": ref, "also": also, "pair": self.views.get("pair"), "theme": self.theme, "title": self.title}
-        return link(self.path, self.pairs, **views, sources=SHORT_SOURCES)
+        return link(self.path, self.pairs, **views, **self.file, sources=SHORT_SOURCES)
 
     def view(self, name: str, **views: str | None) -> str:
         """The address of a view of the case."""
         return link(f"{self.path}/{name}", self.pairs, **views)
 
     @property
+    def file(self) -> dict[str, str | None]:
+        """The REXS file that the case was read from: its name and SHA-256, and the stage."""
+        return {name: self.views.get(name) for name in FILE_NAMES}
+
+    @property
     def report(self) -> str:
         """The address of the report of the case, which shows the compared case too if there is one."""
-        return self.view("report", ref=self.ref, title=self.title, sources=SHORT_SOURCES)
+        return self.view("report", ref=self.ref, title=self.title, **self.file, sources=SHORT_SOURCES)
 
     def study(self, name: str) -> str:
         """The address of the page of a study of the case."""

@@ -50,9 +50,13 @@ def _entry(calculations: list[Calculation]) -> dict[str, Any]:
     }
 
 
-def unit_page(root: str, unit: dict[str, Any]) -> str:
-    """The page of the answer of /v1/rexs: the stages of a gear unit, and a link to every calculation of each."""
-    return rendered("rexs.html", root, unit=unit, stages=[_stage(stage) for stage in unit["stages"]])
+def unit_page(root: str, unit: dict[str, Any], sha256: str = "") -> str:
+    """The page of the answer of /v1/rexs: the stages of a gear unit, and a link to every calculation of each.
+
+    `sha256` is that of the file; links to calculations carry it.
+    """
+    stages = [_stage(stage, {"rexs_sha256": sha256, "rexs_stage": str(stage["id"])}) for stage in unit["stages"]]
+    return rendered("rexs.html", root, unit=unit, stages=stages, sha256=sha256)
 
 
 def _titled(field: str, asked: Iterable[str]) -> str:
@@ -65,7 +69,7 @@ def _titled(field: str, asked: Iterable[str]) -> str:
     return next(chain(leaves, sections), field.replace("_", " ").replace(".", ", "))
 
 
-def _stage(stage: dict[str, Any]) -> dict[str, Any]:
+def _stage(stage: dict[str, Any], file: dict[str, str]) -> dict[str, Any]:
     requests, request = stage["requests"], next(iter(stage["requests"].values()))
     gears, load = request["gears"], request.get("load", {})
     teeth = [gears.get(role, {}).get("teeth") for role in ("pinion", "wheel")]  # none that no gear has
@@ -75,7 +79,7 @@ def _stage(stage: dict[str, Any]) -> dict[str, Any]:
     for case in stage["cases"]:
         overrides = case["overrides"]
         pairs = dict(pairs_of(requests[SCUFFING])) | dict(pairs_of(overrides))
-        address = link(page_path(BY_PATH[SCUFFING]), list(pairs.items()))
+        address = link(page_path(BY_PATH[SCUFFING]), list(pairs.items()), **file)
         cases.append(case | {"address": address, "row": [overrides.get(name) for name in CASE_COLUMNS]})
     titled = {
         name: [each | {"field": _titled(each["field"], requests)} for each in stage[name]]
@@ -92,7 +96,8 @@ def _stage(stage: dict[str, Any]) -> dict[str, Any]:
             "module_mm": gears.get("module_mm"),
             "face_width_mm": gears.get("face_width_mm"),
             "links": [
-                (BY_PATH[path].title, link(page_path(BY_PATH[path]), pairs_of(body))) for path, body in requests.items()
+                (BY_PATH[path].title, link(page_path(BY_PATH[path]), pairs_of(body), **file))
+                for path, body in requests.items()
             ],
             "spectra": [
                 (BY_PATH[path].title, address_of(BY_PATH[path], pairs_of(requests[path]), {"cases": lines}))

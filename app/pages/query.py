@@ -34,10 +34,23 @@ STUDY_NAMES = frozenset(
     | {f"t{place}{part}" for place in range(SCATTERING) for part in ("", ".law", ".by", ".about")}
     | {"show", "best", TRIALS, CASES, "hours", "machines", "limit", "limit.by", "limit.side"}
 )
-REPORT_NAMES = {"title": 200, "project": 200, "part": 200, "author": 200, "checker": 200, "notes": 2000}
+REPORT_NAMES = {
+    "title": 200,
+    "project": 200,
+    "part": 200,
+    "revision": 40,
+    "author": 200,
+    "checker": 200,
+    "approver": 200,
+    "rexs_file": 200,
+    "rexs_sha256": 64,
+    "notes": 2000,
+}
 """What a report says of its occasion, and how many characters of it at most."""
 VIEW_NAMES = (
-    STUDY_NAMES | REPORT_NAMES.keys() | {"paper", "ref", "also", "pair", "theme", "sources", "curve", "unlinked"}
+    STUDY_NAMES
+    | REPORT_NAMES.keys()
+    | {"paper", "ref", "also", "pair", "theme", "sources", "curve", "unlinked", "extent", "rexs_stage"}
 )
 PICK = "pick:"
 """Before the name of a choice between fields that exclude each other; its value is the field that counts."""

@@ -15,6 +15,8 @@ NOT_RESULTS = frozenset(
     {"status", "warnings", "residuals", "assumptions", "model_version", "sources", "model", "derived", "inputs", "case"}
 )
 DIGITS = 3  # of a headline
+SHAFTS = ("pinion shaft", "wheel shaft")
+"""In the order of the list of shafts."""
 NEAR = 0.8  # of an upper limit
 LEVELS = ("plain", "good", "near", "bad")
 WELL_ABOVE = 2.0  # times a lower limit
@@ -66,7 +68,7 @@ def _entries(member: Leaf | Branch, value: Any, path: str, around: str) -> Itera
         yield Entry(around, member, path, value)
     elif isinstance(value, list):
         for index, item in enumerate(value):
-            titled = replace(member, title=f"{member.title} {index + 1}")
+            titled = replace(member, title=_title_of_item(member, index))
             yield from _entries(titled, item, f"{path}.{index}", around)
     elif value is not None:
         group = f"{around} · {member.title}" if around else member.title
@@ -74,6 +76,13 @@ def _entries(member: Leaf | Branch, value: Any, path: str, around: str) -> Itera
             name = inner.path.rpartition(".")[2]
             if name in value.model_fields_set:
                 yield from _entries(inner, getattr(value, name), f"{path}.{name}", group)
+
+
+def _title_of_item(member: Branch, index: int) -> str:
+    """What a section of a list is called: a shaft by its gear, others by their number."""
+    if member.path.rpartition(".")[2] == "shafts" and index < len(SHAFTS):
+        return SHAFTS[index]
+    return f"{member.title} {index + 1}"
 
 
 def values_by_path(response: Documented | None) -> dict[str, Any]:
@@ -119,9 +128,14 @@ def _row(leaf: Leaf, path: str, now: Any, before: Any = None, *, label: str, dig
     if leaf.view.percent:
         now, before, unit = (None if now is None else 100.0 * now, None if before is None else 100.0 * before, "%")
     known_unit = unit if now is not None or before is not None else ""
-    return Row(
-        leaf, label, path, texts_of(now, digits), known_unit, texts_of(before, digits), _change(now, before, unit)
-    )
+    items, old = (_named(leaf, texts_of(value, digits)) for value in (now, before))
+    return Row(leaf, label, path, items, known_unit, old, _change(now, before, unit))
+
+
+def _named(leaf: Leaf, items: tuple[str, ...]) -> tuple[str, ...]:
+    """Items of a list with the names that the declaration has for them: components, ends of a band."""
+    names = (leaf.declared.index or "").split(", ")
+    return tuple(map(" ".join, zip(names, items, strict=True))) if len(names) == len(items) > 1 else items
 
 
 def row_of(leaf: Leaf, path: str, value: Any = None, digits: int = DIGITS) -> Row:

@@ -56,6 +56,7 @@ def page(asked: Asked) -> Shown:
         charts=[linked(each, figure, asked) for each, figure in found["figures"]],
         ready=studies_of_case(asked.calculation, asked.pairs, response.inputs, resolved(response)),
         curves=csv.curves(response),
+        sent=reports.body_of(case),
         code={
             "Python": reports.for_python(reports.LOCAL + asked.root, case),
             "curl": reports.for_shell(reports.LOCAL + asked.root, case),

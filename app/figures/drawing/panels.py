@@ -20,6 +20,9 @@ from app.figures.wording import NOISE, number, without_rounding
 FARTHEST_LEVEL = 4.0  # a limit beyond so many times the values is named at the edge instead of flattening them
 NAME_LENGTH, ROW_NAME_LENGTH = 17, 36  # characters of a line of a legend and of the name of a row
 BAR_SHARE, TINT = 0.8, 0.2  # of the spacing; opacity of fills
+LEGEND_COLUMNS = 2  # of a legend above narrow axes
+LINE = 1.3 / 72.0  # inches: height of a line of letters of one point
+NAME_BELOW = 36  # characters of a line below narrow axes
 ROW = 0.52  # height of a row's bar
 RING = 5  # pixels
 SIDES = {"above": 1, "below": -1}  # of a point, on which its text is tried first; other texts stay where they are
@@ -35,8 +38,8 @@ NUMBERS = FuncFormatter(lambda value, _: number(value, digits=6))
 Style = dict[str, Any]  # of matplotlib's artists
 
 
-def draw_panel(axes: Axes, panel: Panel, length: int) -> None:
-    """Draw a panel; names of axes have at most `length` characters a line.
+def draw_panel(axes: Axes, panel: Panel, length: int, *, narrow: bool = False) -> None:
+    """Draw a panel; names of axes have at most `length` characters a line, and a legend of a narrow one is above it.
 
     The name of the ordinate is a horizontal text above the axes. `place_texts` draws the texts of areas and moves
     those of points.
@@ -54,7 +57,7 @@ def draw_panel(axes: Axes, panel: Panel, length: int) -> None:
             axis.set_ticks(quantity.ticks)
         axis.set_major_formatter(NUMBERS)
     # The name may be wider than the axes of rows.
-    axes.set_xlabel(fill(panel.x.label, length), loc="right" if panel.rows else "center")
+    axes.set_xlabel(fill(panel.x.label, NAME_BELOW if narrow else length), loc="right" if panel.rows else "center")
     _draw_rows(axes, panel)
     _draw_fills(axes, panel)
     if panel.map is not None:
@@ -77,11 +80,31 @@ def draw_panel(axes: Axes, panel: Panel, length: int) -> None:
         axes.axvspan(span.start, span.stop, **shade)
         top = (span.start + span.stop) / 2, 1.0
         _name(axes, span.name, top, axes.get_xaxis_transform(), gid="below", color=rcParams["axes.labelcolor"])
+    _draw_legend(axes, panel, narrow=narrow)
+
+
+def _draw_legend(axes: Axes, panel: Panel, *, narrow: bool) -> None:
+    """Draw the legend beside the axes, above them where a colour bar stands there or the figure is narrow."""
     known = {str(each.get_label()): each for each in axes.get_legend_handles_labels()[0]}  # a name may be of several
-    if known and panel.map is not None:  # above, because the colour bar stands at the side
+    if known and narrow:  # above the name of the ordinate: there is no room beside it
+        above = axes.transAxes + ScaledTranslation(
+            0.0, LINE * TEXT * (1 + bool(panel.title)), axes.figure.dpi_scale_trans
+        )
+        style = {"loc": "lower left", "bbox_to_anchor": (0.0, 1.02), "bbox_transform": above, "ncols": LEGEND_COLUMNS}
+        axes.legend(known.values(), known, **style)
+    elif known and panel.map is not None:  # above, because the colour bar stands at the side
         axes.legend(known.values(), known, loc="lower right", bbox_to_anchor=(1.0, 1.01), ncols=len(known))
     elif known:
         axes.legend(known.values(), known, bbox_to_anchor=(1.02, 1.0))
+
+
+def legend_lines(panel: Panel) -> int:
+    """Return how many lines the legend above a narrow panel has."""
+    lines = [*(line.title for line in panel.lines if line.named), *(shape.title for shape in panel.shapes)]
+    bars = [bars.title for bars in panel.bars] if len(panel.bars) > 1 else []
+    names = dict.fromkeys([*lines, *bars, *(part.name for row in panel.rows for part in row.parts)])
+    rows = -(-len(names) // LEGEND_COLUMNS)
+    return rows * max((len(fill(name, NAME_LENGTH).splitlines()) for name in names), default=0)
 
 
 def _end(axes: Axes, panel: Panel) -> None:
@@ -322,7 +345,7 @@ def place_texts(axes: Axes, panel: Panel) -> None:
             text.set_text(text.get_text().rpartition("\n")[0])
         _keep_clear(text, room, rings)
     taken: list[BboxBase] = [each.get_window_extent() for each in axes.texts if each.get_gid() not in SIDES]
-    taken += rings
+    taken += [*rings, axes.yaxis.label.get_window_extent(), axes.title.get_window_extent()]
     shapes = [line for line in axes.lines if line.get_linestyle() != "None"]
     shapes += [bar for each in axes.containers for bar in each]
     curves = [shape.get_path().transformed(shape.get_transform()) for shape in shapes]
