@@ -41,7 +41,7 @@ def _over_marks(axes: Axes) -> Iterator[str]:
     """Texts over the ring of a marked point, which lies above all else."""
     rings = [line for line in axes.lines if line.get_marker() == "o" and not line.get_clip_on()]
     for ring in rings:
-        x, y = axes.transData.transform((ring.get_xdata()[0], ring.get_ydata()[0]))
+        x, y = axes.transData.transform(ring.get_xydata()[0])
         box = Bbox([(x - RING / 2, y - RING / 2), (x + RING / 2, y + RING / 2)])
         for text in axes.texts:
             if text.get_text() and text.get_window_extent().overlaps(box):
@@ -100,6 +100,7 @@ def test_the_numbers_of_a_bar_with_an_interval_are_in_order() -> None:
         _, (axes,) = laid_out(figure)
         texts: list[Text] = [text for text in axes.texts if text.get_text()]
         for row in rows:
+            assert row.bounds
             line = [text for text in texts if str(int(row.value)) in text.get_text() or "to" in text.get_text()]
             said = " ".join(text.get_text() for text in line)
             assert re.search(rf"{row.value:g} °C.*\({row.bounds[0]:g} to {row.bounds[1]:g}\)", said)

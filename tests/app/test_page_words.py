@@ -41,7 +41,7 @@ def compared(name: str, changes: dict[str, Any]) -> str:
 def change_of(html: str, path: str) -> str:
     """What the table of results says of the change of a number."""
     (row,) = re.findall(rf'data-path="{re.escape(path)}".*?</tr>', html, re.DOTALL)
-    return re.findall(r'<td class="right">([^<]*)</td><td class="place">', row)[0]
+    return re.findall(r'<td class="right">([^<]*)</td></tr>', row)[0]
 
 
 def test_temperatures_change_by_differences_and_lengths_by_shares() -> None:

@@ -16,7 +16,7 @@ LOADED = scuffing.LoadDistributionInputs(PAIR, scuffing.Load(900.0, 157.0))
 
 
 def check(**known: object) -> scuffing.Scuffing:
-    return scuffing.solve_scuffing(scuffing.ScuffingInputs(LOADED, lubrication="closed_form", **known))  # type: ignore[arg-type]
+    return scuffing.solve_scuffing(scuffing.ScuffingInputs(LOADED, lubrication="closed_form", **known))
 
 
 def test_no_oil_is_assumed() -> None:

@@ -169,7 +169,7 @@ def _collides(figure: Figure) -> bool:
             for axis in (each.xaxis, each.yaxis):
                 low, high = sorted(axis.get_view_interval())
                 texts += [tick.label1 for tick in axis.get_major_ticks() if low <= tick.get_loc() <= high]
-            texts += each.get_legend().get_texts() if each.get_legend() else []
+            texts += legend.get_texts() if (legend := each.get_legend()) else []
         boxes = [text.get_window_extent() for text in (*sheet.texts, *texts) if text.get_visible() and text.get_text()]
         right, top = sheet.bbox.x1, sheet.bbox.y1
         if any(box.x0 < 0.0 or box.y0 < 0.0 or box.x1 > right or box.y1 > top for box in boxes):

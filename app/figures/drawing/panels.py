@@ -90,7 +90,12 @@ def _draw_legend(axes: Axes, panel: Panel, *, narrow: bool) -> None:
         above = axes.transAxes + ScaledTranslation(
             0.0, LINE * TEXT * (1 + bool(panel.title)), axes.figure.dpi_scale_trans
         )
-        style = {"loc": "lower left", "bbox_to_anchor": (0.0, 1.02), "bbox_transform": above, "ncols": LEGEND_COLUMNS}
+        style: Style = {
+            "loc": "lower left",
+            "bbox_to_anchor": (0.0, 1.02),
+            "bbox_transform": above,
+            "ncols": LEGEND_COLUMNS,
+        }
         axes.legend(known.values(), known, **style)
     elif known and panel.map is not None:  # above, because the colour bar stands at the side
         axes.legend(known.values(), known, loc="lower right", bbox_to_anchor=(1.0, 1.01), ncols=len(known))
@@ -321,7 +326,7 @@ def _name(axes: Axes, text: str, xy: tuple[float, float], xycoords: Any = "data"
         axes.annotate(text, xy, (0, 0), xycoords, bbox=patch(), **style)
 
 
-def _keep_clear(text: Text, room: Bbox, rings: list[Bbox]) -> None:
+def _keep_clear(axes: Axes, text: Text, room: Bbox, rings: list[Bbox]) -> None:
     """Move the text of an area to another place in it where the ring of a point lies over its middle."""
     box = text.get_window_extent()
     free_x, free_y = (room.width - box.width) / 2, (room.height - box.height) / 2
@@ -329,7 +334,8 @@ def _keep_clear(text: Text, room: Bbox, rings: list[Bbox]) -> None:
         middle = (room.x0 + room.x1) / 2 + across * free_x, (room.y0 + room.y1) / 2 + up * free_y
         moved = Bbox.from_bounds(middle[0] - box.width / 2, middle[1] - box.height / 2, box.width, box.height)
         if not any(moved.overlaps(ring) for ring in rings):
-            text.set_position(text.axes.transData.inverted().transform(middle))
+            x, y = axes.transData.inverted().transform(middle)
+            text.set_position((float(x), float(y)))
             return
 
 
@@ -343,7 +349,7 @@ def place_texts(axes: Axes, panel: Panel) -> None:
         text = axes.text(*middle, area.text, color=rcParams["axes.labelcolor"], ha="center", va="center")
         while (box := text.get_window_extent()).width > room.width or box.height > room.height:
             text.set_text(text.get_text().rpartition("\n")[0])
-        _keep_clear(text, room, rings)
+        _keep_clear(axes, text, room, rings)
     taken: list[BboxBase] = [each.get_window_extent() for each in axes.texts if each.get_gid() not in SIDES]
     taken += [*rings, axes.yaxis.label.get_window_extent(), axes.title.get_window_extent()]
     shapes = [line for line in axes.lines if line.get_linestyle() != "None"]
