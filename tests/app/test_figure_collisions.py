@@ -4,6 +4,7 @@ import re
 from collections.abc import Iterator
 from itertools import combinations
 
+import numpy as np
 import pytest
 from matplotlib.axes import Axes
 from matplotlib.text import Text
@@ -33,15 +34,11 @@ def collisions(figure: Figure) -> Iterator[str]:
             yield from _ticks_over_each_other(axes)
 
 
-def _inches(axes: Axes, box: Bbox) -> Bbox:
-    return Bbox(box.get_points() / axes.figure.dpi)
-
-
 def _over_marks(axes: Axes) -> Iterator[str]:
     """Texts over the ring of a marked point, which lies above all else."""
     rings = [line for line in axes.lines if line.get_marker() == "o" and not line.get_clip_on()]
     for ring in rings:
-        x, y = axes.transData.transform(ring.get_xydata()[0])
+        (x, y), *_ = axes.transData.transform(np.asarray(ring.get_xydata()))
         box = Bbox([(x - RING / 2, y - RING / 2), (x + RING / 2, y + RING / 2)])
         for text in axes.texts:
             if text.get_text() and text.get_window_extent().overlaps(box):

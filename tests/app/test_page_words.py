@@ -214,7 +214,7 @@ def test_the_page_of_a_gear_unit_has_no_name_of_the_interface() -> None:
     ]
     assumed = [{"field": "gears.pinion.profile_shift", "value": 0.0, "reason": "none given"}]
     stage = {"id": 1, "name": "", "requests": requests, "cases": [], "spectra": {}, "ignored": []}
-    unit = {"version": "1.4", "application": "", "name": "", "findings": []}
+    unit: dict[str, Any] = {"version": "1.4", "application": "", "name": "", "findings": []}
     unit["stages"] = [stage | {"missing": missing, "assumed": assumed}]
     text = text_of(unit_page("", unit))
     assert "normal backlash: needed" in text
