@@ -18,8 +18,8 @@ WINDOWS = pytest.mark.parametrize("window", [DESK, PHONE], ids=["desk", "phone"]
 
 
 def act(page: Page, window: dict[str, Any], name: str) -> None:
-    """Follow a link or open what is folded: by touch on a phone, by the keyboard at the desk."""
-    target = page.get_by_text(name, exact=True).locator("visible=true").first
+    """Open the list of other calculations or follow a link in it: by touch on a phone, by the keyboard at the desk."""
+    target = page.locator(".carried").get_by_text(name, exact=True).locator("visible=true").first
     if window is PHONE:
         target.tap()
     else:
