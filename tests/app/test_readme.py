@@ -36,7 +36,7 @@ def run(snippet: str, server: str) -> dict[str, Any]:
 
 
 def test_a_single_request(server: str) -> None:
-    (snippet,) = (each for each in SNIPPETS if "safety" in each)
+    (snippet,) = (each for each in SNIPPETS if "service.scuffing" in each)
     names = run(snippet, server)
     with names["service"]:
         assert names["result"]["status"] in {"ok", "ok_with_warnings"}

@@ -292,7 +292,7 @@ def test_the_report_has_a_section_of_its_own(client: httpx.Client) -> None:
     text = unescape(report.text)
     section = text.partition("<h2>Load spectrum</h2>")[2].partition("</section>")[0]
     assert section.startswith("<p>Probability of being above the limit ")
-    assert section.count("<figure>") == 4
+    assert section.count("<figure") == 4
     assert "<caption>Tolerances</caption>" in section
     assert "<h2>Inputs</h2>" in text
     refused = client.get(f"/coupling/spectrum/report?{query}&t1=nothing")
