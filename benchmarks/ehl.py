@@ -10,8 +10,9 @@ from math import cos, pi, radians
 from benchmarks.timing import Figure, MedianFigure, print_times
 from solvers.contact.ehl import Contact, LineContactInputs, Model, solve_path
 from solvers.contact.ehl.model import solve
-from solvers.gears.inputs import GearPairInputs, GearTeeth
+from solvers.gears.inputs import GROUND_FILLET, GearPairInputs, GearTeeth
 from solvers.gears.pair import gear_pair
+from solvers.lubricants import Lubricant
 from solvers.published.xue import POINT_A
 from tests.support.line_contacts import grid_contacts
 
@@ -25,7 +26,13 @@ def path(model: Model, points: int = 50) -> list[LineContactInputs]:
     """Gear pair 1 from A to E at 273 N/mm."""
     pair = gear_pair(
         GearPairInputs(
-            GearTeeth(23), GearTeeth(30), 3e-3, 20e-3, pressure_angle=radians(20.0), helix_angle=radians(9.8)
+            GearTeeth(23),
+            GearTeeth(30),
+            3e-3,
+            20e-3,
+            pressure_angle=radians(20.0),
+            helix_angle=radians(9.8),
+            rack_tip_radius=GROUND_FILLET,
         )
     )
     turn = 2000 * pi / 30
@@ -35,7 +42,7 @@ def path(model: Model, points: int = 50) -> list[LineContactInputs]:
         second = pair.line_of_action - first
         radius = first * second / (pair.line_of_action * cos(pair.base_helix_angle))
         contact = Contact(2.73e5, radius, turn * first, turn * 23 / 30 * second)
-        contacts.append(LineContactInputs(contact, model=model))
+        contacts.append(LineContactInputs(contact, model=model, lubricant=Lubricant()))
     return contacts
 
 
@@ -47,7 +54,7 @@ def figures() -> Iterator[Figure | MedianFigure]:
         ("thermal Ree-Eyring point A, from nothing", EYRING, 12.0),
         ("thermal Newtonian point A, from nothing", NEWTONIAN, 34.0),
     ):
-        inputs = LineContactInputs(POINT_A, model=model)
+        inputs = LineContactInputs(POINT_A, model=model, lubricant=Lubricant())
         yield Figure(name, lambda inputs=inputs: solve(inputs), target)  # type: ignore[misc]
     for name, model, target in (
         ("Ree-Eyring 5 MPa", EYRING, 150.0),

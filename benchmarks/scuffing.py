@@ -10,6 +10,7 @@ from math import radians
 
 from benchmarks.timing import Figure, print_times
 from solvers.gears.inputs import GearPairInputs, GearTeeth
+from solvers.lubricants import Lubricant
 from solvers.scuffing.inputs import (
     Load,
     LoadDistributionInputs,
@@ -17,6 +18,7 @@ from solvers.scuffing.inputs import (
     Modifications,
     Resolution,
     ScuffingInputs,
+    Temperatures,
     angular_speed,
 )
 from solvers.scuffing.model import solve as solve_load_distribution
@@ -61,7 +63,13 @@ def figures() -> Iterator[Figure]:
                 inputs = paper_pair(width, helix, model, shape)
                 figure = f"solve, {name}, {label}, {width * 1e3:.0f} mm at {helix} deg"
                 yield Figure(figure, lambda inputs=inputs: solve_load_distribution(inputs), target)  # type: ignore[misc]
-    scuffing = ScuffingInputs(paper_pair(20e-3, 9.8, Model(), MODIFIED), lubrication="closed_form")
+    scuffing = ScuffingInputs(
+        paper_pair(20e-3, 9.8, Model(), MODIFIED),
+        lubrication="closed_form",
+        lubricant=Lubricant(),
+        friction="given",
+        temperatures=Temperatures(bulk=360.0, bulk_method="given"),
+    )
     yield Figure("scuffing in closed form, half-space", lambda: solve_scuffing(scuffing), 20.0)
     for name, model, _ in models:
         yield Figure(f"sweep of 625 relief designs, {name}", lambda model=model: sweep(model), 3000.0)  # type: ignore[misc]

@@ -225,7 +225,8 @@ class Panel:
 class Figure:
     """Panels under a title that says what and a finding that says what of it; `beside` puts them in a row.
 
-    Title and source are those of the declaration, unless the case calls for a title of its own.
+    Title and source are those of the declaration, unless the case calls for a title of its own. A `narrow` figure is
+    laid out for a column of a report.
     """
 
     finding: str
@@ -234,6 +235,7 @@ class Figure:
     source: str = ""
     beside: bool = False
     unsolved: int = 0
+    narrow: bool = False
 
     @property
     def subtitle(self) -> str:

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import groupby
+from math import isfinite
 from typing import NamedTuple
 
 import numpy as np
@@ -25,7 +26,7 @@ from app.figures.data import (
     Values,
     values,
 )
-from app.figures.wording import NO_BREAK, listed, number
+from app.figures.wording import NO_BREAK, difference_unit, listed, number, to_digits
 
 MOST_CURVES = 6  # beyond it two fields make a map
 FLAT = 0.5  # of the largest value: an output that stays above it is not drawn from zero
@@ -57,7 +58,7 @@ class Grid:
     """An output over one field or two, `[x]` or `[x][y]`; NaN where there is no value, or none yet.
 
     `greatest` says which end is the better one; `limit` bounds the output. `invalid` says for each value of a single
-    field why the output does not hold there, if so; `doubtful` whether a limit of validity is left.
+    field why the output does not hold there, if so; `doubtful` whether it is outside a limit of validity.
     """
 
     x: Coordinate
@@ -103,10 +104,10 @@ def curve(grid: Grid) -> Figure:
         start = stop
     doubtful = [at for at, doubt in enumerate(grid.doubtful) if doubt and np.isfinite(grid.values[at])]
     rings = [replace(line.mark(at, ""), hue=Hue.ORANGE) for at in doubtful]
-    crossings = [Mark(at, grid.limit or 0.0, number(at, x.axis.unit)) for at in _crossings(grid)]
+    crossings = [Mark(each.place, grid.limit or 0.0, each.named(x.axis)) for each in _crossings(grid)]
     finding = _finding(grid)
     if grid.best is not None and any(grid.doubtful):
-        finding += "; orange rings: doubtful, a limit of validity is left"
+        finding += "; orange rings: doubtful, outside a limit of validity"
     if grid.best is not None and crossings:
         finding = f"crosses its limit at {listed([each.text for each in crossings])}; {finding}"
     marks = [*rings, *crossings, *parts.extreme([line], grid.output.unit, least=not grid.greatest)]
@@ -185,15 +186,66 @@ def _limit(grid: Grid) -> list[Level]:
     return [Level(grid.limit, f"limit {number(grid.limit, grid.output.unit)}", limit=True)]
 
 
-def _crossings(grid: Grid) -> list[float]:
-    """Where a curve crosses its limit, on straight lines between its points."""
+class Crossing(NamedTuple):
+    """Where a curve crosses its limit, and by how much the points leave this open."""
+
+    place: float
+    error: float
+
+    def named(self, axis: Axis) -> str:
+        """The place with the digits that are known."""
+        glue = "" if axis.unit in {None, "", "°"} else " "
+        return f"{to_digits(self.place, self.error)}{glue}{axis.unit or ''}"
+
+
+def _crossings(grid: Grid) -> list[Crossing]:
+    """Where a curve crosses its limit, on straight lines between its points.
+
+    The error is that of the straight line by the curvature there, the second divided difference of three points; with
+    two points alone it is the distance between them.
+    """
     if grid.limit is None or grid.x.words:
         return []
     x, beyond = grid.x.values, grid.values - grid.limit
-    before = np.flatnonzero(beyond[:-1] * beyond[1:] < 0.0)
-    share = beyond[before] / (beyond[before] - beyond[before + 1])
-    places: list[float] = (x[before] + share * (x[before + 1] - x[before])).tolist()
-    return places
+    found = []
+    for before in np.flatnonzero(beyond[:-1] * beyond[1:] < 0.0).tolist():
+        start, stop = float(x[before]), float(x[before + 1])
+        slope = (beyond[before + 1] - beyond[before]) / (stop - start)
+        place = start - float(beyond[before] / slope)
+        triples = [slice(first, first + 3) for first in (before - 1, before) if 0 <= first <= x.size - 3]
+        curvatures = [_second_difference(x[three], beyond[three]) for three in triples]
+        errors = [abs(each / slope) * (place - start) * (stop - place) for each in curvatures if isfinite(each)]
+        found.append(Crossing(place, max(errors, default=stop - start)))
+    return found
+
+
+def _second_difference(x: Values, y: Values) -> float:
+    """The second divided difference of three points."""
+    slopes = np.diff(y) / np.diff(x)
+    return float((slopes[1] - slopes[0]) / (x[2] - x[0]))
+
+
+def answer(grid: Grid) -> str:
+    """Answer the question of a sweep in a sentence: how the output stands to its limit, or how far it runs."""
+    finite = np.isfinite(grid.values)
+    if grid.best is None:
+        return ""
+    name, unit = grid.output.title, grid.output.unit
+    best = _finding(grid)
+    kept = finite & (grid.values >= grid.limit if grid.greatest else grid.values <= grid.limit) if grid.limit else None
+    if kept is None:
+        if grid.y is not None or grid.x.words or not (finite[0] and finite[-1]):
+            return f"The {name}: {best}."
+        ends = [f"{number(float(grid.values[at]), unit)} at {grid.x.named(at)}" for at in (0, grid.x.values.size - 1)]
+        return f"The {name} goes from {ends[0]} to {ends[1]}; {best}."
+    side, limit = ("above", "below")[not grid.greatest], number(grid.limit or 0.0, unit)
+    crossings = _crossings(grid) if grid.y is None else []
+    if crossings:
+        places = listed([each.named(grid.x.axis) for each in crossings])
+        good = grid.x.named(int(np.flatnonzero(kept)[0]))
+        return f"The {name} crosses its limit {limit} at about {places}; it is {side} the limit at {good}; {best}."
+    span = "at every point" if kept.sum() == finite.sum() else f"at {kept.sum()} of {finite.sum()} points"
+    return f"The {name} is {side} its limit {limit} {span if kept.any() else 'at no point'}; {best}."
 
 
 class Lead(NamedTuple):
@@ -224,7 +276,7 @@ def influence(output: Axis, value: float, found: list[Influence]) -> Figure:
         rows.append(Row(name, each.change, Hue.BLUE if each.change > 0.0 else Hue.VERMILLION))
     kinks = f";{STAR} a step down changes it by another amount" if any(each.kink for each in moving) else ""
     finding = f"{number(value, output.unit)} now; {listed([each.name for each in moving[:NAMED]])} first{kinks}"
-    axis = Axis(f"change of the {output.title} by one step up, from the steeper side", output.unit)
+    axis = Axis(f"change of the {output.title} by one step up, from the steeper side", difference_unit(output.unit))
     return Figure(finding, [Panel(x=axis, y=axis, rows=rows)], title=title)
 
 

@@ -2,11 +2,15 @@
 
 import re
 from collections.abc import Callable
+from math import floor, log10
 
 NO_BREAK = "\u00a0"  # a space
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 PLAIN = (1e-3, 1e6)  # magnitudes written without a power of ten
 NOISE = 1e-9  # of a whole: a smaller part is rounding error
+UNCERTAIN = 0.2  # of a number by its resolution, chosen: no verdict on it is firm
+DIFFERENCES = {"°C": "K", "K": "K", "°": "°", "%": "percentage points"}
+"""Units of quantities whose changes are differences, and the units of these differences: ratios mean nothing there."""
 # A letter or two, an underscore, letters and digits with commas between them.
 _SUBSCRIPT = re.compile(r"(?<!\w)([^\W\d_²³]{1,2})_([^\W_²³]+(?:,[^\W_²³]+)*)")
 
@@ -45,6 +49,27 @@ def percent(fraction: float) -> str:
 def ratio(value: float, unit: str | None = None) -> str:
     """A ratio around 1, with as many digits as show how far from it."""
     return number(value, unit, digits=3 if abs(value - 1.0) > 0.01 else 6)
+
+
+def difference_unit(unit: str | None) -> str | None:
+    """Return the unit of a difference of two values: kelvins for temperatures."""
+    return DIFFERENCES.get(unit or "", unit)
+
+
+def signed(value: float, unit: str | None = None, digits: int = 3) -> str:
+    """The value with its sign, a plus too."""
+    text = number(value, unit, digits)
+    return text if text.startswith("−") else f"+{text}"
+
+
+def to_digits(value: float, error: float, most: int = 3) -> str:
+    """Return the value with at most so many significant digits; the last one is the first that the error touches."""
+    if value == 0.0:
+        return number(value)
+    size = floor(log10(abs(value)))
+    known = most if error <= 0.0 else size - floor(log10(error)) + 1
+    digits = min(max(known, 1), most)
+    return number(round(value, digits - 1 - size), digits=most)
 
 
 def listed(names: list[str]) -> str:

@@ -1,7 +1,7 @@
 """The theory manual: chapters in Markdown beside this file.
 
-`equations` finds their numbered equations and the functions that implement them; `app.pages.manual` makes pages of
-them.
+`equations` finds their numbered equations and the functions that implement them, `results` says which of them computes
+each result; `app.pages.manual` makes pages of the chapters.
 """
 
 import re

@@ -29,6 +29,7 @@ from app.sources import SHORT_SOURCES, changes_since
 from solvers.quantity import Detail
 
 NAME = r"[a-z]\w*(?:[._]\w+)+"  # of a field: words joined by points and underscores
+FILE_NAMES = ("rexs_file", "rexs_sha256", "rexs_stage")  # views that say where a case was read from
 COMPRESSION = 1  # the fastest level of zlib
 REFUSED = (Unreadable, InvalidBody, Unprocessable)
 
@@ -111,7 +112,7 @@ class Asked:
     @property
     def too_long(self) -> bool:
         """Whether a link cannot hold the case."""
-        return len(self.query) + len(self.ref) > LONGEST_QUERY
+        return len(self.query) + len(self.ref) + len(self.views.get("also", "")) > LONGEST_QUERY
 
     @property
     def page(self) -> str:
@@ -120,16 +121,23 @@ class Asked:
 
     def beside(self, ref: str) -> str:
         """The page of the case, compared with the case of another query unless that is empty."""
-        return link(self.path, self.pairs, ref=ref, theme=self.theme, title=self.title, sources=SHORT_SOURCES)
+        also = self.views.get("also") if ref else None
+        views = {"ref": ref, "also": also, "pair": self.views.get("pair"), "theme": self.theme, "title": self.title}
+        return link(self.path, self.pairs, **views, **self.file, sources=SHORT_SOURCES)
 
     def view(self, name: str, **views: str | None) -> str:
         """The address of a view of the case."""
         return link(f"{self.path}/{name}", self.pairs, **views)
 
     @property
+    def file(self) -> dict[str, str | None]:
+        """The REXS file that the case was read from: its name and SHA-256, and the stage."""
+        return {name: self.views.get(name) for name in FILE_NAMES}
+
+    @property
     def report(self) -> str:
         """The address of the report of the case, which shows the compared case too if there is one."""
-        return self.view("report", ref=self.ref, title=self.title, sources=SHORT_SOURCES)
+        return self.view("report", ref=self.ref, title=self.title, **self.file, sources=SHORT_SOURCES)
 
     def study(self, name: str) -> str:
         """The address of the page of a study of the case."""
@@ -153,7 +161,7 @@ def opened(content: bytes, root: str) -> Asked:
     except (InvalidBody, Unreadable, AttributeError, KeyError, RecursionError, TypeError, ValueError):
         raise Unreadable("The file holds no case: JSON with an endpoint and a request") from None
     if endpoint not in BY_PATH:
-        raise Unreadable(f"The endpoint of the case is none of {', '.join(BY_PATH)}")
+        raise Unreadable("The file is a case of a calculation that is not known here")
     return Asked(endpoint.removeprefix("/v1"), pairs, {"title": title} if title else {}, root=root)
 
 

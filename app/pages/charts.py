@@ -112,6 +112,13 @@ def data_address(figure: Figure, theme: ThemeName = "light") -> str:
     return "data:image/svg+xml;base64," + base64.b64encode(written(figure, "svg", theme)).decode()
 
 
+def in_column(figure: Figure) -> Figure:
+    """The figure as a column of a report shows it; one that needs the whole width is unchanged."""
+    from app.figures.drawing.image import narrowed  # noqa: PLC0415  only workers draw
+
+    return narrowed(figure)
+
+
 def values_of(figure: Figure) -> bytes:
     """JSON of where the panels lie in the image, their curves, and the table of values."""
     return json.dumps({"panels": _panels(figure), **_table(figure)}).encode()

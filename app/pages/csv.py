@@ -42,14 +42,14 @@ def values(case: Case, title: str) -> bytes:
     return csv_of([("path", "title", "value", "unit", "symbol"), *named, *lines], DIGITS)
 
 
-def curves(response: Response) -> list[str]:
-    """The paths of the groups that hold curves, and of curves that belong to no group."""
-    found = (
-        each.path
+def curves(response: Response) -> dict[str, str]:
+    """The titles of the groups that hold curves, and of curves that belong to no group, by their paths."""
+    listed = (
+        each
         for each in entries(response)
         if each.leaf.dimensions == 1 and each.value is not None and each.leaf.kind in {"number", "integer"}
     )
-    return [*dict.fromkeys(path.rpartition(".")[0] or path for path in found)]
+    return {each.path.rpartition(".")[0] or each.path: each.group or each.leaf.title for each in listed}
 
 
 def curve(response: Response, path: str) -> bytes:

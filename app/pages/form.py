@@ -25,7 +25,8 @@ class State:
     """What is known of a case beside the schema, by path: texts typed, faults, and what an answer resolved.
 
     `assumed` are the fields whose default is ours. `required` is what stands beside a field that must be given: always,
-    or if the optional section that it is in is used.
+    or if the optional section that it is in is used. `deciding` are the fields on which a verdict rests: their sections
+    are open.
     """
 
     texts: Mapping[str, str] = field(default_factory=dict)
@@ -33,6 +34,7 @@ class State:
     resolved: Mapping[str, Any] = field(default_factory=dict)
     assumed: AbstractSet[str] = frozenset()
     required: str = REQUIRED
+    deciding: AbstractSet[str] = frozenset()
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,6 +106,7 @@ class Section:
     fault: str | None = None
     switch: FieldView | None = None
     needed: bool = False
+    deciding: bool = False
     advanced: bool = False
     columns: dict[str, str] = field(default_factory=dict)
     kind: str = "section"
@@ -150,23 +153,23 @@ def form(request: type[Request], state: State) -> tuple[Section, ...]:
         known: dict[str, Any] = {"path": "general", "id": anchor("general"), "fault": None}
         needed = any(leaf.required for leaf in root.leaves)
         sections.append(_section("general", loose, state, names, needed=needed, **known))
-    return tuple(sorted(sections, key=lambda each: (not each.needed, each.advanced)))
+    return tuple(sorted(sections, key=lambda each: (not each.needed, each.advanced, not each.deciding)))
 
 
-def _section(title: str, blocks: Iterable[Block], state: State, paths: list[str], **known: Any) -> Section:
+def _section(title: str, blocks: Iterable[Block], state: State, paths: list[str], **settled: Any) -> Section:
     """A section with the fields at or below some paths; open where one of them is required, given or wrong."""
-    given, faulty, assumed = (
-        sum(_count(names, each) for each in paths) for names in (state.texts, state.faults, state.assumed)
-    )
+    known = (state.texts, state.faults, state.assumed, state.deciding)
+    given, faulty, assumed, deciding = (sum(_count(names, each) for each in paths) for names in known)
     found: dict[str, Any] = {
         "path": paths[0],
-        "open": known.get("needed", False) or given > 0 or faulty > 0,
+        "open": settled.get("needed", False) or given > 0 or faulty > 0 or deciding > 0,
+        "deciding": deciding > 0,
         "given": given,
         "assumed": assumed,
         "id": anchor(paths[0]),
         "fault": "; ".join(state.faults[path] for path in paths if path in state.faults) or None,
     }
-    return Section(title=title, blocks=tuple(blocks), **found | known)
+    return Section(title=title, blocks=tuple(blocks), **found | settled)
 
 
 def _count(names: Iterable[str], path: str) -> int:

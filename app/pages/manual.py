@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cache, lru_cache
 from importlib.resources import files
 from itertools import pairwise
-from typing import Any
+from typing import Any, NamedTuple
 
 from latex2mathml.converter import convert
 from markdown_it import MarkdownIt
@@ -18,12 +18,14 @@ from markupsafe import Markup
 from mdit_py_plugins.anchors import anchors_plugin
 from mdit_py_plugins.dollarmath import dollarmath_plugin
 
-from app.calculations import BY_PATH, Calculation
+from app.calculations import BY_PATH, CALCULATIONS, Calculation
 from app.examples import examples
 from app.manual import NAMES, Chapter, chapters
 from app.manual.equations import anchor, equations, functions
+from app.manual.results import place_of
 from app.pages.query import Pairs, link, pairs_of
 from app.pages.templating import example_link, model_of, page_path, rendered
+from app.schema.fields import Leaf, leaves
 
 _FUNCTION = re.compile(r"\\(?:arc)?(?:sin|cos|tan|ln|exp|sinh|cosh|tanh|operatorname\{\w+\})(?![a-z])(?:\^\{?\w+\}?)?")
 _TAG = re.compile(r"\\tag\{([^}]+)\}")
@@ -49,7 +51,8 @@ def chapter_page(root: str, name: str) -> str:
     """One chapter."""
     chapter, following = chapters()[name], chapters().get(dict(pairwise(NAMES)).get(name, ""))
     body = _html(chapter.text, root)
-    return rendered("manual.html", root, chapter=chapter, headings=headings(chapter), body=body, following=following)
+    known: dict[str, Any] = {"headings": headings(chapter), "symbols": symbols_of(chapter)}
+    return rendered("manual.html", root, chapter=chapter, body=body, following=following, **known)
 
 
 @lru_cache(maxsize=4)
@@ -75,6 +78,33 @@ def method_of(chapter: Chapter) -> dict[str, Any]:
         "misprints": _plain(chapter.section("Misprints and how they were decided")),
         "limits": _plain(chapter.section("Limits of validity").partition("\n\n![")[0]),
     }
+
+
+class Symbol(NamedTuple):
+    """A symbol, what it stands for, and the unit in which the service shows it."""
+
+    symbol: str
+    title: str
+    unit: str
+
+
+@cache
+def symbols_of(chapter: Chapter) -> list[Symbol]:
+    """The symbols of the results that a chapter says how to compute, and of the inputs of its calculations."""
+    found = dict[tuple[str, str], Symbol]()
+    for calculation in CALCULATIONS:
+        own = leaves(calculation.request) if chapter_of(calculation) == chapter else ()
+        results = (leaf for leaf in leaves(calculation.response) if _is_of(leaf, chapter))
+        for leaf in (*own, *results):
+            if symbol := leaf.declared.symbol:
+                found.setdefault((symbol, leaf.declared.title), Symbol(symbol, leaf.declared.title, leaf.unit or ""))
+    return sorted(found.values(), key=lambda each: (each.symbol.casefold(), each.title))
+
+
+def _is_of(leaf: Leaf, chapter: Chapter) -> bool:
+    """Whether a chapter says how a result is computed."""
+    place = place_of(leaf.declared)
+    return place is not None and place.chapter == chapter.name
 
 
 @dataclass(frozen=True, slots=True)

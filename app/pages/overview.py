@@ -1,15 +1,19 @@
 """Pages that belong to no case: the start, the models, and a gear unit that was read from a file."""
 
+from collections.abc import Iterable
 from functools import lru_cache
+from itertools import chain
 from math import pi
 from typing import Any
 
 from app.calculations import BY_PATH, Calculation
 from app.manual import chapters
+from app.pages.form import title_of
 from app.pages.query import link, pairs_of
 from app.pages.studies.spectrum import address_of
 from app.pages.study_links import studies_of
 from app.pages.templating import by_model, example_link, examples_of, model_of, page_path, rendered
+from app.schema.fields import leaf_at
 
 ANSWERS = {"drive-train": "face-load", "coupling": "tooth-loads", "pumping": "mach-map", "scuffing": "flank-load"}
 """The figure that answers the question of each model on the start page."""
@@ -46,12 +50,26 @@ def _entry(calculations: list[Calculation]) -> dict[str, Any]:
     }
 
 
-def unit_page(root: str, unit: dict[str, Any]) -> str:
-    """The page of the answer of /v1/rexs: the stages of a gear unit, and a link to every calculation of each."""
-    return rendered("rexs.html", root, unit=unit, stages=[_stage(stage) for stage in unit["stages"]])
+def unit_page(root: str, unit: dict[str, Any], sha256: str = "") -> str:
+    """The page of the answer of /v1/rexs: the stages of a gear unit, and a link to every calculation of each.
+
+    `sha256` is that of the file; links to calculations carry it.
+    """
+    stages = [_stage(stage, {"rexs_sha256": sha256, "rexs_stage": str(stage["id"])}) for stage in unit["stages"]]
+    return rendered("rexs.html", root, unit=unit, stages=stages, sha256=sha256)
 
 
-def _stage(stage: dict[str, Any]) -> dict[str, Any]:
+def _titled(field: str, asked: Iterable[str]) -> str:
+    """What pages call a field of a request, or an endpoint; `asked` are the endpoints of the requests."""
+    if field in BY_PATH:
+        return BY_PATH[field].title
+    models = [BY_PATH[path].request for path in dict.fromkeys([*asked, *BY_PATH])]
+    leaves = (leaf.title for model in models if (leaf := leaf_at(model, field)))
+    sections = (title for model in models if (title := title_of(model, field)) != field)
+    return next(chain(leaves, sections), field.replace("_", " ").replace(".", ", "))
+
+
+def _stage(stage: dict[str, Any], file: dict[str, str]) -> dict[str, Any]:
     requests, request = stage["requests"], next(iter(stage["requests"].values()))
     gears, load = request["gears"], request.get("load", {})
     teeth = [gears.get(role, {}).get("teeth") for role in ("pinion", "wheel")]  # none that no gear has
@@ -61,22 +79,31 @@ def _stage(stage: dict[str, Any]) -> dict[str, Any]:
     for case in stage["cases"]:
         overrides = case["overrides"]
         pairs = dict(pairs_of(requests[SCUFFING])) | dict(pairs_of(overrides))
-        address = link(page_path(BY_PATH[SCUFFING]), list(pairs.items()))
+        address = link(page_path(BY_PATH[SCUFFING]), list(pairs.items()), **file)
         cases.append(case | {"address": address, "row": [overrides.get(name) for name in CASE_COLUMNS]})
-    return stage | {
-        "teeth": "/".join(str(each or "–") for each in teeth),
-        "ratio": ratio,
-        "power_kw": None if torque is None or speed is None else torque * speed * pi / 30e3,
-        "speeds": " / ".join(f"{each:.5g}" for each in (speed, speed / ratio if speed and ratio else None) if each),
-        "module_mm": gears.get("module_mm"),
-        "face_width_mm": gears.get("face_width_mm"),
-        "links": [
-            (BY_PATH[path].title, link(page_path(BY_PATH[path]), pairs_of(body))) for path, body in requests.items()
-        ],
-        "spectra": [
-            (BY_PATH[path].title, address_of(BY_PATH[path], pairs_of(requests[path]), {"cases": lines}))
-            for path, lines in stage["spectra"].items()
-            if path in SPECTRA
-        ],
-        "cases": cases,
+    titled = {
+        name: [each | {"field": _titled(each["field"], requests)} for each in stage[name]]
+        for name in ("missing", "assumed")
     }
+    return (
+        stage
+        | titled
+        | {
+            "teeth": "/".join(str(each or "–") for each in teeth),
+            "ratio": ratio,
+            "power_kw": None if torque is None or speed is None else torque * speed * pi / 30e3,
+            "speeds": " / ".join(f"{each:.5g}" for each in (speed, speed / ratio if speed and ratio else None) if each),
+            "module_mm": gears.get("module_mm"),
+            "face_width_mm": gears.get("face_width_mm"),
+            "links": [
+                (BY_PATH[path].title, link(page_path(BY_PATH[path]), pairs_of(body), **file))
+                for path, body in requests.items()
+            ],
+            "spectra": [
+                (BY_PATH[path].title, address_of(BY_PATH[path], pairs_of(requests[path]), {"cases": lines}))
+                for path, lines in stage["spectra"].items()
+                if path in SPECTRA
+            ],
+            "cases": cases,
+        }
+    )

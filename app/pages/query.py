@@ -6,6 +6,7 @@ from typing import Any
 from urllib.parse import parse_qsl, urlencode
 
 from app.errors import Unreadable
+from app.figures.wording import difference_unit
 from app.pages.typed import (
     as_typed,
     in_link,
@@ -33,9 +34,24 @@ STUDY_NAMES = frozenset(
     | {f"t{place}{part}" for place in range(SCATTERING) for part in ("", ".law", ".by", ".about")}
     | {"show", "best", TRIALS, CASES, "hours", "machines", "limit", "limit.by", "limit.side"}
 )
-REPORT_NAMES = {"title": 200, "project": 200, "part": 200, "author": 200, "checker": 200, "notes": 2000}
+REPORT_NAMES = {
+    "title": 200,
+    "project": 200,
+    "part": 200,
+    "revision": 40,
+    "author": 200,
+    "checker": 200,
+    "approver": 200,
+    "rexs_file": 200,
+    "rexs_sha256": 64,
+    "notes": 2000,
+}
 """What a report says of its occasion, and how many characters of it at most."""
-VIEW_NAMES = STUDY_NAMES | REPORT_NAMES.keys() | {"paper", "ref", "theme", "sources", "curve", "unlinked"}
+VIEW_NAMES = (
+    STUDY_NAMES
+    | REPORT_NAMES.keys()
+    | {"paper", "ref", "also", "pair", "theme", "sources", "curve", "unlinked", "extent", "rexs_stage"}
+)
 PICK = "pick:"
 """Before the name of a choice between fields that exclude each other; its value is the field that counts."""
 WRITTEN = "written"
@@ -96,7 +112,11 @@ def _in_link(model: type[Documented], name: str, text: str, others: dict[str, st
         return items_in_link(text)
     if name in STUDY_NAMES:
         leaf = leaf_at(model, others.get(name.partition(".")[0], ""))  # which is varied, or scatters
-        return in_link(text, leaf.unit if leaf else None)
+        unit = leaf.unit if leaf else None
+        if not name.endswith(".by") or difference_unit(unit) == unit:
+            return in_link(text, unit)
+        deviation = in_link(text, difference_unit(unit))
+        return deviation if deviation != text else in_link(text, unit)
     leaf = leaf_at(model, name) or leaf_at(model, name.rpartition(".")[0].rpartition(".")[0])
     if leaf is None or leaf.options or leaf.kind not in {"number", "integer"}:
         return text

@@ -12,7 +12,7 @@ from unicodedata import category
 from app.errors import Unprocessable
 from app.manual import Chapter, chapters
 from app.pages.cases import Asked, Case
-from app.pages.manual import chapter_of, method_of
+from app.pages.manual import chapter_of, method_of, symbols_of
 from app.pages.query import REPORT_NAMES, Pairs
 from app.pages.results import flattened, resolved, texts_of
 from app.pages.typesetting import cited
@@ -20,6 +20,14 @@ from app.schema.fields import Leaf, leaf_at
 
 SECTION_CHAPTERS = {"heat": "heat-balance"}  # where the chapter about a section has another name
 LOCAL = "http://localhost:8000"
+LABELS = {name: name for name in REPORT_NAMES} | {
+    "checker": "checked by",
+    "approver": "approved by",
+    "rexs_file": "name of the REXS file",
+    "rexs_sha256": "SHA-256 of the REXS file",
+}
+"""What the fields of the form are called."""
+MOST_SHORT = 4  # figures of the short form, two beside each other
 LONGEST_LINK = 240  # as text; what it leads to is the whole
 _element = re.compile(r"(\.\d+){1,2}$")  # of a list or a matrix of numbers
 
@@ -36,6 +44,7 @@ def context(asked: Asked, case: Case, host: str) -> dict[str, Any]:
 
     Raises Unprocessable for a name or note that is too long.
     """
+    inputs = _inputs(case, asked.pairs)
     views, link = asked.views, "" if asked.too_long else host + asked.root + asked.page
     return {
         "host": host,
@@ -43,12 +52,22 @@ def context(asked: Asked, case: Case, host: str) -> dict[str, Any]:
         "names": {name: _said(name, views.get(name, ""), longest) for name, longest in REPORT_NAMES.items()},
         "paper": "letter" if views.get("paper") == "letter" else "A4",
         "date": datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC"),
-        "inputs": _inputs(case, asked.pairs),
+        "inputs": inputs,
+        "given": [each for each in inputs if any(_is_given(cells) for _, cells in each[2])],
+        "labels": LABELS,
+        "short": views.get("extent") == "short",
+        "most": MOST_SHORT,
+        "stage": views.get("rexs_stage", ""),
+        "symbols": [each for chapter in _chapters_behind(case) for each in symbols_of(chapter)],
         "command": for_shell((host or LOCAL) + asked.root, case),
         "link": link,
         "link_text": link if len(link) <= LONGEST_LINK else f"{link[:LONGEST_LINK]}…",
         "methods": [method_of(chapter) for chapter in _chapters_behind(case)],
     }
+
+
+def _is_given(cells: dict[int, Cell]) -> bool:
+    return any(cell.origin == "given" for cell in cells.values())
 
 
 def _chapters_behind(case: Case) -> list[Chapter]:
@@ -84,6 +103,11 @@ def for_python(address: str, case: Case) -> str:
     )
 
 
+def body_of(case: Case) -> str:
+    """The body of the request as JSON, without what was left to its default."""
+    return json.dumps(_given(case))
+
+
 def _given(case: Case) -> dict[str, Any]:
     """The body of a request without what was left to its default."""
     return case.request.model_dump(exclude_unset=True, exclude={"detail"})
@@ -110,7 +134,10 @@ def _inputs(case: Case, pairs: Pairs) -> list[tuple[str, list[int], list[tuple[L
             cell = Cell(text, "given" if path in typed else origin)
         *section, name = path.split(".")
         index = int(section.pop()) if section and section[-1].isdecimal() else 0
-        title = " · ".join(part.replace("_", " ") for part in section) or "general"
+        title = (
+            " · ".join(str(int(part) + 1) if part.isdecimal() else part.replace("_", " ") for part in section)
+            or "general"
+        )
         _, cells = sections.setdefault(title, {}).setdefault(name, (leaf, {}))
         cells[index] = cell
     return [

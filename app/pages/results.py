@@ -5,7 +5,9 @@ from dataclasses import dataclass, replace
 from itertools import groupby
 from typing import Any, NamedTuple
 
+from app.figures.wording import DIFFERENCES, signed
 from app.pages.typesetting import shown, words
+from app.pages.verdicts import Verdict, verdicts
 from app.schema.fields import ITEM, Branch, Leaf, headlines, leaf_at, tree
 from app.schema.model import Documented, Response
 
@@ -13,8 +15,12 @@ NOT_RESULTS = frozenset(
     {"status", "warnings", "residuals", "assumptions", "model_version", "sources", "model", "derived", "inputs", "case"}
 )
 DIGITS = 3  # of a headline
+SHAFTS = ("pinion shaft", "wheel shaft")
+"""In the order of the list of shafts."""
 NEAR = 0.8  # of an upper limit
+LEVELS = ("plain", "good", "near", "bad")
 WELL_ABOVE = 2.0  # times a lower limit
+UNCHANGED = 5e-6  # of a value: a smaller change is not shown
 
 
 class Entry(NamedTuple):
@@ -62,7 +68,7 @@ def _entries(member: Leaf | Branch, value: Any, path: str, around: str) -> Itera
         yield Entry(around, member, path, value)
     elif isinstance(value, list):
         for index, item in enumerate(value):
-            titled = replace(member, title=f"{member.title} {index + 1}")
+            titled = replace(member, title=_title_of_item(member, index))
             yield from _entries(titled, item, f"{path}.{index}", around)
     elif value is not None:
         group = f"{around} · {member.title}" if around else member.title
@@ -70,6 +76,13 @@ def _entries(member: Leaf | Branch, value: Any, path: str, around: str) -> Itera
             name = inner.path.rpartition(".")[2]
             if name in value.model_fields_set:
                 yield from _entries(inner, getattr(value, name), f"{path}.{name}", group)
+
+
+def _title_of_item(member: Branch, index: int) -> str:
+    """What a section of a list is called: a shaft by its gear, others by their number."""
+    if member.path.rpartition(".")[2] == "shafts" and index < len(SHAFTS):
+        return SHAFTS[index]
+    return f"{member.title} {index + 1}"
 
 
 def values_by_path(response: Documented | None) -> dict[str, Any]:
@@ -115,7 +128,19 @@ def _row(leaf: Leaf, path: str, now: Any, before: Any = None, *, label: str, dig
     if leaf.view.percent:
         now, before, unit = (None if now is None else 100.0 * now, None if before is None else 100.0 * before, "%")
     known_unit = unit if now is not None or before is not None else ""
-    return Row(leaf, label, path, texts_of(now, digits), known_unit, texts_of(before, digits), _change(now, before))
+    items, old = (_named(leaf, texts_of(value, digits)) for value in (now, before))
+    return Row(leaf, label, path, items, known_unit, old, _change(now, before, unit))
+
+
+def _named(leaf: Leaf, items: tuple[str, ...]) -> tuple[str, ...]:
+    """Items of a list with the names that the declaration has for them: components, ends of a band."""
+    names = (leaf.declared.index or "").split(", ")
+    return tuple(map(" ".join, zip(names, items, strict=True))) if len(names) == len(items) > 1 else items
+
+
+def row_of(leaf: Leaf, path: str, value: Any = None, digits: int = DIGITS) -> Row:
+    """Return the line of one value."""
+    return _row(leaf, path, value, label=leaf.title, digits=digits)
 
 
 def texts_of(value: Any, digits: int, of_items: int = 4) -> tuple[str, ...]:
@@ -127,14 +152,15 @@ def texts_of(value: Any, digits: int, of_items: int = 4) -> tuple[str, ...]:
     return tuple(shown(item, of_items) for item in value)
 
 
-def _change(now: Any, before: Any) -> str:
-    """The change from `before` to `now` in words, for numbers in per cent."""
+def _change(now: Any, before: Any, unit: str) -> str:
+    """Return the change from `before` to `now` in words: a difference where ratios mean nothing, else per cent."""
     if isinstance(now, bool) or not isinstance(now, int | float) or not isinstance(before, int | float):
         return "no change" if now == before else "changed"
-    if before == 0.0:
-        return "no change" if now == 0.0 else "from zero"
-    change = 100.0 * (now / before - 1.0)
-    return "no change" if abs(change) < 5e-4 else f"{change:+.3g} %".replace("-", "−")
+    if abs(now - before) <= UNCHANGED * abs(before):
+        return "no change"
+    if unit in DIFFERENCES:
+        return signed(now - before, DIFFERENCES[unit])
+    return "from zero" if before == 0.0 else signed(100.0 * (now / before - 1.0), "%")
 
 
 def flattened(content: Any, path: str = "") -> dict[str, Any]:
@@ -162,16 +188,17 @@ def resolved(response: Response) -> dict[str, Any]:
 
 
 def cards(response: Documented, inputs: dict[str, Any], before: Documented | None = None) -> list[Row]:
-    """The headline numbers in order; of numbers that share a rank, only the largest.
+    """The headline numbers in order; of numbers that share a rank, only the one with the worst verdict or the largest.
 
     Where a warning makes the answer doubtful, no verdict is good.
     """
     known, old = values_by_path(response), values_by_path(before)
+    judged = verdicts(response) if isinstance(response, Response) else {}
     doubtful = any(warning.rank != "note" for warning in response.warnings)
     found = []
     for _, alike in groupby(headlines(type(response)), key=lambda leaf: leaf.view.headline):
-        leaf = max(alike, key=lambda leaf: _size(known.get(leaf.path)))
-        level, verdict = _verdict(response, leaf, inputs | known)
+        leaf = max(alike, key=lambda leaf: (_badness(judged.get(leaf.path)), _size(known.get(leaf.path))))
+        level, verdict = judged.get(leaf.path) or _verdict(response, leaf, inputs | known)
         if level == "good" and doubtful:
             level, verdict = "near", f"{verdict}; see the warnings"
         value = known.get(leaf.path)
@@ -188,6 +215,11 @@ def _with_band(items: tuple[str, ...], leaf: Leaf, known: dict[str, Any]) -> tup
         return items
     low, high = (shown(end, DIGITS) for end in ends)
     return (f"{', '.join(items)} ({low} to {high})",)
+
+
+def _badness(verdict: Verdict | None) -> int:
+    """The place of a verdict among the levels, from the best one up."""
+    return LEVELS.index(verdict.level) if verdict else 0
 
 
 def _size(value: Any) -> float:

@@ -1,15 +1,20 @@
 """Links to the pages of studies: those of a case, and studies to start from, an example with a field or two varied."""
 
 import json
+from collections.abc import Mapping
 from importlib.resources import files
+from types import MappingProxyType
 from typing import Any, NamedTuple
 
 from app.calculations import BY_PATH, Calculation
 from app.examples import examples
 from app.pages.query import Pairs, link, pairs_of
 from app.pages.templating import page_path
+from app.schema.fields import leaf_at
 from app.studies.fields import value_at
 from app.studies.requests import DRIVE_TRAIN
+
+AROUND = (0.5, 1.5)  # times a derived value, where it is varied
 
 
 class StudyLink(NamedTuple):
@@ -72,11 +77,27 @@ def studies_of(calculation: Calculation) -> list[StudyExample]:
     return [each for each in STUDIES if each.calculation is calculation]
 
 
-def studies_of_case(calculation: Calculation, pairs: Pairs, case: Any) -> list[Starter]:
-    """The same studies asked of a case: fields that have a value in it vary around that."""
-    address, found = f"{page_path(calculation)}/vary", []
+def studies_of_case(
+    calculation: Calculation, pairs: Pairs, case: Any, derived: Mapping[str, Any] = MappingProxyType({})
+) -> list[Starter]:
+    """The same studies asked of a case, each around the values of the case.
+
+    `derived` are values by path that the case does not state, such as the power of a given torque. A study of a number
+    that the case does not have at all is left out; options and lengths of zero keep the range of the example.
+    """
+    address, starters = f"{page_path(calculation)}/vary", []
     for each in studies_of(calculation):
-        own = [f"{axis}.{end}" for axis in "xy" if value_at(case, each.study.get(axis, "")) for end in ("from", "to")]
-        study = {name: text for name, text in each.study.items() if name not in own}
-        found.append(Starter(each.title, "", link(address, pairs, **study)))
-    return found
+        study = dict(each.study)
+        axes = [axis for axis in "xy" if axis in study]
+        for axis in axes:
+            path, ends = study[axis], (f"{axis}.from", f"{axis}.to")
+            value, known = value_at(case, path), derived.get(path)
+            if value:
+                study = {name: text for name, text in study.items() if name not in ends}
+            elif value is None and isinstance(known, int | float):
+                study |= {end: f"{times * known:.4g}" for end, times in zip(ends, AROUND, strict=True)}
+            elif value is None and not getattr(leaf_at(calculation.request, path), "options", ()):
+                break
+        else:
+            starters.append(Starter(each.title, "", link(address, pairs, **study)))
+    return starters

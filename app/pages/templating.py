@@ -10,7 +10,8 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from app.calculations import CALCULATIONS, Calculation
 from app.examples import Example, examples
 from app.figures import MEDIA_TYPES
-from app.pages.charts import data_address
+from app.manual.results import place_of
+from app.pages.charts import data_address, in_column
 from app.pages.form import anchor, link_to, title_of
 from app.pages.query import link, pairs_of
 from app.pages.typesetting import cited, shown, symbol, typeset, words
@@ -80,7 +81,8 @@ def _environment(root: str) -> Environment:
         "field_link": link_to,
         "field_title": title_of,
         "formats": MEDIA_TYPES,
+        "place_of": place_of,
     }
     environment.filters |= {"cited": cited, "shown": shown, "symbol": symbol, "typeset": typeset, "words": words}
-    environment.filters |= {"image": data_address, "url": url}
+    environment.filters |= {"image": data_address, "column": in_column, "url": url}
     return environment

@@ -3,22 +3,25 @@
 from dataclasses import dataclass, field, replace
 from typing import Any, Literal
 
-from app.calculations import BY_PATH
+from app.calculations import BY_PATH, Calculation
 from app.errors import Unreadable
 from app.evaluate import written as json_written
 from app.figures import Format, written
 from app.pages import csv
 from app.pages import report as reports
+from app.pages.carried import subject_of, uses
 from app.pages.cases import REFUSED, Asked, Case, Fault, faults_of, key_of, solved
 from app.pages.charts import figure_of, figures_of, linked, values_of
 from app.pages.form import State, form
 from app.pages.manual import chapter_of
-from app.pages.query import Pairs, link
+from app.pages.query import Pairs, excluded, link
 from app.pages.results import assumptions, cards, differences, groups, resolved
 from app.pages.study_links import studies_of_case, study_links
 from app.pages.templating import example_link, examples_of, page_path, rendered
 from app.pages.typed import as_typed, question
 from app.pages.typesetting import NO_VALUE
+from app.pages.variants import variants_of, with_this
+from app.pages.verdicts import conclusion
 from app.schema.fields import headlines, leaf_at
 
 
@@ -51,8 +54,9 @@ def page(asked: Asked) -> Shown:
         keep=_keep(asked, case, variant),
         **found,
         charts=[linked(each, figure, asked) for each, figure in found["figures"]],
-        ready=studies_of_case(asked.calculation, asked.pairs, response.inputs),
+        ready=studies_of_case(asked.calculation, asked.pairs, response.inputs, resolved(response)),
         curves=csv.curves(response),
+        sent=reports.body_of(case),
         code={
             "Python": reports.for_python(reports.LOCAL + asked.root, case),
             "curl": reports.for_shell(reports.LOCAL + asked.root, case),
@@ -63,6 +67,12 @@ def page(asked: Asked) -> Shown:
 def form_page(asked: Asked) -> Shown:
     """The page with the form as it was filled in, and no answer."""
     return _page(asked, State({name: as_typed(text) for name, text in asked.pairs}))
+
+
+def _deciding(calculation: Calculation) -> frozenset[str]:
+    """The inputs without which a headline has no value, and those that may stand for them."""
+    needed = (leaf_at(calculation.request, leaf.view.needs or "") for leaf in headlines(calculation.response))
+    return frozenset(path for leaf in needed if leaf for path in (leaf.path, *excluded(leaf.path, leaf)))
 
 
 def result(asked: Asked, media: Literal["json", "csv"]) -> Shown:
@@ -135,9 +145,11 @@ def _page(asked: Asked, state: State, status: int = 200, keep: dict[str, bytes] 
         asked=asked,
         calculation=calculation,
         chapter=chapter_of(calculation).name,
-        sections=form(calculation.request, state),
+        sections=form(calculation.request, replace(state, deciding=_deciding(calculation))),
         examples=[(example, example_link(calculation, example)) for example in examples_of(calculation)],
         studies=study_links(calculation),
+        subject=subject_of(calculation),
+        uses=[] if asked.too_long else uses(asked),
         headlines=headlines(calculation.response),
         **context,
     )
@@ -152,6 +164,9 @@ def _answered(asked: Asked, case: Case, variant: Case | None, trouble: str, *, c
     return {
         "response": response,
         "cards": cards(response, resolved(response), before),
+        "conclusion": conclusion(response),
+        "variants": variants_of(asked, case, variant),
+        "another": link(asked.path, asked.pairs, ref=asked.ref, also=with_this(asked), theme=asked.theme),
         "assumed": assumptions(request, response),
         "groups": groups(response, before),
         "derived": [row for rows in derived.values() for row in rows if row.value != NO_VALUE],

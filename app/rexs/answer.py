@@ -1,6 +1,7 @@
 """What a worker does with a gear unit's file: the answer of /v1/rexs, its page, and the file with results in it."""
 
 import json
+from hashlib import sha256
 from typing import Annotated, Any
 
 from pydantic import BaseModel
@@ -87,7 +88,7 @@ def unit_json(content: bytes, most_bytes: int) -> bytes:
 
 def unit_html(root: str, content: bytes, most_bytes: int) -> bytes:
     """The answer as a page; `root` is the prefix of its links."""
-    return unit_page(root, unit_of(content, most_bytes)).encode()
+    return unit_page(root, unit_of(content, most_bytes), sha256(content).hexdigest()).encode()
 
 
 def with_results(content: bytes, most_bytes: int, stage: int, request: bytes | None, deadline_s: float) -> File:

@@ -175,7 +175,7 @@ groups(
         results.Losses,
         "Friction losses and moments of one mesh, the one where the hub drives the sleeve.",
     ),
-    CouplingLimits=(results.Limits, "Limits and stiffnesses."),
+    CouplingLimits=(results.Limits, "Limits and stiffnesses.", {"allowable_misalignment": View(headline=4)}),
     SleeveOrbit=(results.Orbit, "Path of the sleeve centre."),
     SleeveInertia=(results.InertiaForce, "Inertia force of the sleeve mass of one mesh."),
     RecommendedPoint=(

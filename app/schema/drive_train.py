@@ -1,7 +1,6 @@
 """A gear unit whole: request and answer of /v1/drive-train."""
 
 from collections.abc import Iterator
-from dataclasses import replace
 from functools import partial
 from typing import Annotated, Any, ClassVar, Self
 
@@ -54,8 +53,8 @@ class TrainGears(BacklashGears, of=si.Arrangement, only=("hand",)):
 
     def pair(self, rack_tip_radius: float) -> GearPairInputs:
         """The solver's pair; `rack_tip_radius` counts where none is given."""
-        pair = self.si(GearPairInputs)
-        return pair if self.rack_tip_radius is not None else replace(pair, rack_tip_radius=rack_tip_radius)
+        own = self.rack_tip_radius
+        return self.si(GearPairInputs, rack_tip_radius=rack_tip_radius if own is None else own)
 
 
 class TrainOperation(ScuffingLoad, of=si.Arrangement, without=("hand",)):

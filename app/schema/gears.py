@@ -6,7 +6,7 @@ from pydantic import model_validator
 
 from app.schema.model import Section
 from app.schema.quantities import Input
-from solvers.gears.inputs import RACK_A, GearPairInputs, GearTeeth
+from solvers.gears.inputs import GROUND_FILLET, RACK_A, GearPairInputs, GearTeeth
 from solvers.materials import Solid
 from solvers.pumping.inputs import PumpingSetup
 
@@ -50,8 +50,10 @@ class BacklashGears(Gears, of=PumpingSetup, only=("normal_backlash",)):
     """The gear pair with its backlash."""
 
 
-class PumpingGears(BacklashGears, of=GearPairInputs):
+class PumpingGears(BacklashGears):
     """The gear pair."""
+
+    rack_tip_radius: Annotated[float, Input.of(GearPairInputs, "rack_tip_radius")] = GROUND_FILLET
 
 
 class Surface(Section, of=Solid, without=("roughness",)):

@@ -91,9 +91,9 @@ groups(
         results.SpacesResult,
         "The tooth spaces of one gear.",
         {
+            "peak_axial_mach": View(headline=2, limit=1.0, verdict=".axial_choked"),
             "peak_pressure_ratio": View(headline=3, verdict=".radial_choked"),
-            "peak_axial_mach": View(limit=1.0),
-            "max_temperature_rise": View(headline=2, verdict=".axial_choked"),
+            "max_temperature_rise": View(headline=4),
         },
     ),
     PumpingGeometry=(results.MeshGeometry, "The mesh."),

@@ -88,7 +88,7 @@ class Input(_Declaration):
 
 @dataclass(frozen=True)
 class View:
-    """How a result is judged: rank among the headline numbers, 1 to 3, and what bounds it.
+    """How a result is judged: rank among the headline numbers, 1 to 4, and what bounds it.
 
     `limit` is the number, or the dotted field of request or answer, that bounds the value; `bound` says on which side a
     verdict finds the value safe: below an upper limit, above a lower one. `needs` is the request field without which

@@ -205,9 +205,6 @@ class ContactTemperatures(Section, of=si.Temperatures):
 
     exclusive: ClassVar = (("scuffing_c", "scuffing_test"),)
 
-    bulk_c: float | None = None
-    bulk_method: si.BulkMethod = "estimated"
-
     @model_validator(mode="after")
     def one_bulk(self) -> Self:
         """One bulk temperature; the heat balance is for jets."""
@@ -260,8 +257,6 @@ class Micropitting(Section, of=si.MicropittingCheck):
 
 class MeshModel(LoadDistributionModel, FilmModel, of=si.ScuffingInputs, without=("line", "micropitting", "cooling")):
     """Choices where the paper leaves room, and physics and resolution of the film."""
-
-    friction: si.FrictionMethod = "iso_tr_13989"
 
 
 class ScuffingModel(MeshModel, of=si.ScuffingInputs, only=("line",)):

@@ -116,7 +116,6 @@ class GearPairInputs:
         "ρ_fP*",
         "ISO 53",
         kw_only=True,
-        default=GROUND_FILLET,
         ge=0,
         le=0.6,
         tolerance=0.02,

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from functools import cache, partial
 from math import pi
 
-from solvers.gears.inputs import GearPairInputs, GearTeeth
+from solvers.gears.inputs import GROUND_FILLET, GearPairInputs, GearTeeth
 from solvers.gears.pair import meshing_path
 from solvers.materials import Solid
 from solvers.oils import OilSheet
@@ -40,7 +40,9 @@ def fzg_c() -> StandardFilms:
     pinion, wheel = (
         GearTeeth(z, x, (tip - 4.5 * z) / 9 - x) for z, tip, x in ((16, 82.45, 0.1817), (24, 118.35, 0.1715))
     )
-    gears = GearPairInputs(pinion, wheel, module=4.5e-3, face_width=14e-3, centre_distance=91.5e-3)
+    gears = GearPairInputs(
+        pinion, wheel, module=4.5e-3, face_width=14e-3, centre_distance=91.5e-3, rack_tip_radius=GROUND_FILLET
+    )
     steel = Solid(210e9, 0.3, 7800.0, 440.0, 45.0, 0.3e-6)
     load = Load(3611.1 * 0.036, 1500 * pi / 30, dynamic_factor=1.03, mesh_load_factor=1.32)
     given = LoadDistributionInputs(gears, load, pinion_material=steel, wheel_material=steel)

@@ -8,14 +8,19 @@ from dataclasses import replace
 from functools import cache
 from math import pi, radians
 
-from solvers.gears.inputs import GearPairInputs, GearTeeth
+from solvers.gears.inputs import GROUND_FILLET, GearPairInputs, GearTeeth
 from solvers.pumping import Closure, Flow, Gap, Groove, PumpingInputs, PumpingModel, PumpingResult, PumpingSetup, Spaces
 from solvers.pumping.model import solve
 from solvers.pumping.results import SpacesResult
 
 # Table 1, and Tables 2 and 3 with the speeds of the text
 TABLE_1 = GearPairInputs(
-    GearTeeth(47, 0.291, 1.0, 1.475), GearTeeth(103, 0.322, 1.0, 1.474), 6.8e-3, 0.2, pressure_angle=radians(22.5)
+    GearTeeth(47, 0.291, 1.0, 1.475),
+    GearTeeth(103, 0.322, 1.0, 1.474),
+    6.8e-3,
+    0.2,
+    pressure_angle=radians(22.5),
+    rack_tip_radius=GROUND_FILLET,
 )
 CASE_1 = GearPairInputs(
     GearTeeth(47, 0.16, 0.9919, 1.47921),
@@ -25,6 +30,7 @@ CASE_1 = GearPairInputs(
     pressure_angle=radians(20),
     helix_angle=radians(12.75),
     centre_distance=0.590,
+    rack_tip_radius=GROUND_FILLET,
 )
 CASE_2 = GearPairInputs(
     GearTeeth(52, 0.198, 0.9891, 1.47469),
@@ -34,6 +40,7 @@ CASE_2 = GearPairInputs(
     pressure_angle=radians(22.5),
     helix_angle=radians(10),
     centre_distance=0.455,
+    rack_tip_radius=GROUND_FILLET,
 )
 SPEED_1, SPEED_2 = 9267.0, 8962.0  # rpm of the pinion
 GROOVE = (Groove(0.1, 0.016),)  # in the middle of the face, as the paper has it; its width is assumed

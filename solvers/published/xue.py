@@ -8,12 +8,14 @@ import numpy as np
 
 from solvers.contact import ehl
 from solvers.gears.inputs import GearPairInputs, GearTeeth
+from solvers.lubricants import Lubricant
 from solvers.scuffing.inputs import (
     Load,
     LoadDistributionInputs,
     Model,
     Modifications,
     ScuffingInputs,
+    Temperatures,
     angular_speed,
 )
 from solvers.scuffing.model import solve as solve_load_distribution
@@ -57,14 +59,21 @@ def pair(number: int, model: Model = PAPER_MODEL, modifications: Modifications |
 @cache
 def scuffing() -> Scuffing:
     """The thermal path of pair 1."""
-    return solve_scuffing(ScuffingInputs(paper_pair(1)))
+    return solve_scuffing(
+        ScuffingInputs(
+            paper_pair(1),
+            lubricant=Lubricant(),
+            friction="given",
+            temperatures=Temperatures(bulk=360.0, bulk_method="given"),
+        )
+    )
 
 
 @cache
 def point_a(rheology: ehl.Rheology = "ree_eyring", *, thermal: bool = True) -> ehl.LineContactResult:
     """The contact at A on 241 nodes."""
     model = replace(ehl.Model(), thermal=thermal, nodes=241)
-    return ehl.solve(ehl.LineContactInputs(POINT_A, model=replace(model, rheology=rheology)))
+    return ehl.solve(ehl.LineContactInputs(POINT_A, model=replace(model, rheology=rheology), lubricant=Lubricant()))
 
 
 def film(rheology: ehl.Rheology = "ree_eyring", *, thermal: bool = True) -> float:

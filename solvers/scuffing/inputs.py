@@ -403,9 +403,9 @@ class Temperatures:
     """Bulk temperature of the teeth and of the oil they draw in, oil temperature, scuffing temperature [K].
 
     With bulk_method "estimated" the bulk follows from the oil, its supply and Blok's flash temperature, and `bulk` is
-    None until it does; with "heat_balance" it is the mean of both `flanks` [K] that the balance of losses and oil
-    gives. The scuffing temperature is a property of oil and material that the paper does not give: a number, or what a
-    test says; with neither there is no safety.
+    None until it does; a bulk that is given needs the method "given". With "heat_balance" it is the mean of both
+    `flanks` [K] that the balance of losses and oil gives. The scuffing temperature is a property of oil and material
+    that the paper does not give: a number, or what a test says; with neither there is no safety.
     """
 
     bulk: float | None = quantity(
@@ -413,7 +413,7 @@ class Temperatures:
         "θ_M",
         f"{XUE}, Eq. 16",
         unit="c",
-        default=86.85,
+        default=None,
         ge=-70,
         le=500,
         tolerance=5,
@@ -424,7 +424,7 @@ class Temperatures:
         "bulk temperature method",
         None,
         TR_13989,
-        default="given",
+        default="estimated",
         text="given, estimated from oil, its supply and flash, or by the heat balance of losses and oil; if none is "
         "given the balance above 60 m/s with jets of a known oil and wherever something is said of the cooling, else "
         "the estimate",
@@ -574,14 +574,14 @@ class ScuffingInputs:
     """
 
     distribution: LoadDistributionInputs
-    lubricant: Lubricant | None = field(default_factory=Lubricant)
+    lubricant: Lubricant | None = None
     oil: OilSheet | Lubricant | None = None
     temperatures: Temperatures = field(default_factory=Temperatures)
     friction: FrictionMethod = quantity(
         "friction law",
         None,
         TR_13989,
-        default="given",
+        default="iso_tr_13989",
         text="the coefficient given, or by the oil: that of ISO/TR 13989-1 for Blok, Schlenk's for the losses; the"
         " first where a coefficient is given",
     )

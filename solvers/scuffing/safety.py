@@ -12,6 +12,7 @@ import numpy as np
 
 from solvers.arrays import FloatArray, frozen
 from solvers.contact.film import thickness_ratio
+from solvers.errors import InvalidInput
 from solvers.heat_balance import Heat, cooling_in_force
 from solvers.lubricants import OilInUse, oil_in_use
 from solvers.oils import OilSheet
@@ -58,9 +59,13 @@ AS_HOT = 0.02  # of the flash temperature: a hottest point no hotter than this a
 def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
     """Load distribution and scuffing check (Eq. 16).
 
-    Without an oil or a bulk temperature there are neither film nor contact temperature nor safety. Raises what
-    `model.solve` and `in_force` raise, and what the thermal EHL solver raises if it refuses every point.
+    Without an oil or a bulk temperature there are neither film nor contact temperature nor safety. Raises InvalidInput
+    exclusive for a bulk temperature beside the method that estimates it, what `model.solve` and `in_force` raise, and
+    what the thermal EHL solver raises if it refuses every point.
     """
+    if inputs.temperatures.bulk_method == "estimated" and inputs.temperatures.bulk is not None:
+        message = "an estimated bulk and a bulk temperature are both given; keep one, or set the method to given"
+        raise InvalidInput("exclusive", message, "temperatures.bulk_method")
     inputs, distribution, flash_map, heat = in_force(inputs, solve(inputs.distribution))
     given, bulk = inputs.distribution, inputs.temperatures.bulk
     whole = inputs.line == "flank"

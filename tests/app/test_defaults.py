@@ -1,10 +1,11 @@
 """What an answer rests on where a request leaves oil, bulk temperature and friction out: practice, or nothing."""
 
+from dataclasses import MISSING, fields
 from typing import Any
 
 import pytest
 
-from app.calculations import BY_PATH
+from app.calculations import BY_PATH, CALCULATIONS, Calculation
 from app.errors import Unprocessable
 from app.evaluate import evaluate
 from app.examples import examples
@@ -12,7 +13,9 @@ from app.figures.data import NoFigure
 from app.figures.models.scuffing import contact_temperature, friction
 from app.figures.units import shown
 from app.pages.results import cards
+from app.schema.fields import leaves
 from app.schema.scuffing import ScuffingRequest
+from solvers.oils import OilChoice
 from tests.support.requests import CONTACT, COUPLING, GONE, refused, solved
 
 COUPLED, SCUFFING, TRAIN = "/v1/coupling", "/v1/scuffing", "/v1/drive-train"
@@ -343,3 +346,25 @@ def test_examples_of_the_paper_assume_nothing_of_oil_bulk_and_friction(name: str
         assert example.request["lubricant"]["viscosity_pa_s"] == 0.08
     if example.endpoint != "/v1/scuffing/line-contact":
         assert example.request["friction_coefficient"] == 0.06
+
+
+LEFT_OPEN = {
+    ("Load", "pinion_torque"): "torque or power",
+    ("LoadDistributionInputs", "friction_coefficient"): "scuffing takes the law of friction instead",
+}
+"""Inputs of the solvers whose default the service cannot have, and why."""
+
+
+@pytest.mark.parametrize("calculation", CALCULATIONS, ids=lambda each: each.path)
+def test_inputs_of_the_solvers_have_the_defaults_of_the_service_or_none(calculation: Calculation) -> None:
+    """An oil by its viscosity needs its other properties there, for which the service takes the paper's."""
+    for leaf in leaves(calculation.request):
+        record, name = getattr(leaf.declared, "origin", None) or (None, "")
+        own = {each.name: each.default for each in fields(record)}.get(name, MISSING) if record else MISSING
+        if own is MISSING or (record is OilChoice and own is None) or (record.__name__, name) in LEFT_OPEN:
+            continue
+        default = list(leaf.default) if isinstance(leaf.default, list | tuple) else leaf.default
+        shown = leaf.declared.from_si(own) if isinstance(own, float) else own
+        shown = list(shown) if isinstance(shown, tuple) else shown
+        assert not leaf.required, leaf.path
+        assert (pytest.approx(shown, rel=1e-12) if isinstance(own, float) else shown) == default, leaf.path

@@ -20,8 +20,8 @@ from app.calculations import BY_PATH
 from app.evaluate import evaluate
 from app.examples import Example, examples
 from app.figures.data import Axis, Figure, Hue, Level, Line, Map, Mark, NoFigure, Panel, Row, ThemeName, values
-from app.figures.drawing.image import draw, laid_out, places
-from app.figures.drawing.style import WIDTH, themed, written
+from app.figures.drawing.image import draw, laid_out, narrowed, places
+from app.figures.drawing.style import NARROW, themed, written
 from app.figures.studies import Influence, corners, influence
 
 X = np.linspace(0.0, 1.0, 41)
@@ -84,9 +84,9 @@ def test_texts_of_a_printed_report_are_seven_points_high() -> None:
     style = files("app.pages").joinpath("templates", "report.css").read_text("utf-8")
     width = re.search(r"figure img\{width:(\d+)mm", style)
     assert width
-    scale = float(width[1]) / 25.4 / WIDTH
+    scale = float(width[1]) / 25.4 / NARROW
     with themed("light"):
-        sheet, _ = laid_out(Figure("a finding", (PANEL,), title="two peaks"))
+        sheet, _ = laid_out(Figure("a finding", (PANEL,), title="two peaks", narrow=True))
         assert min(text.get_fontsize() for text in sheet.findobj(Text)) * scale >= 7.0
 
 
@@ -95,6 +95,18 @@ def test_texts_of_a_printed_report_are_seven_points_high() -> None:
 def test_no_text_of_an_example_is_cut_or_over_another(name: str) -> None:
     found = [fault for figure in figures(examples()[name]) for fault in faults(figure)]
     assert not found
+
+
+def test_a_figure_in_a_column_of_a_report_has_no_collisions() -> None:
+    """One that would have some keeps the whole width."""
+    figure = Figure("a finding", (PANEL,), title="two peaks")
+    narrow = narrowed(figure)
+    assert narrow.narrow
+    assert not list(faults(narrow))
+    name = "a limit with a name that is far too long for the width of a column of a report, and then some"
+    long = replace(PANEL, levels=(Level(1.5, name),))
+    assert not narrowed(Figure("a finding", (long,), title="two peaks")).narrow
+    assert not narrowed(replace(figure, beside=True)).narrow
 
 
 def test_the_coupling_on_its_map_of_friction_hides_no_area() -> None:

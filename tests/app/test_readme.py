@@ -6,10 +6,27 @@ from typing import Any
 
 import matplotlib as mpl
 import matplotlib.pyplot as plt
+import pytest
+
+from app.evaluate import answer
 
 README = (Path(__file__).parents[2] / "README.md").read_text("utf-8")
 SNIPPETS = re.findall(r"```python\n(.*?)```", README, re.DOTALL)
 ADDRESS = "http://127.0.0.1:8000"
+PAIR = {
+    "gears": {
+        "pinion": {"teeth": 25},
+        "wheel": {"teeth": 76},
+        "module_mm": 4,
+        "helix_angle_deg": 10,
+        "face_width_mm": 60,
+    },
+    "load": {"pinion_torque_n_m": 900, "pinion_speed_rpm": 1500},
+    "lubricant": {"iso_vg": 220},
+    "temperatures": {"oil_c": 70, "scuffing_test": {"fzg_stage": 12}},
+    "model": {"lubrication": "closed_form"},
+}
+"""What the script calculates without a server."""
 
 
 def run(snippet: str, server: str) -> dict[str, Any]:
@@ -19,7 +36,7 @@ def run(snippet: str, server: str) -> dict[str, Any]:
 
 
 def test_a_single_request(server: str) -> None:
-    (snippet,) = (each for each in SNIPPETS if "safety" in each)
+    (snippet,) = (each for each in SNIPPETS if "service.scuffing" in each)
     names = run(snippet, server)
     with names["service"]:
         assert names["result"]["status"] in {"ok", "ok_with_warnings"}
@@ -45,8 +62,11 @@ def test_a_sweep_into_pandas(server: str) -> None:
 def test_a_flash_temperature_without_a_server() -> None:
     (snippet,) = (each for each in SNIPPETS if "GearPairInputs" in each)
     mpl.use("agg")  # a window would wait to be closed
-    found = run(snippet, ADDRESS)["found"]
-    assert found.path.blok_flash.max() == found.flash.feature_line_max
-    assert 20.0 < found.flash.blok_max < 60.0
+    result = run(snippet, ADDRESS)["result"]
+    assert result.path.blok_flash.max() == result.flash.feature_line_max
     (drawn,) = plt.gca().lines
-    assert drawn.get_ydata().max() == found.flash.feature_line_max
+    assert drawn.get_ydata().max() == result.flash.feature_line_max
+    answered = answer("/v1/scuffing", PAIR)
+    assert result.flash.blok_max == pytest.approx(answered["flash"]["blok_max_k"], rel=1e-9)
+    assert result.safety.blok_factor == pytest.approx(answered["safety"]["blok_factor"], rel=1e-9)
+    assert result.distribution.friction_loss.power == pytest.approx(answered["friction_loss"]["power_w"], rel=1e-9)

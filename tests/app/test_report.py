@@ -1,5 +1,6 @@
 """The report says which value was used and where it comes from, in words a customer reads."""
 
+import json
 import re
 from dataclasses import replace
 from functools import cache
@@ -60,6 +61,56 @@ def test_only_what_was_given_is_said_to_be_given(name: str) -> None:
     cells = re.findall(r'<td class="right [^"]*\bgiven\b[^"]*">([^<]*)</td>', part)
     assert len(cells) == len({re.sub(r"\.[01]\.[01]$", "", path) for path in typed})
     assert not [cell for cell in cells if "with grade" in cell or "value" in cell]
+
+
+def test_a_report_can_be_signed() -> None:
+    """Lines for date and signature stay where names are typed; the file of the unit is named with its hash."""
+    names = {"author": "A. Miller", "checker": "B. Smith", "approver": "C. Jones", "revision": "B"}
+    file = {"rexs_file": "unit.rexs", "rexs_sha256": "ab" * 32, "rexs_stage": "5"}
+    html = views.report(asked("pahl-axial-displacement", **names, **file), "").content.decode()
+    signatures = re.findall(r"<tr><td>(author|checked|approved)</td><td>([^<]*)</td>(.*?)</tr>", html)
+    assert [(role, name) for role, name, _ in signatures] == [
+        ("author", "A. Miller"),
+        ("checked", "B. Smith"),
+        ("approved", "C. Jones"),
+    ]
+    assert all(lines.count('class="line"') == 2 for *_, lines in signatures)
+    assert "<dt>revision</dt><dd>B</dd>" in html
+    assert f"unit.rexs, SHA-256 <code>{'ab' * 32}</code>" in html
+    assert '<input type="hidden" name="rexs_stage" value="5">' in html
+
+
+def test_the_short_form_has_what_was_given_and_no_equations() -> None:
+    short = views.report(asked("pahl-axial-displacement", extent="short"), "").content.decode()
+    full = report("pahl-axial-displacement")
+    assert "<h2>Method" in full
+    assert "<h2>Symbols" in full
+    assert "<h2>Method" not in short
+    assert "<h2>Results" not in short
+    assert short.count("<figure") <= 4 < full.count("<figure")
+    origins = set(re.findall(r'<td class="origin [^"]*">([^<]*)</td>', short))
+    assert origins == {"given"}
+    assert "assumed" in re.findall(r'<td class="origin [^"]*">([^<]*)</td>', full)
+
+
+def test_groups_repeat_their_heading_and_name_their_parts() -> None:
+    unit = report("starter-generator-gear-drive-train")
+    for heading in ("pinion shaft · bearings 1", "wheel shaft · bearings 1"):
+        assert re.search(rf'<thead><tr><td class="heading" colspan="4">[^<]*{heading}', unit), heading
+    assert re.search(r"reaction.*?<td class=\"right\">X −?[\d.\s\u202f]+, Y ", unit)
+    assert re.search(r'<td class="place">Eq. D5</td>', unit)
+
+
+def test_the_page_writes_results_back_into_the_file() -> None:
+    """Of the case as edited; a case that was read from no file has no such form."""
+    file = {"rexs_sha256": "ab" * 32, "rexs_stage": "5"}
+    case = replace(asked(SCUFFING, **file), pairs=[*asked(SCUFFING).pairs, ("model.lubrication", "closed_form")])
+    html = views.page(case).content.decode()
+    assert 'action="/v1/rexs/results?stage=5" method="post" enctype="multipart/form-data"' in html
+    sent = json.loads(unescape(re.findall(r'name="request" value="([^"]*)"', html)[0]))
+    assert sent["load"]["power_kw"] == 400
+    assert case.report.count("rexs_stage=5") == 1
+    assert "/v1/rexs/results" not in views.page(asked("pahl-axial-displacement")).content.decode()
 
 
 def test_assumptions_have_units_and_reasons() -> None:

@@ -46,7 +46,7 @@ def test_a_table_as_a_spreadsheet_copies_it() -> None:
         {"name": "full load", "share": 0.98, "set": {}},
     ]
     assert cases_of(SCUFFING, TABLE.replace("\t", ";")) == found
-    assert cases_of(SCUFFING, table_of(found)) == found
+    assert cases_of(SCUFFING, table_of(SCUFFING, found)) == found
     assert cases_of(SCUFFING, " \n") == [{}]
     assert cases_of(SCUFFING, "name\tshare") == [{}]
 
@@ -292,7 +292,7 @@ def test_the_report_has_a_section_of_its_own(client: httpx.Client) -> None:
     text = unescape(report.text)
     section = text.partition("<h2>Load spectrum</h2>")[2].partition("</section>")[0]
     assert section.startswith("<p>Probability of being above the limit ")
-    assert section.count("<figure>") == 4
+    assert section.count("<figure") == 4
     assert "<caption>Tolerances</caption>" in section
     assert "<h2>Inputs</h2>" in text
     refused = client.get(f"/coupling/spectrum/report?{query}&t1=nothing")

@@ -399,7 +399,7 @@ def test_a_curve_is_shaded_where_it_is_invalid_and_ringed_where_it_is_doubtful()
     )
     figure = figures_of(found)["curve"]
     panel = figure.panels[0]
-    assert figure.finding.endswith("; orange rings: doubtful, a limit of validity is left")
+    assert figure.finding.endswith("; orange rings: doubtful, outside a limit of validity")
     assert [(span.start, span.stop, span.name) for span in panel.spans] == [(4.0, 4.0, "edge contact")]
     assert [(mark.x, mark.y, mark.text) for mark in panel.marks if not mark.text] == [(2.0, 6.0, "")]
 

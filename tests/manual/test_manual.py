@@ -102,7 +102,7 @@ def test_a_study_of_a_limit_is_drawn_by_the_service(client: httpx.Client, pages:
     drawn = client.get(address.replace("&amp;", "&"))
     assert drawn.status_code == 200
     assert "edge contact" in drawn.text
-    assert "a limit of validity" in drawn.text
+    assert "outside a limit of validity" in drawn.text
 
 
 @pytest.mark.parametrize("name", NAMES)

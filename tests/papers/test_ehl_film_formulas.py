@@ -114,5 +114,5 @@ def test_spike_against_pan_and_hamrock(w: float) -> None:
 
 def test_dowson_higginson_film_at_point_a() -> None:
     """0.5045 um with E' and the mean speed."""
-    result = solve(LineContactInputs(POINT_A))
+    result = solve(LineContactInputs(POINT_A, lubricant=Lubricant()))
     assert result.film.dowson_higginson == pytest.approx(0.5045e-6, rel=2e-4)

@@ -14,6 +14,7 @@ import pytest
 from solvers.contact.ehl import Contact, LineContactInputs, LineContactResult, Model, solve_path
 from solvers.contact.ehl.model import solve
 from solvers.gears.pair import gear_pair
+from solvers.lubricants import Lubricant
 from solvers.published.xue import PAPER_SPEED, POINT_A, paper_gears
 from tests.support.line_contacts import blok_flash
 from tests.support.outcomes import codes
@@ -31,7 +32,7 @@ def point_a(
 ) -> LineContactResult:
     """Point A solved at a resolution."""
     model = Model(thermal=thermal, nodes=nodes, film_nodes=film_nodes, eyring_stress=eyring_stress, refine_mesh=False)
-    return solve(LineContactInputs(POINT_A, model=replace(model, rheology=rheology)))
+    return solve(LineContactInputs(POINT_A, model=replace(model, rheology=rheology), lubricant=Lubricant()))
 
 
 def path_contacts(rheology: str, points: int = 50) -> list[LineContactInputs]:
@@ -43,7 +44,10 @@ def path_contacts(rheology: str, points: int = 50) -> list[LineContactInputs]:
         radius = rho_1 * rho_2 / (pair.line_of_action * cos(pair.base_helix_angle))
         speeds = PAPER_SPEED * rho_1, PAPER_SPEED * 23 / 30 * rho_2
         contacts.append(Contact(POINT_A.line_load, float(radius), *map(float, speeds)))
-    return [LineContactInputs(contact, model=replace(Model(), rheology=rheology)) for contact in contacts]
+    return [
+        LineContactInputs(contact, model=replace(Model(), rheology=rheology), lubricant=Lubricant())
+        for contact in contacts
+    ]
 
 
 @cache
@@ -177,7 +181,7 @@ def test_heat_balance_of_the_newtonian_film() -> None:
 )
 def test_conductivity_that_doubles_under_pressure(rheology: str, coefficient: float, film_max: float | None) -> None:
     """What a constant conductivity costs: mu from 0.047 to 0.069 (Newtonian), 0.0273 to 0.0323 (Ree-Eyring)."""
-    inputs = LineContactInputs(POINT_A, model=replace(Model(), rheology=rheology))
+    inputs = LineContactInputs(POINT_A, model=replace(Model(), rheology=rheology), lubricant=Lubricant())
     result = solve(replace(inputs, lubricant=replace(inputs.lubricant, thermal_conductivity=0.28)))
     assert result.temperature is not None
     assert result.friction.coefficient == pytest.approx(coefficient, rel=0.015)
@@ -278,7 +282,7 @@ def test_flash_temperature_against_blok_at_the_tip(rheology: str, pinion: float,
 
 def test_cooler_inlet_hardly_matters() -> None:
     """Inlet oil at 333 K: h_min +1.4 %, mu -0.9 %, faces -1 K, contrary to the stress laid on the bulk temperature."""
-    inputs = LineContactInputs(POINT_A)
+    inputs = LineContactInputs(POINT_A, lubricant=Lubricant())
     cool = solved(solve(replace(inputs, temperatures=replace(inputs.temperatures, inlet=333.0))))
     warm = solved(point_a())
     assert cool[0] / warm[0] - 1.0 == pytest.approx(0.014, abs=0.01)
@@ -288,7 +292,7 @@ def test_cooler_inlet_hardly_matters() -> None:
 
 def test_viscosity_is_meant_at_360_kelvin() -> None:
     """With 0.08 Pa s at 333 K, the ambient temperature, the film would be 0.145 um thin, a third of the paper's."""
-    inputs = LineContactInputs(POINT_A, model=Model(rheology="newtonian"))
+    inputs = LineContactInputs(POINT_A, model=Model(rheology="newtonian"), lubricant=Lubricant())
     result = solve(replace(inputs, lubricant=replace(inputs.lubricant, reference_temperature=333.0)))
     assert solved(result)[0] == pytest.approx(0.145, rel=0.02)
 
@@ -320,7 +324,7 @@ RATIOS = (0.0, 0.02, 0.05, 0.1, 0.3, 0.6, 1.0, 1.5)
 def at_ratio(ratio: float, model: Model) -> LineContactResult:
     """R 6.5 mm, 350 N/mm, 2.4 m/s, p_H 1.39 GPa; surface 1 is the faster one for a positive slide-roll ratio."""
     speeds = 2.4 * (1 + ratio / 2), 2.4 * (1 - ratio / 2)
-    return solve(LineContactInputs(Contact(3.5e5, 6.5e-3, *speeds), model=model))
+    return solve(LineContactInputs(Contact(3.5e5, 6.5e-3, *speeds), model=model, lubricant=Lubricant()))
 
 
 @pytest.mark.parametrize(COLUMNS, SLIDE_ROLL)

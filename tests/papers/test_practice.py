@@ -6,7 +6,7 @@ from math import log, log10
 import pytest
 
 from solvers.errors import InvalidInput
-from solvers.gears.inputs import GearPairInputs, GearTeeth
+from solvers.gears.inputs import GROUND_FILLET, GearPairInputs, GearTeeth
 from solvers.gears.pair import meshing_path
 from solvers.lubricants import Lubricant, OilKind
 from solvers.materials import Solid
@@ -289,6 +289,7 @@ def test_mesh_stiffness_over_single_stiffness_of_the_fzg_c_pair() -> None:
         GearTeeth(24, 0.1715, None, 1.4, tip_diameter=118.35e-3),
         4.5e-3,
         14e-3,
+        rack_tip_radius=GROUND_FILLET,
     )
     steel = Solid(youngs_modulus=210e9)
     found = solve_load_distribution(

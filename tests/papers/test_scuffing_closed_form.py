@@ -26,12 +26,20 @@ from solvers.scuffing.safety_results import Scuffing
 from tests.support.line_contacts import blok_flash
 from tests.support.outcomes import codes, refused
 
-HOT = Temperatures(scuffing=433.15)
+HOT = Temperatures(scuffing=433.15, bulk=360.0, bulk_method="given")
 
 
 @cache
 def scuffing(pair: int, temperatures: Temperatures = HOT) -> Scuffing:
-    return solve_scuffing(ScuffingInputs(paper_pair(pair), temperatures=temperatures, lubrication="closed_form"))
+    return solve_scuffing(
+        ScuffingInputs(
+            paper_pair(pair),
+            temperatures=temperatures,
+            lubrication="closed_form",
+            lubricant=Lubricant(),
+            friction="given",
+        )
+    )
 
 
 def contact_at(result: LoadDistribution, x: float, line_load: float) -> Contact:
@@ -90,18 +98,20 @@ def test_equation_26_safety_in_either_unit() -> None:
 
 
 def test_safety_needs_a_scuffing_temperature_above_the_oils() -> None:
-    assert scuffing(1, Temperatures()).safety is None
-    assert refused(scuffing, 1, Temperatures(scuffing=320.0))[0] == "scuffing_temperature"
+    assert scuffing(1, Temperatures(bulk=360.0, bulk_method="given")).safety is None
+    assert (
+        refused(scuffing, 1, Temperatures(scuffing=320.0, bulk=360.0, bulk_method="given"))[0] == "scuffing_temperature"
+    )
 
 
 def test_safety_is_none_with_a_notice_where_the_teeth_stay_cool() -> None:
-    result = scuffing(1, Temperatures(bulk=250.0, scuffing=433.15))
+    result = scuffing(1, Temperatures(bulk=250.0, scuffing=433.15, bulk_method="given"))
     assert result.safety.blok_factor is None
     assert "no_safety" in codes(result)
 
 
 def test_the_oil_enters_at_bulk_temperature() -> None:
-    cool = scuffing(1, Temperatures(bulk=340.0)).path.dowson_higginson
+    cool = scuffing(1, Temperatures(bulk=340.0, bulk_method="given")).path.dowson_higginson
     thicker = (Lubricant().viscosity_at(0.0, 340.0) / 0.08) ** 0.7
     assert cool == pytest.approx(thicker * scuffing(1).path.dowson_higginson, rel=1e-12)
 

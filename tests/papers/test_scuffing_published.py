@@ -10,7 +10,7 @@ from scipy.optimize import brentq
 
 from solvers.contact import hertz
 from solvers.errors import InvalidInput
-from solvers.gears.inputs import GearPairInputs, GearTeeth
+from solvers.gears.inputs import GROUND_FILLET, GearPairInputs, GearTeeth
 from solvers.gears.pair import gear_pair, path_of_contact
 from solvers.materials import Solid
 from solvers.published.standard_gears import EXAMPLE_1, example_stress, fzg_pressure
@@ -67,11 +67,7 @@ def test_iso_tr_6336_30_example_1() -> None:
 
 
 FZG_C = GearPairInputs(
-    GearTeeth(16, 0.1817),
-    GearTeeth(24, 0.1715),
-    4.5e-3,
-    14e-3,
-    centre_distance=91.5e-3,
+    GearTeeth(16, 0.1817), GearTeeth(24, 0.1715), 4.5e-3, 14e-3, centre_distance=91.5e-3, rack_tip_radius=GROUND_FILLET
 )
 
 
@@ -123,7 +119,7 @@ def test_iso_face_load_factor_of_a_straight_mismatch() -> None:
 
 def test_din_3990_example_geometry() -> None:
     """github.com/hanslhansl/din3990, tests: 19/104, module 4, shifts 0.5/0.15."""
-    gears = GearPairInputs(GearTeeth(19, 0.5), GearTeeth(104, 0.15), 4e-3, 48.64e-3)
+    gears = GearPairInputs(GearTeeth(19, 0.5), GearTeeth(104, 0.15), 4e-3, 48.64e-3, rack_tip_radius=GROUND_FILLET)
     path = path_of_contact(gear_pair(gears))
     assert path.pair.centre_distance * 1e3 == pytest.approx(248.506843355171, rel=1e-12)
     assert np.degrees(path.pair.working_pressure_angle) == pytest.approx(21.531902292465457, rel=1e-11)
@@ -132,7 +128,9 @@ def test_din_3990_example_geometry() -> None:
 
 def test_ross_contact_ratio_and_hertz_stiffness() -> None:
     """github.com/petrobras/ross, tests: 62/62, module 2, width 20 mm; k_H = pi E b/[4 (1 - nu^2)] = 3.5558686e9."""
-    path = path_of_contact(gear_pair(GearPairInputs(GearTeeth(62), GearTeeth(62), 2e-3, 20e-3)))
+    path = path_of_contact(
+        gear_pair(GearPairInputs(GearTeeth(62), GearTeeth(62), 2e-3, 20e-3, rack_tip_radius=GROUND_FILLET))
+    )
     assert path.transverse_contact_ratio == pytest.approx(1.7897798668330458, rel=1e-11)
     assert 20e-3 / linear_contact_compliance(STEEL, STEEL) == pytest.approx(3555868607.9093266, rel=1e-3)
 

@@ -41,7 +41,7 @@ def test_a_scuffing_report_with_project_and_author(visit: Callable[..., Page]) -
         user.fields += 1
     user.click(page.get_by_role("button", name="Put on the report"))
     for text in ("Mill 7", "J. Doe"):
-        expect(page.locator("header .names")).to_contain_text(text)
+        expect(page.locator("header")).to_contain_text(text)
     expect(page.locator("body")).to_contain_text("220")
     assert (user.clicks, user.fields) == (5, 9)
 

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 from solvers.coupling import recommend, solve
 from solvers.coupling.inputs import Coupling, CouplingInputs, Operation, RecommendationInputs
-from solvers.gears.inputs import GearPairInputs, GearTeeth
+from solvers.gears.inputs import GROUND_FILLET, GearPairInputs, GearTeeth
 from solvers.notices import Notice
 from solvers.plausibility import gears, hot_oil, oil_temperature, thick_oil, thin_air, tooth_temperature
 
@@ -27,7 +27,9 @@ def test_a_search_that_calls_the_solver_says_it_once() -> None:
 
 
 def test_limits_hold_at_their_ends() -> None:
-    pair = GearPairInputs(module=4e-3, pinion=GearTeeth(25), wheel=GearTeeth(50), face_width=0.3)
+    pair = GearPairInputs(
+        module=4e-3, pinion=GearTeeth(25), wheel=GearTeeth(50), face_width=0.3, rack_tip_radius=GROUND_FILLET
+    )
     assert not [*gears(pair, 5000.0), *thin_air(20e3), *hot_oil(350.0, 350.0), *thick_oil(1.0)]
     assert not [*oil_temperature(403.15), *oil_temperature(243.15), *tooth_temperature(403.15)]
     assert [each.field for each in oil_temperature(403.2)] == ["temperatures.oil"]

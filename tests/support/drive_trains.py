@@ -77,8 +77,9 @@ def turbo_gear(modifications: Modifications = PLAIN, power: float = 12e6) -> Dri
     mesh = ScuffingInputs(
         distribution,
         lubricant=Lubricant(0.0095, 360.0, 16e-9, 0.03, 850.0),
-        temperatures=Temperatures(bulk=95 + CELSIUS, oil=50 + CELSIUS, scuffing=220 + CELSIUS),
+        temperatures=Temperatures(bulk=95 + CELSIUS, oil=50 + CELSIUS, scuffing=220 + CELSIUS, bulk_method="given"),
         lubrication="closed_form",
+        friction="given",
     )
     return DriveTrainInputs(
         mesh=mesh,

@@ -10,7 +10,7 @@ import numpy as np
 from solvers.contact import ehl
 from solvers.contact.hertz import reduced_modulus
 from solvers.errors import InvalidInput
-from solvers.gears.inputs import GearPairInputs, GearTeeth
+from solvers.gears.inputs import GROUND_FILLET, GearPairInputs, GearTeeth
 from solvers.lubricants import Lubricant
 from solvers.scuffing.flank_results import contact_points
 from solvers.scuffing.inputs import (
@@ -45,7 +45,12 @@ def random_pair(rng: np.random.Generator) -> ScuffingInputs:
     diameter = teeth * normal_module / np.cos(helix)
     face_width = _between(rng, *width) * diameter
     gears = GearPairInputs(
-        GearTeeth(teeth), GearTeeth(int(teeth * rng.uniform(1.0, 4.0))), normal_module, face_width, helix_angle=helix
+        GearTeeth(teeth),
+        GearTeeth(int(teeth * rng.uniform(1.0, 4.0))),
+        normal_module,
+        face_width,
+        helix_angle=helix,
+        rack_tip_radius=GROUND_FILLET,
     )
     torque = _between(rng, *intensity) * 1e6 * face_width * diameter**2 / 2
     load = Load(torque, 2 * _between(rng, *velocity) / diameter)
@@ -53,9 +58,10 @@ def random_pair(rng: np.random.Generator) -> ScuffingInputs:
     return ScuffingInputs(
         distribution,
         lubricant=Lubricant(viscosity=_between(rng, *viscosity)),
-        temperatures=Temperatures(bulk=rng.uniform(*bulk), oil=323.15, scuffing=523.15),
+        temperatures=Temperatures(bulk=rng.uniform(*bulk), oil=323.15, scuffing=523.15, bulk_method="given"),
         film=ehl.Model(rheology="newtonian" if rng.random() < 0.3 else "ree_eyring"),
         path_points=int(rng.choice(PATH_POINTS)),
+        friction="given",
     )
 
 
@@ -93,15 +99,28 @@ def relieved_pair(points: int) -> ScuffingInputs:
     distribution = LoadDistributionInputs(
         gears, Load(50e3 / speed, speed), Modifications(tip_relief=30e-6, root_relief=30e-6)
     )
-    return ScuffingInputs(distribution, temperatures=Temperatures(scuffing=573.15), path_points=points)
+    return ScuffingInputs(
+        distribution,
+        temperatures=Temperatures(scuffing=573.15, bulk=360.0, bulk_method="given"),
+        path_points=points,
+        lubricant=Lubricant(),
+        friction="given",
+    )
 
 
 def turbo_pair(helix_slope: float) -> ScuffingInputs:
     """Twelve megawatts at 10,000 rpm: 39/130 teeth, module 6 mm, 11.5 degrees, 200 mm wide; helix slope [m]."""
-    gears = GearPairInputs(GearTeeth(39), GearTeeth(130), 6e-3, 0.2, helix_angle=radians(11.5))
+    gears = GearPairInputs(
+        GearTeeth(39), GearTeeth(130), 6e-3, 0.2, helix_angle=radians(11.5), rack_tip_radius=GROUND_FILLET
+    )
     speed = angular_speed(10000.0)
     distribution = LoadDistributionInputs(gears, Load(12e6 / speed, speed), Modifications(helix_slope=helix_slope))
-    return ScuffingInputs(distribution, lubricant=Lubricant(viscosity=0.0095))
+    return ScuffingInputs(
+        distribution,
+        lubricant=Lubricant(viscosity=0.0095),
+        friction="given",
+        temperatures=Temperatures(bulk=360.0, bulk_method="given"),
+    )
 
 
 def points_alone(inputs: ScuffingInputs, result: Scuffing, every: int = 1) -> dict[int, ehl.LineContactResult]:

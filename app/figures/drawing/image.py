@@ -1,7 +1,8 @@
 """From the data of a figure to the bytes of an image: sheet, layout and formats. Equal figures give equal bytes."""
 
+from dataclasses import replace
 from io import BytesIO
-from itertools import pairwise
+from itertools import combinations, pairwise
 from textwrap import fill
 from typing import Any, NamedTuple
 
@@ -12,17 +13,19 @@ from matplotlib.backends.backend_pdf import FigureCanvasPdf
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure as Sheet
 from matplotlib.text import Text
+from matplotlib.transforms import Bbox
 
 from app.figures.data import Figure, Panel, ThemeName
-from app.figures.drawing.panels import draw_panel, place_texts
-from app.figures.drawing.style import DPI, TEXT, TITLE, WIDTH, themed
+from app.figures.drawing.panels import LINE, draw_panel, legend_lines, place_texts
+from app.figures.drawing.style import DPI, NARROW, TEXT, TITLE, WIDTH, themed
 from app.figures.wording import subscripts
 
 EDGE = 0.1  # inches around everything
-LINE = 1.3 / 72.0  # inches: height of a line of letters of one point
 TITLE_LENGTH, LENGTH, BESIDE_LENGTH = 58, 84, 30  # characters of a line: of the title, of others, of axes beside others
 HEIGHTS = {1: 2.6, 2: 1.6, 3: 1.25}  # inches, of panels above each other
 PLANE, PLANE_BESIDE = 3.3, 1.8  # inches, height of a field over two axes, and of one beside others
+TOUCH = 0.025  # inches by which the boxes of two texts may meet: the room above and below their letters
+NARROW_HEIGHT = 0.66  # of the usual height, of axes in narrow figures
 ROW_HEIGHT = 0.3  # inches, of a row of bars with a name of up to two lines
 ABSCISSA = 0.45  # inches, ticks and name below axes
 TICKS = 0.35  # inches, least width of the names of ticks left of axes
@@ -76,18 +79,33 @@ def size(figure: Figure) -> tuple[float, float]:
     """Width and height of the image in inches."""
     heights = [_height(panel, figure) for panel in figure.panels]
     body = max(heights, default=0.0) if figure.beside else sum(heights) + _gap(figure) * (len(heights) - 1)
-    return WIDTH, _head(figure)[-1] + _heading(figure) + body + ABSCISSA + EDGE
+    return _width(figure), _head(figure)[-1] + _heading(figure) + body + _abscissa(figure) + EDGE
+
+
+def _width(figure: Figure) -> float:
+    """Width of the image in inches."""
+    return NARROW if figure.narrow else WIDTH
+
+
+def _letters(figure: Figure, length: int) -> int:
+    """How many characters fit into a line where so many fit into one of a figure of usual width."""
+    return int(length * _width(figure) / WIDTH)
 
 
 def _head(figure: Figure) -> tuple[str, str, float, float]:
     """Title and finding in lines, and how far below the top of the image the finding begins and the panels."""
-    title, finding = fill(figure.title, TITLE_LENGTH), fill(figure.subtitle, LENGTH)
+    title, finding = fill(figure.title, _letters(figure, TITLE_LENGTH)), fill(figure.subtitle, _letters(figure, LENGTH))
     below = EDGE + LINE * TITLE * (1 + title.count("\n"))
     return title, finding, below, below + LINE * TEXT * (1 + finding.count("\n")) + EDGE
 
 
 def _height(panel: Panel, figure: Figure) -> float:
     """Height of the axes of a panel in inches."""
+    height = _usual_height(panel, figure)
+    return height if panel.rows or not figure.narrow else NARROW_HEIGHT * height
+
+
+def _usual_height(panel: Panel, figure: Figure) -> float:
     if panel.rows:
         return ROW_HEIGHT * (len({row.name for row in panel.rows}) + (1 if panel.levels else 0.3))
     if panel.equal or panel.areas:
@@ -98,6 +116,7 @@ def _height(panel: Panel, figure: Figure) -> float:
 def _heading(figure: Figure) -> float:
     """Height of the titles and names of ordinates above axes, in inches."""
     names = 0 if all(panel.rows for panel in figure.panels) else 2 if figure.beside else 1
+    names += max(map(legend_lines, figure.panels), default=0) if figure.narrow else 0
     return LINE * TEXT * (names + any(panel.title for panel in figure.panels)) + EDGE / 2
 
 
@@ -106,9 +125,14 @@ def _shares_abscissa(figure: Figure) -> bool:
     return not figure.beside and all(panel.x == figure.panels[0].x for panel in figure.panels)
 
 
+def _abscissa(figure: Figure) -> float:
+    """Height of ticks and name below axes in inches; in a narrow figure the name may have two lines."""
+    return ABSCISSA + LINE * TEXT * figure.narrow
+
+
 def _gap(figure: Figure) -> float:
     """Distance between axes above each other in inches."""
-    return _heading(figure) + (EDGE / 2 if _shares_abscissa(figure) else ABSCISSA)
+    return _heading(figure) + (EDGE / 2 if _shares_abscissa(figure) else _abscissa(figure))
 
 
 def laid_out(figure: Figure) -> tuple[Sheet, list[Axes]]:
@@ -129,6 +153,31 @@ def laid_out(figure: Figure) -> tuple[Sheet, list[Axes]]:
     return sheet, axes
 
 
+def narrowed(figure: Figure) -> Figure:
+    """The figure for a column of a report, unless its texts would collide there or panels stand beside each other."""
+    narrow = replace(figure, narrow=True)
+    return figure if figure.beside or _collides(narrow) else narrow
+
+
+def _collides(figure: Figure) -> bool:
+    """Whether a text of the figure is cut or lies over another one."""
+    with themed("light"):
+        sheet, axes = laid_out(figure)
+        sheet.draw_without_rendering()  # names of axes and legends have their places then
+        texts = [text for each in axes for text in (*each.texts, each.title, each.xaxis.label, each.yaxis.label)]
+        for each in axes:
+            for axis in (each.xaxis, each.yaxis):
+                low, high = sorted(axis.get_view_interval())
+                texts += [tick.label1 for tick in axis.get_major_ticks() if low <= tick.get_loc() <= high]
+            texts += legend.get_texts() if (legend := each.get_legend()) else []
+        boxes = [text.get_window_extent() for text in (*sheet.texts, *texts) if text.get_visible() and text.get_text()]
+        right, top = sheet.bbox.x1, sheet.bbox.y1
+        if any(box.x0 < 0.0 or box.y0 < 0.0 or box.x1 > right or box.y1 > top for box in boxes):
+            return True
+        shared = (Bbox.intersection(one, other) for one, other in combinations(boxes, 2))
+        return any(each and min(each.width, each.height) > TOUCH * sheet.dpi for each in shared)
+
+
 def _symbol(letter: str, subscript: str) -> str:
     """A symbol for matplotlib to typeset."""
     return rf"${letter}_\mathrm{{{subscript.replace(',', '{,}')}}}$"
@@ -141,26 +190,36 @@ def _axes(sheet: Sheet, figure: Figure) -> list[Axes]:
     ratios, share = None if figure.beside else heights, _shares_abscissa(figure)
     axes = list(sheet.subplots(rows, columns, squeeze=False, sharex=share, height_ratios=ratios).flat)
     for each, panel in zip(axes, figure.panels, strict=True):
-        draw_panel(each, panel, BESIDE_LENGTH if figure.beside else LENGTH)
+        draw_panel(each, panel, _letters(figure, BESIDE_LENGTH if figure.beside else LENGTH), narrow=figure.narrow)
         each.xaxis.label.set_visible(each is axes[-1] or not share)
     for each, (before, panel) in zip(axes[1:], pairwise(figure.panels), strict=True):
         each.yaxis.label.set_visible(not figure.beside or panel.y.label != before.y.label)
     ticks = max(text.get_window_extent().width for each in axes for text in each.get_yticklabels())
     left = EDGE + max(TICKS, ticks / sheet.dpi) + EDGE / 2
-    ends = [BAR if each.child_axes else LEGEND if each.get_legend() else END + _widest_value(each) for each in axes]
+    ends = [
+        BAR if each.child_axes else LEGEND if each.get_legend() and not figure.narrow else END + _beyond(each)
+        for each in axes
+    ]
     right, between = (ends[-1], left + max(ends[:-1], default=0.0)) if figure.beside else (max(ends), 0.0)
     sheet.subplots_adjust(
         left=left / width,
         right=1.0 - right / width,
         top=1.0 - (_head(figure)[-1] + _heading(figure)) / height,
-        bottom=(ABSCISSA + EDGE) / height,
+        bottom=(_abscissa(figure) + EDGE) / height,
         wspace=between * columns / (width - left - right - between * (columns - 1)),
         hspace=_gap(figure) * rows / sum(heights),
     )
     return axes
 
 
-def _widest_value(axes: Axes) -> float:
-    """Width of the widest value of a row in inches; other texts have their place within the axes."""
-    texts = [text for text in axes.texts if text.get_gid() is None]
-    return max((text.get_window_extent().width for text in texts), default=0.0) / axes.figure.dpi
+def _beyond(axes: Axes) -> float:
+    """Inches that texts reach beyond the right end of axes: the values of rows, and half of the last tick's name.
+
+    Other texts have their place within the axes.
+    """
+    rows = dict[float, float]()
+    for text in (text for text in axes.texts if text.get_gid() is None):
+        place = round(text.get_window_extent().y0)
+        rows[place] = rows.get(place, 0.0) + text.get_window_extent().width
+    ticks = [text.get_window_extent().width for text in axes.get_xticklabels()]
+    return max([*rows.values(), max(ticks, default=0.0) / 2 - END * axes.figure.dpi, 0.0]) / axes.figure.dpi

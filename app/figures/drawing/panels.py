@@ -20,6 +20,9 @@ from app.figures.wording import NOISE, number, without_rounding
 FARTHEST_LEVEL = 4.0  # a limit beyond so many times the values is named at the edge instead of flattening them
 NAME_LENGTH, ROW_NAME_LENGTH = 17, 36  # characters of a line of a legend and of the name of a row
 BAR_SHARE, TINT = 0.8, 0.2  # of the spacing; opacity of fills
+LEGEND_COLUMNS = 2  # of a legend above narrow axes
+LINE = 1.3 / 72.0  # inches: height of a line of letters of one point
+NAME_BELOW = 36  # characters of a line below narrow axes
 ROW = 0.52  # height of a row's bar
 RING = 5  # pixels
 SIDES = {"above": 1, "below": -1}  # of a point, on which its text is tried first; other texts stay where they are
@@ -28,15 +31,15 @@ RATIO_TICKS, LINEAR_RATIO = (1.0, 1.5, 2.0, 3.0, 5.0, 7.0), 1.5
 FEW_DECADES = 100.0  # up to this ratio of its ends a logarithmic axis has ticks between its powers of ten
 CROWDED = 0.08  # of the colour bar: a tick nearer to a critical value gives way
 BESIDE_ROWS = 0.4  # of the reach of rows, for texts at their ends
-WIDE = 0.15  # of the longest bar: bounds farther apart have their values at their ends
+WIDE = 0.15  # of the longest bar: the values of bounds farther apart are written
 STEPS = (1, 2, 2.5, 5, 10)  # of ticks, times powers of ten
 NUMBERS = FuncFormatter(lambda value, _: number(value, digits=6))
 
 Style = dict[str, Any]  # of matplotlib's artists
 
 
-def draw_panel(axes: Axes, panel: Panel, length: int) -> None:
-    """Draw a panel; names of axes have at most `length` characters a line.
+def draw_panel(axes: Axes, panel: Panel, length: int, *, narrow: bool = False) -> None:
+    """Draw a panel; names of axes have at most `length` characters a line, and a legend of a narrow one is above it.
 
     The name of the ordinate is a horizontal text above the axes. `place_texts` draws the texts of areas and moves
     those of points.
@@ -54,7 +57,7 @@ def draw_panel(axes: Axes, panel: Panel, length: int) -> None:
             axis.set_ticks(quantity.ticks)
         axis.set_major_formatter(NUMBERS)
     # The name may be wider than the axes of rows.
-    axes.set_xlabel(fill(panel.x.label, length), loc="right" if panel.rows else "center")
+    axes.set_xlabel(fill(panel.x.label, NAME_BELOW if narrow else length), loc="right" if panel.rows else "center")
     _draw_rows(axes, panel)
     _draw_fills(axes, panel)
     if panel.map is not None:
@@ -77,11 +80,36 @@ def draw_panel(axes: Axes, panel: Panel, length: int) -> None:
         axes.axvspan(span.start, span.stop, **shade)
         top = (span.start + span.stop) / 2, 1.0
         _name(axes, span.name, top, axes.get_xaxis_transform(), gid="below", color=rcParams["axes.labelcolor"])
+    _draw_legend(axes, panel, narrow=narrow)
+
+
+def _draw_legend(axes: Axes, panel: Panel, *, narrow: bool) -> None:
+    """Draw the legend beside the axes, above them where a colour bar stands there or the figure is narrow."""
     known = {str(each.get_label()): each for each in axes.get_legend_handles_labels()[0]}  # a name may be of several
-    if known and panel.map is not None:  # above, because the colour bar stands at the side
+    if known and narrow:  # above the name of the ordinate: there is no room beside it
+        above = axes.transAxes + ScaledTranslation(
+            0.0, LINE * TEXT * (1 + bool(panel.title)), axes.figure.dpi_scale_trans
+        )
+        style: Style = {
+            "loc": "lower left",
+            "bbox_to_anchor": (0.0, 1.02),
+            "bbox_transform": above,
+            "ncols": LEGEND_COLUMNS,
+        }
+        axes.legend(known.values(), known, **style)
+    elif known and panel.map is not None:  # above, because the colour bar stands at the side
         axes.legend(known.values(), known, loc="lower right", bbox_to_anchor=(1.0, 1.01), ncols=len(known))
     elif known:
         axes.legend(known.values(), known, bbox_to_anchor=(1.02, 1.0))
+
+
+def legend_lines(panel: Panel) -> int:
+    """Return how many lines the legend above a narrow panel has."""
+    lines = [*(line.title for line in panel.lines if line.named), *(shape.title for shape in panel.shapes)]
+    bars = [bars.title for bars in panel.bars] if len(panel.bars) > 1 else []
+    names = dict.fromkeys([*lines, *bars, *(part.name for row in panel.rows for part in row.parts)])
+    rows = -(-len(names) // LEGEND_COLUMNS)
+    return rows * max((len(fill(name, NAME_LENGTH).splitlines()) for name in names), default=0)
 
 
 def _end(axes: Axes, panel: Panel) -> None:
@@ -196,19 +224,15 @@ def _draw_row(axes: Axes, place: int, row: Row) -> None:
 
 
 def _write_value(axes: Axes, place: int, row: Row, panel: Panel) -> None:
-    """The value of a row at its right, and those of its bounds at their ends; rounding errors are zero."""
+    """The value of a row at its right, then those of its bounds if they are far apart; rounding errors are zero."""
     scale = max((abs(each.value) for each in panel.rows if np.isfinite(each.value)), default=0.0)
     value, unit = without_rounding(row.value, scale), panel.x.unit
     text = number(value, unit) if np.isfinite(value) else "not calculated"
-    strong: Style = {"fontsize": TEXT, "fontweight": "bold"}
+    drawn = [end for each in panel.rows if each.name == row.name for end in (each.value, *(each.bounds or ()))]
+    written = _write(axes, text, (np.nanmax([0.0, *drawn]), place), 4, fontsize=TEXT, fontweight="bold")
     if row.bounds is not None and row.bounds[1] - row.bounds[0] > WIDE * scale:
-        low, high = row.bounds
-        _write(axes, number(low, unit), (low, place), -5, color=rcParams["axes.labelcolor"])
-        above = _write(axes, number(high, unit), (high, place), 5, color=rcParams["axes.labelcolor"])
-        _write(axes, text, (1, 0.5), 4, xycoords=above, **strong)
-    else:
-        drawn = [end for each in panel.rows if each.name == row.name for end in (each.value, *(each.bounds or ()))]
-        _write(axes, text, (np.nanmax([0.0, *drawn]), place), 4, **strong)
+        low, high = (number(end) for end in row.bounds)
+        _write(axes, f"({low} to {high})", (1, 0.5), 3, xycoords=written, color=rcParams["axes.labelcolor"])
 
 
 def _write(axes: Axes, text: str, xy: tuple[float, float], offset: float, **style: Any) -> Text:
@@ -302,17 +326,32 @@ def _name(axes: Axes, text: str, xy: tuple[float, float], xycoords: Any = "data"
         axes.annotate(text, xy, (0, 0), xycoords, bbox=patch(), **style)
 
 
+def _keep_clear(axes: Axes, text: Text, room: Bbox, rings: list[Bbox]) -> None:
+    """Move the text of an area to another place in it where the ring of a point lies over its middle."""
+    box = text.get_window_extent()
+    free_x, free_y = (room.width - box.width) / 2, (room.height - box.height) / 2
+    for across, up in ((0, 0), (0, 1), (0, -1), (1, 0), (-1, 0), (1, 1), (-1, 1), (1, -1), (-1, -1)):
+        middle = (room.x0 + room.x1) / 2 + across * free_x, (room.y0 + room.y1) / 2 + up * free_y
+        moved = Bbox.from_bounds(middle[0] - box.width / 2, middle[1] - box.height / 2, box.width, box.height)
+        if not any(moved.overlaps(ring) for ring in rings):
+            x, y = axes.transData.inverted().transform(middle)
+            text.set_position((float(x), float(y)))
+            return
+
+
 def place_texts(axes: Axes, panel: Panel) -> None:
     """Place the texts of areas, as many lines as fit, and those of points, beside them and clear of other texts."""
+    points = (axes.transData.transform((mark.x, mark.y)) for mark in panel.marks)
+    rings = [Bbox([point - RING, point + RING]) for point in points]
     for area in panel.areas:
         room = Bbox([(area.left, area.bottom), (area.right, area.top)]).transformed(axes.transData)
         middle = (area.left * area.right) ** 0.5, (area.bottom * area.top) ** 0.5  # of logarithmic axes
         text = axes.text(*middle, area.text, color=rcParams["axes.labelcolor"], ha="center", va="center")
         while (box := text.get_window_extent()).width > room.width or box.height > room.height:
             text.set_text(text.get_text().rpartition("\n")[0])
+        _keep_clear(axes, text, room, rings)
     taken: list[BboxBase] = [each.get_window_extent() for each in axes.texts if each.get_gid() not in SIDES]
-    rings = (axes.transData.transform((mark.x, mark.y)) for mark in panel.marks)
-    taken += [Bbox([ring - RING, ring + RING]) for ring in rings]
+    taken += [*rings, axes.yaxis.label.get_window_extent(), axes.title.get_window_extent()]
     shapes = [line for line in axes.lines if line.get_linestyle() != "None"]
     shapes += [bar for each in axes.containers for bar in each]
     curves = [shape.get_path().transformed(shape.get_transform()) for shape in shapes]

@@ -8,7 +8,7 @@ from matplotlib.colors import to_hex, to_rgb
 
 from app.figures.data import Hue, Role, ThemeName
 
-WIDTH = 5.6  # inches
+WIDTH, NARROW = 5.6, 3.9  # inches, of a figure and of one in a column of a report
 DPI = {"svg": 100, "png": 180, "pdf": 180}  # of the maps inside the vector formats too
 TITLE, TEXT = 11.0, 8.5  # points; the texts of axes have 8, as the style sheet says
 DASHES: dict[Role, Any] = {Role.RESULT: "solid", Role.REFERENCE: (0, (1.2, 1.8)), Role.VARIANT: (0, (4.5, 2.2))}

@@ -85,7 +85,7 @@ def over_flanks(
 
 def _place(local: LocalFilm) -> str:
     place = f"{percent(present(local.at_psi))} of the path, y = {number(present(local.at_face), 'mm')}"
-    return f"λ = {number(present(local.least_ratio))} at {place}"
+    return f"λ_GF = {number(present(local.least_ratio))} at {place}"
 
 
 def _film_map(width: float, case: _Case, permissible: float | None, ends: tuple[float, float], *, bar: bool) -> Panel:

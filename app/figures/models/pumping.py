@@ -9,7 +9,7 @@ from app.figures.data import Axis, Figure, Hue, Level, Line, Map, Mark, NoFigure
 from app.figures.declaration import Declaration, present
 from app.figures.models.load_distribution import face, section
 from app.figures.units import MM, RPM, axis, shown
-from app.figures.wording import number, ratio
+from app.figures.wording import UNCERTAIN, listed, number, percent, ratio
 from solvers.pumping.inputs import ChokingInputs, Flow, PumpingInputs, PumpingSetup
 from solvers.pumping.results import ChokingCurves, ChokingSpeeds, FaceProfile, PumpingResult, SpacesResult
 from solvers.pumping.speed_scan import speed_scan
@@ -47,8 +47,13 @@ def mach_map(inputs: PumpingInputs, result: PumpingResult) -> Figure:
     panels = _maps(inputs, result, "axial_mach", Scale.SIGNED, Level(1.0, "sonic"), Level(-1.0, "sonic"))
     peak = max(space.peak_axial_mach for _, space in spaces(result))
     choked = [gear for gear, space in spaces(result) if space.axial_choked]
-    state = f"an end of the {' and '.join(choked)} becomes sonic" if choked else "no end becomes sonic"
-    return Figure(f"up to {number(peak)} with the exit faces; {state}", panels, beside=True)
+    if choked:
+        state = f"an end of the {listed(choked)} is choked"
+    else:
+        state = "supersonic inside, the ends are not choked" if peak > 1.0 else "subsonic throughout"
+    uncertain = result.resolution.axial_mach
+    doubt = f"; doubtful: uncertain by {percent(uncertain)}" if uncertain > UNCERTAIN else ""
+    return Figure(f"up to {number(peak)} with the exit faces; {state}{doubt}", panels, beside=True)
 
 
 def temperature_map(inputs: PumpingInputs, result: PumpingResult) -> Figure:
@@ -120,7 +125,7 @@ def choking(inputs: ChokingInputs, result: ChokingSpeeds, curves: ChokingCurves)
         parts.curve(x, pressure, curves.pinion_speed, peak, Hue.VERMILLION, levels=clearances),
     ]
     bend = inputs.setup.model.flow is Flow.GAS_DYNAMICS and np.nanmax(mach, initial=0.0) > 1.0
-    bends = "; a bend above 1: from there the gas reaches an end supersonic" if bend else ""
+    bends = "; the curve bends where the gas reaches an end faster than sound" if bend else ""
     return Figure(f"sonic: {', '.join(texts)}{bends}", panels, unsolved=int(np.isnan(mach).sum()))
 
 

@@ -199,7 +199,8 @@ def film(inputs: ScuffingInputs, result: Scuffing) -> Figure:
         finding = "no film is known everywhere" if _unsolved(result) else "no load"
     else:
         regime = present(thinnest.thickness_regime).replace("_", " ")
-        finding = f"λ = {number(thinnest.thickness_ratio)} at the thinnest: {regime}"
+        method = "Dowson and Higginson" if thinnest.thermal_ehl_min is None else "thermal EHL"
+        finding = f"λ by {method} = {number(thinnest.thickness_ratio)} at the thinnest: {regime}"
     roughness = float(np.hypot(pair.pinion_material.roughness, pair.wheel_material.roughness)) / UM  # Eq. 28
     limit = Level(roughness, "λ = 1, film as thick as the roughness", limit=True)
     y = Axis("film thickness", "µm", symbol="h")
@@ -225,7 +226,7 @@ def film_against_micropitting(inputs: ScuffingInputs, result: Scuffing) -> Figur
         thermal = None if path.thermal is None else path.thermal.minimum_film
         return micropitting.film_lines(answer, path.psi, present(path.micropitting_ratio), thermal, roughness)
 
-    finding = f"λ = {number(present(answer.local.least_ratio))} at the thinnest"
+    finding = f"λ_GF by ISO/TR 15144-1 = {number(present(answer.local.least_ratio))} at the thinnest"
     if answer.local.safety is not None:
         finding = f"{finding}: S_λ = {number(answer.local.safety)}, {answer.local.verdict}"
     return _along(inputs, result, finding, panel)

@@ -163,7 +163,16 @@ function goTo(address) {
   target.scrollIntoView({ block: target.closest(".fields") ? "center" : "start" });
 }
 
+// Cards that stay at the top hide nothing: what is scrolled to keeps clear of them, and tall ones do not stay.
+function keepClear() {
+  const cards = document.querySelector(".result > .cards");
+  cards?.classList.toggle("tall", cards.offsetHeight > 0.35 * window.innerHeight);
+  const stays = cards && getComputedStyle(cards).position === "sticky";
+  document.documentElement.style.scrollPaddingTop = stays ? `${cards.offsetHeight + 8}px` : "";
+}
+
 function prepareResult() {
+  keepClear();
   prepareCopy(say);
   prepareCode(say);
   document.querySelectorAll(".plot").forEach(prepareChart);
@@ -186,5 +195,6 @@ document.addEventListener("click", (event) => {
   if (link) { event.preventDefault(); goTo(link.getAttribute("href")); }
 });
 document.getElementById("example").addEventListener("change", (event) => { if (event.target.value) event.target.form.submit(); });
+window.addEventListener("resize", keepClear);
 form.querySelectorAll("textarea[data-count]").forEach(count);
 prepareResult();

@@ -97,8 +97,8 @@ class Table(NamedTuple):
 class Result:
     """The result of a study as its page shows it: the `first` tables, the figures by name, then the other tables.
 
-    `leads` are links above the result. `script` is JSON for the script of the page, with which a click into the first
-    figure opens the case at that point.
+    `answer` is the answer to the question of the study in a sentence. `leads` are links above the result. `script` is
+    JSON for the script of the page, with which a click into the first figure opens the case at that point.
     """
 
     progress: str
@@ -108,6 +108,7 @@ class Result:
     leads: tuple[Link, ...] = ()
     script: str = ""
     first: tuple[Table, ...] = ()
+    answer: str = ""
 
 
 class StudyPage(ABC):
@@ -196,7 +197,7 @@ class StudyPage(ABC):
         path = self.views.get("show") or self.usual_output.path
         output = scalar_at(self.calculation.response, path, "outputs.0", "unknown_output")
         if output.kind not in NUMBERS:
-            raise Unprocessable("unknown_output", f"{output.path} is no number", "outputs.0")
+            raise Unprocessable("unknown_output", f"{output.title} is no number", "outputs.0")
         return output
 
     def number(self, control: str, usual: float | None = None) -> Any:

@@ -5,6 +5,7 @@ from typing import Any
 from app.figures.data import Figure
 from app.figures.studies import Influence, influence
 from app.figures.units import axis_of
+from app.figures.wording import difference_unit
 from app.pages import study_links
 from app.pages.query import link
 from app.pages.studies.page import Link, Number, Result, StudyPage, Table
@@ -40,7 +41,7 @@ class SensitivityPage(StudyPage):
             if line["type"] == "sensitivity" and line["change"] is not None:
                 path, known = line["path"], inputs[line["path"]]
                 name, unit = numbered(known["title"], path), known["unit"] or ""
-                step = f"+{shown(line['step'], 3)} {unit}".rstrip()
+                step = f"+{shown(line['step'], 3)} {difference_unit(unit)}".rstrip()
                 varied = {"x": path, "show": output.path, "theme": self.asked.theme}
                 row = (
                     Link(name, link(f"{self.asked.path}/vary", self.asked.pairs, **varied)),
@@ -62,7 +63,7 @@ class SensitivityPage(StudyPage):
             remarks.append(f"No input moves the {output.title} of this case.")
         if GIVEN_BULK in {each["reason"] for each in end["assumptions"]}:
             remarks.append(f"Oil temperature: {GIVEN_BULK}.")
-        changes = f"changes the {output.title} by{f', {output.unit}' if output.unit else ''}"
+        changes = f"changes the {output.title} by{f', {difference_unit(output.unit)}' if output.unit else ''}"
         head = ("input", Number("value"), "unit", Number("one step"), Number(changes), Number("% for 1 %"), "remark")
         more = len(rows) - MOST_ROWS
         note = "A name leads to the curve over that input."

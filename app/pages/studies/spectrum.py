@@ -10,11 +10,11 @@ from app.errors import Unprocessable
 from app.figures.data import Figure, NoFigure
 from app.figures.spectrum import Limited, SpectrumCase, chance_text, chances, deciding, losses, overlap, sentence
 from app.figures.units import axis_of
-from app.figures.wording import percent
+from app.figures.wording import difference_unit, number, percent
 from app.pages import study_links
 from app.pages.form import FieldView
 from app.pages.query import SCATTERING, Pairs, link, pairs_of
-from app.pages.studies.page import Controls, Link, Number, Result, StudyPage, Table
+from app.pages.studies.page import Controls, Link, Number, Result, StudyPage, Table, titled
 from app.pages.studies.sweep import field_choices, is_number
 from app.pages.templating import page_path
 from app.pages.typed import as_typed, number_of, power_between, question, scaled, separator_of, text_of
@@ -122,10 +122,10 @@ def _case(calculation: Calculation, columns: list[Column], row: list[str], line:
     return case
 
 
-def table_of(cases: list[dict[str, Any]]) -> str:
-    """The table of cases as `cases_of` reads it."""
+def table_of(calculation: Calculation, cases: list[dict[str, Any]]) -> str:
+    """The table of cases as `cases_of` reads it, with the labels of the form in its first line."""
     paths = list(dict.fromkeys(path for case in cases for path in case.get("set", {})))
-    rows = [[NAME, SHARE, *paths]]
+    rows = [[NAME, SHARE, *(_heading(calculation, path) for path in paths)]]
     for place, case in enumerate(cases, start=1):
         own = case.get("set", {})
         head = [str(case.get(NAME) or f"case {place}"), text_of(case[SHARE]) if case.get(SHARE) is not None else ""]
@@ -133,9 +133,21 @@ def table_of(cases: list[dict[str, Any]]) -> str:
     return "\n".join("\t".join(cell.replace("\t", " ") for cell in row) for row in rows)
 
 
+def _heading(calculation: Calculation, path: str) -> str:
+    """The label and unit of a field, or its path where a column of that name would be another one."""
+    leaf = leaf_at(calculation.request, path)
+    if leaf is None:
+        return path
+    try:
+        meant = _column(calculation, titled(leaf))
+    except Unprocessable:
+        return path
+    return titled(leaf) if meant == Column(path) else path
+
+
 def address_of(endpoint: Calculation, request: Pairs, body: dict[str, Any]) -> str:
     """The page of a study of the interface, with the first of its limits."""
-    views = {"cases": table_of(body["cases"])}
+    views = {"cases": table_of(endpoint, body["cases"])}
     for place, each in enumerate((body.get("tolerances") or {"inputs": []})["inputs"]):
         law, name = each["distribution"], f"t{place}"
         match each:
@@ -240,7 +252,7 @@ class SpectrumPage(StudyPage):
     def controls(self) -> tuple[Controls, ...]:
         """The table of cases, and the tolerances: those given and two more."""
         case = self.case
-        text = as_typed(self.views.get("cases", "")) or _suggested(case)
+        text = as_typed(self.views.get("cases", "")) or _suggested(self.calculation, case)
         about = (
             "The first line names the columns: name, share (of the time) and fields, as the form or the request does.",
             "One line a case, columns parted by tabs or semicolons, as pasted from a spreadsheet.",
@@ -256,7 +268,7 @@ class SpectrumPage(StudyPage):
             unit, usual = (leaf.unit or "", leaf.declared.tolerance) if leaf else ("", None)
             fields = (
                 self.field(f"{name}.law", "distribution", options=LAWS),
-                self.field(f"{name}.by", "by", usual, unit),
+                self.field(f"{name}.by", "by", usual, difference_unit(unit) or ""),
                 self.field(f"{name}.about", "around", own, unit),
             )
             groups.append(Controls(f"Tolerance {place + 1}", self.menu(name, "field", "none", choices), fields))
@@ -355,7 +367,7 @@ class SpectrumPage(StudyPage):
             self.output.title,
             f"not {found['side']}",
             shown(found["mean"], 4),
-            "exact" if found["deviation"] is None else shown(found["deviation"], 4),
+            "exact" if found["deviation"] is None else _deviation(found["deviation"], self.output.unit, 4),
             self.output.unit or "",
             "given" if assumed is None else f"assumed: {cited(assumed)}",
         )
@@ -386,7 +398,7 @@ class SpectrumPage(StudyPage):
                 Link(shown(extreme["value"], 4), self.address(extreme["at"])) if extreme else "–"
                 for extreme in (found["min"], found["max"])
             )
-            mean, error = shown(found["mean"], 4), shown(found["standard_error"], 2)
+            mean, error = shown(found["mean"], 4), _deviation(found["standard_error"], leaf.unit, 2)
             energy = shown(found.get("energy_kwh_per_year"), 4)
             rows.append((leaf.title, mean, error, *ends, leaf.unit or "", energy))
         heads = map(Number, ("mean", "standard error", "least", "largest"))
@@ -394,11 +406,19 @@ class SpectrumPage(StudyPage):
         return Table("Over the operating time", head, rows, "A number leads to the machine and case where it is.")
 
 
-def _suggested(case: dict[str, Any]) -> str:
+def _deviation(value: float | None, unit: str | None, digits: int) -> str:
+    """A difference of values in this unit, with a unit of its own where that is another one."""
+    own = difference_unit(unit)
+    return shown(value, digits) if own == unit or value is None else number(value, own, digits)
+
+
+def _suggested(calculation: Calculation, case: dict[str, Any]) -> str:
     """A table to start from: the case itself for most of the time, and half its load."""
     known = {path: value for path in USUAL if isinstance(value := value_at(case, path), int | float)}
     half = {path: value / 2 if "power" in path or "torque" in path else value for path, value in known.items()}
-    return table_of([{NAME: "full load", SHARE: 0.8, "set": known}, {NAME: "half load", SHARE: 0.2, "set": half}])
+    return table_of(
+        calculation, [{NAME: "full load", SHARE: 0.8, "set": known}, {NAME: "half load", SHARE: 0.2, "set": half}]
+    )
 
 
 def _tolerances_table(header: Line, found: Line | None) -> Table:
@@ -407,7 +427,10 @@ def _tolerances_table(header: Line, found: Line | None) -> Table:
     ranks = (found and found["rank_correlation"]) or {}
     rows = []
     for each in header["tolerances"]["inputs"]:
-        law = ", ".join(f"{name} {shown(each[name], 4)}" for name in numbers if each.get(name) is not None)
+        stated = {name: shown(each[name], 4) for name in numbers if each.get(name) is not None}
+        if "deviation" in stated:
+            stated["deviation"] = _deviation(each["deviation"], each["unit"], 4)
+        law = ", ".join(f"{name} {value}" for name, value in stated.items())
         drawn = (each["title"], f"{each['distribution']}: {law}", each["unit"] or "")
         rows.append((*drawn, percent(each["cut_off"]), shown(ranks.get(each["path"]), 3)))
     head = ("field", "distribution", "unit", Number("cut off"), Number("rank"))

@@ -11,7 +11,7 @@ import numpy as np
 from app.calculations import Calculation
 from app.errors import Unprocessable
 from app.figures.data import Figure, values
-from app.figures.studies import Coordinate, Grid, figures_of
+from app.figures.studies import Coordinate, Grid, answer, figures_of
 from app.figures.units import axis_of
 from app.pages import study_links
 from app.pages.form import FieldView
@@ -222,6 +222,7 @@ class SweepPage(StudyPage):
             (self._table(received),),
             tuple(f"{text} at {count} of {len(received)} points" for text, count in reasons),
             script=self._script(received, figures[first]),
+            answer=answer(grid),
         )
 
     def _grid(self, received: list[Line]) -> Grid:

@@ -12,6 +12,7 @@ from solvers.contact.ehl.model import warm_up
 from solvers.contact.ehl.notices import unusual_values
 from solvers.contact.ehl.path import solve_path
 from solvers.contact.ehl.results import LineContactResult, Stage
+from solvers.lubricants import Lubricant
 from solvers.plausibility import guarded
 
 solve = guarded(model.solve, unusual_values)
@@ -20,6 +21,7 @@ __all__ = [
     "Contact",
     "LineContactInputs",
     "LineContactResult",
+    "Lubricant",
     "Model",
     "Rheology",
     "Stage",

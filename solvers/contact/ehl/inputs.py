@@ -140,11 +140,11 @@ class Model:
 
 @dataclass(frozen=True, slots=True)
 class LineContactInputs:
-    """One line contact."""
+    """One line contact; its oil has no default."""
 
     contact: Contact
     surface_1: Solid = field(default_factory=Solid)
     surface_2: Solid = field(default_factory=Solid)
-    lubricant: Lubricant = field(default_factory=Lubricant)
+    lubricant: Lubricant = field(kw_only=True)
     temperatures: Temperatures = field(default_factory=Temperatures)
     model: Model = field(default_factory=Model)

@@ -186,5 +186,5 @@ def warm_up() -> None:
     """Compile, or load from the cache, every kernel, by small solves; flags choose the laws, not other code."""
     contact = Contact(line_load=1e5, radius=0.01, speed_1=2.0, speed_2=1.5)
     for model in (Model(nodes=61), Model(nodes=61, thermal=False)):
-        solve(LineContactInputs(contact, model=model))
+        solve(LineContactInputs(contact, model=model, lubricant=Lubricant()))
     Lubricant().density_at(0.0, 300.0)

@@ -5,7 +5,7 @@ from math import pi
 
 import numpy as np
 
-from solvers.gears.inputs import GearPairInputs, GearTeeth
+from solvers.gears.inputs import GROUND_FILLET, GearPairInputs, GearTeeth
 from solvers.gears.pair import meshing_path
 from solvers.lubricants import Lubricant
 from solvers.materials import Solid
@@ -43,7 +43,12 @@ def _teeth(count: int, tip_diameter: float, profile_shift: float) -> GearTeeth:
 
 
 GEARS = GearPairInputs(
-    _teeth(16, 82.46, 0.1817), _teeth(24, 118.36, 0.1715), module=4.5e-3, face_width=14e-3, centre_distance=91.5e-3
+    _teeth(16, 82.46, 0.1817),
+    _teeth(24, 118.36, 0.1715),
+    module=4.5e-3,
+    face_width=14e-3,
+    centre_distance=91.5e-3,
+    rack_tip_radius=GROUND_FILLET,
 )
 
 

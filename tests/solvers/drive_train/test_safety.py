@@ -8,6 +8,7 @@ import pytest
 from solvers.contact import ehl
 from solvers.drive_train.gap.thermal_lead import no_heat
 from solvers.drive_train.safety import FlankHeat, flank_heat
+from solvers.lubricants import Lubricant
 from solvers.scuffing.inputs import Load, LoadDistributionInputs, ScuffingInputs, Temperatures, angular_speed
 from solvers.scuffing.model import solve
 from solvers.scuffing.safety import solve_scuffing
@@ -50,7 +51,14 @@ def test_points_that_may_decide_take_it() -> None:
 def test_a_load_that_reaches_a_base_circle_leaves_no_safety(lubrication: str) -> None:
     distribution = LoadDistributionInputs(UNDERCUT_PAIR, Load(50.0, angular_speed(1000.0)))
     inputs = replace(
-        ScuffingInputs(distribution, temperatures=Temperatures(scuffing=573.15), path_points=8), lubrication=lubrication
+        ScuffingInputs(
+            distribution,
+            temperatures=Temperatures(scuffing=573.15, bulk=360.0, bulk_method="given"),
+            path_points=8,
+            lubricant=Lubricant(),
+            friction="given",
+        ),
+        lubrication=lubrication,
     )
     heat = heat_of(inputs)
     assert (heat.flash.feature, heat.flash.flank, heat.flash.flank_at) == (None, None, None)

@@ -12,7 +12,7 @@ from shapely import Polygon
 from solvers.arrays import FloatArray
 from solvers.errors import InvalidInput
 from solvers.gears.gear import fillet_point, fillet_sector_area, root_profile
-from solvers.gears.inputs import GearPairInputs, GearTeeth
+from solvers.gears.inputs import GROUND_FILLET, GearPairInputs, GearTeeth
 from solvers.gears.pair import PathOfContact, gear_pair, meshing_path
 from solvers.published.milian import CASE_1, CASE_2, TABLE_1
 from solvers.pumping.inputs import Gap, PumpingSetup
@@ -204,7 +204,9 @@ def test_fillet_joins_involute_and_bottom_land(setup: PumpingSetup) -> None:
 @pytest.mark.parametrize("helix", [0.0, 0.4])
 def test_fillet_is_the_envelope_of_the_rack(teeth: GearTeeth, helix: float) -> None:
     # roll the rack tooth through the blank: nothing of it may pass the profile, and it must touch it everywhere
-    gears = GearPairInputs(teeth, GearTeeth(60, 0.4), 5e-3, 0.05, pressure_angle=0.35, helix_angle=helix)
+    gears = GearPairInputs(
+        teeth, GearTeeth(60, 0.4), 5e-3, 0.05, pressure_angle=0.35, helix_angle=helix, rack_tip_radius=GROUND_FILLET
+    )
     pair = gear_pair(gears)
     gear, root = pair.pinion, root_profile(gears, teeth, pair.pinion)
     arc = np.linspace(0, np.pi / 2 - 0.35, 400)

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from solvers.errors import InvalidInput
-from solvers.gears.inputs import GearPairInputs, GearTeeth
+from solvers.gears.inputs import GROUND_FILLET, GearPairInputs, GearTeeth
 from solvers.gears.pair import meshing_path
 from solvers.published.milian import CASE_1, TABLE_1
 from solvers.pumping import (
@@ -92,7 +92,9 @@ def test_centre_distance_may_be_backlash_free_to_rounding() -> None:
 
 
 SHORTENED = {
-    "past the base circle": GearPairInputs(GearTeeth(14, 0.0, 1.0, 1.4), GearTeeth(90, 0.0, 1.25, 1.4), 5e-3, 0.1),
+    "past the base circle": GearPairInputs(
+        GearTeeth(14, 0.0, 1.0, 1.4), GearTeeth(90, 0.0, 1.25, 1.4), 5e-3, 0.1, rack_tip_radius=GROUND_FILLET
+    ),
     "into the fillet": GearPairInputs(
         GearTeeth(30, 0.0, 1.0, 1.15), GearTeeth(90, 0.0, 1.1, 1.25), 5e-3, 0.1, rack_tip_radius=0.38
     ),
@@ -180,7 +182,9 @@ def test_spaces_that_nothing_lets_out_choke_at_every_speed() -> None:
 
 
 def other(pinion: GearTeeth, wheel: GearTeeth) -> PumpingSetup:
-    return replace(PLAIN, gears=GearPairInputs(pinion, wheel, 5e-3, 0.05, helix_angle=0.2))
+    return replace(
+        PLAIN, gears=GearPairInputs(pinion, wheel, 5e-3, 0.05, helix_angle=0.2, rack_tip_radius=GROUND_FILLET)
+    )
 
 
 WARNED: list[tuple[PumpingSetup, set[str]]] = [

@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from solvers.gears.inputs import GearPairInputs, GearTeeth
+from solvers.gears.inputs import GROUND_FILLET, GearPairInputs, GearTeeth
+from solvers.lubricants import Lubricant
 from solvers.published.xue import PAPER_LOAD, paper_gears, paper_pair
 from solvers.scuffing.inputs import (
     Load,
@@ -16,6 +17,7 @@ from solvers.scuffing.inputs import (
     Modifications,
     Resolution,
     ScuffingInputs,
+    Temperatures,
     angular_speed,
 )
 from solvers.scuffing.model import solve as solve_load_distribution
@@ -37,7 +39,15 @@ def solve_gears(gears: GearPairInputs, model: Model = HERTZIAN) -> LoadDistribut
 
 
 def closed_form(inputs: LoadDistributionInputs) -> Scuffing:
-    return solve_scuffing(ScuffingInputs(inputs, lubrication="closed_form"))
+    return solve_scuffing(
+        ScuffingInputs(
+            inputs,
+            lubrication="closed_form",
+            lubricant=Lubricant(),
+            friction="given",
+            temperatures=Temperatures(bulk=360.0, bulk_method="given"),
+        )
+    )
 
 
 def everything_finite(result: LoadDistribution) -> bool:
@@ -167,6 +177,7 @@ def test_teeth_pointed_in_their_normal_section_only_are_refused_there() -> None:
         module_plane="transverse",
         pressure_angle=radians(30.8),
         helix_angle=radians(43.0),
+        rack_tip_radius=GROUND_FILLET,
     )
     assert everything_finite(solve_gears(gears, model=Model(section="transverse")))
     assert refused(solve_gears, gears, Model(section="normal")) == ("pointed_tooth", "section")

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import assume
 
 from solvers.errors import InvalidInput
-from solvers.gears.inputs import GearPairInputs, GearTeeth
+from solvers.gears.inputs import GROUND_FILLET, GearPairInputs, GearTeeth
 from solvers.gears.pair import meshing_path
 from solvers.lubricants import Lubricant, PressureViscosityLaw
 from solvers.oils import OilSheet, iso_vg
@@ -39,7 +39,9 @@ EXACT = 1e-9
 OF_THE_SEARCH = 1e-3  # of the ratio: what the place of the thinnest film on coarse grids may miss
 OIL = OilSheet(220e-6, 19e-6)
 STAGE = MicropittingCheck(failure_load_stage=8)
-GEARS = GearPairInputs(GearTeeth(20, 0.3), GearTeeth(45, 0.1), module=4e-3, face_width=30e-3)
+GEARS = GearPairInputs(
+    GearTeeth(20, 0.3), GearTeeth(45, 0.1), module=4e-3, face_width=30e-3, rack_tip_radius=GROUND_FILLET
+)
 PAIR = LoadDistributionInputs(GEARS, Load(300.0, 150.0), resolution=COARSE)
 
 

@@ -10,7 +10,7 @@ from scipy.optimize import brentq
 
 from solvers.contact.hertz import half_width, reduced_modulus
 from solvers.errors import InvalidInput
-from solvers.gears.inputs import GearPairInputs, GearTeeth
+from solvers.gears.inputs import GROUND_FILLET, GearPairInputs, GearTeeth
 from solvers.gears.pair import gear_pair, path_of_contact, reduced_radius
 from solvers.materials import Solid
 from solvers.published.xue import PAPER_LOAD, PAPER_MODEL, PAPER_MODIFICATIONS, paper_gears, paper_pair
@@ -331,5 +331,7 @@ def test_lead_curves_without_sense_are_refused(position: tuple[float, ...], amou
 
 def test_equal_gears_are_stiffest_at_the_pitch_point_without_rounding() -> None:
     """The profile parameter was 2e-16 there, which a figure stated as the place."""
-    gears = GearPairInputs(GearTeeth(31), GearTeeth(31), 4e-3, 60e-3, helix_angle=radians(30))
+    gears = GearPairInputs(
+        GearTeeth(31), GearTeeth(31), 4e-3, 60e-3, helix_angle=radians(30), rack_tip_radius=GROUND_FILLET
+    )
     assert solve_load_distribution(LoadDistributionInputs(gears, PAPER_LOAD)).stiffness.max_at_gamma == 0.0

@@ -30,7 +30,7 @@ from tests.support.gear_pairs import UNDERCUT_PAIR, with_torque
 from tests.support.outcomes import codes, refused
 from tests.support.stored import stored
 
-SCUFFING = Temperatures(scuffing=573.15)
+SCUFFING = Temperatures(scuffing=573.15, bulk=360.0, bulk_method="given")
 POINTS = [pytest.param(points, marks=() if points < 100 else pytest.mark.slow) for points in modified_pairs.PATH_POINTS]
 COARSE = ehl.Model(nodes=61, film_nodes=11)
 AS_GIVEN = replace(COARSE, refine_mesh=False)
@@ -145,7 +145,11 @@ def assert_no_verdict(result: Scuffing) -> None:
 
 
 def test_a_refused_point_counts_and_takes_the_verdict() -> None:
-    result = solve_scuffing(ScuffingInputs(STRONG, temperatures=SCUFFING, film=AS_GIVEN, path_points=11))
+    result = solve_scuffing(
+        ScuffingInputs(
+            STRONG, temperatures=SCUFFING, film=AS_GIVEN, path_points=11, lubricant=Lubricant(), friction="given"
+        )
+    )
     assert "no_solution" not in result.path.status
     assert result.unsolved_points == result.path.status.count("refused") > 0
     assert_no_verdict(result)
@@ -162,7 +166,7 @@ def test_a_point_too_light_to_matter_keeps_the_verdict() -> None:
 
 
 def test_lightest_load_is_the_edge_of_what_is_refused() -> None:
-    inputs = ehl.LineContactInputs(ehl.Contact(1.0, 4e-3, 1.0, 3.7))
+    inputs = ehl.LineContactInputs(ehl.Contact(1.0, 4e-3, 1.0, 3.7), lubricant=Lubricant())
     edge = ehl.lightest(inputs)
     ehl.check(edge)
     lighter = changed(edge, {"contact.line_load": 0.99 * edge.contact.line_load})
@@ -173,7 +177,14 @@ def test_lightest_load_is_the_edge_of_what_is_refused() -> None:
 def test_a_path_that_reaches_a_base_circle_has_no_maximum(points: int) -> None:
     """12/60 teeth, undercut: once Blok safeties of 3.8, 2.4, 2.1 with 10, 50, 100 points."""
     distribution = LoadDistributionInputs(UNDERCUT_PAIR, replace(PAPER_LOAD, pinion_torque=50.0))
-    inputs = ScuffingInputs(distribution, temperatures=SCUFFING, lubrication="closed_form", path_points=points)
+    inputs = ScuffingInputs(
+        distribution,
+        temperatures=SCUFFING,
+        lubrication="closed_form",
+        path_points=points,
+        lubricant=Lubricant(),
+        friction="given",
+    )
     result = solve_scuffing(inputs)
     assert (result.flash.blok_max, result.contact_temperature.blok_max) == (None, None)
     assert result.safety.blok_factor is None
@@ -185,7 +196,17 @@ def test_a_path_that_reaches_a_base_circle_has_no_maximum(points: int) -> None:
 
 
 def inputs(pair: int = 1, points: int = 21, **changes: object) -> ScuffingInputs:
-    return replace(ScuffingInputs(paper_pair(pair), film=COARSE, path_points=points), **changes)
+    return replace(
+        ScuffingInputs(
+            paper_pair(pair),
+            film=COARSE,
+            path_points=points,
+            lubricant=Lubricant(),
+            friction="given",
+            temperatures=Temperatures(bulk=360.0, bulk_method="given"),
+        ),
+        **changes,
+    )
 
 
 @pytest.fixture(scope="module")
@@ -229,7 +250,7 @@ def test_film_is_thinnest_and_flash_highest_at_the_pinion_root_and_the_slower_fl
 
 def test_maxima_and_safety_follow_from_the_path() -> None:
     """Xue Eq. 16."""
-    temperatures = Temperatures(scuffing=433.15)
+    temperatures = Temperatures(scuffing=433.15, bulk=360.0, bulk_method="given")
     result = solve_scuffing(inputs(temperatures=temperatures))
     largest = max(result.path.thermal.pinion_flash.max(), result.path.thermal.wheel_flash.max())
     assert result.flash.thermal_ehl_max == largest
@@ -242,7 +263,7 @@ def test_a_point_of_the_path_is_the_contact_solved_alone(pair_1: Scuffing) -> No
     line, middle = pair_1.distribution.feature_line, 4
     point = int(np.flatnonzero(np.isclose(line.psi, pair_1.path.psi[middle]))[0])
     at = (float(curve[point]) for curve in (line.line_load, line.radius, line.pinion_speed, line.wheel_speed))
-    contact = ehl.solve(ehl.LineContactInputs(ehl.Contact(*at), model=COARSE))
+    contact = ehl.solve(ehl.LineContactInputs(ehl.Contact(*at), model=COARSE, lubricant=Lubricant()))
     # the path shares one mesh, graded for its mean film: 61 nodes cost up to 4 % against another grading
     assert contact.film.minimum == pytest.approx(pair_1.path.thermal.minimum_film[middle], rel=0.04)
 
@@ -288,7 +309,14 @@ def compressor_gears(power: float, points: int = 11) -> ScuffingInputs:
     gears = GearPairInputs(GearTeeth(47), GearTeeth(117), 7e-3, 0.2, rack_tip_radius=0.38)
     speed = angular_speed(2000.0)
     distribution = LoadDistributionInputs(gears=gears, load=Load(power / speed, speed))
-    return ScuffingInputs(distribution, film=COARSE, path_points=points)
+    return ScuffingInputs(
+        distribution,
+        film=COARSE,
+        path_points=points,
+        lubricant=Lubricant(),
+        friction="given",
+        temperatures=Temperatures(bulk=360.0, bulk_method="given"),
+    )
 
 
 @pytest.mark.parametrize("power", [1e6, 1e5, 3e4])
@@ -332,7 +360,7 @@ def test_notices_name_the_input_of_the_gear_pair(pair_1: Scuffing) -> None:
 
 
 def test_temperature_out_of_range_names_the_bulk_temperature() -> None:
-    cold = inputs(temperatures=Temperatures(bulk=180.0))
+    cold = inputs(temperatures=Temperatures(bulk=180.0, bulk_method="given"))
     even = replace(cold, lubricant=Lubricant(temperature_viscosity=0.0))
     assert refused(solve_scuffing, even) == ("temperature_range", "temperatures.bulk")
     with pytest.raises(InvalidInput, match="Pa s at 180 K"):

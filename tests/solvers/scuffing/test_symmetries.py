@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from solvers.drive_train import solve as solve_unit
 from solvers.drive_train.inputs import Effects
 from solvers.errors import InvalidInput
-from solvers.gears.inputs import GearPairInputs, GearTeeth
+from solvers.gears.inputs import GROUND_FILLET, GearPairInputs, GearTeeth
 from solvers.lubricants import Lubricant
 from solvers.scuffing import solve_scuffing
 from solvers.scuffing.inputs import (
@@ -40,7 +40,9 @@ OIL = Lubricant(0.05, 360.0, 20e-9, 0.04, 870.0)
 def pair_in_oil(design: LoadDistributionInputs, **known: object) -> ScuffingInputs:
     """A pair in an oil, its bulk temperature estimated, in closed form."""
     temperatures = Temperatures(bulk=None, bulk_method="estimated", oil=333.15, scuffing=573.15)
-    return replace(ScuffingInputs(design, OIL, temperatures=temperatures, lubrication="closed_form"), **known)
+    return replace(
+        ScuffingInputs(design, OIL, temperatures=temperatures, lubrication="closed_form", friction="given"), **known
+    )
 
 
 def solved(inputs: ScuffingInputs) -> Scuffing:
@@ -179,9 +181,9 @@ def test_the_flank_is_as_hot_as_that_of_a_unit_with_rigid_shafts(slope: float) -
 
 def small_spur_pair(slope: float) -> ScuffingInputs:
     """A spur pair of 1.5 mm module that the slope presses on one end of its face."""
-    gears = GearPairInputs(GearTeeth(18), GearTeeth(45), 1.5e-3, 15e-3)
+    gears = GearPairInputs(GearTeeth(18), GearTeeth(45), 1.5e-3, 15e-3, rack_tip_radius=GROUND_FILLET)
     design = LoadDistributionInputs(gears, Load(20.0, 314.0), Modifications(helix_slope=slope))
-    return pair_in_oil(design, temperatures=Temperatures(bulk=353.15, oil=333.15, scuffing=433.15))
+    return pair_in_oil(design, temperatures=Temperatures(bulk=353.15, oil=333.15, scuffing=433.15, bulk_method="given"))
 
 
 def test_a_corner_off_the_feature_line_decides_and_a_note_says_so() -> None:
@@ -202,7 +204,9 @@ def test_a_corner_off_the_feature_line_decides_and_a_note_says_so() -> None:
 
 def test_face_load_factor_of_an_even_load_is_one() -> None:
     """The factor is at least 1 by definition. At a helix angle of 45 degrees it used to be 0.99999."""
-    gears = GearPairInputs(GearTeeth(20), GearTeeth(60), 2e-3, 20e-3, helix_angle=np.radians(45.0))
+    gears = GearPairInputs(
+        GearTeeth(20), GearTeeth(60), 2e-3, 20e-3, helix_angle=np.radians(45.0), rack_tip_radius=GROUND_FILLET
+    )
     found = solve_load_distribution(LoadDistributionInputs(gears, Load(100.0, 100.0)))
     assert found.load.face_load_factor is not None
     assert found.load.face_load_factor >= 1.0

@@ -105,7 +105,9 @@ def test_a_spike_without_a_limit_is_said_not_to_converge() -> None:
 def test_film_thickness_converges_with_second_order(thermal: bool) -> None:
     """Intervals 90, 180, 360 of one grading."""
     films = [
-        solve(LineContactInputs(POINT_A, model=Model(thermal=thermal, nodes=n, refine_mesh=False))).film
+        solve(
+            LineContactInputs(POINT_A, model=Model(thermal=thermal, nodes=n, refine_mesh=False), lubricant=Lubricant())
+        ).film
         for n in (91, 181, 361)
     ]
     for values in ([f.central for f in films], [f.minimum for f in films]):
@@ -117,7 +119,7 @@ def test_film_thickness_converges_with_second_order(thermal: bool) -> None:
 def test_exchanged_surfaces_exchange_the_results(rheology: str) -> None:
     model = replace(Model(), rheology=rheology)
     mirror = replace(POINT_A, speed_1=POINT_A.speed_2, speed_2=POINT_A.speed_1)
-    one, other = (solve(LineContactInputs(c, model=model)) for c in (POINT_A, mirror))
+    one, other = (solve(LineContactInputs(c, model=model, lubricant=Lubricant())) for c in (POINT_A, mirror))
     assert one.film.minimum == pytest.approx(other.film.minimum, rel=1e-5)
     assert one.friction.coefficient == pytest.approx(other.friction.coefficient, rel=1e-5)
     assert one.friction.coefficient_1 == pytest.approx(other.friction.coefficient_2, rel=1e-5)
@@ -134,7 +136,7 @@ def test_perfect_conductors_make_it_isothermal(rheology: str, nodes: int, load: 
     metal = Solid(thermal_conductivity=1e12)
     model = replace(Model(nodes=nodes), rheology=rheology)
     at = replace(POINT_A, line_load=load)
-    inputs = LineContactInputs(at, metal, metal, Lubricant(thermal_conductivity=1e7), model=model)
+    inputs = LineContactInputs(at, metal, metal, lubricant=Lubricant(thermal_conductivity=1e7), model=model)
     cold = solve(inputs)
     isothermal = solve(replace(inputs, model=replace(model, thermal=False)))
     assert cold.temperature.film_max == pytest.approx(360.0, abs=0.01)
@@ -159,7 +161,7 @@ def test_warmer_surroundings_shift_a_film_without_viscosity_change() -> None:
 
 
 def test_equal_speeds_are_a_regular_point() -> None:
-    result = solve(LineContactInputs(replace(POINT_A, speed_1=2.0, speed_2=2.0)))
+    result = solve(LineContactInputs(replace(POINT_A, speed_1=2.0, speed_2=2.0), lubricant=Lubricant()))
     check_solution(result)
     assert result.friction.power == 0.0
 
@@ -190,14 +192,14 @@ def test_refused(code: str, contact: dict[str, float], oil: dict[str, float], mo
 
 
 def test_stationary_surface_is_allowed_without_heat() -> None:
-    result = solve(LineContactInputs(replace(POINT_A, speed_1=0.0), model=Model(thermal=False)))
+    result = solve(LineContactInputs(replace(POINT_A, speed_1=0.0), model=Model(thermal=False), lubricant=Lubricant()))
     check_solution(result, Model(thermal=False))
 
 
 def test_slow_surface_is_solved_with_a_warning() -> None:
     """Pe 4.5 at A; far below it, 0.35, numbers are still returned."""
     for speed in (POINT_A.speed_1, 0.08):
-        result = solve(LineContactInputs(replace(POINT_A, speed_1=speed)))
+        result = solve(LineContactInputs(replace(POINT_A, speed_1=speed), lubricant=Lubricant()))
         assert result.status == "ok_with_warnings"
         assert "low_peclet" in codes(result)
     assert result.dimensionless.peclet_1 == pytest.approx(0.35, abs=0.01)
@@ -213,7 +215,7 @@ def test_thin_film_and_high_traction_are_flagged() -> None:
 def test_no_solution_carries_residuals_and_no_numbers(monkeypatch: pytest.MonkeyPatch) -> None:
     """With three steps a mesh nothing converges; the budget ends it."""
     monkeypatch.setattr(continuation, "STEPS_A_SOLVE", 3)
-    result = solve(LineContactInputs(POINT_A, model=Model(rheology="newtonian")))
+    result = solve(LineContactInputs(POINT_A, model=Model(rheology="newtonian"), lubricant=Lubricant()))
     assert result.status == "no_solution"
     assert result.convergence.stage == "coupling"
     assert (result.convergence.pressure_change or 0.0) > 0.0
@@ -225,6 +227,6 @@ def test_steps_are_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
     """Tolerances that cannot be met end with the budget, whatever the attempts."""
     monkeypatch.setattr(continuation, "TIGHT", (0.0, 0.0))
     monkeypatch.setattr(continuation, "LOOSE", (0.0, 0.0))
-    result = solve(LineContactInputs(POINT_A))
+    result = solve(LineContactInputs(POINT_A, lubricant=Lubricant()))
     assert result.status == "no_solution"
     assert result.convergence.iterations < 4 * continuation.STEPS_IN_ALL  # coarse meshes are cheaper

@@ -23,7 +23,7 @@ from tests.support.changes import changed
 from tests.support.outcomes import assert_finite
 
 COARSE = Model(nodes=61, film_nodes=11)
-POINT = LineContactInputs(POINT_A, model=COARSE)
+POINT = LineContactInputs(POINT_A, model=COARSE, lubricant=Lubricant())
 CODES = {
     "no_entrainment",
     "stationary_surface",

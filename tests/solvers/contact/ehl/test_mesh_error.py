@@ -9,6 +9,7 @@ import pytest
 from solvers.contact.ehl import Contact, LineContactInputs, LineContactResult, Model, Temperatures, refinement
 from solvers.contact.ehl.model import solve
 from solvers.contact.ehl.refinement import departure, strip_integral
+from solvers.lubricants import Lubricant
 from solvers.published.xue import POINT_A
 from tests.support.changes import changed, value_at
 from tests.support.line_contacts import at_pressure, random_contacts
@@ -21,10 +22,10 @@ from tests.support.stored import stored
 ALONG, ACROSS = "model.nodes", "model.film_nodes"
 FINE = Model(nodes=481, refine_mesh=False)
 AS_GIVEN = Model(refine_mesh=False)
-A = LineContactInputs(POINT_A)
+A = LineContactInputs(POINT_A, lubricant=Lubricant())
 # Pure rolling, and light loads: what 121 nodes get wrong.
-ROLLING = LineContactInputs(Contact(3e4, 5e-3, 4.0, 4.0))
-LIGHT = LineContactInputs(Contact(2e4, 0.01, 20.0, 16.0))
+ROLLING = LineContactInputs(Contact(3e4, 5e-3, 4.0, 4.0), lubricant=Lubricant())
+LIGHT = LineContactInputs(Contact(2e4, 0.01, 20.0, 16.0), lubricant=Lubricant())
 
 
 def numbers(result: LineContactResult) -> dict[str, float]:
@@ -63,7 +64,7 @@ def test_the_estimate_covers_what_481_nodes_say(inputs: LineContactInputs) -> No
 
 def test_the_estimate_is_no_exaggeration() -> None:
     """Film at A: 1.8 % at the centre, 1.5 % at its thinnest."""
-    error = solve(LineContactInputs(POINT_A, model=AS_GIVEN)).mesh_error
+    error = solve(LineContactInputs(POINT_A, model=AS_GIVEN, lubricant=Lubricant())).mesh_error
     assert error.central_film == pytest.approx(0.018, abs=0.004)
     assert error.minimum_film == pytest.approx(0.015, abs=0.004)
 
@@ -76,15 +77,17 @@ def test_half_the_spacing_makes_the_estimate_smaller(inputs: LineContactInputs) 
 
 
 def test_a_mesh_too_coarse_is_refined() -> None:
-    result = solve(LineContactInputs(POINT_A, model=Model(nodes=61)))
+    result = solve(LineContactInputs(POINT_A, model=Model(nodes=61), lubricant=Lubricant()))
     assert result.convergence.nodes > 61
     assert result.mesh_error.largest <= 0.02
-    assert max(differences(result, solve(LineContactInputs(POINT_A, model=FINE))).values()) < 0.02
+    assert (
+        max(differences(result, solve(LineContactInputs(POINT_A, model=FINE, lubricant=Lubricant()))).values()) < 0.02
+    )
     assert "mesh_error" not in codes(result)
 
 
 def test_a_mesh_as_given_is_warned_about() -> None:
-    result = solve(LineContactInputs(POINT_A, model=Model(nodes=61, refine_mesh=False)))
+    result = solve(LineContactInputs(POINT_A, model=Model(nodes=61, refine_mesh=False), lubricant=Lubricant()))
     assert result.convergence.nodes == 61
     (warning,) = [warning for warning in result.warnings if warning.code == "mesh_error"]
     assert "central film" in warning.message
@@ -101,7 +104,7 @@ def test_heat_of_pure_rolling_is_right_within_2_percent(ratio: float) -> None:
 
 
 def test_isothermal_contacts_have_no_error_of_heat() -> None:
-    error = solve(LineContactInputs(POINT_A, model=Model(thermal=False))).mesh_error
+    error = solve(LineContactInputs(POINT_A, model=Model(thermal=False), lubricant=Lubricant())).mesh_error
     assert (error.surface_1_flash, error.surface_2_flash, error.generated_heat) == (None, None, None)
     assert 0.0 < error.largest <= 0.02
 
@@ -171,7 +174,7 @@ def test_errors_are_relative_and_finite() -> None:
 # The check of finished states
 
 
-INPUTS = LineContactInputs(POINT_A)
+INPUTS = LineContactInputs(POINT_A, lubricant=Lubricant())
 
 
 @pytest.fixture(scope="module")

@@ -21,7 +21,9 @@ from tests.support.outcomes import refused
 def contacts(points: int = 8, step: float = 0.1) -> list[LineContactInputs]:
     """Load, radius and speeds all change."""
     return [
-        LineContactInputs(Contact(2.5e5 + 5e4 * t, 4e-3 + 2e-3 * t, 1.0 + 2.0 * t, 3.7 - 2.0 * t))
+        LineContactInputs(
+            Contact(2.5e5 + 5e4 * t, 4e-3 + 2e-3 * t, 1.0 + 2.0 * t, 3.7 - 2.0 * t), lubricant=Lubricant()
+        )
         for t in (step * k for k in range(points))
     ]
 
@@ -176,7 +178,7 @@ def test_empty_and_isothermal_paths() -> None:
 
 def test_bad_points_and_mixed_models_are_refused_at_once() -> None:
     with pytest.raises(InvalidInput, match="both speeds must be positive"):
-        solve_path([*contacts(2), LineContactInputs(Contact(2.5e5, 4e-3, 0.0, 3.0))])
+        solve_path([*contacts(2), LineContactInputs(Contact(2.5e5, 4e-3, 0.0, 3.0), lubricant=Lubricant())])
     assert refused(solve_path, [*contacts(2), replace(contacts(3)[2], model=Model(nodes=91))])[0] == "mixed_models"
 
 

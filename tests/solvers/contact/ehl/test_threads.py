@@ -7,6 +7,7 @@ import pytest
 from solvers import blas_threads
 from solvers.contact.ehl import LineContactInputs, Model, continuation, newton
 from solvers.contact.ehl.model import solve
+from solvers.lubricants import Lubricant
 from solvers.published.xue import POINT_A
 
 TWO = 2
@@ -46,7 +47,7 @@ def test_a_contact_is_solved_with_one_thread(monkeypatch: pytest.MonkeyPatch) ->
 
     original = newton.solve_isothermal
     monkeypatch.setattr(continuation, "solve_isothermal", solve_isothermal)
-    assert solve(LineContactInputs(POINT_A, model=Model(thermal=False, nodes=61))).status == "ok"
+    assert solve(LineContactInputs(POINT_A, model=Model(thermal=False, nodes=61), lubricant=Lubricant())).status == "ok"
     assert met
     assert all(each == {1} for each in met)
     assert set(threads()) == {TWO}

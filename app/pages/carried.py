@@ -1,0 +1,113 @@
+"""The gears or the coupling of a case in other calculations: links that carry all that both have in common.
+
+What the other page has no field for goes along in the view `pair`, so that a link from there to a third page, or back,
+loses nothing.
+"""
+
+from collections.abc import Iterable, Iterator
+from typing import Any, NamedTuple
+from urllib.parse import urlencode
+
+from app.calculations import BY_PATH, CALCULATIONS, Calculation
+from app.pages.cases import Asked
+from app.pages.query import LONGEST_QUERY, Pairs, link, pairs_of_query
+from app.pages.templating import page_path
+from app.schema.fields import ITEM, Branch, Leaf, branches, leaf_at, tree
+from app.schema.model import Documented
+
+SUBJECTS = {"gears": "pair", "coupling": "coupling"}
+"""The sections of requests that calculations may share, and what a case of them is about."""
+LOAD, OPERATION = "load.", "operation."
+"""Scuffing calls the operation of the gears their load; names in `pair` are those of scuffing."""
+
+
+class Use(NamedTuple):
+    """The same pair on the page of another calculation, and what is missing there."""
+
+    title: str
+    address: str
+    missing: list[str]
+
+
+def subject_of(calculation: Calculation) -> str:
+    """Return what a case of a calculation is about: pair, coupling, or nothing that others have."""
+    return next((name for section, name in SUBJECTS.items() if section in branches(calculation.request)), "")
+
+
+def uses(asked: Asked) -> list[Use]:
+    """Return the other calculations of the same gears or the same coupling, with a link to each."""
+    subject = subject_of(asked.calculation)
+    others = (each for each in CALCULATIONS if each is not asked.calculation and subject_of(each) == subject)
+    return [_use(asked, each) for each in others] if subject else []
+
+
+def _use(asked: Asked, other: Calculation) -> Use:
+    """The pair of a case in another calculation."""
+    own = [(_common(asked.calculation, name), text) for name, text in asked.pairs]
+    beyond = pairs_of_query(asked.views.get("pair", ""))
+    known = dict(beyond) | dict(own)
+    there = {name: _there(other, name) for name in known}
+    taken: Pairs = [(there[name], text) for name, text in known.items() if _has(other.request, there[name])]
+    left: Pairs = [(name, text) for name, text in known.items() if not _has(other.request, there[name])]
+    address = link(page_path(other), taken, theme=asked.theme, pair=urlencode(left, safe=",:", errors="replace"))
+    if len(address) > LONGEST_QUERY:
+        address = link(page_path(other), taken, theme=asked.theme)
+    return Use(other.title, address, [*_missing(tree(other.request), {name for name, _ in taken})])
+
+
+def _common(calculation: Calculation, name: str) -> str:
+    """The name of a field among all calculations of gears."""
+    if subject_of(calculation) != "pair" or not name.startswith(OPERATION):
+        return name
+    renamed = f"{LOAD}{name.removeprefix(OPERATION)}"
+    return renamed if _has(BY_PATH["/v1/scuffing"].request, renamed) else name
+
+
+def _there(calculation: Calculation, name: str) -> str:
+    """The name of a common field in a calculation."""
+    if name.startswith(LOAD) and not _has(calculation.request, name):
+        return f"{OPERATION}{name.removeprefix(LOAD)}"
+    return name
+
+
+def _has(model: type[Documented], name: str) -> bool:
+    """Whether a request has the field, the element of a matrix or the optional section of this name."""
+    section = ".".join(ITEM if part.isdecimal() else part for part in name.split("."))
+    matrix = name.rpartition(".")[0].rpartition(".")[0]
+    return leaf_at(model, name) is not None or leaf_at(model, matrix) is not None or section in branches(model)
+
+
+def _missing(branch: Branch, names: set[str]) -> Iterator[str]:
+    """Titles of what a request requires and the names do not give."""
+    for group in _choices(branch.model):
+        paths = [f"{branch.path}.{name}" for name in group]
+        if names.isdisjoint(paths):
+            leaves = (leaf for path in paths if (leaf := _leaf(branch, path)))
+            yield " or ".join(leaf.declared.title for leaf in leaves)
+    for member in branch.members:
+        if isinstance(member, Leaf):
+            if member.required and member.path not in names:
+                yield member.title
+        elif _is_given(member.path, names) and not member.repeated:
+            yield from _missing(member, names)
+        elif member.repeated:
+            field = branch.model.model_fields[member.path.rpartition(".")[2]]
+            if field.is_required() and not _is_given(member.path, names):
+                yield member.title
+        elif not member.optional:
+            yield from _missing(member, names)
+
+
+def _choices(model: type[Documented]) -> Iterable[tuple[str, ...]]:
+    """The fields of which one must be given."""
+    groups: Any = model.exclusive if getattr(model, "choice_missing", None) else ()
+    return [group for group in groups[:1] if all(model.model_fields[name].default is None for name in group)]
+
+
+def _leaf(branch: Branch, path: str) -> Leaf | None:
+    return next((leaf for leaf in branch.leaves if leaf.path == path), None)
+
+
+def _is_given(path: str, names: set[str]) -> bool:
+    """Whether something at or below a path is given."""
+    return any(name == path or name.startswith(f"{path}.") for name in names)

@@ -1,0 +1,105 @@
+"""Three or more variants of a case in a small table: the inputs that differ and the numbers that decide."""
+
+from collections.abc import Iterable
+from functools import lru_cache
+from typing import Any, NamedTuple
+
+from app.calculations import BY_PATH
+from app.pages.cases import REFUSED, Asked, Case, faults_of, solved
+from app.pages.query import Pairs, normalised, pairs_of_query, split_views
+from app.pages.results import DIGITS, Row, resolved, row_of, values_by_path
+from app.schema.fields import headlines, leaf_at
+
+SEPARATOR = "|"
+"""Between the queries of the variants in the view `also`."""
+MOST = 5  # further variants, more than fit beside each other
+NAMES = "BCDEFG"
+KEPT = 64  # variants of which a worker remembers the numbers
+
+
+class Column(NamedTuple):
+    """A variant: its name, its address, and its values by path; `trouble` says why there are none."""
+
+    name: str
+    address: str
+    inputs: dict[str, Any]
+    results: dict[str, Any]
+    trouble: str = ""
+
+
+class Line(NamedTuple):
+    """A line of the table: the quantity, and a text for each variant."""
+
+    row: Row
+    texts: list[str]
+
+
+class Variants(NamedTuple):
+    """The table of the variants."""
+
+    columns: list[Column]
+    inputs: list[Line]
+    results: list[Line]
+
+
+def queries_of(asked: Asked) -> list[str]:
+    """The queries of the variants beside the first one."""
+    return [query for query in asked.views.get("also", "").split(SEPARATOR) if query][:MOST]
+
+
+def with_this(asked: Asked) -> str:
+    """The view `also` with the case itself as one variant more; empty where there is no room."""
+    queries = queries_of(asked)
+    return SEPARATOR.join([*queries, asked.query]) if len(queries) < MOST and asked.query not in queries else ""
+
+
+def variants_of(asked: Asked, case: Case, first: Case | None) -> Variants | None:
+    """The first variant, the others and the case itself; None where no further variant is kept."""
+    queries = queries_of(asked)
+    if first is None or not queries:
+        return None
+    columns = [_column("variant A", asked, asked.ref, first)]
+    for name, query in zip(NAMES, queries, strict=False):
+        columns.append(_of_query(f"variant {name}", asked, query))
+    columns.append(_column("this case", asked, asked.query, case))
+    return _table(asked, columns)
+
+
+def _of_query(name: str, asked: Asked, query: str) -> Column:
+    try:
+        inputs, results = _numbers(asked.path, query)
+    except REFUSED as error:
+        return Column(name, f"{asked.path}?{query}", {}, {}, faults_of(error, asked.calculation)[0].message)
+    return Column(name, f"{asked.path}?{query}", inputs, results)
+
+
+@lru_cache(maxsize=KEPT)
+def _numbers(path: str, query: str) -> tuple[dict[str, Any], dict[str, Any]]:
+    """Inputs and results of a variant, which every edit of the case asks for again; raises what `solved` raises."""
+    calculation = BY_PATH[f"/v1{path}"]
+    pairs: Pairs = split_views(normalised(calculation.request, pairs_of_query(query)))[0]
+    response = solved(calculation, pairs, None, "summary").response
+    return resolved(response), values_by_path(response)
+
+
+def _column(name: str, asked: Asked, query: str, case: Case) -> Column:
+    return Column(name, f"{asked.path}?{query}", resolved(case.response), values_by_path(case.response))
+
+
+def _table(asked: Asked, columns: list[Column]) -> Variants:
+    """The lines in which the variants differ, and all the headlines."""
+    known = [column for column in columns if not column.trouble]
+    request, response = asked.calculation.request, asked.calculation.response
+    paths = dict.fromkeys(path for column in known for path in column.inputs)
+    differing = [path for path in paths if len({repr(column.inputs.get(path)) for column in known}) > 1]
+    inputs = [row for path in differing if (leaf := leaf_at(request, path)) for row in [row_of(leaf, path)]]
+    results = [row_of(leaf, leaf.path) for leaf in headlines(response)]
+    return Variants(
+        columns,
+        [Line(row, _texts(row, (column.inputs for column in columns))) for row in inputs],
+        [Line(row, _texts(row, (column.results for column in columns))) for row in results],
+    )
+
+
+def _texts(row: Row, values: Iterable[dict[str, Any]]) -> list[str]:
+    return [row_of(row.leaf, row.path, known.get(row.path), digits=DIGITS + 1).value for known in values]

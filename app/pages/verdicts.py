@@ -1,0 +1,161 @@
+"""Verdicts that compare several numbers of an answer, and the answer to its question in one sentence."""
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+from app.figures.wording import UNCERTAIN, listed, number, percent
+from app.schema.coupling import CouplingResponse
+from app.schema.model import Response
+from app.schema.pumping import ChokingSpeedResponse, PumpingResponse
+
+NEAR_LIMIT = 0.8  # of an upper limit
+
+
+class Verdict(NamedTuple):
+    """The level of a number, good, near, bad or plain, and its reason in words."""
+
+    level: str
+    text: str
+
+
+def verdicts(response: Response) -> dict[str, Verdict]:
+    """Return the verdicts on headline numbers that one limit does not judge, by the path of the number."""
+    if response.status == "no_solution":
+        return {}
+    if isinstance(response, CouplingResponse):
+        thrust, tilt = "axial_thrust.design_force_n", "limits.allowable_misalignment_deg"
+        return {thrust: _thrust(response), tilt: _misalignment(response)}
+    if isinstance(response, PumpingResponse):
+        return _of_pumping(response)
+    return {}
+
+
+def conclusion(response: Response) -> str:
+    """Return the answer to the question of a calculation in words; empty if it has no such answer."""
+    conclude = _CONCLUSIONS.get(type(response))
+    return conclude(response) if conclude and response.status != "no_solution" else ""
+
+
+def _of_pumping(response: PumpingResponse) -> dict[str, Verdict]:
+    """Judge choking, and how far power, temperature rise, pressure and Mach number are to be trusted."""
+    judged = {
+        f"{gear}_spaces.{name}": judge(gear, space, response)
+        for gear, space in _spaces(response).items()
+        for name, judge in (("peak_axial_mach", _axial), ("peak_pressure_ratio", _radial))
+    }
+    resolution = response.resolution
+    if resolution.pumping_power > UNCERTAIN:
+        judged["total.pumping_power_w"] = _as_known(Verdict("plain", ""), resolution.pumping_power, "the power")
+    if (resolution.temperature_rise or 0.0) > UNCERTAIN:
+        doubt = _as_known(Verdict("plain", ""), resolution.temperature_rise, "the temperature rise")
+        judged |= {f"{gear}_spaces.max_temperature_rise_k": doubt for gear in _spaces(response)}
+    return judged
+
+
+def _thrust(response: CouplingResponse) -> Verdict:
+    """Compare the thrust in motion with that of coaxial shafts, and the thrust to be held with 0.25 T/D."""
+    thrust = response.axial_thrust
+    share, customary, held = thrust.fraction_of_limit, thrust.customary_force_n, thrust.design_force_n
+    limit = number(thrust.coaxial_limit_n, "N")
+    level = "good" if share is None or abs(share) <= NEAR_LIMIT else "near"
+    moving = "no load" if share is None else f"in motion {percent(abs(share))} of the limit {limit} of coaxial shafts"
+    if customary is None:
+        return Verdict(level, f"{moving}; for the customary thrust 0.25 T/D give the shaft diameter")
+    exceeds = held > customary
+    side = "exceeds" if exceeds else "is below"
+    return Verdict(
+        "bad" if exceeds else level, f"{side} the customary thrust 0.25 T/D of {number(customary, 'N')}; {moving}"
+    )
+
+
+def _misalignment(response: CouplingResponse) -> Verdict:
+    """Compare the misalignment at the limit of the sliding velocity with that of the case."""
+    most, sliding = response.limits.allowable_misalignment_deg, response.kinematics.max_sliding_velocity_m_per_s
+    share = sliding / response.limits.sliding_velocity_limit_m_per_s
+    if most is None:
+        return Verdict("good", "no misalignment reaches the limit of the sliding velocity")
+    level = "bad" if share > 1.0 else "near" if share > NEAR_LIMIT else "good"
+    return Verdict(level, f"the sliding velocity of this case is {percent(share)} of its limit")
+
+
+def _coupling(response: CouplingResponse) -> str:
+    """Say whether the coupling locks axially, how its teeth are lubricated and how far it may be tilted."""
+    thrust, most = response.axial_thrust, response.limits.allowable_misalignment_deg
+    if thrust.fraction_of_limit is None:
+        locks = "It carries no load, so that no friction locks it axially"
+    elif thrust.indeterminate:
+        locks = f"It locks axially: its teeth stick, up to a thrust of {number(thrust.coaxial_limit_n, 'N')}"
+    else:
+        share = percent(abs(thrust.fraction_of_limit))
+        locks = f"It does not lock axially: its teeth slide, and its thrust is {share} of that of coaxial shafts"
+    regime = response.lubrication.regime.name
+    tilt = "no misalignment" if most is None else f"a misalignment up to {number(most, '°')}"
+    return f"{locks}. Its teeth run in {regime}; the limit of the sliding velocity permits {tilt}."
+
+
+def _spaces(response: PumpingResponse) -> dict[str, Any]:
+    """The tooth spaces asked for, by their gear."""
+    spaces = {"pinion": response.pinion_spaces, "wheel": response.wheel_spaces}
+    return {gear: space for gear, space in spaces.items() if space is not None}
+
+
+def _axial(gear: str, space: Any, response: PumpingResponse) -> Verdict:
+    """Say whether an end is choked, and how far the Mach number is to be trusted."""
+    supersonic = space.peak_axial_mach > 1.0 and not space.axial_choked
+    inside = "; inside the spaces the gas is faster than sound" if supersonic else ""
+    level = "bad" if space.axial_choked else "near" if supersonic else "good"
+    text = f"axial choking, {gear} spaces: {'yes' if space.axial_choked else 'no'}{inside}"
+    return _as_known(Verdict(level, text), response.resolution.axial_mach, "the Mach number")
+
+
+def _radial(gear: str, space: Any, response: PumpingResponse) -> Verdict:
+    """Say whether radial clearances are choked, and how far the pressure is to be trusted."""
+    text = f"radial choking, {gear} spaces: {'yes' if space.radial_choked else 'no'}"
+    verdict = Verdict("bad" if space.radial_choked else "good", text)
+    return _as_known(verdict, response.resolution.peak_pressure, "the pressure above ambient")
+
+
+def _as_known(verdict: Verdict, uncertainty: float, name: str) -> Verdict:
+    """The verdict, doubtful if the number behind it is uncertain."""
+    if uncertainty <= UNCERTAIN:
+        return verdict
+    doubt = f"doubtful: {name} is uncertain by {percent(uncertainty)}"
+    return Verdict("near", f"{verdict.text}; {doubt}" if verdict.text else doubt)
+
+
+def _pumping(response: PumpingResponse) -> str:
+    """Say which openings become sonic."""
+    known = _spaces(response)
+    ends = [gear for gear, space in known.items() if space.axial_choked]
+    clearances = [gear for gear, space in known.items() if space.radial_choked]
+    resolution = response.resolution
+    doubt = max(resolution.axial_mach, resolution.peak_pressure)
+    if doubt > UNCERTAIN:
+        return f"Whether the mesh is choked is not known: its numbers are uncertain by {percent(doubt)}."
+    if not ends and not clearances:
+        return "The mesh is not choked: neither an end nor a radial clearance becomes sonic."
+    parts = []
+    if ends:
+        parts.append(f"at an end of the {listed(ends)}")
+    if clearances:
+        parts.append(f"at radial clearances of the {listed(clearances)}")
+    return f"The mesh is choked: the flow becomes sonic {' and '.join(parts)}."
+
+
+def _choking(response: ChokingSpeedResponse) -> str:
+    """Say from which pinion speed on the mesh is choked."""
+    speeds = {"ends": response.axial_choking_speed_rpm, "radial clearances": response.radial_choking_speed_rpm}
+    sonic = [f"at the {place} from {number(speed, '1/min')}" for place, speed in speeds.items() if speed is not None]
+    never = [
+        f"not at the {place} up to {number(response.inputs['search_limit_rpm'], '1/min')}"
+        for place, speed in speeds.items()
+        if speed is None
+    ]
+    return f"The flow becomes sonic {listed([*sonic, *never])} of the pinion."
+
+
+_CONCLUSIONS: dict[type[Response], Callable[..., str]] = {
+    CouplingResponse: _coupling,
+    PumpingResponse: _pumping,
+    ChokingSpeedResponse: _choking,
+}

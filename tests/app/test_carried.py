@@ -1,0 +1,104 @@
+"""The same pair in other calculations: everything that both have in common goes along, the rest is not lost."""
+
+from itertools import permutations
+from typing import Any
+
+import pytest
+
+from app.calculations import BY_PATH, CALCULATIONS, Calculation
+from app.examples import examples
+from app.pages.carried import Use, subject_of, uses
+from app.pages.cases import Asked, solved
+from app.pages.query import pairs_of
+from app.pages.templating import page_path
+from app.schema.fields import leaf_at
+from tests.support.pages import asked, asked_by, html_of
+from tests.support.requests import changed
+
+SCUFFING = "starter-industrial-scuffing"
+GEARS = [each for each in CALCULATIONS if subject_of(each) == "pair"]
+
+
+def use_of(found: Asked, title: str) -> Use:
+    (use,) = [each for each in uses(found) if each.title == title]
+    return use
+
+
+def to(found: Asked, path: str) -> Asked:
+    return asked_by(use_of(found, BY_PATH[path].title).address)
+
+
+def test_is_it_choked_without_a_number_typed_twice() -> None:
+    pair = asked(SCUFFING)
+    use = use_of(pair, BY_PATH["/v1/pumping"].title)
+    assert use.missing == []
+    there = asked_by(use.address)
+    assert dict(there.pairs)["operation.pinion_speed_rpm"] == dict(pair.pairs)["load.pinion_speed_rpm"]
+    for name, text in pair.pairs:
+        if name.startswith("gears.") and leaf_at(BY_PATH["/v1/pumping"].request, name):
+            assert dict(there.pairs)[name] == text
+    html = html_of(there)
+    assert "axial choking" in html
+    assert "The mesh is not choked" in html
+
+
+@pytest.mark.parametrize(("first", "second"), [*permutations([each.path for each in GEARS], 2)])
+def test_there_and_back_loses_nothing(first: str, second: str) -> None:
+    example = next(each for each in examples().values() if each.endpoint == first)
+    here = Asked(page_path(BY_PATH[first]), pairs_of(example.request))
+    assert use_of(here, BY_PATH[second].title)
+    back = to(to(here, second), first)
+    if "pair" in to(here, second).views:
+        assert dict(back.pairs) == dict(here.pairs)
+    assert back.views.get("pair", "") == ""
+
+
+def test_a_round_over_three_pages_keeps_oil_and_modifications() -> None:
+    request = changed(examples()[SCUFFING].request, {"modifications": {"lead_crowning_um": 7}})
+    here = Asked("/scuffing", pairs_of(request))
+    loads = to(to(here, "/v1/pumping/choking-speed"), "/v1/scuffing/load-distribution")
+    assert dict(loads.pairs)["modifications.lead_crowning_um"] == "7"
+    assert dict(loads.pairs)["load.power_kw"] == dict(here.pairs)["load.power_kw"]
+    train = to(loads, "/v1/drive-train")
+    assert {n: t for n, t in train.pairs if n.startswith("lubricant.")} == {
+        n: t for n, t in here.pairs if n.startswith("lubricant.")
+    }
+    assert dict(train.pairs)["operation.power_kw"] == dict(here.pairs)["load.power_kw"]
+
+
+def test_what_is_missing_is_named_and_marked() -> None:
+    use = use_of(asked(SCUFFING), BY_PATH["/v1/drive-train"].title)
+    assert any("bearings" in each for each in use.missing)
+    assert any("start" in each for each in use.missing)
+    html = html_of(asked_by(use.address), 422)
+    assert "Not computed yet" in html
+    speed = use_of(asked("starter-choking-speed"), BY_PATH["/v1/scuffing"].title)
+    assert "pinion torque or transmitted power" in ", ".join(speed.missing)
+    assert any("speed" in each for each in speed.missing)
+
+
+@pytest.mark.parametrize("calculation", [each for each in CALCULATIONS if subject_of(each)], ids=page_path)
+def test_every_page_of_gears_or_a_coupling_has_the_links(calculation: Calculation) -> None:
+    example = next(each for each in examples().values() if each.endpoint == calculation.path)
+    others = [each for each in CALCULATIONS if each is not calculation and subject_of(each) == subject_of(calculation)]
+    found = uses(Asked(page_path(calculation), pairs_of(example.request)))
+    assert [each.title for each in found] == [each.title for each in others]
+
+
+def test_a_coupling_goes_along_too() -> None:
+    here = asked("pahl-axial-displacement")
+    orbit = to(here, "/v1/coupling/sleeve-orbit")
+    assert dict(orbit.pairs) == dict(here.pairs)
+    (missing,) = use_of(here, BY_PATH["/v1/coupling/recommendation"].title).missing
+    assert "misalignment" in missing
+    html = html_of(here)
+    assert "Use this coupling in" in html
+
+
+def test_a_field_of_its_own_wins_over_what_was_carried() -> None:
+    here: dict[str, Any] = dict(to(asked(SCUFFING), "/v1/pumping").pairs)
+    carried = to(asked(SCUFFING), "/v1/pumping").views["pair"]
+    edited = Asked("/pumping", [*(here | {"gears.face_width_mm": "33"}).items()], {"pair": carried})
+    back = to(edited, "/v1/scuffing")
+    assert dict(back.pairs)["gears.face_width_mm"] == "33"
+    assert solved(BY_PATH["/v1/scuffing"], [*back.pairs, ("model.lubrication", "closed_form")], None).request

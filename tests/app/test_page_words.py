@@ -1,0 +1,222 @@
+"""The words of pages: differences, verdicts and findings say what their numbers allow."""
+
+import re
+from html import unescape
+from typing import Any
+
+import numpy as np
+import pytest
+
+from app.calculations import BY_PATH, CALCULATIONS
+from app.examples import examples
+from app.figures.data import Axis
+from app.figures.studies import Coordinate, Grid, answer
+from app.figures.wording import to_digits
+from app.pages.cases import Asked, solved
+from app.pages.overview import unit_page
+from app.pages.query import WRITTEN, from_form, link, pairs_of
+from app.pages.results import cards
+from app.pages.studies.sensitivity import SensitivityPage
+from app.pages.study_links import studies_of_case
+from app.pages.templating import examples_of, page_path
+from app.pages.verdicts import conclusion, verdicts
+from app.schema.coupling import CouplingResponse
+from app.schema.pumping import PumpingResponse
+from tests.support.pages import asked, asked_by, checked, html_of, lines_of, whole
+from tests.support.requests import changed
+
+SCUFFING, COUPLING = "starter-industrial-scuffing", "pahl-axial-displacement"
+CLOSED = {"model": {"lubrication": "closed_form"}}
+
+
+def compared(name: str, changes: dict[str, Any]) -> str:
+    """The page of an example with changes, beside the example."""
+    example = examples()[name]
+    base = changed(example.request, CLOSED) if example.endpoint == "/v1/scuffing" else example.request
+    ref = link("", pairs_of(base)).removeprefix("?")
+    path = example.endpoint.removeprefix("/v1")
+    return html_of(Asked(path, pairs_of(changed(base, changes)), {"ref": ref}))
+
+
+def change_of(html: str, path: str) -> str:
+    """What the table of results says of the change of a number."""
+    (row,) = re.findall(rf'data-path="{re.escape(path)}".*?</tr>', html, re.DOTALL)
+    return re.findall(r'<td class="right">([^<]*)</td></tr>', row)[0]
+
+
+def test_temperatures_change_by_differences_and_lengths_by_shares() -> None:
+    temperatures = examples()[SCUFFING].request["temperatures"]
+    html = compared(SCUFFING, {"temperatures": {**temperatures, "oil_c": temperatures["oil_c"] - 20.0}})
+    (oil,) = re.findall(r"<tr><td[^>]*>oil temperature.*?</tr>", html, re.DOTALL)
+    assert "−20 K" in oil
+    assert re.fullmatch(r"−[\d.]+ K", change_of(html, "contact_temperature.blok_max_c"))
+    assert change_of(html, "film.dowson_higginson_min_um").endswith(" %")
+
+
+def test_angles_change_by_differences() -> None:
+    operation = {**examples()[COUPLING].request["operation"], "misalignment_deg": 0.1}
+    coupling = compared(COUPLING, {"operation": operation})
+    (angle,) = re.findall(r"<tr><td[^>]*>misalignment<.*?</tr>", coupling, re.DOTALL)
+    assert "+0.05°" in angle
+
+
+def test_a_step_of_a_temperature_is_in_kelvins() -> None:
+    base = asked(SCUFFING, show="contact_temperature.blok_max_c")
+    closed = Asked(base.path, [*base.pairs, ("model.lubrication", "closed_form")], base.views)
+    study = checked(SensitivityPage, closed)
+    page = whole(study, lines_of(study))
+    assert re.search(r"oil temperature</a></td><td[^>]*>[\d.]+</td><td[^>]*>°C</td><td[^>]*>\+[\d.]+ K<", page)
+    assert re.search(r"changes the [^<]* by, K<", page)
+
+
+@pytest.mark.parametrize("typed", ["2 K", "2 °C", "2"])
+def test_a_deviation_of_a_temperature_is_typed_in_kelvins(typed: str) -> None:
+    said = [("t0", "temperatures.oil_c"), ("t0.by", typed), (WRITTEN, "")]
+    assert dict(from_form(BY_PATH["/v1/scuffing"].request, said))["t0.by"] == "2"
+
+
+@pytest.mark.parametrize(
+    ("value", "error", "text"),
+    [
+        (266.7, 3.7, "267"),
+        (266.7, 37.0, "270"),
+        (266.7, 0.0, "267"),
+        (266.7, 180.0, "300"),
+        (0.01234, 2e-5, "0.0123"),
+        (0.0, 1.0, "0"),
+    ],
+)
+def test_a_number_has_the_digits_that_its_error_leaves(value: float, error: float, text: str) -> None:
+    assert to_digits(value, error) == text
+
+
+def coupling(**changes: Any) -> CouplingResponse:
+    response = solved(BY_PATH["/v1/coupling"], pairs_of(changed(examples()[COUPLING].request, changes)), None).response
+    assert isinstance(response, CouplingResponse)
+    return response
+
+
+def pumping(name: str) -> PumpingResponse:
+    response = solved(BY_PATH["/v1/pumping"], pairs_of(examples()[name].request), None).response
+    assert isinstance(response, PumpingResponse)
+    return response
+
+
+def test_the_top_of_the_coupling_judges_thrust_and_misalignment_and_answers_the_question() -> None:
+    slides = coupling()
+    judged = verdicts(slides)
+    assert "give the shaft diameter" in judged["axial_thrust.design_force_n"].text
+    assert judged["limits.allowable_misalignment_deg"].level == "good"
+    said = conclusion(slides)
+    assert said.startswith("It does not lock axially: its teeth slide, and its thrust is 9.2")
+    assert slides.lubrication.regime.name in said
+    assert "permits a misalignment up to" in said
+    assert "limits.allowable_misalignment_deg" in {row.path for row in cards(slides, {})}
+    assert said in unescape(re.sub(r"<[^>]+>", "", html_of(asked(COUPLING))))
+
+
+@pytest.mark.parametrize(("diameter", "level", "words"), [(30.0, "good", "is below"), (150.0, "bad", "exceeds")])
+def test_thrust_is_compared_with_the_customary_one(diameter: float, level: str, words: str) -> None:
+    operation = {**examples()[COUPLING].request["operation"], "shaft_diameter_mm": diameter}
+    verdict = verdicts(coupling(operation=operation))["axial_thrust.design_force_n"]
+    assert verdict.level == level
+    assert verdict.text.startswith(words)
+
+
+def test_sticking_teeth_lock_axially() -> None:
+    operation = {**examples()[COUPLING].request["operation"], "misalignment_deg": 0.0, "axial_velocity_mm_per_s": 0.0}
+    assert conclusion(coupling(operation=operation)).startswith("It locks axially: its teeth stick")
+
+
+def test_a_mach_number_of_its_own_size_makes_the_cards_doubtful_and_the_answer_unknown() -> None:
+    found = pumping("milian-table-1")
+    assert found.pinion_spaces
+    assert "doubtful" not in verdicts(found)["pinion_spaces.peak_axial_mach"].text
+    resolution = found.resolution.model_copy(update={"axial_mach": 1.4})
+    inside = found.pinion_spaces.model_copy(update={"peak_axial_mach": 1.26, "axial_choked": False})
+    doubtful = found.model_copy(update={"resolution": resolution, "pinion_spaces": inside})
+    verdict = verdicts(doubtful)["pinion_spaces.peak_axial_mach"]
+    assert verdict.level == "near"
+    assert (
+        "inside the spaces the gas is faster than sound; doubtful: the Mach number is uncertain by 140 %"
+        in verdict.text
+    )
+    assert "is not known" in conclusion(doubtful)
+    (card,) = [row for row in cards(doubtful, {}) if row.path == "pinion_spaces.peak_axial_mach"]
+    assert (card.level, card.remark) == verdict
+
+
+def test_choking_of_any_gear_is_on_the_card() -> None:
+    found = pumping("milian-table-1")
+    space = found.pinion_spaces or found.wheel_spaces
+    assert space
+    changes = {
+        "pinion_spaces": space.model_copy(update={"peak_axial_mach": 1.2, "axial_choked": False}),
+        "wheel_spaces": space.model_copy(update={"peak_axial_mach": 1.0, "axial_choked": True}),
+    }
+    (card,) = [row for row in cards(found.model_copy(update=changes), {}) if row.path.endswith("peak_axial_mach")]
+    assert card.path == "wheel_spaces.peak_axial_mach"
+    assert card.level == "bad"
+
+
+POWER = Coordinate(Axis("power", unit="kW"), np.array([100.0, 200.0, 300.0, 400.0]))
+
+
+@pytest.mark.parametrize(
+    ("limit", "said"),
+    [
+        (1.0, "The safety crosses its limit 1 at about 240 kW; it is above the limit at 100 kW; greatest 3 at power"),
+        (0.1, "The safety is above its limit 0.1 at every point; greatest 3 at power 100 kW."),
+        (5.0, "The safety is above its limit 5 at no point; greatest 3 at power 100 kW."),
+        (None, "The safety goes from 3 at 100 kW to 0.4 at 400 kW; greatest 3 at power 100 kW."),
+    ],
+)
+def test_a_sweep_answers_in_a_sentence(limit: float | None, said: str) -> None:
+    safety = np.array([3.0, 1.3, 0.5, 0.4])
+    assert answer(Grid(POWER, None, Axis("safety"), safety, greatest=True, limit=limit)).startswith(said)
+
+
+def test_ready_questions_open_around_the_own_values() -> None:
+    request = BY_PATH["/v1/scuffing"]
+    body = changed(examples()[SCUFFING].request, {"load": {"power_kw": None, "pinion_torque_n_m": 400.0}})
+    known = studies_of_case(request, pairs_of(body), body, {"load.power_kw": 60.0})
+    (hotter,) = [each for each in known if each.title.startswith("How much load")]
+    views = asked_by(hotter.address).views
+    assert (views["x"], views["x.from"], views["x.to"]) == ("load.power_kw", "30", "90")
+    assert "y.from" not in views
+    assert not [each for each in studies_of_case(request, pairs_of(body), body) if each.title == hotter.title]
+
+
+WORDS = re.compile(r"/v1/|\b[a-z]+(?:_[a-z0-9]+)+\b|\b[a-z]+(?:\.[a-z]+)*\.[a-z]+_[a-z_]+")
+
+
+def text_of(html: str) -> str:
+    """What is read on a page, without the case as code."""
+    plain = re.sub(r"<(script|style|pre)\b.*?</\1>", " ", html, flags=re.DOTALL)
+    return unescape(re.sub(r"<[^>]+>", " ", re.sub(r"</?(i|sub|span)\b[^>]*>", "", plain)))
+
+
+@pytest.mark.parametrize("calculation", CALCULATIONS, ids=page_path)
+def test_no_page_has_a_name_of_the_interface(calculation: Any) -> None:
+    example = min(examples_of(calculation), key=lambda each: "gas_dynamics" in str(each.request))
+    model = calculation.request.model_fields.get("model")
+    closed = {"lubrication": "closed_form"} if model and "lubrication" in str(model.annotation.model_fields) else {}
+    request = changed(example.request, {"model": {**example.request.get("model", {}), **closed}})
+    html = html_of(Asked(page_path(calculation), pairs_of(request)))
+    assert not WORDS.findall(text_of(html))
+
+
+def test_the_page_of_a_gear_unit_has_no_name_of_the_interface() -> None:
+    requests = {"/v1/scuffing": examples()[SCUFFING].request}
+    missing = [
+        {"field": "gears.normal_backlash_mm", "message": "needed"},
+        {"field": "/v1/drive-train", "message": "no"},
+    ]
+    assumed = [{"field": "gears.pinion.profile_shift", "value": 0.0, "reason": "none given"}]
+    stage = {"id": 1, "name": "", "requests": requests, "cases": [], "spectra": {}, "ignored": []}
+    unit: dict[str, Any] = {"version": "1.4", "application": "", "name": "", "findings": []}
+    unit["stages"] = [stage | {"missing": missing, "assumed": assumed}]
+    text = text_of(unit_page("", unit))
+    assert "normal backlash: needed" in text
+    assert "profile shift" in text
+    assert not WORDS.findall(text)

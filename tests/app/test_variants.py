@@ -1,0 +1,82 @@
+"""Several variants beside each other, and a form that shows what decides."""
+
+import re
+from html import unescape
+
+from app.calculations import BY_PATH
+from app.examples import examples
+from app.pages.cases import Asked, solved
+from app.pages.form import Section, State, form
+from app.pages.query import link, pairs_of
+from app.pages.typesetting import shown
+from app.pages.variants import MOST, SEPARATOR, queries_of, with_this
+from app.pages.views import _deciding
+from app.schema.fields import leaf_at
+from tests.support.pages import asked, asked_by, html_of
+from tests.support.requests import changed
+
+COUPLING = "pahl-axial-displacement"
+
+
+def query(misalignment: float) -> str:
+    operation = {**examples()[COUPLING].request["operation"], "misalignment_deg": misalignment}
+    return link("", pairs_of(changed(examples()[COUPLING].request, {"operation": operation}))).removeprefix("?")
+
+
+def table_of(html: str) -> list[list[str]]:
+    """Cells of the table of variants, row by row."""
+    table = html.partition('aria-label="Variants"')[2].partition("</table>")[0]
+    rows = [re.findall(r"<t[hd][^>]*>(.*?)</t[hd]>", row, re.DOTALL) for row in table.split("</tr>")]
+    return [[unescape(re.sub(r"<[^>]+>", "", cell)).strip() for cell in row] for row in rows if len(row) > 1]
+
+
+def test_three_variants_stand_in_a_small_table() -> None:
+    base = asked(COUPLING)
+    here = Asked(base.path, base.pairs, {"ref": query(0.1), "also": query(0.2)})
+    heads, *rows = table_of(html_of(here))
+    assert heads == ["quantity", "symbol", "variant A", "variant B", "this case", "unit"]
+    angle = next(row for row in rows if row[0] == "misalignment")
+    assert angle[2:] == ["0.1", "0.2", "0.05", "°"]
+    title = leaf_at(BY_PATH["/v1/coupling"].response, "axial_thrust.design_force_n").title
+    thrust = next(row for row in rows if row[0] == title)
+    known = [
+        solved(BY_PATH["/v1/coupling"], asked_by(f"/coupling?{each}").pairs, None).response.axial_thrust.design_force_n
+        for each in (query(0.1), query(0.2), here.query)
+    ]
+    assert thrust[2:5] == [shown(value, 4) for value in known]
+    assert not [row for row in rows if row[0] == "torque"], "alike in all"
+
+
+def test_keeping_a_variant_adds_it() -> None:
+    base = asked(COUPLING)
+    here = Asked(base.path, base.pairs, {"ref": query(0.1)})
+    (address,) = re.findall(r'href="([^"]+)" title="keep this case as one variant more', html_of(here))
+    kept = asked_by(unescape(address))
+    assert queries_of(kept) == [here.query]
+    assert kept.ref == query(0.1)
+    assert queries_of(asked_by(kept.page)) == [here.query], "the link of the page keeps them"
+    assert with_this(kept) == ""
+    full = Asked(base.path, base.pairs, {"ref": "a", "also": SEPARATOR.join(f"x={place}" for place in range(MOST))})
+    assert with_this(full) == ""
+
+
+def test_a_variant_that_is_refused_is_named() -> None:
+    base = asked(COUPLING)
+    html = html_of(
+        Asked(base.path, base.pairs, {"ref": query(0.1), "also": query(0.2).replace("teeth=52", "teeth=-1")})
+    )
+    assert "variant B cannot be computed" in html
+
+
+def test_the_section_with_the_limit_of_the_verdict_is_open_and_near_the_top() -> None:
+    calculation = BY_PATH["/v1/scuffing"]
+    sections = form(calculation.request, State({}, deciding=_deciding(calculation)))
+    places = {each.path: place for place, each in enumerate(sections)}
+    needed = sum(each.needed for each in sections)
+    assert places["temperatures"] == needed
+    (temperatures,) = [each for each in sections if each.path == "temperatures"]
+    assert temperatures.open
+    (test,) = [
+        each for each in temperatures.blocks if isinstance(each, Section) and each.path.endswith("scuffing_test")
+    ]
+    assert test.open, "the FZG stage is in sight"

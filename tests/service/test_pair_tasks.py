@@ -1,0 +1,101 @@
+"""Tasks over several pages, at the desk with the keyboard and on a phone by touch."""
+
+import re
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+from playwright.sync_api import Page, expect
+
+from tests.support.browsing import address_of, overflow
+
+pytestmark = pytest.mark.service
+
+DESK: dict[str, Any] = {"viewport": {"width": 1280, "height": 800}}
+PHONE: dict[str, Any] = {"viewport": {"width": 360, "height": 740}, "has_touch": True, "is_mobile": True}
+LEAST_LETTERS = 9.0  # px, of the texts of figures on a phone
+WINDOWS = pytest.mark.parametrize("window", [DESK, PHONE], ids=["desk", "phone"])
+
+
+def act(page: Page, window: dict[str, Any], name: str) -> None:
+    """Open the list of other calculations or follow a link in it: by touch on a phone, by the keyboard at the desk."""
+    target = page.locator(".carried").get_by_text(name, exact=True).locator("visible=true").first
+    if window is PHONE:
+        target.tap()
+    else:
+        target.focus()
+        page.keyboard.press("Enter")
+
+
+@WINDOWS
+def test_from_scuffing_to_whether_it_is_choked_nothing_is_typed(
+    visit: Callable[..., Page], window: dict[str, Any]
+) -> None:
+    page = visit(f"{address_of('starter-industrial-scuffing')}&model.lubrication=closed_form", **window)
+    act(page, window, "Use this pair in …")
+    act(page, window, "Pumping between gear teeth")
+    expect(page.locator(".conclusion")).to_contain_text("The mesh is not choked")
+    expect(page.locator(".cards")).to_contain_text("axial choking")
+    assert overflow(page) <= 0
+    act(page, window, "Use this pair in …")
+    act(page, window, "Scuffing of gears")
+    expect(page.locator('[name="lubricant.iso_vg"]').first).to_have_value("320")
+    expect(page.locator(".card").first).to_be_visible()
+
+
+@WINDOWS
+def test_the_top_of_the_coupling_answers_the_question(visit: Callable[..., Page], window: dict[str, Any]) -> None:
+    page = visit(address_of("pahl-axial-displacement"), **window)
+    for text in ("It does not lock axially", "a misalignment up to"):
+        expect(page.locator(".conclusion")).to_contain_text(text)
+    expect(page.locator(".cards")).to_contain_text("permissible misalignment")
+    assert overflow(page) <= 0
+
+
+@WINDOWS
+def test_a_report_is_filled_in_for_its_signatures(visit: Callable[..., Page], window: dict[str, Any]) -> None:
+    page = visit(address_of("pahl-axial-displacement", "/report"), **window)
+    for label, text in (("revision", "B"), ("author", "J. Doe"), ("approved by", "C. Jones")):
+        page.get_by_label(label, exact=True).fill(text)
+    page.get_by_label("length").select_option("short")
+    page.get_by_role("button", name="Put on the report").press("Enter")
+    expect(page.locator(".signatures")).to_contain_text("J. Doe")
+    assert page.locator(".signatures .line").count() == 6
+    expect(page.get_by_role("heading", name="Results")).to_have_count(0)
+    assert overflow(page) <= 0
+
+
+def test_texts_of_figures_can_be_read_on_a_phone_by_scrolling_the_figure(visit: Callable[..., Page]) -> None:
+    page = visit(address_of("pahl-axial-displacement"), **PHONE)
+    plot = page.locator(".plot").first
+    plot.scroll_into_view_if_needed()
+    width: float = plot.locator("img").evaluate("image => image.getBoundingClientRect().width")
+    assert width / (5.6 * 72.0) * 8.0 >= LEAST_LETTERS
+    assert plot.evaluate("plot => plot.scrollWidth > plot.clientWidth")
+    assert overflow(page) <= 0
+
+
+def test_no_empty_line_below_a_figure_and_no_empty_column(visit: Callable[..., Page]) -> None:
+    page = visit(address_of("pahl-axial-displacement"), **DESK)
+    page.locator(".plot img").first.scroll_into_view_if_needed()
+    charts = page.locator(".charts").bounding_box()
+    boxes = [box for chart in page.locator(".chart").all() if (box := chart.bounding_box())]
+    assert charts
+    assert max(box["x"] + box["width"] for box in boxes) >= charts["x"] + charts["width"] - 1.0
+    for chart in page.locator(".chart").all()[:2]:
+        image, caption = chart.locator("img").bounding_box(), chart.locator("figcaption").bounding_box()
+        assert image
+        assert caption
+        assert caption["y"] - image["y"] - image["height"] < 8.0
+        assert caption["height"] < 45.0
+
+
+def test_what_is_scrolled_to_is_not_below_the_cards(visit: Callable[..., Page]) -> None:
+    page = visit(address_of("pahl-axial-displacement"), **DESK)
+    page.locator(".jump a", has_text=re.compile("Values|Figures")).first.evaluate("link => link.click()")
+    page.wait_for_timeout(500)
+    target, cards = page.locator("#figures").bounding_box(), page.locator(".result > .cards").bounding_box()
+    assert target
+    assert cards
+    below = cards["y"] + cards["height"]
+    assert below <= target["y"] + 1.0 or below <= 0.0

@@ -1,0 +1,43 @@
+"""Defaults of the solvers' inputs: practice, as the service has them, or none."""
+
+from math import radians
+
+import pytest
+
+from solvers import scuffing
+from solvers.contact.ehl import Contact, LineContactInputs
+from solvers.oils import OilChoice
+from tests.support.outcomes import refused
+
+PAIR = scuffing.GearPairInputs(
+    scuffing.GearTeeth(25), scuffing.GearTeeth(76), 4e-3, 60e-3, helix_angle=radians(10.0), rack_tip_radius=0.38
+)
+LOADED = scuffing.LoadDistributionInputs(PAIR, scuffing.Load(900.0, 157.0))
+
+
+def check(**known: object) -> scuffing.Scuffing:
+    return scuffing.solve_scuffing(scuffing.ScuffingInputs(LOADED, lubrication="closed_form", **known))
+
+
+def test_no_oil_is_assumed() -> None:
+    result = check()
+    assert (result.safety, result.film, result.contact_temperature) == (None, None, None)
+    assert result.flash.blok_max is None, "no oil, no friction"
+    assert "no_oil" in {warning.code for warning in result.warnings}
+    with pytest.raises(TypeError):
+        LineContactInputs(Contact(2.7e5, 4e-3, 1.0, 3.7))  # type: ignore[call-arg]
+
+
+def test_friction_and_bulk_temperature_follow_from_the_oil() -> None:
+    result = check(oil=OilChoice(iso_vg=220).resolve())
+    assert result.flash.friction_coefficient != LOADED.friction_coefficient
+    assert result.contact_temperature
+    assert result.contact_temperature.bulk > scuffing.Temperatures().oil
+
+
+def test_a_bulk_temperature_is_not_given_and_estimated() -> None:
+    oil, both = OilChoice(iso_vg=220).resolve(), scuffing.Temperatures(bulk=353.15)
+    assert refused(lambda: check(oil=oil, temperatures=both))[0] == "exclusive"
+    given = check(oil=oil, temperatures=scuffing.Temperatures(bulk=353.15, bulk_method="given"))
+    assert given.contact_temperature
+    assert given.contact_temperature.bulk == 353.15
