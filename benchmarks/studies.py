@@ -18,10 +18,10 @@ import httpx
 
 from app.calculations import BY_PATH
 from app.examples import examples
-from app.studies.engine import paths_of
 from app.studies.fields import set_value
+from app.studies.kinds.sweep import Sweep
 from app.studies.points import Question, solve_point
-from app.studies.sweep import Sweep
+from app.studies.runner import paths_of
 from tests.support.dask_cluster import running_cluster
 from tests.support.server import running_server
 

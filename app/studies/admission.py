@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from app.errors import SchedulerUnavailable, StudiesFull
 from app.log import STUDIES
 from app.settings import Settings
-from app.studies.engine import Pool
+from app.studies.runner import Pool
 from app.workers.pool import Pool as WorkerPool
 from app.workers.pool import StudyPool
 

@@ -15,9 +15,9 @@ import pytest
 
 from app.examples import examples
 from app.sources import sources_of
+from app.studies.kinds.spectrum import Spectrum
+from app.studies.kinds.sweep import Sweep
 from app.studies.requests import EXAMPLES
-from app.studies.spectrum import Spectrum
-from app.studies.sweep import Sweep
 from tests.support.dask_cluster import DaskProcesses, running_cluster
 from tests.support.server import ROOT, Server, free_port, running_server
 from tests.support.studies import Planner, lines_of, study_of, timeless
