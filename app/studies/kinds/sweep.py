@@ -46,6 +46,7 @@ from app.studies.requests import (
     StudyRequest,
 )
 from app.studies.runner import Clock, Line, Lines, Pool, Study, output_header, paths_of
+from app.studies.statistics import of_sample
 
 AROUND = 0.5  # of a value, to both sides
 TOLERANCES = 4.0  # to both sides of zero
@@ -204,17 +205,17 @@ class Sweep(Study):
                     summary.keep(point.out)
                 lines.append(runner.point_line(index, points.rows[index], point))
             yield lines
-        of_sample: Line = {"quantiles": None, "quantile_bounds": None, "rank_correlation": None}
+        sampled: Line = {"quantiles": None, "quantile_bounds": None, "rank_correlation": None}
         if self.body.sample:
             inputs, varied = np.array(points.rows[first:]), paths_of(points.varied)
-            of_sample = await runner.twice_if_lost(pool, of_sample, inputs, summary.values, varied, outputs)
+            sampled = await runner.twice_if_lost(pool, of_sample, inputs, summary.values, varied, outputs)
         best = summary.best_point
         end = {
             "type": "end",
             "points": self.total,
             "counts": dict(sorted(summary.counts.items())),
             "ranges": summary.extremes,
-            **of_sample,
+            **sampled,
             "best": best and {"index": best[0], "at": points.rows[best[0]], "out": best[1]},
             "assumptions": list(summary.assumptions.values()),
             "elapsed_s": clock.elapsed_s,
@@ -341,8 +342,8 @@ class SweepPage(StudyPage):
             if leaf := self.field_at(path):
                 usual |= zip(("start", "stop"), self._usual_ends(leaf), strict=True)
             for each in AXIS:
-                own = {"name": f"{name}{each.name}", "path": f"vary.{place}.{each.path}", "sets": bool(path)}
-                found.append(each._replace(**own, default=usual.get(each.path, each.default)))
+                own = each._replace(name=f"{name}{each.name}", path=f"vary.{place}.{each.path}", sets=bool(path))
+                found.append(own._replace(default=usual.get(each.path, each.default)))
             found.append(Control(f"{name}.from", f"vary.{place}", sets=False))
         return tuple(found)
 
@@ -360,7 +361,7 @@ class SweepPage(StudyPage):
                 message = f"{leaf.title} has no numbers; vary another field along it"
                 raise Unprocessable("not_scalar", message, f"{where}.path")
             return {**axis, "values": choices}
-        start, stop, count, scale = (given.get(name) for name in ("start", "stop", "count", "scale"))
+        start, stop, count, scale = given.get("start"), given.get("stop"), given["count"], given["scale"]
         if start is None or stop is None:
             raise Unprocessable("values_or_range", "the case has no value here to go from: give from and to", where)
         if start == stop:
