@@ -61,6 +61,7 @@ def test_headline_numbers_by_default() -> None:
         "axial_thrust.design_force_n",
         FILM,
         "kinematics.max_sliding_velocity_m_per_s",
+        "limits.allowable_misalignment_deg",
     ]
     assert header["axes"] == []
 
