@@ -78,7 +78,7 @@ class KernelLocator:
 
 @contextmanager
 def located() -> Iterator[None]:
-    """Kernels decorated in this context have their machine code where `KernelLocator` says; no others."""
+    """Keep the machine code of kernels that are decorated in this context where `KernelLocator` says."""
     config: Any = numba.config  # fills its attributes from the environment
     before = config.CACHE_LOCATOR_CLASSES
     config.CACHE_LOCATOR_CLASSES = f"{KernelLocator.__module__}.{KernelLocator.__qualname__}"

@@ -187,7 +187,7 @@ def _limit(grid: Grid) -> list[Level]:
 
 
 class Crossing(NamedTuple):
-    """Where a curve crosses its limit, and by how much the points leave this open."""
+    """Place where a curve crosses its limit, and the uncertainty of the place between two points."""
 
     place: float
     error: float

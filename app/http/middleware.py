@@ -45,7 +45,7 @@ logger = logging.getLogger(REQUEST_LOG)
 
 
 def request_id(sent: bytes = b"") -> str:
-    """The client's request id if it is a decent one, else a new one."""
+    """Return the client's request id if it has only permitted characters, else a new one."""
     return sent.decode() if ACCEPTABLE_ID.fullmatch(sent) else token_hex(16)
 
 
@@ -116,7 +116,7 @@ def _whole(send: Send) -> Send:
 
 
 class _Request:
-    """One request on its way through the layer."""
+    """The state of one request while it is answered."""
 
     def __init__(self, limits: Settings, most_bytes: int, scope: Scope, receive: Receive, send: Send) -> None:
         self._limits = limits

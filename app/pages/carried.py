@@ -1,4 +1,4 @@
-"""The gears or the coupling of a case in other calculations: links that carry all that both have in common.
+"""Links that open other calculations with the same gears or coupling.
 
 What the other page has no field for goes along in the view `pair`, so that a link from there to a third page, or back,
 loses nothing.
@@ -16,7 +16,7 @@ from app.schema.fields import ITEM, Branch, Leaf, branches, leaf_at, tree
 from app.schema.model import Documented
 
 SUBJECTS = {"gears": "pair", "coupling": "coupling"}
-"""The sections of requests that calculations may share, and what a case of them is about."""
+"""Sections that several calculations have in common, and whether they describe gears or a coupling."""
 LOAD, OPERATION = "load.", "operation."
 """Scuffing calls the operation of the gears their load; names in `pair` are those of scuffing."""
 
@@ -71,7 +71,7 @@ def _there(calculation: Calculation, name: str) -> str:
 
 
 def _has(model: type[Documented], name: str) -> bool:
-    """Whether a request has the field, the element of a matrix or the optional section of this name."""
+    """Return whether a request has a field, a matrix element or an optional section of this name."""
     section = ".".join(ITEM if part.isdecimal() else part for part in name.split("."))
     matrix = name.rpartition(".")[0].rpartition(".")[0]
     return leaf_at(model, name) is not None or leaf_at(model, matrix) is not None or section in branches(model)

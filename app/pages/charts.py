@@ -113,7 +113,7 @@ def data_address(figure: Figure, theme: ThemeName = "light") -> str:
 
 
 def in_column(figure: Figure) -> Figure:
-    """The figure as a column of a report shows it; one that needs the whole width is unchanged."""
+    """Return the figure for a report's column; a figure that needs the whole width stays as it is."""
     from app.figures.drawing.image import narrowed  # noqa: PLC0415  only workers draw
 
     return narrowed(figure)

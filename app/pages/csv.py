@@ -43,7 +43,7 @@ def values(case: Case, title: str) -> bytes:
 
 
 def curves(response: Response) -> dict[str, str]:
-    """The titles of the groups that hold curves, and of curves that belong to no group, by their paths."""
+    """Return titles by path: of groups that hold curves, and of curves outside groups."""
     listed = (
         each
         for each in entries(response)

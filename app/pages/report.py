@@ -104,12 +104,12 @@ def for_python(address: str, case: Case) -> str:
 
 
 def body_of(case: Case) -> str:
-    """The body of the request as JSON, without what was left to its default."""
+    """Return the request as JSON, without fields that have their default."""
     return json.dumps(_given(case))
 
 
 def _given(case: Case) -> dict[str, Any]:
-    """The body of a request without what was left to its default."""
+    """Return the request without fields that have their default."""
     return case.request.model_dump(exclude_unset=True, exclude={"detail"})
 
 

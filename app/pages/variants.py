@@ -28,7 +28,7 @@ class Column(NamedTuple):
 
 
 class Line(NamedTuple):
-    """A line of the table: the quantity, and a text for each variant."""
+    """A row of the table: a quantity and its value in each variant."""
 
     row: Row
     texts: list[str]

@@ -1,4 +1,4 @@
-"""Verdicts that compare several numbers of an answer, and the answer to its question in one sentence."""
+"""Verdicts from several numbers of an answer, and a sentence that answers the question of the page."""
 
 from collections.abc import Callable
 from typing import Any, NamedTuple
@@ -37,7 +37,7 @@ def conclusion(response: Response) -> str:
 
 
 def _of_pumping(response: PumpingResponse) -> dict[str, Verdict]:
-    """Judge choking, and how far power, temperature rise, pressure and Mach number are to be trusted."""
+    """Judge choking, and mark power, temperature rise, pressure and Mach number as doubtful if they are uncertain."""
     judged = {
         f"{gear}_spaces.{name}": judge(gear, space, response)
         for gear, space in _spaces(response).items()

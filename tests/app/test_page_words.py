@@ -30,7 +30,7 @@ CLOSED = {"model": {"lubrication": "closed_form"}}
 
 
 def compared(name: str, changes: dict[str, Any]) -> str:
-    """The page of an example with changes, beside the example."""
+    """Return the page that compares a changed example with the example."""
     example = examples()[name]
     base = changed(example.request, CLOSED) if example.endpoint == "/v1/scuffing" else example.request
     ref = link("", pairs_of(base)).removeprefix("?")

@@ -24,7 +24,7 @@ def query(misalignment: float) -> str:
 
 
 def table_of(html: str) -> list[list[str]]:
-    """Cells of the table of variants, row by row."""
+    """Return the rows of the table of variants, each a list of its cells."""
     table = html.partition('aria-label="Variants"')[2].partition("</table>")[0]
     rows = [re.findall(r"<t[hd][^>]*>(.*?)</t[hd]>", row, re.DOTALL) for row in table.split("</tr>")]
     return [[unescape(re.sub(r"<[^>]+>", "", cell)).strip() for cell in row] for row in rows if len(row) > 1]

@@ -1,4 +1,4 @@
-"""A cache with every kernel compiled, for tests that copy and damage it."""
+"""A cache that holds every kernel; tests copy it and damage the copy."""
 
 import shutil
 from functools import cache

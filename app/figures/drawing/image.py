@@ -154,7 +154,7 @@ def laid_out(figure: Figure) -> tuple[Sheet, list[Axes]]:
 
 
 def narrowed(figure: Figure) -> Figure:
-    """The figure for a column of a report, unless its texts would collide there or panels stand beside each other."""
+    """Return the figure narrowed to a report's column, or as it is if it has panels side by side or texts collide."""
     narrow = replace(figure, narrow=True)
     return figure if figure.beside or _collides(narrow) else narrow
 
