@@ -73,12 +73,18 @@ class DaskCluster:
         if not threads:
             raise ValueError("it has no workers")
         new = set(threads) - self._prepared
-        calls = {each: self._client.submit(prepare, workers=[each], pure=False, retries=0) for each in new}
-        for worker, call in calls.items():
-            if (theirs := call.result(timeout=WARM_S)) != versions():
+        for worker, theirs in self._answers(versions, new).items():
+            if theirs != versions():
                 raise ValueError(f"its worker {worker} runs {theirs}, the service {versions()}")
+        self._answers(prepare, new)
         self._prepared |= new
         self.slots = sum(threads.values())
+
+    def _answers(self, function: Callable[[], Any], workers: set[str]) -> dict[str, Any]:
+        """Return what a function returns on each of these workers. Blocks."""
+        assert self._client is not None
+        calls = {each: self._client.submit(function, workers=[each], pure=False, retries=0) for each in workers}
+        return {worker: call.result(timeout=WARM_S) for worker, call in calls.items()}
 
     def submit(self, function: Callable[..., Any], *arguments: Any) -> asyncio.Future[Any]:
         """Send a call; cancelling takes it back if it has not begun."""
@@ -108,11 +114,10 @@ class DaskCluster:
             self._client = None
 
 
-def prepare() -> dict[str, str]:
-    """Load every kernel; runs in a worker and answers its versions."""
+def prepare() -> None:
+    """Load every kernel; runs in a worker."""
     for stage in STAGES:
         warm(stage)
-    return versions()
 
 
 def solved_with(sources: str, function: Callable[..., Any], *arguments: Any) -> Any:
