@@ -7,7 +7,7 @@ import numpy as np
 from solvers.arrays import FloatArray, frozen
 from solvers.compiled import kernel
 from solvers.contact import hertz
-from solvers.gears.pair import PathOfContact, reduced_radius
+from solvers.gears.pair import ContactPlane, PathOfContact, reduced_radius
 from solvers.scuffing.contact_lines import line_count
 from solvers.scuffing.contact_slices import Mesh, load_under
 from solvers.scuffing.load_balance import LoadBalance, error_at, line_loads, loads_at
@@ -47,7 +47,7 @@ def _in_part(balance: LoadBalance) -> bool:
 
 def tops(values: FloatArray) -> list[int]:
     """Return the local maxima that are nearly as large as the largest, in ascending order of their values."""
-    edged = np.pad(values, 1, constant_values=-np.inf)
+    edged = np.concatenate([[-np.inf], values, [-np.inf]])
     local = np.flatnonzero((values > edged[:-2]) & (values >= edged[2:]) & (values >= NEARLY * values.max()))
     return sorted(local.tolist(), key=lambda k: float(values[k]))
 
@@ -108,7 +108,7 @@ def _face_loads(mesh: Mesh, phase: FloatArray, error: FloatArray, substeps: int,
 
 
 def contact_points(
-    path: PathOfContact, balance: LoadBalance, x: FloatArray, load: FloatArray, pinion_speed: float, modulus: float
+    path: PathOfContact, x: FloatArray, load: FloatArray, pinion_speed: float, modulus: float
 ) -> ContactPoints:
     """Load, radius and speeds at points x [m] of the path under w [N/m], arrays of one shape; E' [Pa]."""
     radius = reduced_radius(path.plane, x)
@@ -116,7 +116,7 @@ def contact_points(
     return ContactPoints(
         gamma=frozen(path.profile_parameter(x)),
         line_load=frozen(load),
-        pressure=frozen(contact_pressure(balance, x, load, modulus)),
+        pressure=frozen(contact_pressure(path.plane, radius, load, modulus)),
         half_width=frozen(hertz.half_width(load, np.where(radius < path.plane.least_radius, 0.0, radius), modulus)),
         radius=frozen(radius),
         pinion_speed=frozen(pinion),
@@ -135,7 +135,7 @@ def feature_line(
     """The points at psi in 0..1 (n,), x = psi g_alpha, y = psi b; F_bt [N], E' [Pa] (Eq. S1)."""
     x = psi * path.length
     load = line_loads(balance, x, psi * path.plane.face_width)
-    line = contact_points(path, balance, x, load, pinion_speed, modulus)
+    line = contact_points(path, x, load, pinion_speed, modulus)
     sharing = iso_load_sharing(path, x)
     return FeatureLine(
         **{item.name: getattr(line, item.name) for item in fields(line)},
@@ -161,7 +161,7 @@ def flank(balance: LoadBalance, modulus: float, profile_points: int, face_points
         face_fraction=frozen(face),
         modification=frozen(gap),
         line_load=frozen(load),
-        pressure=frozen(contact_pressure(balance, x[:, None], load, modulus)),
+        pressure=frozen(contact_pressure(plane, reduced_radius(plane, x[:, None]), load, modulus)),
     )
 
 
@@ -190,13 +190,12 @@ def _maps(
     return gaps, loads
 
 
-def contact_pressure(balance: LoadBalance, x: FloatArray, load: FloatArray, modulus: float) -> FloatArray:
-    """Hertzian pressure p_H [Pa] at x [m] under w [N/m].
+def contact_pressure(plane: ContactPlane, radius: FloatArray, load: FloatArray, modulus: float) -> FloatArray:
+    """Hertzian pressure p_H [Pa] at reduced radii [m] under w [N/m].
 
     0 without load; NaN near a base circle, towards which the reduced radius vanishes and pressure has no limit.
     Eq. 14 prints pi/4 of it, the mean pressure, and calls it the maximum.
     """
-    radius = reduced_radius(balance.mesh.plane, x)
-    defined = radius >= balance.mesh.plane.least_radius
+    defined = radius >= plane.least_radius
     pressure = hertz.maximum_pressure(load, np.where(defined, radius, 1.0), modulus)
     return np.where(defined, pressure, np.nan)

@@ -146,7 +146,7 @@ def _lines(
     """
     even = np.linspace(0.0, 1.0, inputs.path_points)
     survey = _line_at(inputs, distribution, np.linspace(0.0, 1.0, SURVEY_POINTS))
-    flash, film = blok_flash(inputs.distribution, survey.points), formula_film(inputs, survey.points)
+    flash, film = blok_flash(inputs.distribution, survey.points), formula_film(inputs)(survey.points)
     added = [
         survey.psi[extreme(curve)]
         for curve, extreme in ((flash, np.nanargmax), (film, np.nanargmin))
@@ -172,7 +172,7 @@ def _or_along(inputs: ScuffingInputs, distribution: LoadDistribution, line: _Lin
     Whether the profile line is checked depends on the feature line, which in the mirror image of a spur pair is another
     one. Its points always count, so that both have one thinnest film.
     """
-    film = formula_film(inputs, line.points)
+    film = formula_film(inputs)(line.points)
     if np.isnan(film).all():
         return thinnest
     k = int(np.nanargmin(film))
@@ -257,7 +257,7 @@ def _closed_form_path(inputs: ScuffingInputs, line: _Line) -> ScuffingPath:
     A loaded point too near a base circle has neither: it is "refused". Without an oil there is no film.
     """
     pinion, wheel, points = inputs.distribution.pinion_material, inputs.distribution.wheel_material, line.points
-    film = formula_film(inputs, points)
+    film = formula_film(inputs)(points)
     return ScuffingPath(
         psi=line.psi,
         status=tuple(np.where(points.in_contact, "ok", np.where(points.undefined, "refused", "unloaded")).tolist()),

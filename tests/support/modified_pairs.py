@@ -137,7 +137,7 @@ def points_of(inputs: ScuffingInputs, result: Scuffing) -> ContactPoints:
     plane = mesh.path_of_contact.plane
     x, y = psi * plane.path_length, psi * plane.face_width
     load = line_loads(mesh.balance, x, y)
-    return contact_points(mesh.path_of_contact, mesh.balance, x, load, given.load.pinion_speed, modulus)
+    return contact_points(mesh.path_of_contact, x, load, given.load.pinion_speed, modulus)
 
 
 def check_path(inputs: ScuffingInputs, every: int = 1) -> Scuffing:

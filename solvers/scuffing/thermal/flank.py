@@ -24,6 +24,7 @@ from solvers.scuffing.thermal.blok import blok_flash
 SURVEY_POINTS = 4001  # of the formulas along the feature line, to find where they are largest and smallest
 REACHES = (2, 1, 1)  # of each zoom to both sides, in steps of the grid before: a factor of 2, 4 and 4
 ZOOM_POINTS = 9  # along the path and across the face, at each zoom
+ZOOM_FRACTIONS = np.linspace(0.0, 1.0, ZOOM_POINTS)
 
 FlankFunction = Callable[[FloatArray, FloatArray], FloatArray]
 """A value at points x, y [m] of the flank, arrays of one shape."""
@@ -37,13 +38,15 @@ FaceFunction = Callable[[FloatArray], FloatArray]
 class FlashMap:
     """Blok's flash temperature [K] at x (n,) and y (m,) [m] of the flank, shape (n, m); NaN where it has no limit.
 
-    `load` is the line load [N/m] there. The rows `mapped` are those of the flank's maps. Between them stand the places
-    at which the load jumps along the path, once for each side.
+    `load` is the line load [N/m] there, `heaviest` the contact under the largest load of each row. The rows `mapped`
+    are those of the flank's maps. Between them stand the places at which the load jumps along the path, once for each
+    side.
     """
 
     x: FloatArray
     y: FloatArray
     load: FloatArray
+    heaviest: ContactPoints
     flash: FloatArray
     mapped: BoolArray
 
@@ -60,7 +63,7 @@ def contacts_under_load(
 ) -> ContactPoints:
     """Return the contact at distances x [m] from A under line loads [N/m], arrays of one shape."""
     modulus = reduced_modulus(given.pinion_material, given.wheel_material)
-    return contact_points(distribution.path_of_contact, distribution.balance, x, load, given.load.pinion_speed, modulus)
+    return contact_points(distribution.path_of_contact, x, load, given.load.pinion_speed, modulus)
 
 
 def map_flash(given: LoadDistributionInputs, distribution: LoadDistribution) -> FlashMap:
@@ -80,12 +83,12 @@ def map_flash(given: LoadDistributionInputs, distribution: LoadDistribution) -> 
             np.insert(load, rows, beside, axis=0),
             np.insert(mapped, rows, False),
         )
-    heaviest = load.max(axis=1)
-    share = load / np.where(heaviest > 0.0, heaviest, 1.0)[:, None]
-    largest = blok_flash(given, contacts_under_load(given, distribution, x, heaviest))
+    heaviest = contacts_under_load(given, distribution, x, load.max(axis=1))
+    share = load / np.where(heaviest.line_load > 0.0, heaviest.line_load, 1.0)[:, None]
+    largest = blok_flash(given, heaviest)
     with np.errstate(invalid="ignore"):  # where it has no limit
         flash = np.where(share > 0.0, largest[:, None] * np.sqrt(share * np.sqrt(share)), 0.0)
-    return FlashMap(x, y, load, flash, mapped)
+    return FlashMap(x, y, load, heaviest, flash, mapped)
 
 
 def _jumps(balance: LoadBalance) -> FloatArray:
@@ -156,36 +159,44 @@ def find_thinnest(inputs: ScuffingInputs, distribution: LoadDistribution, flash:
         Thinnest film [m] and its place [m]; None if no film is known anywhere.
 
     """
-    given = inputs.distribution
+    film_at = formula_film(inputs)
 
-    def thinness(x: FloatArray, y: FloatArray) -> FloatArray:
-        film = formula_film(inputs, contact_at_points(given, distribution, x, y))
+    def thinness(points: ContactPoints) -> FloatArray:
+        film = film_at(points)
         return np.divide(1.0, film, out=np.zeros(film.shape), where=~np.isnan(film))
 
-    heaviest = np.argmax(flash.load, axis=1)
+    def value(x: FloatArray, y: FloatArray) -> FloatArray:
+        return thinness(contact_at_points(inputs.distribution, distribution, x, y))
+
     known = np.zeros(flash.load.shape)
-    known[np.arange(flash.x.size), heaviest] = thinness(flash.x, flash.y[heaviest])
+    known[np.arange(flash.x.size), np.argmax(flash.load, axis=1)] = thinness(flash.heaviest)
     if not known.any():
         return None
-    peak = _or_beside(distribution, find_largest(flash, known, thinness), thinness)
+    peak = _or_beside(distribution, find_largest(flash, known, value), value)
     return Peak(1.0 / peak.value, peak.x, peak.y)
 
 
-def formula_film(inputs: ScuffingInputs, points: ContactPoints) -> FloatArray:
-    """Compute the minimum film [m] by the formula at points; NaN without an oil and where nothing is in contact."""
-    given, lubricant, bulk = inputs.distribution, inputs.lubricant, inputs.temperatures.bulk
-    film = np.full(points.line_load.shape, np.nan)
-    if lubricant is not None and bulk is not None:
-        touching = points.in_contact
+def formula_film(inputs: ScuffingInputs) -> Callable[[ContactPoints], FloatArray]:
+    """Return the minimum film [m] by the formula at points; NaN without an oil and where nothing is in contact."""
+    lubricant, bulk = inputs.lubricant, inputs.temperatures.bulk
+    if lubricant is None or bulk is None:
+        return lambda points: np.full(points.line_load.shape, np.nan)
+    viscosity, pressure_viscosity = lubricant.viscosity_at(0.0, bulk), lubricant.pressure_viscosity
+    modulus = reduced_modulus(inputs.distribution.pinion_material, inputs.distribution.wheel_material)
+
+    def film_at(points: ContactPoints) -> FloatArray:
+        film, touching = np.full(points.line_load.shape, np.nan), points.in_contact
         film[touching] = dowson_higginson_minimum(
-            viscosity=lubricant.viscosity_at(0.0, bulk),
-            pressure_viscosity=lubricant.pressure_viscosity,
+            viscosity=viscosity,
+            pressure_viscosity=pressure_viscosity,
             mean_speed=(points.pinion_speed[touching] + points.wheel_speed[touching]) / 2,
             radius=points.radius[touching],
             line_load=points.line_load[touching],
-            modulus=reduced_modulus(given.pinion_material, given.wheel_material),
+            modulus=modulus,
         )
-    return film
+        return film
+
+    return film_at
 
 
 def on_diagonals(distribution: LoadDistribution, peak: Peak, function: FlankFunction) -> Peak:
@@ -259,6 +270,6 @@ def _around(places: FloatArray, top: IntArray, reach: int) -> FloatArray:
     each, last = np.arange(top.size), places.shape[1] - 1
     held = places[each, top]
     low, high = places[each, np.maximum(top - reach, 0)], places[each, np.minimum(top + reach, last)]
-    near = np.linspace(low, high, ZOOM_POINTS, axis=1)
+    near: FloatArray = low[:, None] + (high - low)[:, None] * ZOOM_FRACTIONS
     near[each, np.argmin(np.abs(near - held[:, None]), axis=1)] = held
     return near
