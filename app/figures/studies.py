@@ -187,7 +187,7 @@ def _limit(grid: Grid) -> list[Level]:
 
 
 class Crossing(NamedTuple):
-    """Place where a curve crosses its limit, and the uncertainty of the place between two points."""
+    """Where a curve crosses its limit between two points, and how uncertain that place is."""
 
     place: float
     error: float

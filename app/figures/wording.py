@@ -63,7 +63,7 @@ def signed(value: float, unit: str | None = None, digits: int = 3) -> str:
 
 
 def to_digits(value: float, error: float, most: int = 3) -> str:
-    """Round the value to the first digit that the error touches, and to at most `most` significant digits."""
+    """Round a value to the digit that its error reaches; keep at most `most` significant digits."""
     if value == 0.0:
         return number(value)
     size = floor(log10(abs(value)))

@@ -45,7 +45,7 @@ logger = logging.getLogger(REQUEST_LOG)
 
 
 def request_id(sent: bytes = b"") -> str:
-    """Return the client's request id if it has only permitted characters, else a new one."""
+    """Return the client's request id, or a new one if its characters are not permitted."""
     return sent.decode() if ACCEPTABLE_ID.fullmatch(sent) else token_hex(16)
 
 
@@ -116,7 +116,7 @@ def _whole(send: Send) -> Send:
 
 
 class _Request:
-    """The state of one request while it is answered."""
+    """What is known of a request until it is answered."""
 
     def __init__(self, limits: Settings, most_bytes: int, scope: Scope, receive: Receive, send: Send) -> None:
         self._limits = limits

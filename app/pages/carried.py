@@ -1,4 +1,4 @@
-"""Links that open other calculations with the same gears or coupling.
+"""Links to other calculations of the same gears or coupling.
 
 What the other page has no field for goes along in the view `pair`, so that a link from there to a third page, or back,
 loses nothing.
@@ -16,7 +16,7 @@ from app.schema.fields import ITEM, Branch, Leaf, branches, leaf_at, tree
 from app.schema.model import Documented
 
 SUBJECTS = {"gears": "pair", "coupling": "coupling"}
-"""Sections that several calculations have in common, and whether they describe gears or a coupling."""
+"""Sections that several calculations share, each with what it describes: gears or a coupling."""
 LOAD, OPERATION = "load.", "operation."
 """Scuffing calls the operation of the gears their load; names in `pair` are those of scuffing."""
 

@@ -104,12 +104,12 @@ def for_python(address: str, case: Case) -> str:
 
 
 def body_of(case: Case) -> str:
-    """Return the request as JSON, without fields that have their default."""
+    """Return the given fields of the request as JSON."""
     return json.dumps(_given(case))
 
 
 def _given(case: Case) -> dict[str, Any]:
-    """Return the request without fields that have their default."""
+    """Return the given fields of the request, without those left at their default."""
     return case.request.model_dump(exclude_unset=True, exclude={"detail"})
 
 

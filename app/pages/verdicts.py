@@ -1,4 +1,4 @@
-"""Verdicts from several numbers of an answer, and a sentence that answers the question of the page."""
+"""Verdicts that need several numbers of an answer, and the answer to a page's question in a sentence."""
 
 from collections.abc import Callable
 from typing import Any, NamedTuple

@@ -73,15 +73,15 @@ class DaskCluster:
         if not threads:
             raise ValueError("it has no workers")
         new = set(threads) - self._prepared
-        for worker, theirs in self._answers(versions, new).items():
+        for worker, theirs in self._call_on(versions, new).items():
             if theirs != versions():
                 raise ValueError(f"its worker {worker} runs {theirs}, the service {versions()}")
-        self._answers(prepare, new)
+        self._call_on(prepare, new)
         self._prepared |= new
         self.slots = sum(threads.values())
 
-    def _answers(self, function: Callable[[], Any], workers: set[str]) -> dict[str, Any]:
-        """Return what a function returns on each of these workers. Blocks."""
+    def _call_on(self, function: Callable[[], Any], workers: set[str]) -> dict[str, Any]:
+        """Call a function on each of these workers and return the results by worker. Blocks."""
         assert self._client is not None
         calls = {each: self._client.submit(function, workers=[each], pure=False, retries=0) for each in workers}
         return {worker: call.result(timeout=WARM_S) for worker, call in calls.items()}
@@ -115,7 +115,7 @@ class DaskCluster:
 
 
 def prepare() -> None:
-    """Load every kernel; runs in a worker."""
+    """Load every kernel into this worker."""
     for stage in STAGES:
         warm(stage)
 

@@ -191,7 +191,7 @@ def _maps(
 
 
 def contact_pressure(plane: ContactPlane, radius: FloatArray, load: FloatArray, modulus: float) -> FloatArray:
-    """Hertzian pressure p_H [Pa] at reduced radii [m] under w [N/m].
+    """Compute the Hertzian pressure p_H [Pa] at reduced radii [m] under line loads w [N/m].
 
     0 without load; NaN near a base circle, towards which the reduced radius vanishes and pressure has no limit.
     Eq. 14 prints pi/4 of it, the mean pressure, and calls it the maximum.

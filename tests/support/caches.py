@@ -1,4 +1,4 @@
-"""A cache that holds every kernel; tests copy it and damage the copy."""
+"""Folder with every compiled kernel, which tests copy; they damage the copy."""
 
 import shutil
 from functools import cache

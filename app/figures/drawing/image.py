@@ -154,7 +154,7 @@ def laid_out(figure: Figure) -> tuple[Sheet, list[Axes]]:
 
 
 def narrowed(figure: Figure) -> Figure:
-    """Return the figure narrowed to a report's column, or as it is if it has panels side by side or texts collide."""
+    """Narrow a figure to a report's column; return it unchanged if panels stand side by side or texts would collide."""
     narrow = replace(figure, narrow=True)
     return figure if figure.beside or _collides(narrow) else narrow
 

@@ -177,7 +177,10 @@ def find_thinnest(inputs: ScuffingInputs, distribution: LoadDistribution, flash:
 
 
 def formula_film(inputs: ScuffingInputs) -> Callable[[ContactPoints], FloatArray]:
-    """Return the minimum film [m] by the formula at points; NaN without an oil and where nothing is in contact."""
+    """Return the function that computes the minimum film [m] at points (Eq. 27).
+
+    It returns NaN where nothing is in contact, and everywhere without an oil or a bulk temperature.
+    """
     lubricant, bulk = inputs.lubricant, inputs.temperatures.bulk
     if lubricant is None or bulk is None:
         return lambda points: np.full(points.line_load.shape, np.nan)
