@@ -177,7 +177,7 @@ def find_thinnest(inputs: ScuffingInputs, distribution: LoadDistribution, flash:
 
 
 def formula_film(inputs: ScuffingInputs) -> Callable[[ContactPoints], FloatArray]:
-    """Return the function that computes the minimum film [m] at points (Eq. 27).
+    """Return the function that computes the minimum film [m] of Dowson and Higginson at points.
 
     It returns NaN where nothing is in contact, and everywhere without an oil or a bulk temperature.
     """
