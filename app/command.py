@@ -1,16 +1,14 @@
 """The command line: start the service, or solve one request; --help lists every setting."""
 
 import argparse
-import gc
 import json
 import os
-import socket
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 from app.settings import MEBIBYTE, Settings, settings
-from app.workers.processes import Template
 
 EXIT_STATUS = {"ok": 0, "ok_with_warnings": 3, "no_solution": 4}  # 1: refused or not written, 2: wrong arguments
 
@@ -31,12 +29,16 @@ def main() -> None:
     solve = commands.add_parser("solve", help="print the answer to a request instead of serving")
     solve.add_argument("endpoint", help="address of the calculation, such as /v1/coupling")
     solve.add_argument("file", type=Path, help="the request as JSON; - reads the standard input")
+    compiling = commands.add_parser("compile", help="compile the kernels and keep them on disk instead of serving")
+    compiling.add_argument("stages", nargs="*", help="names of stages, such as coupling; by default all")
     asked = parser.parse_args()
     match asked.command:
         case "rexs":
             print_unit(asked.file)
         case "solve":
             print_answer(asked.endpoint, asked.file)
+        case "compile":
+            compile_kernels(asked.stages)
         case _:
             serve("app.main:app")
 
@@ -80,6 +82,19 @@ def print_answer(endpoint: str, file: Path) -> None:
     sys.exit(EXIT_STATUS[found["status"]])
 
 
+def compile_kernels(names: Sequence[str]) -> None:
+    """Compile stages, by default all, and print how far each of them is; exits if nothing can be kept."""
+    from app.workers.stages import STAGES, compile_stages  # noqa: PLC0415
+    from solvers.kernel_cache import FOLDER  # noqa: PLC0415
+
+    known = {stage.name: stage for stage in STAGES}
+    if unknown := set(names) - set(known):
+        sys.exit(f"tribodrive: there is no {', '.join(sorted(unknown))}; there are {', '.join(known)}")
+    if FOLDER is None:
+        sys.exit("tribodrive: the folder for compiled kernels cannot be written")
+    compile_stages([known[name] for name in names or known])
+
+
 def _print_json(content: dict[str, Any]) -> None:
     """Print JSON, with escapes if the standard output has no bytes for a character; exits if it cannot be written."""
     text = json.dumps(content, indent=1, ensure_ascii=False)
@@ -96,24 +111,25 @@ def _print_json(content: dict[str, Any]) -> None:
 
 
 def serve(application: str) -> None:
-    """Run the application at `application` ("module:attribute") with the template process of its workers.
-
-    The port is open before anything is loaded, and the template loads what it needs beside the service.
-    """
+    """Serve the application at `application` ("module:attribute") with uvicorn until told to stop."""
     limits = settings()
-    try:
-        listeners = _listeners(limits)
-    except OSError as error:
-        reason = error.strerror if isinstance(error, socket.gaierror) else os.strerror(error.errno or 0)
-        sys.exit(f"tribodrive: cannot listen on port {limits.port} of {limits.host}: {reason}")
-    gc.disable()  # `run` enables it: imports leave no garbage, and looking for it takes a third of their time
-    template = Template(application.partition(":")[0])
-    try:
-        from app.http.server import run  # noqa: PLC0415  seconds of imports, for which port and template need not wait
+    import uvicorn  # noqa: PLC0415  the other commands need no server
 
-        run(application, listeners, template)
-    finally:
-        template.close()
+    uvicorn.run(
+        application,
+        host=""
+        if limits.host == "::"
+        else limits.host,  # both families, so that addresses of IPv4 clients stay as such
+        port=limits.port,
+        http="h11",
+        h11_max_incomplete_event_size=limits.max_header_bytes,
+        limit_concurrency=limits.limit_concurrency,
+        timeout_graceful_shutdown=limits.shutdown_s,
+        log_config=None,  # `app.log` writes
+        log_level=limits.log_level,
+        access_log=False,
+        server_header=False,
+    )
 
 
 def open_standard_streams() -> None:
@@ -123,15 +139,6 @@ def open_standard_streams() -> None:
             stream = Path(os.devnull).open("r+")  # noqa: SIM115  the lowest free number, and these are 0 to 2
             os.set_inheritable(stream.fileno(), True)
             setattr(sys, name, stream)
-
-
-def _listeners(limits: Settings) -> list[socket.socket]:
-    """The open ports; `::` has one for each family, so that addresses of IPv4 clients look as they do elsewhere."""
-    found = []
-    for host in ("::", "0.0.0.0") if limits.host == "::" else (limits.host,):  # noqa: S104
-        family, _, _, _, address = socket.getaddrinfo(host, limits.port, type=socket.SOCK_STREAM)[0]
-        found.append(socket.create_server(address[:2], family=family, backlog=1024))
-    return found
 
 
 def _documentation() -> str:

@@ -93,6 +93,10 @@ class WarmingUp(ServiceError):
     """The kernels of this calculation are still being compiled."""
 
 
+class Stopping(ServiceError):
+    """The service stops and does not wait for the calculation."""
+
+
 class ClientGone(ServiceError):
     """The client closed the connection; its calculation was ended."""
 
@@ -120,6 +124,7 @@ PROBLEMS: dict[type[Exception], Kind] = {
     StudyEnded: Kind(503, "study_ended", "The study ended before its figure could be drawn"),
     SchedulerUnavailable: Kind(503, "scheduler_unavailable", "The cluster for studies cannot be used; try later", 10),
     WorkerLost: Kind(503, "worker_lost", "The calculation was lost with its process; try again", 1),
+    Stopping: Kind(503, "shutting_down", "The service stops", 5),
     MemoryError: Kind(503, "memory_limit", "The calculation needs more memory than a worker may use; make it smaller"),
     DeadlineExceeded: Kind(504, "deadline_exceeded", "The calculation took too long; make it smaller"),
     ClientGone: Kind(499, "client_gone", "The client closed the connection"),

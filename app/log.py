@@ -17,7 +17,6 @@ from logging.handlers import QueueHandler, QueueListener
 from prometheus_client import Counter, Gauge, Histogram
 
 LINES_KEPT = 10_000  # for a reader that stalls; lines beyond are counted, not kept
-PAUSE_S = 0.05  # of the writing thread
 LAST_LINES_S = 1.0  # for what is left to be written at the end
 REQUEST_LOG = "tribodrive.requests"
 
@@ -27,7 +26,6 @@ DURATION = Histogram("tribodrive_request_duration_seconds", "From first byte to 
 CALCULATIONS = Gauge("tribodrive_calculations", "Calculations running or waiting")
 WAITING = Gauge("tribodrive_calculations_waiting", "Calculations waiting for a worker")
 REFUSED = Counter("tribodrive_calculations_refused", "Calculations refused because the queue was full")
-INTERRUPTED = Counter("tribodrive_calculations_interrupted", "Calculations interrupted for others, made again later")
 STUDIES = Gauge("tribodrive_studies", "Studies running")
 STUDIES_UNFINISHED = Counter("tribodrive_studies_unfinished", "Studies that ended with an error, as by their deadline")
 WORKERS_LOST = Counter("tribodrive_workers_lost", "Worker processes that died while they computed")
@@ -36,7 +34,7 @@ LINES_DROPPED = Counter("tribodrive_log_lines_dropped", "Log lines dropped becau
 
 
 class _Handler(QueueHandler):
-    """Puts records into the queue; those that find no room or cannot be formatted are counted."""
+    """Counts records that find no room or cannot be formatted; logging would write about them, and wait for a reader."""
 
     def handleError(self, record: logging.LogRecord) -> None:  # noqa: N802  logging's name
         """Count a record as lost."""
@@ -44,17 +42,10 @@ class _Handler(QueueHandler):
         LINES_DROPPED.inc()
 
 
-class _Listener(QueueListener):
-    """The thread that writes; it has no handler of logging's, for which the end of the process would wait."""
+class _Writer(logging.Handler):
+    """Writes records without logging's locks, for which the end of the process would wait."""
 
-    def dequeue(self, block: bool) -> logging.LogRecord:
-        """The next record, after a pause if there is none: to wake the thread for each costs a tenth of a request."""
-        with suppress(queue.Empty):
-            return super().dequeue(block=False)
-        time.sleep(PAUSE_S)
-        return super().dequeue(block)
-
-    def handle(self, record: logging.LogRecord) -> None:
+    def handle(self, record: logging.LogRecord) -> bool:
         """Write one record; no failure ends the thread."""
         try:
             stream = sys.stdout if record.name == REQUEST_LOG else sys.stderr
@@ -66,20 +57,14 @@ class _Listener(QueueListener):
                     time.sleep(0.01)
         except Exception:  # noqa: BLE001
             LINES_DROPPED.inc()
-
-    def stop(self) -> None:
-        """Let the thread end, if anybody reads what it writes; it has a second for what is left."""
-        with suppress(queue.Full):
-            self.enqueue_sentinel()
-        if self._thread is not None:
-            self._thread.join(LAST_LINES_S)
+        return True
 
 
 @contextmanager
 def running(level: str) -> Iterator[None]:
     """Send log records through the queue while the context is open, except the root logger's if it has handlers."""
     lines: queue.Queue[logging.LogRecord] = queue.Queue(LINES_KEPT)
-    handler, listener = _Handler(lines), _Listener(lines)
+    handler, listener = _Handler(lines), QueueListener(lines, _Writer())
     logger = logging.getLogger("tribodrive")
     logger.setLevel(level.upper())
     logger.propagate = False
@@ -93,4 +78,8 @@ def running(level: str) -> Iterator[None]:
         logger.propagate = True
         for each in loggers:
             each.removeHandler(handler)
-        listener.stop()
+        with suppress(queue.Full):
+            listener.enqueue_sentinel()
+        end = time.monotonic() + LAST_LINES_S
+        while not lines.empty() and time.monotonic() < end:
+            time.sleep(0.01)

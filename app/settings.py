@@ -1,7 +1,6 @@
 """Every limit of the service: one environment variable each, `TRIBODRIVE_` and the name in capitals."""
 
 import os
-import resource
 import sys
 from argparse import ArgumentParser
 from difflib import get_close_matches
@@ -14,7 +13,6 @@ from pydantic_settings import BaseSettings, NoDecode, SettingsConfigDict
 
 MEBIBYTE = 2**20  # bytes
 CLUSTER_POINTS = 100_000  # of a study that other machines solve, chosen
-RESERVED_DESCRIPTORS = 96  # for workers, files and sockets of the service itself
 
 
 def _share_of_cores() -> int:
@@ -58,20 +56,9 @@ class Settings(BaseSettings):
     worker_memory_mb: int = Field(2048, ge=512, description="memory a worker may allocate, MiB")
     max_body_bytes: int = Field(384 * 1024, ge=1024, description="largest request body; beyond it 413")
     rexs_mb: int = Field(20, ge=1, le=100, description="largest gear unit from a file, unpacked, MiB; beyond it 413")
-    body_deadline_s: float = Field(10.0, gt=0, description="longest time for a request body to arrive; then 408")
     answers_mb: int = Field(64, ge=0, description="memory for answers just computed, for other views of them, MiB")
-    max_header_bytes: int = Field(16384, ge=1024, description="largest sum of request headers; beyond it 431")
-    header_deadline_s: float = Field(10.0, gt=0, description="longest time for request headers to arrive; then 408")
-    send_deadline_s: float = Field(
-        60.0, gt=0, description="longest time in which a client reads nothing of an answer that waits for it"
-    )
-    max_connections: int = Field(
-        default_factory=lambda: max(
-            16, min(10_000, resource.getrlimit(resource.RLIMIT_NOFILE)[0] - RESERVED_DESCRIPTORS)
-        ),
-        ge=1,
-        description="open connections; one more is answered 503",
-    )
+    max_header_bytes: int = Field(16384, ge=1024, description="largest sum of request headers; beyond it 400")
+    limit_concurrency: int = Field(500, ge=1, description="open connections; a request on one more is answered 503")
     shutdown_s: int = Field(30, ge=0, description="time for requests in flight to finish at shutdown")
     log_level: str = Field("info", pattern="^(debug|info|warning|error)$", description="least level that is logged")
     log_clients: bool = Field(True, description="whether the log names the address of the client of each request")

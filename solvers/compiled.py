@@ -9,7 +9,7 @@ from typing import ParamSpec, TypeVar, cast
 
 import numba
 
-from solvers.kernel_cache import cache_folder, located
+from solvers.kernel_cache import FOLDER
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -30,7 +30,6 @@ def inlined_kernel(function: Callable[P, R]) -> Callable[P, R]:
 
 
 def _compiled(function: Callable[P, R], *, forceinline: bool = False) -> Callable[P, R]:
-    keep = cache_folder(function.__code__.co_filename) is not None
-    with located():
-        compiled = numba.njit(cache=keep, error_model="numpy", nogil=True, forceinline=forceinline)(function)
+    keep = FOLDER is not None
+    compiled = numba.njit(cache=keep, error_model="numpy", nogil=True, forceinline=forceinline)(function)
     return cast("Callable[P, R]", compiled)

@@ -42,10 +42,8 @@ class Problem(BaseModel):
 MEANINGS = {
     400: "the request cannot be read",
     404: "there is nothing of this name",
-    408: "the request body took too long to arrive",
     413: "the request body is too large",
     422: "the input cannot be computed; `errors` names the fields",
-    431: "the request headers are too large",
     500: "something went wrong in the service",
     415: "the Content-Type header does not say application/json",
     503: "too many calculations are waiting, kernels are being compiled, or the calculation was lost with its process",

@@ -141,14 +141,9 @@ def children(pid: int) -> list[int]:
     return []
 
 
-def template(process: subprocess.Popen[Any]) -> int:
-    """Process id of the fork server: the child that has been told so."""
-    return next(child for child in children(process.pid) if "app.workers.processes" in command_line(child))
-
-
 def workers(process: subprocess.Popen[Any]) -> list[int]:
     """Process ids of the workers."""
-    return children(template(process))
+    return [child for child in children(process.pid) if "anyio.to_process" in command_line(child)]
 
 
 def descendants(pid: int) -> set[int]:

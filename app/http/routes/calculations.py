@@ -8,7 +8,7 @@ from fastapi import APIRouter, Body, Depends, HTTPException, Path, Query, Reques
 from pydantic import BaseModel
 
 from app.calculations import BY_PATH, CALCULATIONS, Calculation
-from app.evaluate import drawn, json_answer, refuse_endless
+from app.evaluate import answer_of, figure_of, refuse_endless
 from app.examples import examples
 from app.figures import MEDIA_TYPES, Format
 from app.figures.data import ThemeName
@@ -16,12 +16,11 @@ from app.http.json_route import JsonRoute
 from app.http.problems import documented
 from app.schema.model import Request as Model
 from app.schema.quantities import Output
-from app.workers.start_up import StartUp
 
 FORMATS: tuple[Format, ...] = tuple(MEDIA_TYPES)
 # A figure needs no script and no other address: styles and images are inside it.
 ALONE = "default-src 'none'; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'"
-REFUSALS = documented(400, 408, 413, 415, 422, 431, 500, 503, 504)
+REFUSALS = documented(400, 413, 415, 422, 500, 503, 504)
 
 router = APIRouter(route_class=JsonRoute, responses=REFUSALS)
 figures = APIRouter(tags=["figures"])
@@ -37,24 +36,10 @@ class FigureSummary(BaseModel):
     formats: Annotated[tuple[Format, ...], Output("formats in which it can be had")] = FORMATS
 
 
-def answer_of(path: str, request: Model) -> bytes:
-    """The answer of an endpoint to a request; runs in a worker."""
-    return json_answer(BY_PATH[path], request)
-
-
-def figure_of(name: str, image_format: Format, theme: ThemeName, path: str, request: Model) -> bytes:
-    """The figure of a case; runs in a worker."""
-    declaration = next(figure for figure in BY_PATH[path].figures if figure.name == name)
-    return drawn(BY_PATH[path], declaration, request, image_format, theme)
-
-
 async def calculated(http: Request, path: str, function: Callable[..., bytes], request: Model) -> bytes:
     """The result of `function(path, request)` in a worker; raises WarmingUp, Unprocessable for endless requests."""
-    calculation = BY_PATH[path]
-    start_up: StartUp = http.app.state.start_up
-    if calculation.stage not in start_up.warm:
-        raise start_up.warming_up()
-    refuse_endless(calculation, request, http.app.state.settings.deadline_s)
+    http.app.state.start_up.require(path)
+    refuse_endless(BY_PATH[path], request, http.app.state.settings.deadline_s)
     made: bytes = await http.app.state.pool.calculate(http, function, path, request)
     return made
 

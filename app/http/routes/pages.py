@@ -12,7 +12,6 @@ from urllib.parse import quote
 
 from fastapi import APIRouter, Request, Response
 from fastapi.responses import HTMLResponse, RedirectResponse
-from starlette._utils import get_route_path
 from starlette.exceptions import HTTPException
 
 from app.calculations import BY_PATH, CALCULATIONS, Calculation
@@ -152,7 +151,7 @@ async def _answer(
     """One view of the case in the query or the form; a query with empty fields is redirected to one without."""
     asked, clean = await asked_of(http, calculation)
     if not clean and http.scope["method"] == "GET" and (asked.pairs or not asked.pressed):
-        return redirected(get_route_path(http.scope), asked)
+        return redirected(path_of(http), asked)
     if asked.pairs:
         http.app.state.start_up.require(calculation.path)
     shown = await _shown(http, asked, view, *arguments)
@@ -210,7 +209,7 @@ async def _shown(http: Request, asked: Asked, view: Callable[..., views.Shown], 
 def failed(http: Request, error: Exception) -> Response:
     """An error as a page where the route has pages or a browser finds nothing, else as a problem document."""
     if isinstance(error, HTTPException):
-        if "text/html" not in http.headers.get("accept", "") or get_route_path(http.scope).startswith("/v1/"):
+        if "text/html" not in http.headers.get("accept", "") or path_of(http).startswith("/v1/"):
             return answer(http, error)
         title = HTTPStatus(error.status_code).phrase
         detail = "There is nothing at this address." if error.detail == title else error.detail
@@ -225,7 +224,7 @@ def problem_page(
     http: Request, status: int, title: str, detail: str, headers: dict[str, str] | None = None
 ) -> Response:
     """A page that states why the request was not answered; where a file was sent, with the field for another one."""
-    place = get_route_path(http.scope).split("/")[1]
+    place = path_of(http).split("/")[1]
     return html(rendered("problem.html", root_of(http), title=title, detail=detail, place=place), status, headers)
 
 
@@ -233,6 +232,12 @@ def root_of(http: Request) -> str:
     """The prefix that a proxy puts before the addresses of the service."""
     root: str = http.scope.get("root_path", "")
     return root
+
+
+def path_of(http: Request) -> str:
+    """The address of a request without that prefix."""
+    path: str = http.scope["path"]
+    return path.removeprefix(root_of(http))
 
 
 def printed_host(http: Request) -> str:

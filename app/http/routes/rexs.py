@@ -35,7 +35,7 @@ def _body(types: tuple[str, ...], **form: dict[str, str]) -> dict[str, Any]:
 UPLOAD = _body(DOCUMENTED_TYPES)
 UPLOAD_WITH_REQUEST = _body((), request={"type": "string", "description": "the stage's request as edited, JSON"})
 
-router = APIRouter(tags=["files"], responses=documented(400, 408, 413, 415, 422, 431, 500, 503, 504))
+router = APIRouter(tags=["files"], responses=documented(400, 413, 415, 422, 500, 503, 504))
 pages = APIRouter(include_in_schema=False)
 
 

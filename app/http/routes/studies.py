@@ -93,9 +93,7 @@ def wanted_format(http: Request, named: Format) -> Format:
     return next((name for media in accepted for name, own in MEDIA_TYPES.items() if media == own), "ndjson")
 
 
-router = APIRouter(
-    tags=["studies"], route_class=JsonRoute, responses=documented(400, 408, 413, 415, 422, 431, 500, 503, 504)
-)
+router = APIRouter(tags=["studies"], route_class=JsonRoute, responses=documented(400, 413, 415, 422, 500, 503, 504))
 
 
 def _add(kind: type[Study], answer: Callable[..., Coroutine[Any, Any, Response]], *formats: Format) -> None:

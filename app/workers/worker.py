@@ -1,0 +1,75 @@
+"""What runs in a worker process of AnyIO: its preparation, then one call after the other.
+
+This module imports nothing that loads numpy, whose threads are limited before it is loaded.
+"""
+
+import gc
+import logging
+import os
+import pickle
+import signal
+import threading
+import time
+import traceback
+from collections.abc import Sequence
+from contextlib import suppress
+from functools import lru_cache
+from importlib import import_module
+from typing import Any
+
+ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "NUMBA_NUM_THREADS", "MKL_NUM_THREADS"), "1")
+WATCH_S = 0.5  # between two looks for the service
+
+_said: list[str] = []
+
+
+class _Notes(logging.Handler):
+    """Keeps what is logged for the answer of the call: the standard error of a worker leads nowhere."""
+
+    def emit(self, record: logging.LogRecord) -> None:
+        _said.append(self.format(record))
+
+
+@lru_cache(maxsize=1)
+def prepare(memory_bytes: int, modules: Sequence[str]) -> None:
+    """Prepare this process for calls, once: load modules, and limit memory where the platform can."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C reaches every process of the terminal
+    os.environ.update(ONE_THREAD)
+    threading.Thread(target=_end_with_the_service, args=(os.getppid(),), daemon=True).start()
+    gc.disable()  # imports leave no garbage, and looking for it takes a third of their time
+    for name in modules:
+        import_module(name)
+    gc.freeze()
+    gc.enable()
+    logging.captureWarnings(capture=True)
+    logging.root.addHandler(_Notes())
+    with suppress(ImportError, OSError, ValueError):
+        import resource  # noqa: PLC0415  not everywhere
+
+        resource.setrlimit(resource.RLIMIT_DATA, (memory_bytes, memory_bytes))
+
+
+def _end_with_the_service(service: int) -> None:
+    """End this process, whatever it does, when its parent is another one than the service."""
+    while os.getppid() == service:
+        time.sleep(WATCH_S)
+    os._exit(1)
+
+
+def perform(memory_bytes: int, modules: Sequence[str], call: bytes) -> tuple[Any, list[str]]:
+    """Return the result of a pickled function and its arguments, and what was logged meanwhile.
+
+    Raises what the function raises, with the traceback as a note, or RuntimeError if that cannot be pickled.
+    """
+    prepare(memory_bytes, modules)
+    _said.clear()
+    try:
+        function, arguments = pickle.loads(call)  # noqa: S301  from the service itself
+        return function(*arguments), _said
+    except BaseException as error:
+        error.add_note(f"In the worker process:\n{traceback.format_exc()}")
+        try:
+            pickle.loads(pickle.dumps(error))  # noqa: S301
+        except Exception:  # noqa: BLE001  not every exception can be pickled and read again
+            raise RuntimeError(traceback.format_exc()) from None
+        raise error if isinstance(error, Exception) else RuntimeError(traceback.format_exc())

@@ -1,0 +1,75 @@
+"""The identity of the solvers' sources: one hash that names results and the folder of compiled kernels."""
+
+import ast
+import os
+from hashlib import sha256
+from pathlib import Path
+
+PACKAGE = Path(__file__).resolve().parent
+HANDED_ON = "SOLVERS_DIGEST"
+"""Environment variable that hands the digest on to child processes, because parsing takes a second.
+
+It begins with the state of the files, so that a process that starts after an edit computes its own.
+"""
+NO_CALCULATION = "published"
+"""The package of published numbers for comparison, which does not affect results."""
+DECLARE = frozenset({"quantity", "Quantity"})
+LABELS = frozenset({"title", "symbol", "source", "text", "default_text", "assumed", "index"})
+"""Arguments of a declaration that are text and do not affect results, beside the positional ones."""
+
+
+def package_digest() -> str:
+    """Return the digest of this package, from the environment if that has it for these files."""
+    status = [(str(path), (found := path.stat()).st_mtime_ns, found.st_size) for path in sorted(PACKAGE.rglob("*.py"))]
+    state = sha256(repr(status).encode()).hexdigest()
+    known, _, digest = os.environ.get(HANDED_ON, "").partition(" ")
+    if known != state:
+        digest = digest_of(PACKAGE)
+        os.environ[HANDED_ON] = f"{state} {digest}"
+    return digest
+
+
+def digest_of(package: Path) -> str:
+    """
+    Compute the SHA-256 of the syntax trees of a package, without docstrings, comments and labels.
+
+    Layout and prose leave it as it is; a constant, a formula or the name of a module changes it. The trees, and with
+    them the digest, may differ between versions of Python.
+
+    Parameters
+    ----------
+    package : Path
+        Folder of the package.
+
+    Returns
+    -------
+    str
+        Digest in hexadecimal.
+    """
+    found = sha256()
+    for path in sorted(package.rglob("*.py")):
+        place = path.relative_to(package)
+        if NO_CALCULATION not in place.parts:
+            found.update(f"{place.as_posix()}\n".encode())
+            found.update(ast.dump(_without_prose(path)).encode())
+    return found.hexdigest()
+
+
+def _without_prose(path: Path) -> ast.Module:
+    """Return the tree of a module without text that stands alone and without the labels of quantities."""
+    tree = ast.parse(path.read_bytes())
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef):
+            node.body = [statement for statement in node.body if not _is_text(statement)]
+        elif isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id in DECLARE:
+            node.args = []
+            node.keywords = [keyword for keyword in node.keywords if keyword.arg not in LABELS]
+    return tree
+
+
+def _is_text(statement: ast.stmt) -> bool:
+    return (
+        isinstance(statement, ast.Expr)
+        and isinstance(statement.value, ast.Constant)
+        and isinstance(statement.value.value, str)
+    )
