@@ -15,6 +15,8 @@ import json
 import time
 from abc import ABC, abstractmethod
 from collections.abc import AsyncIterator, Awaitable, Iterator
+from contextlib import contextmanager
+from math import inf
 from typing import TYPE_CHECKING, Any, Generic, Self, TypeVar
 
 import httpx
@@ -33,9 +35,14 @@ OPTIONS: dict[str, Any] = {
     "limits": httpx.Limits(keepalive_expiry=3.0),  # s: the service closes idle connections after 5 s
 }
 PATIENCE_S = 120.0  # in all for an answer, chosen: four times the service's deadline
+LEAST_WAIT_S = 0.25  # before a busy service is asked again, whatever it names; chosen
 
 
-class ProblemError(Exception):
+class ServiceError(Exception):
+    """The service gave no answer: a problem, a study that ended early, or something that is not of its interface."""
+
+
+class ProblemError(ServiceError):
     """An answer other than 200.
 
     Attributes
@@ -51,18 +58,20 @@ class ProblemError(Exception):
 
     def __init__(self, response: httpx.Response) -> None:
         try:
-            content = response.json()
-        except ValueError:  # of a proxy
-            content = None
-        document: Json = content if isinstance(content, dict) else {}
+            document = _json_of(response)
+        except ServiceError:  # of a proxy
+            document = {}
         self.status = response.status_code
         self.code = str(document.get("type", "")).rpartition(":")[2]
-        self.errors: list[Json] = document.get("errors") or []
-        faults = "; ".join(f"{each['pointer'] or 'request'}: {each['message']}" for each in self.errors)
+        errors = document.get("errors")
+        self.errors: list[Json] = (
+            [each for each in errors if isinstance(each, dict)] if isinstance(errors, list) else []
+        )
+        faults = "; ".join(f"{each.get('pointer') or 'request'}: {each.get('message', '')}" for each in self.errors)
         super().__init__(f"{self.status} {self.code}: {faults or document.get('detail', '')}")
 
 
-class StudyError(Exception):
+class StudyError(ServiceError):
     """A study that ended before its last line: by its deadline, in the service, or with its connection."""
 
 
@@ -161,8 +170,13 @@ class _Study(Generic[Http]):
         return time.monotonic() + self._patience_s
 
     def _results(self, text: str) -> Iterator[Json]:
-        """The line, if it is a result; raises `StudyError` for one that ends the study early."""
-        line: Json = json.loads(text)
+        """The line, if it is a result; raises `StudyError` for one that ends the study early or is none of a study."""
+        try:
+            yield from self._sorted(json.loads(text))
+        except (ValueError, LookupError, TypeError) as error:
+            raise StudyError(f"the service sent a line that is none of a study: {text[:100]}") from error
+
+    def _sorted(self, line: Json) -> Iterator[Json]:
         match line["type"]:
             case "error":
                 raise StudyError(f"{line['code']}: {line['message']}")
@@ -215,8 +229,9 @@ class Study(_Study[httpx.Client]):
         while True:
             with self._http.stream("POST", self._endpoint, json=self._request) as response:
                 if response.is_success:
-                    for text in response.iter_lines():
-                        yield from self._results(text)
+                    with _whole():
+                        for text in response.iter_lines():
+                            yield from self._results(text)
                     return self._finish()
                 response.read()
             time.sleep(_wait_s(response, give_up))
@@ -238,9 +253,10 @@ class AsyncStudy(_Study[httpx.AsyncClient]):
         while True:
             async with self._http.stream("POST", self._endpoint, json=self._request) as response:
                 if response.is_success:
-                    async for text in response.aiter_lines():
-                        for line in self._results(text):
-                            yield line
+                    with _whole():
+                        async for text in response.aiter_lines():
+                            for line in self._results(text):
+                                yield line
                     self._finish()
                     return
                 await response.aread()
@@ -285,8 +301,7 @@ class Tribodrive(_Endpoints[Json, Study]):
         while True:
             response = self._http.post(endpoint, json=request)
             if response.is_success:
-                answer: Json = response.json()
-                return answer
+                return _json_of(response)
             time.sleep(_wait_s(response, give_up))
 
     def study(self, endpoint: str, request: Json, *, progress: bool = False) -> Study:
@@ -321,8 +336,7 @@ class AsyncTribodrive(_Endpoints[Awaitable[Json], AsyncStudy]):
         while True:
             response = await self._http.post(endpoint, json=request)
             if response.is_success:
-                answer: Json = response.json()
-                return answer
+                return _json_of(response)
             await asyncio.sleep(_wait_s(response, give_up))
 
     def study(self, endpoint: str, request: Json, *, progress: bool = False) -> AsyncStudy:
@@ -334,16 +348,39 @@ class AsyncTribodrive(_Endpoints[Awaitable[Json], AsyncStudy]):
         return _request_of(await self._http.get(f"/v1/examples/{name}"))
 
 
+@contextmanager
+def _whole() -> Iterator[None]:
+    """Raise StudyError if the connection breaks off while lines are read."""
+    try:
+        yield
+    except httpx.RequestError as error:
+        raise StudyError(f"the connection was closed before the study's end: {error}") from error
+
+
+def _json_of(response: httpx.Response) -> Json:
+    """Return the JSON object of an answer; raises `ServiceError` if it is none."""
+    try:
+        content = response.json()
+    except ValueError:
+        content = None
+    if not isinstance(content, dict):
+        raise ServiceError(f"{response.status_code}: the answer is no JSON object: {response.text[:100]}")
+    return content
+
+
 def _request_of(example: httpx.Response) -> Json:
     if not example.is_success:
         raise ProblemError(example)
-    request: Json = example.json()["request"]
+    request = _json_of(example).get("request")
+    if not isinstance(request, dict):
+        raise ServiceError("the example has no request")
     return request
 
 
 def _wait_s(response: httpx.Response, give_up: float) -> float:
     """Seconds to wait before a busy service is asked again; raises `ProblemError` for every other answer."""
     named = response.headers.get("Retry-After", "")
-    if not named.isdecimal() or time.monotonic() + int(named) > give_up:
+    seconds = max(float(named), LEAST_WAIT_S) if named.isdecimal() else inf
+    if time.monotonic() + seconds > give_up:
         raise ProblemError(response)
-    return float(named)
+    return seconds

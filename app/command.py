@@ -1,6 +1,7 @@
 """The command line: start the service, or solve one request; --help lists every setting."""
 
 import argparse
+import gc
 import json
 import os
 import sys
@@ -66,6 +67,7 @@ def print_answer(endpoint: str, file: Path) -> None:
     from app.errors import InvalidBody, Unprocessable, Unreadable, faults_of  # noqa: PLC0415
     from app.evaluate import answer, content_of  # noqa: PLC0415
 
+    gc.enable()
     if endpoint not in BY_PATH:
         sys.exit(f"tribodrive: there is no {endpoint}; there are {', '.join(BY_PATH)}")
     try:
@@ -87,12 +89,14 @@ def compile_kernels(names: Sequence[str]) -> None:
     from app.workers.stages import STAGES, compile_stages  # noqa: PLC0415
     from solvers.kernel_cache import FOLDER  # noqa: PLC0415
 
+    gc.enable()
     known = {stage.name: stage for stage in STAGES}
     if unknown := set(names) - set(known):
         sys.exit(f"tribodrive: there is no {', '.join(sorted(unknown))}; there are {', '.join(known)}")
     if FOLDER is None:
         sys.exit("tribodrive: the folder for compiled kernels cannot be written")
     compile_stages([known[name] for name in names or known])
+    os._exit(0)  # to take down the kernels would take a second
 
 
 def _print_json(content: dict[str, Any]) -> None:

@@ -1,6 +1,7 @@
 """Creates the FastAPI application."""
 
 import asyncio
+import gc
 import logging
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
@@ -41,6 +42,8 @@ def create_app() -> FastAPI:
 
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
+        gc.freeze()  # what was imported stays
+        gc.enable()
         app.state.settings = limits
         app.state.pool = pool = Pool(limits, MODULES)
         app.state.start_up = start_up = StartUp()

@@ -20,7 +20,6 @@ from pathlib import Path
 from statistics import median
 from time import process_time
 
-from solvers.kernel_cache import roots
 
 ROOT = Path(__file__).resolve().parent.parent
 ROUND_S = 0.15
@@ -134,7 +133,7 @@ def _sources_of(revision: str) -> Iterator[Path]:
 def _process(benchmark: str, folder: Path, **variables: str) -> Iterator[subprocess.Popen[str]]:
     """A process that answers for the sources in a folder; its kernels are kept where ours are, by what they are of."""
     command = [sys.executable, "-m", benchmark, ANSWERS_FOR]
-    environment = {**os.environ, **ONE_THREAD, "NUMBA_CACHE_DIR": str(roots()[0]), **variables}
+    environment = {**os.environ, **ONE_THREAD, **variables}
     with subprocess.Popen(
         command, cwd=folder, env=environment, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
     ) as process:

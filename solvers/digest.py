@@ -2,15 +2,11 @@
 
 import ast
 import os
+from contextlib import suppress
 from hashlib import sha256
 from pathlib import Path
 
 PACKAGE = Path(__file__).resolve().parent
-HANDED_ON = "SOLVERS_DIGEST"
-"""Environment variable that hands the digest on to child processes, because parsing takes a second.
-
-It begins with the state of the files, so that a process that starts after an edit computes its own.
-"""
 NO_CALCULATION = "published"
 """The package of published numbers for comparison, which does not affect results."""
 DECLARE = frozenset({"quantity", "Quantity"})
@@ -18,14 +14,24 @@ LABELS = frozenset({"title", "symbol", "source", "text", "default_text", "assume
 """Arguments of a declaration that are text and do not affect results, beside the positional ones."""
 
 
+def cache_base() -> Path:
+    """Return the folder for what is computed once: in `NUMBA_CACHE_DIR` or in the user's cache folder."""
+    variables = ("NUMBA_CACHE_DIR", "XDG_CACHE_HOME", "LOCALAPPDATA")
+    chosen = next((os.environ[name] for name in variables if os.environ.get(name)), "~/.cache")
+    return Path(os.path.expanduser(chosen), "tribodrive")  # noqa: PTH111  raises nothing where there is no home
+
+
 def package_digest() -> str:
-    """Return the digest of this package, from the environment if that has it for these files."""
+    """Return the digest of this package; it is kept on disk by the state of the files, because it takes a second."""
     status = [(str(path), (found := path.stat()).st_mtime_ns, found.st_size) for path in sorted(PACKAGE.rglob("*.py"))]
-    state = sha256(repr(status).encode()).hexdigest()
-    known, _, digest = os.environ.get(HANDED_ON, "").partition(" ")
-    if known != state:
-        digest = digest_of(PACKAGE)
-        os.environ[HANDED_ON] = f"{state} {digest}"
+    kept = cache_base() / "digests" / sha256(repr(status).encode()).hexdigest()
+    with suppress(OSError):
+        if len(digest := kept.read_text("ascii")) == sha256().digest_size * 2:
+            return digest
+    digest = digest_of(PACKAGE)
+    with suppress(OSError):
+        kept.parent.mkdir(parents=True, exist_ok=True)
+        kept.write_text(digest, "ascii")
     return digest
 
 
@@ -45,6 +51,7 @@ def digest_of(package: Path) -> str:
     -------
     str
         Digest in hexadecimal.
+
     """
     found = sha256()
     for path in sorted(package.rglob("*.py")):

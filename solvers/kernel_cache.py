@@ -1,8 +1,8 @@
 """The folder in which numba keeps the machine code of compiled kernels.
 
-An entry of numba's cache knows the file of its own kernel only: after an edit of a kernel that it calls, the old machine
-code would run on. The folder is therefore named by the digest of all sources of the solvers and by numba's version. It
-lies in `NUMBA_CACHE_DIR` or in the user's cache folder. This module is imported before the first kernel is decorated.
+An entry of numba's cache knows the file of its own kernel only: after an edit of a kernel that it calls, the old
+machine code would run on. The folder is therefore named by the digest of all sources of the solvers and by numba's
+version. This module is imported before the first kernel is decorated.
 """
 
 import logging
@@ -15,7 +15,7 @@ from typing import Any
 
 import numba
 
-from solvers.digest import package_digest
+from solvers.digest import cache_base, package_digest
 
 NEEDED_BYTES = 100_000_000  # all kernels take 25 MB
 KEPT_FOLDERS = 5  # chosen: versions between which one goes back and forth
@@ -23,31 +23,26 @@ KEPT_FOLDERS = 5  # chosen: versions between which one goes back and forth
 logger = logging.getLogger(__name__)
 
 
-def _base() -> Path:
-    """Return the folder for the caches of all versions."""
-    variables = ("NUMBA_CACHE_DIR", "XDG_CACHE_HOME", "LOCALAPPDATA")
-    chosen = next((os.environ[name] for name in variables if os.environ.get(name)), "~/.cache")
-    return Path(os.path.expanduser(chosen), "tribodrive")  # noqa: PTH111  raises nothing where there is no home
-
-
 def _writable(folder: Path) -> Path | None:
     """Return the folder, made if need be; None, with a warning, if nothing can be kept there."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        tempfile.TemporaryFile(dir=folder).close()
         os.utime(folder)
-        if shutil.disk_usage(folder).free < NEEDED_BYTES:
-            raise OSError("the disk is full")
-        others = sorted(folder.parent.iterdir(), key=lambda each: each.stat().st_mtime)
+        tempfile.TemporaryFile(dir=folder).close()
+        free = shutil.disk_usage(folder).free
+        folders = sorted(folder.parent.iterdir(), key=lambda each: each.stat().st_mtime)
     except OSError as error:
-        logger.warning("compiled kernels stay in memory, because %s cannot be written: %s", folder, error)
+        logger.warning("compiled kernels are not kept: %s", error)
         return None
-    for old in others[:-KEPT_FOLDERS]:
+    if free < NEEDED_BYTES:
+        logger.warning("compiled kernels are not kept: too little space in %s", folder)
+        return None
+    for old in folders[:-KEPT_FOLDERS]:
         shutil.rmtree(old, ignore_errors=True)
     return folder
 
 
-FOLDER = _writable(_base() / sha256(f"{package_digest()} {numba.__version__}".encode()).hexdigest()[:24])
+FOLDER = _writable(cache_base() / sha256(f"{package_digest()} {numba.__version__}".encode()).hexdigest()[:24])
 """None if kernels are compiled in memory."""
 
 if FOLDER is not None:

@@ -7,6 +7,7 @@ refused. A call that nobody waits for any more has `GRACE_S` to end by itself; t
 
 import asyncio
 import logging
+import os
 import pickle
 from collections import Counter
 from collections.abc import Callable, Hashable, Sequence
@@ -50,6 +51,7 @@ class Pool:
         self._settings = settings
         self._preparation = (settings.worker_memory_mb * MEBIBYTE, tuple(modules))
         self._limiter = CapacityLimiter(settings.workers)
+        self._starting = asyncio.Semaphore(max(1, (os.cpu_count() or 1) - 1))  # so that the first is there soon
         self._running: list[Job] = []
         self._waiting: list[Job] = []
         self._arrival = asyncio.Event()
@@ -128,7 +130,7 @@ class Pool:
         """Have a worker that carries out one call after the other; another one when it is lost."""
         while True:
             try:
-                async with asyncio.timeout(START_S):
+                async with self._starting, asyncio.timeout(START_S):
                     await self._in_worker(prepare)
                 self.alive.add(place)
                 while (job := await self._next()) is not None:

@@ -9,10 +9,9 @@ from app.calculations import BY_PATH, COUPLING, DRIVE_TRAIN, LINE_CONTACT, LOADS
 from app.evaluate import answer_of
 from app.examples import examples
 
-# What two cores compile side by side, each in this order. The line contact takes as long as all others together, and
-# needs of them only the load distribution, late.
-TRACKS = ((COUPLING, SLEEVE, LOADS, PUMPING, DRIVE_TRAIN), (LINE_CONTACT,))
-STAGES = tuple(stage for track in TRACKS for stage in track)
+STAGES = (COUPLING, SLEEVE, LOADS, PUMPING, DRIVE_TRAIN, LINE_CONTACT)
+BESIDE = LINE_CONTACT
+"""Takes as long as all others together, and needs of them only the load distribution, late."""
 SHOW_S = 1.0  # between two lines of progress
 
 

@@ -15,8 +15,7 @@ from shutil import rmtree
 
 from app.calculations import BY_PATH, Stage
 from app.errors import WarmingUp
-from app.workers.stages import STAGES, TRACKS
-from app.workers.worker import ONE_THREAD
+from app.workers.stages import BESIDE, STAGES
 from solvers.kernel_cache import FOLDER
 
 INTERRUPTED = 130  # exit status after Ctrl-C
@@ -46,26 +45,29 @@ class StartUp:
             raise WarmingUp(f"Kernels are being compiled, once after installation: {self.report()}")
 
     async def run(self) -> None:
-        """Open stage after stage, compiled in two processes if there are two cores."""
+        """Open stage after stage."""
         began = time.monotonic()
-        tracks = TRACKS if (os.cpu_count() or 1) > 1 else (STAGES,)
-        if FOLDER is not None and not all(await asyncio.gather(*map(self._compile, tracks))):
+        if FOLDER is not None and not await self._compile(STAGES):
             logger.warning("a process that compiled kernels died: all are compiled anew")
             await asyncio.to_thread(rmtree, FOLDER, ignore_errors=True)
-            if not all(await asyncio.gather(*map(self._compile, tracks))):
+            if not await self._compile(STAGES):
                 logger.warning("it died again: kernels that are not on disk are compiled when they are needed")
         for stage in STAGES:
             self._open(stage.name)
         logger.info("tribodrive: everything is warm after %.1f s", time.monotonic() - began)
 
-    async def _compile(self, track: Sequence[Stage]) -> bool:
-        """Follow the lines that `tribodrive compile` prints; False if its process died."""
+    async def _compile(self, stages: Sequence[Stage]) -> bool:
+        """Follow the lines that `tribodrive compile` prints; False if its process died.
+
+        As soon as a kernel has to be compiled, another process compiles the stage `BESIDE` the others.
+        """
+        other: asyncio.Task[bool] | None = None
         process = await asyncio.create_subprocess_exec(
             *(sys.executable, "-P", "-m", "app", "compile"),  # -P: a folder `app` in the working directory is not ours
-            *(stage.name for stage in track),
+            *(stage.name for stage in stages),
             stdin=DEVNULL,
             stdout=PIPE,
-            env={**os.environ, **ONE_THREAD, "PYTHONPATH": os.pathsep.join(map(os.path.abspath, sys.path))},
+            env={**os.environ, "PYTHONPATH": os.pathsep.join(map(os.path.abspath, sys.path))},
         )
         try:
             assert process.stdout is not None
@@ -74,8 +76,14 @@ class StartUp:
                 self._percent[name] = int(percent.removesuffix(" %\n"))
                 if self._percent[name] == 100:
                     self._open(name)
+                elif self._percent[name] and other is None and BESIDE in stages[1:] and (os.cpu_count() or 1) > 1:
+                    other = asyncio.create_task(self._compile([BESIDE]))
+                if other is not None and {*stages} - {BESIDE} <= {*self.warm}:
+                    return await other
             return await process.wait() in {0, INTERRUPTED}
         finally:
+            if other is not None:
+                other.cancel()
             with suppress(ProcessLookupError):
                 process.kill()
             await process.wait()

@@ -14,7 +14,6 @@ import httpx
 import pytest
 
 from app.examples import examples
-from app.sources import sources_of
 from app.studies.requests import EXAMPLES
 from app.studies.spectrum import Spectrum
 from app.studies.sweep import Sweep

@@ -57,7 +57,7 @@ def solve_chunk_that_may_hang(question: Question, overrides: Sequence[Overrides]
 
 def create_faulty_app() -> FastAPI:
     patch.object(engine, "solve_chunk", solve_chunk_that_may_hang).start()
-    patch.multiple(start_up, STAGES=STAGES, TRACKS=(STAGES,)).start()
+    patch.object(start_up, "STAGES", STAGES).start()
     app = create_app()
 
     @app.post("/sleep/{seconds}")
