@@ -11,7 +11,7 @@ def main() -> None:
     """Run the command line; uvicorn handles Ctrl-C itself while it serves, and passes it on when it has ended."""
     # An exception would get lost or change its type in the extension modules that are being imported.
     signal.signal(signal.SIGINT, lambda *_: os._exit(INTERRUPTED))
-    gc.disable()  # until everything is imported: imports leave no garbage, and looking for it takes a third of their time
+    gc.disable()  # for the time of the imports: they leave no garbage, and looking for it takes a third of it
     from app.command import main as run_command  # noqa: PLC0415
 
     run_command()

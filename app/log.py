@@ -34,7 +34,7 @@ LINES_DROPPED = Counter("tribodrive_log_lines_dropped", "Log lines dropped becau
 
 
 class _Handler(QueueHandler):
-    """Counts records that find no room or cannot be formatted; logging would write about them, and wait for a reader."""
+    """Counts records that find no room or cannot be formatted; logging would write about them, and wait."""
 
     def handleError(self, record: logging.LogRecord) -> None:  # noqa: N802  logging's name
         """Count a record as lost."""

@@ -47,26 +47,14 @@ class Protection:
         self._most_bytes = dict.fromkeys(("/v1/rexs", "/v1/rexs/results", "/rexs"), (settings.rexs_mb + 1) * MEBIBYTE)
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Serve one request, under the prefix of the settings: as ASGI wants it, its path has it, stripped or not."""
+        """Answer one request, whatever happens, and log and count it."""
         if scope["type"] != "http":
             await self._app(scope, receive, send)
             return
-        root, path = self._settings.root_path or scope.get("root_path", ""), scope["path"]
-        if not f"{path}/".startswith(f"{root}/"):
-            path = root + path
-        most_bytes = self._most_bytes.get(path.removeprefix(root), self._settings.max_body_bytes)
         sent_id = dict(scope["headers"]).get(b"x-request-id", b"")
         identifier = sent_id.decode() if ACCEPTABLE_ID.fullmatch(sent_id) else token_hex(16)
-        # What a GET answers, a HEAD answers too; the server leaves the body out.
-        method = "GET" if scope["method"] == "HEAD" else scope["method"]
-        state = {**scope.get("state", {}), "request_id": identifier}
-        inner = {
-            **scope,
-            "root_path": root,
-            "path": f"{root}/" if path == root else path,
-            "method": method,
-            "state": state,
-        }
+        inner = self._inner(scope, identifier)
+        most_bytes = self._most_bytes.get(inner["path"].removeprefix(inner["root_path"]), self._settings.max_body_bytes)
         began, status, received = time.perf_counter(), CLIENT_GONE, 0
 
         async def receive_within_limit() -> Message:
@@ -107,3 +95,20 @@ class Protection:
             address = scope["client"][0] if self._settings.log_clients and scope.get("client") else None
             line = (time.time(), identifier, json.dumps(address), scope["method"], endpoint, status, seconds * 1e3)
             logger.info(LOG_LINE, *line)
+
+    def _inner(self, scope: Scope, identifier: str) -> Scope:
+        """Return the scope for the application, under the prefix of the settings whether a proxy has stripped it or not.
+
+        What a GET answers, a HEAD answers too; the server leaves the body out.
+        """
+        root, path = self._settings.root_path or scope.get("root_path", ""), scope["path"]
+        path = path if f"{path}/".startswith(f"{root}/") else root + path
+        method = "GET" if scope["method"] == "HEAD" else scope["method"]
+        state = {**scope.get("state", {}), "request_id": identifier}
+        return {
+            **scope,
+            "root_path": root,
+            "path": f"{root}/" if path == root else path,
+            "method": method,
+            "state": state,
+        }

@@ -19,7 +19,7 @@ logger = logging.getLogger("tribodrive")
 
 
 class StudyPool:
-    """The service's own workers for one study, which shares them with clients and other studies like one more client."""
+    """The service's own workers for one study, which shares them with others like one more client."""
 
     def __init__(self, workers: WorkerPool) -> None:
         self._workers = workers

@@ -66,7 +66,7 @@ def perform(memory_bytes: int, modules: Sequence[str], call: bytes) -> tuple[Any
     try:
         function, arguments = pickle.loads(call)  # noqa: S301  from the service itself
         return function(*arguments), _said
-    except BaseException as error:
+    except BaseException as error:  # noqa: BLE001  even one that would end the service if it arrived there
         error.add_note(f"In the worker process:\n{traceback.format_exc()}")
         try:
             pickle.loads(pickle.dumps(error))  # noqa: S301

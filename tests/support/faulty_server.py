@@ -6,6 +6,7 @@ It loads the kernels of two calculations only: a start takes a fraction of the t
 import os
 import signal
 import time
+import warnings
 from collections.abc import Sequence
 from unittest.mock import patch
 
@@ -19,7 +20,7 @@ from app.studies import engine
 from app.studies.points import Chunk, Question, solve_chunk
 from app.studies.requests import Overrides
 from app.workers import start_up
-from tests.support.server import HANGING, LONG
+from tests.support.server import HANGING, LONG, LONG_S, NAP, NAP_S
 
 STAGES = (COUPLING, LOADS)
 
@@ -42,6 +43,14 @@ def allocate(mebibytes: int) -> int:
     return int(np.ones(mebibytes * 2**17).size)
 
 
+def crash() -> None:
+    os.kill(os.getpid(), signal.SIGSEGV)
+
+
+def warn() -> None:
+    warnings.warn("deep inside", stacklevel=1)
+
+
 def fail_deep_inside() -> None:
     raise ZeroDivisionError("deep inside")
 
@@ -50,8 +59,7 @@ def solve_chunk_that_may_hang(question: Question, overrides: Sequence[Overrides]
     if any(HANGING in each.values() for each in overrides):
         time.sleep(600)
     for each in overrides:
-        if LONG in each.values():
-            time.sleep(3)
+        time.sleep(LONG_S if LONG in each.values() else NAP_S if NAP in each.values() else 0.0)
     return solve_chunk(question, overrides)
 
 
@@ -79,10 +87,13 @@ def create_faulty_app() -> FastAPI:
     async def _(http: Request) -> None:
         await app.state.pool.calculate(http, fail_deep_inside)
 
-    @app.post("/worker")
-    async def _(http: Request) -> int:
-        result: int = await app.state.pool.calculate(http, os.getpid)
-        return result
+    @app.post("/crash")
+    async def _(http: Request) -> None:
+        await app.state.pool.calculate(http, crash)
+
+    @app.post("/warn")
+    async def _(http: Request) -> None:
+        await app.state.pool.calculate(http, warn)
 
     @app.post("/bug")
     async def _() -> None:
