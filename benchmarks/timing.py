@@ -20,7 +20,6 @@ from pathlib import Path
 from statistics import median
 from time import process_time
 
-
 ROOT = Path(__file__).resolve().parent.parent
 ROUND_S = 0.15
 LEAST_RUNS = 3  # of a round

@@ -36,22 +36,10 @@ def package_digest() -> str:
 
 
 def digest_of(package: Path) -> str:
-    """
-    Compute the SHA-256 of the syntax trees of a package, without docstrings, comments and labels.
+    """Return the SHA-256 of the syntax trees of the modules in `package`, without docstrings, comments and labels.
 
     Layout and prose leave it as it is; a constant, a formula or the name of a module changes it. The trees, and with
     them the digest, may differ between versions of Python.
-
-    Parameters
-    ----------
-    package : Path
-        Folder of the package.
-
-    Returns
-    -------
-    str
-        Digest in hexadecimal.
-
     """
     found = sha256()
     for path in sorted(package.rglob("*.py")):

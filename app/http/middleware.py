@@ -71,9 +71,9 @@ class Protection:
             nonlocal status
             if message["type"] == "http.response.start":
                 status = message["status"]
-                given = message.get("headers", ())
                 timing = b"total;dur=%.1f" % ((time.perf_counter() - began) * 1e3)
                 own = ((b"x-request-id", identifier.encode()), (b"server-timing", timing), *SECURITY_HEADERS)
+                given = message.get("headers", ())
                 said = {name.lower() for name, _ in given}
                 message["headers"] = [*given, *(header for header in own if header[0] not in said)]
             await send(message)
@@ -97,18 +97,10 @@ class Protection:
             logger.info(LOG_LINE, *line)
 
     def _inner(self, scope: Scope, identifier: str) -> Scope:
-        """Return the scope for the application, under the prefix of the settings whether a proxy has stripped it or not.
-
-        What a GET answers, a HEAD answers too; the server leaves the body out.
-        """
+        """Return the scope for the application, under the prefix of the settings whether a proxy strips it or not."""
         root, path = self._settings.root_path or scope.get("root_path", ""), scope["path"]
         path = path if f"{path}/".startswith(f"{root}/") else root + path
-        method = "GET" if scope["method"] == "HEAD" else scope["method"]
+        path = f"{root}/" if path == root else path
+        method = "GET" if scope["method"] == "HEAD" else scope["method"]  # the server leaves the body out
         state = {**scope.get("state", {}), "request_id": identifier}
-        return {
-            **scope,
-            "root_path": root,
-            "path": f"{root}/" if path == root else path,
-            "method": method,
-            "state": state,
-        }
+        return {**scope, "root_path": root, "path": path, "method": method, "state": state}

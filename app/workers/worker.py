@@ -66,10 +66,13 @@ def perform(memory_bytes: int, modules: Sequence[str], call: bytes) -> tuple[Any
     try:
         function, arguments = pickle.loads(call)  # noqa: S301  from the service itself
         return function(*arguments), _said
-    except BaseException as error:  # noqa: BLE001  even one that would end the service if it arrived there
-        error.add_note(f"In the worker process:\n{traceback.format_exc()}")
-        try:
-            pickle.loads(pickle.dumps(error))  # noqa: S301
-        except Exception:  # noqa: BLE001  not every exception can be pickled and read again
-            raise RuntimeError(traceback.format_exc()) from None
-        raise error if isinstance(error, Exception) else RuntimeError(traceback.format_exc())
+    except BaseException as error:
+        text = traceback.format_exc()
+        error.add_note(f"In the worker process:\n{text}")
+        try:  # not every exception can be pickled and read again, and some would end the service
+            is_readable = isinstance(pickle.loads(pickle.dumps(error)), Exception)  # noqa: S301
+        except Exception:  # noqa: BLE001
+            is_readable = False
+        if is_readable:
+            raise
+        raise RuntimeError(text) from None

@@ -14,12 +14,12 @@ from typing import Any
 
 import httpx
 import pytest
+from app.workers.processes import Worker
 
 from app import calculations, main
 from app.examples import examples
 from app.settings import Settings
 from app.workers import processes, start_up
-from app.workers.processes import Worker
 from tests.support.server import ROOT
 
 COUPLING = examples()["pahl-axial-displacement"]

@@ -2,8 +2,6 @@
 
 import http.client
 import json
-import socket
-import threading
 import time
 from collections.abc import Iterator
 from contextlib import ExitStack, suppress
@@ -14,7 +12,6 @@ import httpx
 import pytest
 
 from tests.support.server import (
-    FAULTY,
     Server,
     answer_to,
     connected,
@@ -22,8 +19,6 @@ from tests.support.server import (
     faulty_server,
     meanwhile,
     memory_mb,
-    running_server,
-    wait_for_metric,
     wait_until,
 )
 
