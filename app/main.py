@@ -54,8 +54,8 @@ def create_app() -> FastAPI:
                 logger.warning(line)
             logger.info("tribodrive: %d workers", limits.workers)
             async with app.state.studies.open(), asyncio.TaskGroup() as group:
-                workers = (pool.keep_worker(place) for place in range(limits.workers))
-                tasks = [group.create_task(each) for each in (*workers, start_up.run())]
+                works = [pool.keep_workers(), start_up.run(), *(pool.serve() for _ in range(limits.workers))]
+                tasks = [group.create_task(each) for each in works]
                 try:
                     yield
                 finally:

@@ -85,8 +85,8 @@ class Protection:
         except (Exception, asyncio.CancelledError) as error:
             if status != CLIENT_GONE:
                 raise  # too late for another answer: the connection is cut
-            is_stopping = isinstance(error, asyncio.CancelledError)  # and waits no longer
-            failure = answer(Request(inner), Stopping()) if is_stopping else internal_error(identifier, error)
+            is_failure = isinstance(error, Exception)  # else the server stops and waits no longer
+            failure = internal_error(identifier, error) if is_failure else answer(Request(inner), Stopping())
             await failure(inner, receive, send_decorated)
         finally:
             endpoint, seconds = getattr(inner.get("route"), "path", "unmatched"), time.perf_counter() - began

@@ -7,10 +7,10 @@ refused. A call that nobody waits for any more has `GRACE_S` to end by itself; t
 
 import asyncio
 import logging
-import os
 import pickle
 from collections import Counter
 from collections.abc import Callable, Hashable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any
 
@@ -47,14 +47,13 @@ class Pool:
 
     def __init__(self, settings: Settings, modules: Sequence[str]) -> None:
         self.size = settings.workers
-        self.alive: set[int] = set()  # places with a worker that can calculate
+        self.alive = 0  # workers that can calculate
         self._settings = settings
         self._preparation = (settings.worker_memory_mb * MEBIBYTE, tuple(modules))
         self._limiter = CapacityLimiter(settings.workers)
-        self._starting = asyncio.Semaphore(max(1, (os.cpu_count() or 1) - 1))  # so that the first is there soon
         self._running: list[Job] = []
         self._waiting: list[Job] = []
-        self._arrival = asyncio.Event()
+        self._arrival, self._loss = asyncio.Event(), asyncio.Event()
         self._begun: LRUCache[Hashable, float] = LRUCache(1000)  # when the last call of an owner began [s]
         WAITING.set_function(lambda: sum(job.is_single for job in self._waiting))
         CALCULATIONS.set_function(lambda: sum(job.is_single for job in (*self._running, *self._waiting)))
@@ -111,56 +110,66 @@ class Pool:
         elif job in self._running and job.timeout is not None:
             job.timeout.reschedule(asyncio.get_running_loop().time() + GRACE_S)
 
-    async def _next(self) -> Job | None:
-        """Return the call that gets the next worker; None if none came for a while."""
-        try:
-            async with asyncio.timeout(IDLE_S):
-                while not (waiting := [job for job in self._waiting if not job.outcome.done()]):
-                    self._arrival.clear()
-                    await self._arrival.wait()
-        except TimeoutError:
-            return None
-        running = Counter(job.owner for job in self._running)
-        job = min(waiting, key=lambda job: (running[job.owner], self._begun.get(job.owner, 0.0)))
-        self._waiting.remove(job)
-        self._begun[job.owner] = asyncio.get_running_loop().time()
-        return job
+    async def keep_workers(self) -> None:
+        """Start the workers, the first one alone so that it is there soon, and replace those that are lost.
 
-    async def keep_worker(self, place: int) -> None:
-        """Have a worker that carries out one call after the other; another one when it is lost."""
+        AnyIO drops workers that are idle for five minutes: they are asked to prepare again, all at the same time, so
+        that each gets a call and those that are missing start.
+        """
+        count = 1
         while True:
+            running = len(self._running)
+            self._loss.clear()
+            self.alive = running + sum(await asyncio.gather(*(self._is_prepared() for _ in range(count))))
+            with suppress(TimeoutError):
+                async with asyncio.timeout(IDLE_S if self.alive >= self.size else PAUSE_S):
+                    await self._loss.wait()
+            count = self.size - len(self._running)
+
+    async def _is_prepared(self) -> bool:
+        try:
+            async with asyncio.timeout(START_S):
+                await self._in_worker(prepare)
+        except (BrokenWorkerProcess, KeyboardInterrupt, OSError):  # Ctrl-C reaches a worker before it ignores it
+            return False
+        return True
+
+    async def serve(self) -> None:
+        """Give one call after the other to a worker; as many of these run as there are workers."""
+        while True:
+            while not (waiting := [job for job in self._waiting if not job.outcome.done()]):
+                self._arrival.clear()
+                await self._arrival.wait()
+            running = Counter(job.owner for job in self._running)
+            job = min(waiting, key=lambda job: (running[job.owner], self._begun.get(job.owner, 0.0)))
+            self._begun[job.owner] = asyncio.get_running_loop().time()
+            self._waiting.remove(job)
+            self._running.append(job)
             try:
-                async with self._starting, asyncio.timeout(START_S):
-                    await self._in_worker(prepare)
-                self.alive.add(place)
-                while (job := await self._next()) is not None:
-                    await self._carry_out(job)
-            except (BrokenWorkerProcess, KeyboardInterrupt, OSError):  # Ctrl-C reaches a worker before it ignores it
-                self.alive.discard(place)
-                await asyncio.sleep(PAUSE_S)
+                await self._carry_out(job)
+            finally:
+                self._running.remove(job)
 
     async def _carry_out(self, job: Job) -> None:
-        """Give a call to a worker; raises BrokenWorkerProcess or TimeoutError if the worker is lost or killed."""
-        self._running.append(job)
         try:
-            async with asyncio.timeout(None if job.is_single else self._settings.deadline_s) as job.timeout:
+            async with asyncio.timeout(None if job.is_single else self._settings.deadline_s) as timeout:
+                job.timeout = timeout
                 result, said = await self._in_worker(perform, job.call)
             for line in said:
                 logger.warning("a worker said: %s", line)
             if not job.outcome.done():
                 job.outcome.set_result(result)
-        except Exception as error:
-            is_late, is_lost = job.timeout.expired(), isinstance(error, BrokenWorkerProcess)
+        except Exception as error:  # noqa: BLE001  of the call
+            is_late, is_lost = timeout.expired(), isinstance(error, BrokenWorkerProcess)
             if is_lost:
                 WORKERS_LOST.inc()
                 logger.warning("a worker was lost while it calculated")
+            if is_late or is_lost:
+                self.alive -= 1
+                self._loss.set()
             if not job.outcome.done():
                 DEADLINES_MISSED.inc(is_late)
                 job.outcome.set_exception(DeadlineExceeded() if is_late else WorkerLost() if is_lost else error)
-            if is_late or is_lost:
-                raise
-        finally:
-            self._running.remove(job)
 
     async def _in_worker(self, function: Callable[..., Any], *arguments: Any) -> Any:
         arguments = (*self._preparation, *arguments)

@@ -65,9 +65,9 @@ async def readyz(http: Request) -> Readiness:
     pool: Pool = http.app.state.pool
     if not start_up.complete:
         raise WarmingUp(f"Kernels are being loaded or compiled: {start_up.report()}")
-    if not pool.alive:
+    if pool.alive <= 0:
         raise WorkerLost
-    return Readiness(warm=[stage.name for stage in start_up.warm], workers=len(pool.alive))
+    return Readiness(warm=[stage.name for stage in start_up.warm], workers=pool.alive)
 
 
 @router.get("/openapi.json", include_in_schema=False)
