@@ -5,12 +5,14 @@ import gc
 import json
 import os
 import sys
+import threading
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 from app.settings import MEBIBYTE, Settings, settings
 
+PROGRESS_S = 1.0  # between two lines
 EXIT_STATUS = {"ok": 0, "ok_with_warnings": 3, "no_solution": 4}  # 1: refused or not written, 2: wrong arguments
 
 
@@ -85,8 +87,10 @@ def print_answer(endpoint: str, file: Path) -> None:
 
 
 def compile_kernels(names: Sequence[str]) -> None:
-    """Compile stages, by default all, and print how far each of them is; exits if nothing can be kept."""
-    from app.workers.stages import STAGES, compile_stages  # noqa: PLC0415
+    """Compile stages, by default all, and print how far each of them is, every second; at 100 % it is on disk."""
+    from numba.core import event  # noqa: PLC0415
+
+    from app.workers.stages import STAGES, warm  # noqa: PLC0415
     from solvers.kernel_cache import FOLDER  # noqa: PLC0415
 
     gc.enable()
@@ -95,8 +99,22 @@ def compile_kernels(names: Sequence[str]) -> None:
         sys.exit(f"tribodrive: there is no {', '.join(sorted(unknown))}; there are {', '.join(known)}")
     if FOLDER is None:
         sys.exit("tribodrive: the folder for compiled kernels cannot be written")
-    compile_stages([known[name] for name in names or known])
+    for stage in [known[name] for name in names or known]:
+        done = threading.Event()
+        with event.install_recorder("numba:compile") as recorder:  # events when compilations begin and end
+            arguments = (stage.name, stage.kernels, recorder.buffer, done)
+            showing = threading.Thread(target=_show, args=arguments, daemon=True)
+            showing.start()
+            warm(stage)
+            done.set()
+            showing.join()
+        print(f"{stage.name}: 100 %", flush=True)  # noqa: T201
     os._exit(0)  # to take down the kernels would take a second
+
+
+def _show(name: str, kernels: int, events: Sequence[object], done: threading.Event) -> None:
+    while not done.wait(PROGRESS_S):
+        print(f"{name}: {min(99, 50 * len(events) // kernels)} %", flush=True)  # noqa: T201
 
 
 def _print_json(content: dict[str, Any]) -> None:

@@ -67,8 +67,7 @@ def create_app() -> FastAPI:
         description=DESCRIPTION,
         version=MODEL_VERSION,
         lifespan=lifespan,
-        openapi_url=None,  # app.http.routes.service has the document and the page of it
-        docs_url=None,
+        docs_url=None,  # app.http.routes.service has it
         redoc_url=None,
         redirect_slashes=False,  # its redirects would name the host that the client claims to ask
     )

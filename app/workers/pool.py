@@ -25,10 +25,11 @@ from app.workers.worker import perform, prepare
 
 GRACE_S = 2.0  # nearly all calculations end within it, so that paging through the site costs no worker
 START_S = 30.0  # longest time of a worker's start, chosen: it takes 2 s on a quiet core
-IDLE_S = 60.0  # after which an idle worker is asked whether it answers; AnyIO drops those idle for 300 s
+IDLE_S = 5.0  # between two looks whether idle workers answer
 PAUSE_S = 0.1  # before a lost worker is replaced
 
 logger = logging.getLogger("tribodrive")
+Outcome = asyncio.Future[Any]
 
 
 @dataclass(eq=False, slots=True)
@@ -38,7 +39,7 @@ class Job:
     owner: Hashable
     call: bytes
     is_single: bool  # of no study
-    outcome: asyncio.Future[Any]
+    outcome: Outcome
     timeout: asyncio.Timeout | None = None
 
 
@@ -53,43 +54,24 @@ class Pool:
         self._limiter = CapacityLimiter(settings.workers)
         self._running: list[Job] = []
         self._waiting: list[Job] = []
-        self._arrival, self._loss = asyncio.Event(), asyncio.Event()
+        self._arrival, self._trouble = asyncio.Event(), asyncio.Event()
         self._begun: LRUCache[Hashable, float] = LRUCache(1000)  # when the last call of an owner began [s]
         WAITING.set_function(lambda: sum(job.is_single for job in self._waiting))
         CALCULATIONS.set_function(lambda: sum(job.is_single for job in (*self._running, *self._waiting)))
 
     async def calculate(self, http: Request, function: Callable[..., Any], *arguments: Any) -> Any:
-        """Return the function's result for the client that the settings' header names, else for the client's address.
-
-        Raises QueueFull, DeadlineExceeded, ClientGone, WorkerLost, and what the function raises.
-        """
-        header, deadline_s = self._settings.client_header, self._settings.deadline_s
-        owner = (http.headers.get(header) if header else None) or (http.client.host if http.client else "")
+        """Return the result for the client that a header names, else for its address; raises errors of PROBLEMS too."""
+        owner = http.headers.get(self._settings.client_header or "") or (http.client.host if http.client else "")
         self._admit(owner)
-        outcome = self.submit(owner, function, *arguments)
-        departure = asyncio.create_task(disconnected(http))
-        try:
-            await asyncio.wait({outcome, departure}, timeout=deadline_s, return_when=asyncio.FIRST_COMPLETED)
-            if outcome.done():
-                return outcome.result()
-            if departure.done():
-                raise ClientGone
-            DEADLINES_MISSED.inc()
-            raise DeadlineExceeded
-        finally:
-            departure.cancel()
-            outcome.cancel()
+        return await unless_gone(http, self.submit(owner, function, *arguments), self._settings.deadline_s)
 
-    def submit(
-        self, owner: Hashable, function: Callable[..., Any], *arguments: Any, is_single: bool = True
-    ) -> asyncio.Future[Any]:
+    def submit(self, owner: Hashable, function: Callable[..., Any], *arguments: Any, is_single: bool = True) -> Outcome:
         """Let a call wait for a worker; whoever cancels the future waits no longer."""
-        outcome = asyncio.get_running_loop().create_future()
-        job = Job(owner, pickle.dumps((function, arguments)), is_single, outcome)
-        outcome.add_done_callback(lambda _: self._let_go(job))
+        job = Job(owner, pickle.dumps((function, arguments)), is_single, asyncio.get_running_loop().create_future())
+        job.outcome.add_done_callback(lambda _: self._let_go(job))
         self._waiting.append(job)
         self._arrival.set()
-        return outcome
+        return job.outcome
 
     def _admit(self, owner: Hashable) -> None:
         """Refuse a single request if all places are taken; raises QueueFull if that is the owner's new one."""
@@ -111,28 +93,26 @@ class Pool:
             job.timeout.reschedule(asyncio.get_running_loop().time() + GRACE_S)
 
     async def keep_workers(self) -> None:
-        """Start the workers, the first one alone so that it is there soon, and replace those that are lost.
+        """Start the workers, the first one alone so that it is there soon, and keep them.
 
-        AnyIO drops workers that are idle for five minutes: they are asked to prepare again, all at the same time, so
-        that each gets a call and those that are missing start.
+        All that are idle are called at the same time: those that are missing start, and AnyIO drops none as unused.
         """
         count = 1
         while True:
             running = len(self._running)
-            self._loss.clear()
+            self._trouble.clear()
             self.alive = running + sum(await asyncio.gather(*(self._is_prepared() for _ in range(count))))
             with suppress(TimeoutError):
                 async with asyncio.timeout(IDLE_S if self.alive >= self.size else PAUSE_S):
-                    await self._loss.wait()
+                    await self._trouble.wait()
             count = self.size - len(self._running)
 
     async def _is_prepared(self) -> bool:
-        try:
+        with suppress(BrokenWorkerProcess, OSError):
             async with asyncio.timeout(START_S):
                 await self._in_worker(prepare)
-        except (BrokenWorkerProcess, KeyboardInterrupt, OSError):  # Ctrl-C reaches a worker before it ignores it
-            return False
-        return True
+            return True
+        return False
 
     async def serve(self) -> None:
         """Give one call after the other to a worker; as many of these run as there are workers."""
@@ -151,32 +131,48 @@ class Pool:
                 self._running.remove(job)
 
     async def _carry_out(self, job: Job) -> None:
+        job.timeout = asyncio.timeout(None if job.is_single else self._settings.deadline_s)
         try:
-            async with asyncio.timeout(None if job.is_single else self._settings.deadline_s) as timeout:
-                job.timeout = timeout
+            async with job.timeout:
                 result, said = await self._in_worker(perform, job.call)
             for line in said:
                 logger.warning("a worker said: %s", line)
             if not job.outcome.done():
                 job.outcome.set_result(result)
         except Exception as error:  # noqa: BLE001  of the call
-            is_late, is_lost = timeout.expired(), isinstance(error, BrokenWorkerProcess)
+            self._trouble.set()
+            is_late, is_lost = job.timeout.expired(), isinstance(error, BrokenWorkerProcess)
             if is_lost:
                 WORKERS_LOST.inc()
                 logger.warning("a worker was lost while it calculated")
-            if is_late or is_lost:
-                self.alive -= 1
-                self._loss.set()
             if not job.outcome.done():
                 DEADLINES_MISSED.inc(is_late)
                 job.outcome.set_exception(DeadlineExceeded() if is_late else WorkerLost() if is_lost else error)
 
     async def _in_worker(self, function: Callable[..., Any], *arguments: Any) -> Any:
         arguments = (*self._preparation, *arguments)
-        return await to_process.run_sync(function, *arguments, cancellable=True, limiter=self._limiter)
+        try:
+            return await to_process.run_sync(function, *arguments, cancellable=True, limiter=self._limiter)
+        except KeyboardInterrupt as error:  # Ctrl-C reached the worker before it ignores it
+            raise BrokenWorkerProcess from error
 
 
-async def disconnected(http: Request) -> None:
-    """Wait until the client has left."""
+async def unless_gone(http: Request, work: Outcome, deadline_s: float | None = None) -> Any:
+    """Return the result of some work, or cancel it and raise ClientGone or DeadlineExceeded."""
+    departure = asyncio.create_task(_departure(http))
+    try:
+        await asyncio.wait({work, departure}, timeout=deadline_s, return_when=asyncio.FIRST_COMPLETED)
+        if work.done():
+            return work.result()
+        if departure.done():
+            raise ClientGone
+        DEADLINES_MISSED.inc()
+        raise DeadlineExceeded
+    finally:
+        departure.cancel()
+        work.cancel()
+
+
+async def _departure(http: Request) -> None:
     while (await http.receive())["type"] != "http.disconnect":
         pass

@@ -1,7 +1,4 @@
-"""Start-up while the workers answer: kernels are compiled by `tribodrive compile` in other processes.
-
-The endpoints of a stage open as soon as its kernels are on disk.
-"""
+"""Start-up while workers answer: `tribodrive compile` runs beside them; endpoints open when their kernels are there."""
 
 import asyncio
 import logging
@@ -18,31 +15,25 @@ from app.errors import WarmingUp
 from app.workers.stages import BESIDE, STAGES
 from solvers.kernel_cache import FOLDER
 
-INTERRUPTED = 130  # exit status after Ctrl-C
-
 logger = logging.getLogger("tribodrive")
 
 
 class StartUp:
-    """Compiles the stages; those in `warm` answer."""
+    """Compiles the stages and lets their endpoints answer."""
 
     def __init__(self) -> None:
-        self.warm: list[Stage] = []
         self._percent = dict.fromkeys((stage.name for stage in STAGES), 0)
 
     @property
-    def complete(self) -> bool:
-        """Whether every stage answers."""
-        return len(self.warm) == len(STAGES)
+    def warm(self) -> list[str]:
+        """Names of the stages that answer."""
+        return [name for name, percent in self._percent.items() if percent == 100]
 
-    def report(self) -> str:
-        """Say how far everything is."""
-        return ", ".join(f"{name} {percent} %" for name, percent in self._percent.items())
-
-    def require(self, endpoint: str | None = None) -> None:
-        """Raise WarmingUp if the endpoint's kernels are not there yet; if None, only if no stage is ready."""
-        if not self.warm or (endpoint is not None and BY_PATH[endpoint].stage not in self.warm):
-            raise WarmingUp(f"Kernels are being compiled, once after installation: {self.report()}")
+    def require(self, *endpoints: str) -> None:
+        """Raise WarmingUp if kernels of one of the endpoints are not there yet, or no stage is ready."""
+        if not {BY_PATH[endpoint].stage.name for endpoint in endpoints} <= {*self.warm} or not self.warm:
+            report = ", ".join(f"{name} {percent} %" for name, percent in self._percent.items())
+            raise WarmingUp(f"Kernels are being compiled, once after installation: {report}")
 
     async def run(self) -> None:
         """Open stage after stage."""
@@ -53,7 +44,7 @@ class StartUp:
             if not await self._compile(STAGES):
                 logger.warning("it died again: kernels that are not on disk are compiled when they are needed")
         for stage in STAGES:
-            self._open(stage.name)
+            self._advance(stage.name, 100)
         logger.info("tribodrive: everything is warm after %.1f s", time.monotonic() - began)
 
     async def _compile(self, stages: Sequence[Stage]) -> bool:
@@ -72,15 +63,13 @@ class StartUp:
         try:
             assert process.stdout is not None
             async for line in process.stdout:
-                name, _, percent = line.decode().partition(": ")
-                self._percent[name] = int(percent.removesuffix(" %\n"))
-                if self._percent[name] == 100:
-                    self._open(name)
-                elif self._percent[name] and other is None and BESIDE in stages[1:] and (os.cpu_count() or 1) > 1:
+                name, _, percent = line.decode().removesuffix(" %\n").partition(": ")
+                self._advance(name, int(percent))
+                if other is None and 0 < int(percent) < 100 and BESIDE in stages[1:] and (os.cpu_count() or 1) > 1:
                     other = asyncio.create_task(self._compile([BESIDE]))
-                if other is not None and {*stages} - {BESIDE} <= {*self.warm}:
+                if other is not None and {stage.name for stage in stages} - {BESIDE.name} <= {*self.warm}:
                     return await other
-            return await process.wait() in {0, INTERRUPTED}
+            return await process.wait() in {0, 130}  # the second after Ctrl-C
         finally:
             if other is not None:
                 other.cancel()
@@ -88,10 +77,7 @@ class StartUp:
                 process.kill()
             await process.wait()
 
-    def _open(self, name: str) -> None:
-        """Let the endpoints of a stage answer."""
-        stage = next(stage for stage in STAGES if stage.name == name)
-        if stage not in self.warm:
-            self._percent[name] = 100
-            self.warm.append(stage)
+    def _advance(self, name: str, percent: int) -> None:
+        if percent == 100 > self._percent[name]:
             logger.info("tribodrive: %s is warm", name)
+        self._percent[name] = max(percent, self._percent[name])

@@ -1,7 +1,4 @@
-"""What runs in a worker process of AnyIO: its preparation, then one call after the other.
-
-This module imports nothing that loads numpy, whose threads are limited before it is loaded.
-"""
+"""What runs in a worker process: its preparation, which limits numpy's threads before numpy is loaded, then calls."""
 
 import gc
 import logging
@@ -18,7 +15,6 @@ from importlib import import_module
 from typing import Any
 
 ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "NUMBA_NUM_THREADS", "MKL_NUM_THREADS"), "1")
-WATCH_S = 0.5  # between two looks for the service
 
 _said: list[str] = []
 
@@ -52,27 +48,22 @@ def prepare(memory_bytes: int, modules: Sequence[str]) -> None:
 def _end_with_the_service(service: int) -> None:
     """End this process, whatever it does, when its parent is another one than the service."""
     while os.getppid() == service:
-        time.sleep(WATCH_S)
+        time.sleep(0.5)
     os._exit(1)
 
 
 def perform(memory_bytes: int, modules: Sequence[str], call: bytes) -> tuple[Any, list[str]]:
-    """Return the result of a pickled function and its arguments, and what was logged meanwhile.
-
-    Raises what the function raises, with the traceback as a note, or RuntimeError if that cannot be pickled.
-    """
+    """Return the result of a pickled function and its arguments, and what was logged; raises what that raises."""
     prepare(memory_bytes, modules)
     _said.clear()
     try:
         function, arguments = pickle.loads(call)  # noqa: S301  from the service itself
         return function(*arguments), _said
-    except BaseException as error:
+    except Exception as error:
         text = traceback.format_exc()
         error.add_note(f"In the worker process:\n{text}")
-        try:  # not every exception can be pickled and read again, and some would end the service
-            is_readable = isinstance(pickle.loads(pickle.dumps(error)), Exception)  # noqa: S301
+        try:
+            pickle.loads(pickle.dumps(error))  # noqa: S301
         except Exception:  # noqa: BLE001
-            is_readable = False
-        if is_readable:
-            raise
-        raise RuntimeError(text) from None
+            raise RuntimeError(text) from None  # not every exception can be pickled and read again
+        raise

@@ -3,7 +3,6 @@
 import json
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import replace
 from http import HTTPStatus
 from mimetypes import guess_type
 from pathlib import PurePath
@@ -14,18 +13,18 @@ from fastapi import APIRouter, Request, Response
 from fastapi.responses import HTMLResponse, RedirectResponse
 from starlette.exceptions import HTTPException
 
-from app.calculations import BY_PATH, CALCULATIONS, Calculation
+from app.calculations import CALCULATIONS, Calculation
 from app.errors import Unreadable, kind_of
-from app.examples import examples
 from app.figures import MEDIA_TYPES
 from app.http.problems import answer
 from app.manual import NAMES
 from app.pages import views
+from app.pages.asked import asked_in
 from app.pages.cases import Asked, key_of, opened
 from app.pages.manual import chapter_page, contents_page, functions_page
 from app.pages.overview import start_page
-from app.pages.query import WRITTEN, from_form, link, normalised, pairs_of_query, split_views
-from app.pages.templating import ASSETS, example_link, page_path, rendered
+from app.pages.query import link
+from app.pages.templating import ASSETS, page_path, rendered
 from app.settings import Settings
 from app.sources import SHORT_SOURCES
 
@@ -172,20 +171,7 @@ async def asked_of(http: Request, calculation: Calculation) -> tuple[Asked, bool
         if http.headers.get("content-type", "").partition(";")[0].strip() != FORM:
             raise HTTPException(415, f"The content type must be {FORM}")
         text = (await http.body()).decode("ascii", "replace")
-    fields = pairs_of_query(text)
-    pressed = WRITTEN in dict(fields)
-    sent, looks = split_views(from_form(calculation.request, fields))
-    given = {name: value for name, value in looks.items() if value}
-    if (example := examples().get(dict(sent).get("example", ""))) is not None:
-        if example.endpoint != calculation.path:
-            raise Unreadable(f"{example.name} is an example of {page_path(BY_PATH[example.endpoint])}")
-        sent = pairs_of_query(example_link(calculation, example).partition("?")[2])
-        return Asked(page_path(calculation), sent, given, root=root_of(http)), False
-    pairs = normalised(calculation.request, sent)
-    asked = Asked(page_path(calculation), pairs, given, root=root_of(http))
-    kept, kept_ref = (http.app.state.answers.get(key_of(asked.path, each)) for each in (pairs, asked.ref_pairs))
-    asked = replace(asked, kept=kept, kept_ref=kept_ref, pressed=pressed)
-    return asked, not pressed and pairs == sent and given == looks
+    return asked_in(calculation, text, root_of(http), http.app.state.answers)
 
 
 def _kept(http: Request, path: str) -> Asked:

@@ -1,15 +1,13 @@
 """Examples, health and metrics."""
 
-import gzip
-from functools import lru_cache
 from typing import Annotated, Literal
 
-from fastapi import APIRouter, FastAPI, HTTPException, Path, Request, Response
-from fastapi.responses import JSONResponse
+from fastapi import APIRouter, HTTPException, Path, Request, Response
 from prometheus_client import CONTENT_TYPE_LATEST, generate_latest
 from pydantic import BaseModel
 
-from app.errors import WarmingUp, WorkerLost
+from app.calculations import BY_PATH
+from app.errors import WorkerLost
 from app.examples import Example, ExampleSummary, examples
 from app.http.problems import documented
 from app.http.routes.pages import HTML, root_of
@@ -63,29 +61,10 @@ async def readyz(http: Request) -> Readiness:
     """Whether every calculation answers at once; 503 says how far the warm-up is. Never waits for a calculation."""
     start_up: StartUp = http.app.state.start_up
     pool: Pool = http.app.state.pool
-    if not start_up.complete:
-        raise WarmingUp(f"Kernels are being loaded or compiled: {start_up.report()}")
+    start_up.require(*BY_PATH)
     if pool.alive <= 0:
         raise WorkerLost
-    return Readiness(warm=[stage.name for stage in start_up.warm], workers=pool.alive)
-
-
-@router.get("/openapi.json", include_in_schema=False)
-async def openapi(http: Request) -> Response:
-    """The OpenAPI document."""
-    plain, packed = _document(http.app, http.scope.get("root_path", ""))
-    if "gzip" not in http.headers.get("accept-encoding", ""):
-        return Response(plain, media_type="application/json")
-    coded = {"Content-Encoding": "gzip", "Vary": "Accept-Encoding"}
-    return Response(packed, headers=coded, media_type="application/json")
-
-
-@lru_cache(maxsize=1)
-def _document(app: FastAPI, root: str) -> tuple[bytes, bytes]:
-    """The OpenAPI document below a prefix, plain and compressed; both take 10 ms, which many requests would add up."""
-    servers = {"servers": [{"url": root}]} if root else {}
-    plain = bytes(JSONResponse({**app.openapi(), **servers}).body)
-    return plain, gzip.compress(plain)
+    return Readiness(warm=start_up.warm, workers=pool.alive)
 
 
 @router.get("/docs", include_in_schema=False)

@@ -15,11 +15,11 @@ from starlette.types import Receive, Scope, Send
 from app.http.json_route import JsonRoute
 from app.http.problems import documented
 from app.studies.design import Design
-from app.studies.engine import PROGRESS_S, Clock, Line, Lines, Study, encoded, guarded, json_line
+from app.studies.engine import PROGRESS_S, Clock, Lines, Study, encoded, guarded
 from app.studies.requests import EXAMPLES
 from app.studies.sensitivity import Sensitivity
 from app.studies.spectrum import Spectrum
-from app.studies.sweep import Corners, Sweep, table_row
+from app.studies.sweep import Corners, Sweep, encoder
 
 Format = Literal["ndjson", "csv"]
 MEDIA_TYPES: dict[Format, str] = {"ndjson": "application/x-ndjson", "csv": "text/csv"}
@@ -76,13 +76,6 @@ async def started(http: Request, kind: type[Study], body: BaseModel, written_as:
     http.app.state.start_up.require(study.question.endpoint)
     encode = encoder(study, written_as)
     return await streamed(http, study, lambda lines, _: encoded(lines, encode), MEDIA_TYPES[written_as])
-
-
-def encoder(study: Study, written_as: str) -> Callable[[Line], bytes]:
-    """Writes the lines of a study; those of a sweep also as the rows of a table."""
-    if isinstance(study, Sweep) and written_as == "csv":
-        return partial(table_row, study.points, study.outputs)
-    return json_line
 
 
 def wanted_format(http: Request, named: Format) -> Format:

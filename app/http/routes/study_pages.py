@@ -1,9 +1,8 @@
 """Pages of studies, which are sent while the lines of the study arrive, and their files."""
 
 import asyncio
-import logging
-from collections.abc import AsyncGenerator, Callable
-from contextlib import aclosing, suppress
+from collections.abc import Callable
+from contextlib import aclosing
 from functools import partial
 from typing import Any
 
@@ -12,30 +11,23 @@ from fastapi.responses import HTMLResponse
 
 from app import figures
 from app.calculations import CALCULATIONS, Calculation
-from app.errors import ClientGone, DeadlineExceeded, StudyEnded, WorkerLost
+from app.errors import StudyEnded
 from app.http.routes import pages
-from app.http.routes.studies import MEDIA_TYPES, begun, encoder, planned, streamed
+from app.http.routes.studies import MEDIA_TYPES, begun, planned, streamed
 from app.pages.cases import Asked
 from app.pages.studies import PAGES
 from app.pages.studies import page as study_page
 from app.pages.studies.page import StudyPage
+from app.pages.studies.stream import pieces
 from app.pages.study_links import study_links
 from app.pages.templating import page_path
-from app.studies.engine import Clock, Line, Lines, encoded, twice_if_lost
-from app.workers.pool import disconnected
+from app.studies.engine import encoded, twice_if_lost
+from app.studies.sweep import encoder
+from app.workers.pool import unless_gone
 
 LINE_TYPES = {str(name): media for name, media in MEDIA_TYPES.items()}
 IMAGE_TYPES = {str(name): media for name, media in figures.MEDIA_TYPES.items()}
-FIRST_FRAME_S = 0.3  # until a page shows its first points
-FRAME_SHARE = 0.3  # of the time a study has run passes until its page is drawn again
-LONGEST_PAUSE_S = 4.0  # between two drawings of a page, however long the study runs
 PROGRESS_S = 0.5  # between two looks at a study whose lines take longer
-NOT_DRAWN = (
-    b'<div class="frame"><p class="warning">The figure could not be drawn; the files hold the points.</p>'
-    b'<span class="ready" hidden></span></div>'
-)
-
-logger = logging.getLogger("tribodrive")
 
 
 def not_from_another_site(http: Request) -> None:
@@ -93,7 +85,9 @@ async def _page(http: Request, calculation: Calculation, own: type[StudyPage], p
     if opened.page.study is None:
         return pages.html(opened.head + opened.tail, opened.status)
     headers = {"Content-Security-Policy": pages.PAGE_POLICY}
-    return await streamed(http, opened.page.study, partial(_pieces, http, opened), pages.HTML, headers, PROGRESS_S)
+    return await streamed(
+        http, opened.page.study, partial(pieces, http.app.state.studies.own, opened), pages.HTML, headers, PROGRESS_S
+    )
 
 
 async def _planned(http: Request, own: type[StudyPage], asked: Asked, view: Callable[..., Any]) -> Any:
@@ -101,32 +95,6 @@ async def _planned(http: Request, own: type[StudyPage], asked: Asked, view: Call
     if asked.pairs:
         http.app.state.start_up.require(asked.calculation.path)
     return await planned(http, partial(view, own, asked), getattr(http.app.state.settings, own.plan.most))
-
-
-async def _pieces(http: Request, opened: study_page.Opened, lines: Lines, clock: Clock) -> AsyncGenerator[bytes, None]:
-    """The page of a study: head, results so far that replace each other, tail."""
-    yield opened.head
-    received, due = list[Line](), FIRST_FRAME_S
-    async with aclosing(lines):
-        async for group in lines:
-            received += [line for line in group if line["type"] != "progress"]
-            has_ended = bool(received) and received[-1]["type"] in {"end", "error"}
-            if clock.done and clock.elapsed_s >= due and not has_ended:
-                yield await _part(http, study_page.drawn, opened.page, received, clock.done)
-                due = clock.elapsed_s + min(max(FRAME_SHARE * clock.elapsed_s, FIRST_FRAME_S), LONGEST_PAUSE_S)
-    yield await _part(http, study_page.drawn, opened.page, received)
-    yield opened.tail
-
-
-async def _part(http: Request, view: Callable[..., bytes], *arguments: Any) -> bytes:
-    """The result of a view in a worker, or a note that it failed: the page has begun, its status is sent."""
-    made: bytes = NOT_DRAWN
-    try:
-        with suppress(WorkerLost, DeadlineExceeded):
-            made = await twice_if_lost(http.app.state.studies.own(), view, *arguments)
-    except Exception:
-        logger.exception("a part of a study's page failed")
-    return made
 
 
 async def _made(http: Request, study: StudyPage, view: Callable[..., bytes | str], *arguments: Any) -> bytes:
@@ -141,22 +109,14 @@ async def _made(http: Request, study: StudyPage, view: Callable[..., bytes | str
             received = [line async for group in lines for line in group if line["type"] != "progress"]
         if received[-1]["type"] == "error":
             raise StudyEnded(received[-1]["message"])
-        made: bytes | str = await twice_if_lost(http.app.state.studies.own(), view, study, received, *arguments)
-        if isinstance(made, str):
-            raise HTTPException(404, made)
-        return made
+        drawn: bytes | str = await twice_if_lost(http.app.state.studies.own(), view, study, received, *arguments)
+        if isinstance(drawn, str):
+            raise HTTPException(404, drawn)
+        return drawn
 
     with http.app.state.studies.place():
-        working, gone = asyncio.create_task(work()), asyncio.create_task(disconnected(http))
-        try:
-            await asyncio.wait({working, gone}, return_when=asyncio.FIRST_COMPLETED)
-            if not working.done():
-                raise ClientGone
-            return working.result()
-        finally:
-            working.cancel()
-            gone.cancel()
-            await asyncio.gather(working, gone, return_exceptions=True)
+        made: bytes = await unless_gone(http, asyncio.create_task(work()))
+        return made
 
 
 for each in CALCULATIONS:
