@@ -85,8 +85,9 @@ class Protection:
         except (Exception, asyncio.CancelledError) as error:
             if status != CLIENT_GONE:
                 raise  # too late for another answer: the connection is cut
-            is_failure = isinstance(error, Exception)  # else the server stops and waits no longer
-            failure = internal_error(identifier, error) if is_failure else answer(Request(inner), Stopping())
+            # A server that stops and waits no longer cancels.
+            stopping = answer(Request(inner), Stopping())
+            failure = internal_error(identifier, error) if isinstance(error, Exception) else stopping
             await failure(inner, receive, send_decorated)
         finally:
             endpoint, seconds = getattr(inner.get("route"), "path", "unmatched"), time.perf_counter() - began

@@ -93,10 +93,7 @@ class Pool:
             job.timeout.reschedule(asyncio.get_running_loop().time() + GRACE_S)
 
     async def keep_workers(self) -> None:
-        """Start the workers, the first one alone so that it is there soon, and keep them.
-
-        All that are idle are called at the same time: those that are missing start, and AnyIO drops none as unused.
-        """
+        """Start the workers, the first alone so that it is there soon; call all idle ones, as AnyIO drops unused ones."""
         count = 1
         while True:
             running = len(self._running)

@@ -1,11 +1,11 @@
 """How many modules one request passes: what somebody reads who follows it from the application to the answer's bytes.
 
-Not counted: the modules of the solvers, which are the model; app/http/server.py, which takes bytes from the
-connection; app/log.py, whose thread writes the log.
+Not counted: the modules of the solvers, which are the model; app/log.py, whose thread writes the log.
 """
 
 import asyncio
 import pickle
+import re
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -14,12 +14,11 @@ from typing import Any
 
 import httpx
 import pytest
-from app.workers.processes import Worker
 
 from app import calculations, main
 from app.examples import examples
 from app.settings import Settings
-from app.workers import processes, start_up
+from app.workers import start_up
 from tests.support.server import ROOT
 
 COUPLING = examples()["pahl-axial-displacement"]
@@ -45,15 +44,13 @@ def modules_entered(work: Callable[[], object]) -> set[str]:
 def test_a_coupling_request_passes_at_most_14_files_before_the_solver(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(main, "settings", lambda: Settings(workers=1, log_level="error"))
     monkeypatch.setattr(start_up, "STAGES", (calculations.COUPLING,))
-    monkeypatch.setattr(start_up, "is_complete", lambda _content: True)
-    monkeypatch.setattr(start_up, "mark_complete", lambda _content, *, complete: complete)
     app = main.create_app()
     calls: list[bytes] = []
-    call = Worker.call
+    submit = Pool.submit
 
-    async def noted(self: Worker, function: Callable[..., Any], *arguments: Any) -> Any:
+    def noted(self: Pool, owner: object, function: Callable[..., Any], *arguments: Any) -> Outcome:
         calls.append(pickle.dumps((function, arguments)))
-        return await call(self, function, *arguments)
+        return submit(self, owner, function, *arguments)
 
     with asyncio.Runner() as runner:
         lifespan = app.router.lifespan_context(app)
@@ -66,20 +63,24 @@ def test_a_coupling_request_passes_at_most_14_files_before_the_solver(monkeypatc
 
         async def warm() -> None:
             async with asyncio.timeout(60):
-                while not app.state.start_up.complete:  # noqa: ASYNC110  nothing tells when
+                while not app.state.start_up.warm:  # noqa: ASYNC110  nothing tells when
                     await asyncio.sleep(0.05)
             await post()
 
         try:
             runner.run(warm())
             service = modules_entered(lambda: runner.run(post()))
-            monkeypatch.setattr(Worker, "call", noted)
+            monkeypatch.setattr(Pool, "submit", noted)
             runner.run(post())
         finally:
             runner.run(lifespan.__aexit__(None, None, None))
-    processes._outcome(calls[0])  # a warm worker has looked up every name and unit once
-    worker = modules_entered(lambda: processes._outcome(calls[0]))
+    monkeypatch.setattr(worker, "prepare", lambda *_: None)  # of this process
+    worker.perform(0, (), calls[0])  # a warm worker has looked up every name and unit once
+    working = modules_entered(lambda: worker.perform(0, (), calls[0]))
     assert {"app/workers/pool.py", "app/http/json_route.py"} <= service
-    assert {"app/workers/processes.py", "solvers/coupling/model.py"} <= worker
-    passed = {path for path in service | worker if path.startswith("app/")}
+    assert {"app/workers/worker.py", "solvers/coupling/model.py"} <= working
+    passed = {path for path in service | working if path.startswith("app/")}
     assert len(passed) <= 14, sorted(passed)
+    chapter = (ROOT / "app" / "manual" / "service.md").read_text("utf-8")
+    diagram = chapter.partition("<!-- files of a coupling request -->")[2].partition("<!-- end -->")[0]
+    assert set(re.findall(r"app/[a-z_/]+\.py", diagram)) == passed
