@@ -123,11 +123,15 @@ class Pool:
             self._waiting.remove(job)
             self._running.append(job)
             try:
-                await self._carry_out(job)
+                is_worker_there = await self._carry_out(job)
             finally:
                 self._running.remove(job)
+            if not is_worker_there:  # not within the next call, as AnyIO forgets a worker that is cancelled at its start
+                self._trouble.set()
+                await self._is_prepared()
 
-    async def _carry_out(self, job: Job) -> None:
+    async def _carry_out(self, job: Job) -> bool:
+        """Give a call its result or exception; return whether the worker can go on."""
         job.timeout = asyncio.timeout(None if job.is_single else self._settings.deadline_s)
         try:
             async with job.timeout:
@@ -137,7 +141,6 @@ class Pool:
             if not job.outcome.done():
                 job.outcome.set_result(result)
         except Exception as error:  # noqa: BLE001  of the call
-            self._trouble.set()
             is_late, is_lost = job.timeout.expired(), isinstance(error, BrokenWorkerProcess)
             if is_lost:
                 WORKERS_LOST.inc()
@@ -145,6 +148,8 @@ class Pool:
             if not job.outcome.done():
                 DEADLINES_MISSED.inc(is_late)
                 job.outcome.set_exception(DeadlineExceeded() if is_late else WorkerLost() if is_lost else error)
+            return not (is_late or is_lost)
+        return True
 
     async def _in_worker(self, function: Callable[..., Any], *arguments: Any) -> Any:
         arguments = (*self._preparation, *arguments)
