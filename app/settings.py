@@ -57,7 +57,9 @@ class Settings(BaseSettings):
     max_body_bytes: int = Field(384 * 1024, ge=1024, description="largest request body; beyond it 413")
     rexs_mb: int = Field(20, ge=1, le=100, description="largest gear unit from a file, unpacked, MiB; beyond it 413")
     answers_mb: int = Field(64, ge=0, description="memory for answers just computed, for other views of them, MiB")
-    max_header_bytes: int = Field(16384, ge=1024, description="largest sum of request headers; beyond it 400")
+    max_header_bytes: int = Field(
+        16384, ge=1024, description="bytes of unfinished request headers, beside one read of 256 KiB; beyond it 400"
+    )
     limit_concurrency: int = Field(500, ge=1, description="open connections; a request on one more is answered 503")
     shutdown_s: int = Field(30, ge=0, description="time for requests in flight to finish at shutdown")
     log_level: str = Field("info", pattern="^(debug|info|warning|error)$", description="least level that is logged")

@@ -126,7 +126,9 @@ class Pool:
                 is_worker_there = await self._carry_out(job)
             finally:
                 self._running.remove(job)
-            if not is_worker_there:  # not within the next call, as AnyIO forgets a worker that is cancelled at its start
+            if (
+                not is_worker_there
+            ):  # not within the next call, as AnyIO forgets a worker that is cancelled at its start
                 self._trouble.set()
                 await self._is_prepared()
 
