@@ -33,7 +33,7 @@ class Processes:
                 await self.faults.popleft()()
             return None
         assert function is perform
-        _, (name,) = pickle.loads(arguments[-1])
+        _, (name,) = pickle.loads(arguments[-1])  # noqa: S301  of this test
         self.order.append(name)
         self.calls[name] = asyncio.get_running_loop().create_future()
         return await self.calls[name]
@@ -101,7 +101,7 @@ def test_the_next_worker_goes_to_whoever_has_the_fewest_then_to_whoever_waits_lo
 
 
 def test_a_full_queue_refuses_the_newest_call_of_whoever_has_most(monkeypatch: pytest.MonkeyPatch) -> None:
-    async def check(pool: Pool, processes: Processes) -> None:
+    async def check(pool: Pool, _: Processes) -> None:
         greedy = [ask(pool, "greedy", f"{number}") for number in range(6)]
         await settled()
         with pytest.raises(QueueFull):
