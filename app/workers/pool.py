@@ -93,7 +93,7 @@ class Pool:
             job.timeout.reschedule(asyncio.get_running_loop().time() + GRACE_S)
 
     async def keep_workers(self) -> None:
-        """Start the workers, the first alone to be there soon; then call all idle ones, because AnyIO drops unused ones."""
+        """Start the workers, the first alone to be there soon; then call all idle ones, as AnyIO drops unused ones."""
         count = 1
         while True:
             running = len(self._running)
