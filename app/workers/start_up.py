@@ -32,8 +32,16 @@ class StartUp:
     def require(self, *endpoints: str) -> None:
         """Raise WarmingUp if kernels of one of the endpoints are not there yet, or no stage is ready."""
         if not {BY_PATH[endpoint].stage.name for endpoint in endpoints} <= {*self.warm} or not self.warm:
-            report = ", ".join(f"{name} {percent} %" for name, percent in self._percent.items())
-            raise WarmingUp(f"Kernels are being compiled, once after installation: {report}")
+            raise self._warming_up()
+
+    def require_all(self) -> None:
+        """Raise WarmingUp if a stage is not ready."""
+        if len(self.warm) < len(self._percent):
+            raise self._warming_up()
+
+    def _warming_up(self) -> WarmingUp:
+        report = ", ".join(f"{name} {percent} %" for name, percent in self._percent.items())
+        return WarmingUp(f"Kernels are being compiled, once after installation: {report}")
 
     async def run(self) -> None:
         """Open stage after stage."""

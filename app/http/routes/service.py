@@ -6,7 +6,6 @@ from fastapi import APIRouter, HTTPException, Path, Request, Response
 from prometheus_client import CONTENT_TYPE_LATEST, generate_latest
 from pydantic import BaseModel
 
-from app.calculations import BY_PATH
 from app.errors import WorkerLost
 from app.examples import Example, ExampleSummary, examples
 from app.http.problems import documented
@@ -61,7 +60,7 @@ async def readyz(http: Request) -> Readiness:
     """Whether every calculation answers at once; 503 says how far the warm-up is. Never waits for a calculation."""
     start_up: StartUp = http.app.state.start_up
     pool: Pool = http.app.state.pool
-    start_up.require(*BY_PATH)
+    start_up.require_all()
     if pool.alive <= 0:
         raise WorkerLost
     return Readiness(warm=start_up.warm, workers=pool.alive)
