@@ -35,13 +35,14 @@ pytestmark = pytest.mark.service
 
 KILLS = 8
 KILL_EVERY_S = 2.0
+DEADLINE_S = 15.0  # a worker starts within it on slow cores too
 RUNNING = "tribodrive_calculations"
 LOST = "tribodrive_workers_lost_total"
 
 
 @pytest.fixture(scope="module")
 def service() -> Iterator[Server]:
-    with faulty_server(workers=2, queue=2, deadline_s=8, worker_memory_mb=1024) as server:
+    with faulty_server(workers=2, queue=2, deadline_s=DEADLINE_S, worker_memory_mb=1024) as server:
         yield server
 
 
@@ -91,9 +92,9 @@ def outcomes_while_killing(process: subprocess.Popen[str], address: str) -> Coun
 
 def test_deadline(address: str) -> None:
     started = time.monotonic()
-    response = httpx.post(f"{address}/sleep/60", timeout=20)
+    response = httpx.post(f"{address}/sleep/60", timeout=60)
     assert response.status_code == 504
-    assert time.monotonic() - started > 7.9
+    assert time.monotonic() - started > DEADLINE_S - 0.1
     assert_recovers(address)
 
 
