@@ -35,7 +35,7 @@ pytestmark = pytest.mark.service
 
 KILLS = 8
 KILL_EVERY_S = 2.0
-DEADLINE_S = 15.0  # a worker starts within it on slow cores too
+DEADLINE_S = 30.0  # a worker starts within it on busy cores too
 RUNNING = "tribodrive_calculations"
 LOST = "tribodrive_workers_lost_total"
 
@@ -92,7 +92,7 @@ def outcomes_while_killing(process: subprocess.Popen[str], address: str) -> Coun
 
 def test_deadline(address: str) -> None:
     started = time.monotonic()
-    response = httpx.post(f"{address}/sleep/60", timeout=60)
+    response = httpx.post(f"{address}/sleep/60", timeout=90)
     assert response.status_code == 504
     assert time.monotonic() - started > DEADLINE_S - 0.1
     assert_recovers(address)
