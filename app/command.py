@@ -139,9 +139,7 @@ def serve(application: str) -> None:
 
     uvicorn.run(
         application,
-        host=""
-        if limits.host == "::"
-        else limits.host,  # both families, so that addresses of IPv4 clients stay as such
+        host="" if limits.host == "::" else limits.host,  # both families; addresses of IPv4 clients stay as such
         port=limits.port,
         http="h11",
         h11_max_incomplete_event_size=limits.max_header_bytes,

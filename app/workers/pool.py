@@ -126,11 +126,9 @@ class Pool:
                 is_worker_there = await self._carry_out(job)
             finally:
                 self._running.remove(job)
-            if (
-                not is_worker_there
-            ):  # not within the next call, as AnyIO forgets a worker that is cancelled at its start
+            if not is_worker_there:
                 self._trouble.set()
-                await self._is_prepared()
+                await self._is_prepared()  # now: AnyIO forgets a worker that is cancelled while it starts
 
     async def _carry_out(self, job: Job) -> bool:
         """Give a call its result or exception; return whether the worker can go on."""
