@@ -112,7 +112,7 @@ def test_a_port_in_use_is_told() -> None:
             text=True,
             timeout=60,
         )
-    assert outcome.returncode == 1
+    assert outcome.returncode == 3  # as uvicorn says that it could not start
     assert "address already in use" in outcome.stderr
     assert "Traceback" not in outcome.stderr
 
