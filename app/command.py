@@ -114,7 +114,10 @@ def compile_kernels(names: Sequence[str]) -> None:
 
 def _show(name: str, kernels: int, events: Sequence[object], done: threading.Event) -> None:
     while not done.wait(PROGRESS_S):
-        print(f"{name}: {min(99, 50 * len(events) // kernels)} %", flush=True)  # noqa: T201
+        try:
+            print(f"{name}: {min(99, 50 * len(events) // kernels)} %", flush=True)  # noqa: T201
+        except OSError:
+            os._exit(1)  # whoever started this is gone
 
 
 def _print_json(content: dict[str, Any]) -> None:

@@ -149,7 +149,7 @@ def test_runs_on_without_standard_streams(closed: str, tmp_path: Path) -> None:
     log = tmp_path / "log"
     command = ["bash", "-c", f"exec {sys.executable} -m app {closed}"]
     with started_server(command, log=log) as (process, address):
-        wait_until_warm(process, address, 60)
+        wait_until_warm(process, address)
         for _ in range(3):
             assert httpx.post(address + COUPLING.endpoint, json=COUPLING.request, timeout=20).status_code == 200
     assert "Traceback" not in log.read_text()
@@ -169,10 +169,10 @@ def test_the_unspecified_address_serves_both_families(tmp_path: Path) -> None:
     assert answered[-2:] == ["::1", "192.0.2.7"]
 
 
-def answer_after_a_start(cache: Path, log: Path, seconds: float = 120) -> bytes:
+def answer_after_a_start(cache: Path, log: Path) -> bytes:
     """What the service answers to a coupling with this cache."""
     with started_server(environment={"NUMBA_CACHE_DIR": str(cache)}, log=log, workers=2) as (process, address):
-        wait_until_warm(process, address, seconds)
+        wait_until_warm(process, address)
         answer = httpx.post(address + COUPLING.endpoint, json=COUPLING.request, timeout=20)
     assert answer.status_code == 200
     return answer.content
@@ -215,7 +215,7 @@ def test_kernels_that_kill_who_loads_them_are_compiled_anew(
     assert answer_after_a_start(tmp_path, log) == whole
     assert "a process that compiled kernels died: all are compiled anew" in log.read_text("utf-8")
     assert "died again" not in log.read_text("utf-8")
-    assert answer_after_a_start(tmp_path, log, 60) == whole
+    assert answer_after_a_start(tmp_path, log) == whole
     assert "died" not in log.read_text("utf-8")
 
 
@@ -224,7 +224,7 @@ def test_a_folder_that_cannot_be_written_costs_time_alone(tmp_path: Path, whole:
     log = tmp_path / "log"
     variables = {"NUMBA_CACHE_DIR": str(tmp_path / "file" / "folder")}
     with started_server(environment=variables, log=log, workers=1) as (process, address):
-        wait_until_warm(process, address, 60)
+        wait_until_warm(process, address)
         assert httpx.post(address + COUPLING.endpoint, json=COUPLING.request, timeout=60).content == whole
     assert log.read_text("utf-8").count("compiled kernels are not kept") == 1
 
@@ -257,7 +257,7 @@ def test_needs_nothing_to_be_writable_but_the_cache(tmp_path: Path) -> None:
     log = tmp_path / "log"
     variables = {"NUMBA_CACHE_DIR": str(tmp_path)}
     with started_server(command, log=log, workers=2, environment=variables) as (process, address):
-        wait_until_warm(process, address, 60)
+        wait_until_warm(process, address)
         figure = f"{COUPLING.endpoint}/figures/losses.svg"
         assert httpx.post(address + figure, json=COUPLING.request, timeout=60).status_code == 200
     text = log.read_text("utf-8")
@@ -284,7 +284,7 @@ def test_other_servers_serve_the_application(server: str, tmp_path: Path) -> Non
         address = f"http://127.0.0.1:{port}"
         if path:  # httpx leaves sockets open that cannot be connected
             wait_until(lambda: "running on" in log.read_text())
-        wait_until_warm(process, address, 120, path)
+        wait_until_warm(process, address, socket=path)
 
         def ask(method: str, place: str, **options: Any) -> httpx.Response:
             """An answer on a connection of its own, to whichever server process takes it."""
