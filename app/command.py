@@ -108,16 +108,21 @@ def compile_kernels(names: Sequence[str]) -> None:
             warm(stage)
             done.set()
             showing.join()
-        print(f"{stage.name}: 100 %", flush=True)  # noqa: T201
+        _tell(stage.name, 100)
     os._exit(0)  # to take down the kernels would take a second
 
 
 def _show(name: str, kernels: int, events: Sequence[object], done: threading.Event) -> None:
     while not done.wait(PROGRESS_S):
-        try:
-            print(f"{name}: {min(99, 50 * len(events) // kernels)} %", flush=True)  # noqa: T201
-        except OSError:
-            os._exit(1)  # whoever started this is gone
+        _tell(name, min(99, 50 * len(events) // kernels))
+
+
+def _tell(name: str, percent: int) -> None:
+    """Print how far a stage is; ends the process if nobody can read it any more."""
+    try:
+        print(f"{name}: {percent} %", flush=True)  # noqa: T201
+    except OSError:
+        os._exit(1)
 
 
 def _print_json(content: dict[str, Any]) -> None:
