@@ -8,7 +8,7 @@ from contextlib import suppress
 from typing import Any
 
 import pytest
-from anyio import BrokenWorkerProcess
+from anyio import BrokenWorkerProcess, to_process
 
 from app.errors import QueueFull, WorkerLost
 from app.settings import Settings
@@ -58,7 +58,7 @@ def with_pool(
     """Check a pool whose workers are scripted."""
     processes = Processes()
     processes.faults.extend(faults)
-    monkeypatch.setattr(pools.to_process, "run_sync", processes.run_sync)
+    monkeypatch.setattr(to_process, "run_sync", processes.run_sync)
 
     async def run() -> None:
         pool = Pool(Settings(workers=workers, queue=4), ())
