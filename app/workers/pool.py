@@ -89,7 +89,7 @@ class Pool:
         """Take back a call whose outcome is known or not wanted; one at work has a little time to end."""
         if job in self._waiting:
             self._waiting.remove(job)
-        elif job in self._running and job.timeout is not None:
+        elif job in self._running and job.timeout is not None and not job.timeout.expired():
             job.timeout.reschedule(asyncio.get_running_loop().time() + GRACE_S)
 
     async def keep_workers(self) -> None:

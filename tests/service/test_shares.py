@@ -15,6 +15,7 @@ import pytest
 
 from app.examples import examples
 from tests.support.server import (
+    HANGING,
     LONG,
     LONG_S,
     NAP,
@@ -152,10 +153,13 @@ def test_beside_two_studies_of_long_points(address: str) -> None:
 def test_points_of_a_study_end_with_it(service: Server) -> None:
     """The workers are replaced; a whole point would leave them as they are."""
     process, address = service
+    wait_until(lambda: len(set(workers(process))) == 2)
     before = set(workers(process))
-    with client(address, GREEDY) as own, own.stream("POST", "/v1/sweep", json=long_study(20)) as response:
-        next(response.iter_lines())
-        time.sleep(0.5)
+    speeds = [1910.0] * 2 + [HANGING] * 4
+    study = study_of(COUPLING.name, cases=[{"operation.speed_rpm": speed} for speed in speeds])
+    with client(address, GREEDY) as own, own.stream("POST", "/v1/sweep", json=study) as response:
+        next(line for line in response.iter_lines() if json.loads(line)["type"] == "point")
+        time.sleep(1.0)  # until both workers hang
     wait_until(lambda: not set(workers(process)) & before)
     wait_for_metric(address, "tribodrive_studies", 0)
 

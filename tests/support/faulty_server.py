@@ -16,8 +16,8 @@ from fastapi import FastAPI, Request
 from app.calculations import COUPLING, LOADS
 from app.command import serve
 from app.main import create_app
-from app.studies import engine
-from app.studies.points import Chunk, Question, solve_chunk
+from app.studies import engine, points
+from app.studies.points import Chunk, Point, Question, solve_chunk, solve_point
 from app.studies.requests import Overrides
 from app.workers import start_up
 from tests.support.server import HANGING, LONG, LONG_S, NAP, NAP_S
@@ -55,16 +55,22 @@ def fail_deep_inside() -> None:
     raise ZeroDivisionError("deep inside")
 
 
-def solve_chunk_that_may_hang(question: Question, overrides: Sequence[Overrides]) -> Chunk:
-    if any(HANGING in each.values() for each in overrides):
-        time.sleep(600)
-    for each in overrides:
-        time.sleep(LONG_S if LONG in each.values() else NAP_S if NAP in each.values() else 0.0)
-    return solve_chunk(question, overrides)
+PAUSES_S = {HANGING: 600.0, LONG: LONG_S, NAP: NAP_S}
+
+
+def solve_point_after_a_pause(question: Question, overrides: Overrides) -> Point:
+    time.sleep(max((PAUSES_S.get(value, 0.0) for value in overrides.values()), default=0.0))
+    return solve_point(question, overrides)
+
+
+def solve_chunk_with_pauses(question: Question, overrides: Sequence[Overrides]) -> Chunk:
+    """Runs in a worker; a chunk that has taken long enough ends after its point, as any other does."""
+    with patch.object(points, "solve_point", solve_point_after_a_pause):
+        return solve_chunk(question, overrides)
 
 
 def create_faulty_app() -> FastAPI:
-    patch.object(engine, "solve_chunk", solve_chunk_that_may_hang).start()
+    patch.object(engine, "solve_chunk", solve_chunk_with_pauses).start()
     patch.object(start_up, "STAGES", STAGES).start()
     app = create_app()
 
