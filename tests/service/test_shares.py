@@ -158,7 +158,8 @@ def test_points_of_a_study_end_with_it(service: Server) -> None:
     speeds = [1910.0] * 2 + [HANGING] * 4
     study = study_of(COUPLING.name, cases=[{"operation.speed_rpm": speed} for speed in speeds])
     with client(address, GREEDY) as own, own.stream("POST", "/v1/sweep", json=study) as response:
-        next(line for line in response.iter_lines() if json.loads(line)["type"] == "point")
+        lines = response.iter_lines()  # kept: the connection closes with the iterator
+        next(line for line in lines if json.loads(line)["type"] == "point")
         time.sleep(1.0)  # until both workers hang
     wait_until(lambda: not set(workers(process)) & before)
     wait_for_metric(address, "tribodrive_studies", 0)
