@@ -1,4 +1,4 @@
-"""Warnings of a drive train: ranges that are left, assumptions that matter, inputs that look wrong."""
+"""Warnings of a drive train: results out of range, assumptions that matter, inputs that look wrong."""
 
 from collections.abc import Iterator
 from dataclasses import replace
@@ -17,14 +17,14 @@ from solvers.notices import Notice
 from solvers.scuffing.notices import unusual_modifications, unusual_temperatures
 
 SHORT_BEARING = 0.7  # width over diameter
-ROUNDING = 1e-9  # of lengths that come from other units
+ROUNDING = 1e-9  # relative, of lengths converted from other units
 THIN_FILM = 15e-6  # m
-LARGE_ECCENTRICITY = 0.9  # a tenth of the clearance is left: customary limit of design
+LARGE_ECCENTRICITY = 0.9  # customary limit of design: the film is a tenth of the clearance
 LIFTED = 0.9  # contact fraction
 
 
 def shaft_notices(inputs: DriveTrainInputs, shafts: tuple[ShaftResult, ShaftResult]) -> Iterator[Notice]:
-    """Films out of range, thrust that may reverse or is too high, long overhangs."""
+    """Warn of films out of range, of thrust that may reverse or is too high, and of long overhangs."""
     for shaft, result, name in zip(inputs.shafts, shafts, NAMES, strict=True):
         for k, (bearing, state) in enumerate(zip(shaft.bearings, result.bearings, strict=True)):
             field = f"{name}.bearings.{k}"
@@ -74,7 +74,7 @@ def load_notices(inputs: DriveTrainInputs, load: FaceLoad) -> Iterator[Notice]:
 
 
 def loss_notices(inputs: DriveTrainInputs, losses: TrainLosses) -> Iterator[Notice]:
-    """Losses that the power does not cover."""
+    """Warn if the losses exceed the power."""
     power = inputs.mesh.distribution.load.transmitted_power
     if losses.total is not None and 0.0 < power <= losses.total:
         message = (
@@ -85,23 +85,23 @@ def loss_notices(inputs: DriveTrainInputs, losses: TrainLosses) -> Iterator[Noti
 
 
 def coupling_notices(
-    inputs: DriveTrainInputs, couplings: tuple[CouplingResult, ...], own: list[tuple[Notice, ...]]
+    inputs: DriveTrainInputs, couplings: tuple[CouplingResult, ...], of_model: list[tuple[Notice, ...]]
 ) -> Iterator[Notice]:
-    """Hubs that stick, and what the coupling model itself says of them."""
-    for k, (coupling, said) in enumerate(zip(couplings, own, strict=True)):
+    """Tell of hubs that stick, and pass on the warnings of the coupling model, `of_model`, each code once."""
+    for k, (coupling, notices) in enumerate(zip(couplings, of_model, strict=True)):
         field = f"couplings.{k}"
         for name, stuck, share in zip(("unit", "machine"), coupling.stuck, coupling.friction_share, strict=True):
             if stuck and inputs.coupling_friction == "elastic_plastic":
                 message = f"the {name}'s hub sticks; its friction moment is {share:.2f} of full sliding's"
                 yield Notice("hub_sticks", message, f"{field}.friction", rank="note")
-        for notice in {one.code: one for one in said}.values():
+        for notice in {notice.code: notice for notice in notices}.values():
             code = "misalignment_limit" if notice.code == "sliding_velocity" else notice.code
             where = field if notice.field is None else f"{field}.{notice.field}"
             yield replace(notice, code=code, field=where)
 
 
 def unusual_values(inputs: DriveTrainInputs, result: DriveTrainResult) -> Iterator[Notice]:
-    """Unusual values of oils, temperatures, ambient, couplings, gears, modifications and load."""
+    """Tell of unusual values of oils, temperatures, ambient, couplings, gears, modifications and load."""
     derived, mesh, load = result.derived, inputs.mesh.distribution, result.load
     yield from plausibility.thick_oil(derived.lubricant.viscosity if derived.lubricant else None)
     for name, shaft in zip(NAMES, (derived.pinion_shaft, derived.wheel_shaft), strict=True):
@@ -113,10 +113,11 @@ def unusual_values(inputs: DriveTrainInputs, result: DriveTrainResult) -> Iterat
     yield from plausibility.tooth_temperature(inputs.heat.pinion_bulk, "heat.pinion_bulk")
     yield from plausibility.tooth_temperature(inputs.heat.wheel_bulk, "heat.wheel_bulk")
     yield from plausibility.thin_air(inputs.pumping.ambient.pressure)
-    for k, each in enumerate(inputs.couplings):
-        yield from plausibility.tall_tooth(each.coupling.tooth_height, each.coupling.module, f"couplings.{k}.coupling")
-        if each.lubricant.temperature is not None:
-            yield from plausibility.oil_temperature(each.lubricant.temperature, f"couplings.{k}.lubricant.temperature")
+    for k, coupling in enumerate(inputs.couplings):
+        teeth, oil_temperature = coupling.coupling, coupling.lubricant.temperature
+        yield from plausibility.tall_tooth(teeth.tooth_height, teeth.module, f"couplings.{k}.coupling")
+        if oil_temperature is not None:
+            yield from plausibility.oil_temperature(oil_temperature, f"couplings.{k}.lubricant.temperature")
     yield from plausibility.gears(mesh.gears, mesh.load.pinion_speed)
     yield from unusual_modifications(mesh.modifications)
     yield from plausibility.high_pressure(load.max_pressure)
