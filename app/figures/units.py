@@ -1,4 +1,4 @@
-"""Dataclasses of the solvers with their quantities in the units in which they are shown."""
+"""Results of the solvers with their quantities in the units in which they are shown."""
 
 from dataclasses import fields, is_dataclass
 from functools import cache
@@ -12,44 +12,47 @@ from solvers.quantity import UNITS, Quantity, quantities
 
 T = TypeVar("T")
 MM, UM, RPM = (UNITS[name].scale for name in ("mm", "um", "rpm"))
-"""In SI."""
+"""These units in SI."""
 
 
 def shown(data: T) -> T:
-    """A copy of a solver's dataclass, and of those inside it, whose declared values are in the units shown.
+    """Return a copy of a solver's dataclass, and of dataclasses inside it, with quantities in the units shown.
 
-    Computed values that are declared are converted as well; other methods of the copy must not be used, because they
-    would compute from values that are not in SI. What is not declared, and None, stays as it is.
+    Declared computed values are converted as well. Other methods of the copy must not be used, because they would
+    compute from values that are not in SI. Undeclared values and None are copied as they are.
     """
-    converted: T = _converted(data, None)
-    return converted
+    copy: T = _convert(data, None)
+    return copy
 
 
-def axis(data: Any, name: str, title: str = "", **known: Any) -> Axis:
-    """The axis of a quantity that a dataclass declares: its unit, its symbol, its title unless another is given."""
+def axis(data: Any, name: str, title: str = "", **options: Any) -> Axis:
+    """Return the axis of a quantity that a dataclass declares, with its unit, symbol and title, or another title."""
     declared = quantities(data if isinstance(data, type) else type(data))[name]
     unit = UNITS[declared.unit].symbol if declared.unit else None
-    return Axis(title or declared.title, unit, **{"symbol": declared.symbol or "", **known})
+    return Axis(title or declared.title, unit, **{"symbol": declared.symbol or "", **options})
 
 
-def axis_of(leaf: Leaf, **known: Any) -> Axis:
-    """The axis of a field of a request or of an answer."""
-    return Axis(leaf.title, leaf.unit, symbol=leaf.declared.symbol or "", **known)
+def axis_of(leaf: Leaf, **options: Any) -> Axis:
+    """Return the axis of a field of a request or of an answer."""
+    return Axis(leaf.title, leaf.unit, symbol=leaf.declared.symbol or "", **options)
 
 
-def _converted(value: Any, declared: Quantity | None) -> Any:
-    """A value in its unit; `declared` is that of the field that holds it, which counts where one inside has none."""
+def _convert(value: Any, declared: Quantity | None) -> Any:
+    """Convert a value to its unit.
+
+    `declared` is the quantity of the field that holds the value. It also applies to fields inside that have no unit.
+    """
     if is_dataclass(value) and not isinstance(value, type):
         kind: Any = type(value)
-        known = quantities(kind)
+        quantities_by_name = quantities(kind)
         copy = object.__new__(_plain(kind))
-        for name in {*(each.name for each in fields(value)), *known}:
-            own = known.get(name)
+        for name in {*(item.name for item in fields(value)), *quantities_by_name}:
+            own = quantities_by_name.get(name)
             inner = own if declared is None or (own is not None and own.unit is not None) else declared
-            object.__setattr__(copy, name, _converted(getattr(value, name), inner))
+            object.__setattr__(copy, name, _convert(getattr(value, name), inner))
         return copy
     if isinstance(value, tuple | list):
-        return tuple(_converted(item, declared) for item in value)
+        return tuple(_convert(item, declared) for item in value)
     if declared is None or not isinstance(value, float | np.ndarray):
         return value
     return declared.from_si(value)
@@ -57,6 +60,6 @@ def _converted(value: Any, declared: Quantity | None) -> Any:
 
 @cache
 def _plain(kind: Any) -> Any:
-    """A subclass with slots for what the dataclass computes."""
-    computed = quantities(kind).keys() - {each.name for each in fields(kind)}
+    """Return a subclass with slots for the computed values of the dataclass."""
+    computed = quantities(kind).keys() - {item.name for item in fields(kind)}
     return type(kind.__name__, (kind,), {"__slots__": tuple(computed), "__doc__": kind.__doc__})
