@@ -1,4 +1,4 @@
-"""The command line: start the service, or solve one request; --help lists every setting."""
+"""The command line: it starts the service, or solves a request; --help lists all settings."""
 
 import argparse
 import gc
@@ -12,14 +12,14 @@ from typing import Any
 
 from app.settings import MEBIBYTE, Settings, settings
 
-PROGRESS_S = 1.0  # between two lines
-EXIT_STATUS = {"ok": 0, "ok_with_warnings": 3, "no_solution": 4}  # 1: refused or not written, 2: wrong arguments
+PROGRESS_S = 1.0  # between two lines of progress
+EXIT_STATUS = {"ok": 0, "ok_with_warnings": 3, "no_solution": 4}  # 1: rejected or not written, 2: wrong arguments
 
 
 def main() -> None:
-    """Serve until told to stop, or print what a command asks for."""
+    """Serve until a signal stops the service, or run a command."""
     open_standard_streams()
-    os.environ.pop("WEB_CONCURRENCY", None)  # which is for servers of several processes, whatever it says
+    os.environ.pop("WEB_CONCURRENCY", None)  # it is meant for servers with several processes
     parser = argparse.ArgumentParser(
         prog="python -m app",
         description="Serve the tribodrive calculations.",
@@ -34,36 +34,36 @@ def main() -> None:
     solve.add_argument("file", type=Path, help="the request as JSON; - reads the standard input")
     compiling = commands.add_parser("compile", help="compile the kernels and keep them on disk instead of serving")
     compiling.add_argument("stages", nargs="*", help="names of stages, such as coupling; by default all")
-    asked = parser.parse_args()
-    match asked.command:
+    arguments = parser.parse_args()
+    match arguments.command:
         case "rexs":
-            print_unit(asked.file)
+            print_unit(arguments.file)
         case "solve":
-            print_answer(asked.endpoint, asked.file)
+            print_answer(arguments.endpoint, arguments.file)
         case "compile":
-            compile_kernels(asked.stages)
+            compile_kernels(arguments.stages)
         case _:
             serve("app.main:app")
 
 
 def print_unit(file: Path) -> None:
-    """Print what /v1/rexs answers to a file; exits with the reason where the file cannot be read."""
+    """Print the answer of /v1/rexs to a file. Exit with the reason if the file cannot be read."""
     from app.errors import Unprocessable  # noqa: PLC0415  the service starts without this
     from app.rexs.answer import unit_of  # noqa: PLC0415
 
     try:
-        found = unit_of(file.read_bytes(), settings().rexs_mb * MEBIBYTE)
+        unit = unit_of(file.read_bytes(), settings().rexs_mb * MEBIBYTE)
     except OSError as error:
         sys.exit(f"tribodrive: {file}: {error.strerror}")
     except Unprocessable as error:
         sys.exit(f"tribodrive: {file}: {error.message}")
-    _print_json(found)
+    _print_json(unit)
 
 
 def print_answer(endpoint: str, file: Path) -> None:
-    """Print the answer of an endpoint to the request in a file, and exit with the status of `EXIT_STATUS`.
+    """Print the answer of an endpoint to the request in a file, and exit with its status of `EXIT_STATUS`.
 
-    Exits with the reason where the request is refused.
+    If the request is rejected, exit with the reason.
     """
     from app.calculations import BY_PATH  # noqa: PLC0415
     from app.errors import InvalidBody, Unprocessable, Unreadable, faults_of  # noqa: PLC0415
@@ -74,7 +74,7 @@ def print_answer(endpoint: str, file: Path) -> None:
         sys.exit(f"tribodrive: there is no {endpoint}; there are {', '.join(BY_PATH)}")
     try:
         body = sys.stdin.buffer.read() if file == Path("-") else file.read_bytes()
-        found = answer(endpoint, content_of(body))
+        content = answer(endpoint, content_of(body))
     except OSError as error:
         sys.exit(f"tribodrive: {file}: {error.strerror}")
     except Unreadable as error:
@@ -82,26 +82,26 @@ def print_answer(endpoint: str, file: Path) -> None:
     except (InvalidBody, Unprocessable) as error:
         faults = (f"{fault['pointer'] or 'request'}: {fault['message']}" for fault in faults_of(error))
         sys.exit("\n".join(f"tribodrive: {fault}" for fault in faults))
-    _print_json(found)
-    sys.exit(EXIT_STATUS[found["status"]])
+    _print_json(content)
+    sys.exit(EXIT_STATUS[content["status"]])
 
 
 def compile_kernels(names: Sequence[str]) -> None:
-    """Compile stages, by default all, and print how far each of them is, every second; at 100 % it is on disk."""
+    """Compile stages, by default all, and print their progress every second; at 100 % a stage is on disk."""
     from numba.core import event  # noqa: PLC0415
 
     from app.workers.stages import STAGES, warm  # noqa: PLC0415
     from solvers.kernel_cache import FOLDER  # noqa: PLC0415
 
     gc.enable()
-    known = {stage.name: stage for stage in STAGES}
-    if unknown := set(names) - set(known):
-        sys.exit(f"tribodrive: there is no {', '.join(sorted(unknown))}; there are {', '.join(known)}")
+    stages = {stage.name: stage for stage in STAGES}
+    if unknown := set(names) - set(stages):
+        sys.exit(f"tribodrive: there is no {', '.join(sorted(unknown))}; there are {', '.join(stages)}")
     if FOLDER is None:
         sys.exit("tribodrive: the folder for compiled kernels cannot be written")
-    for stage in [known[name] for name in names or known]:
+    for stage in [stages[name] for name in names or stages]:
         done = threading.Event()
-        with event.install_recorder("numba:compile") as recorder:  # events when compilations begin and end
+        with event.install_recorder("numba:compile") as recorder:  # an event at each begin and end
             arguments = (stage.name, stage.kernels, recorder.buffer, done)
             showing = threading.Thread(target=_show, args=arguments, daemon=True)
             showing.start()
@@ -109,7 +109,7 @@ def compile_kernels(names: Sequence[str]) -> None:
             done.set()
             showing.join()
         _tell(stage.name, 100)
-    os._exit(0)  # to take down the kernels would take a second
+    os._exit(0)  # the usual end with all kernels would take a second
 
 
 def _show(name: str, kernels: int, events: Sequence[object], done: threading.Event) -> None:
@@ -118,7 +118,7 @@ def _show(name: str, kernels: int, events: Sequence[object], done: threading.Eve
 
 
 def _tell(name: str, percent: int) -> None:
-    """Print how far a stage is; ends the process if nobody can read it any more."""
+    """Print the progress of a stage; end the process if nobody can read it any more."""
     try:
         print(f"{name}: {percent} %", flush=True)  # noqa: T201
     except OSError:
@@ -126,7 +126,7 @@ def _tell(name: str, percent: int) -> None:
 
 
 def _print_json(content: dict[str, Any]) -> None:
-    """Print JSON, with escapes if the standard output has no bytes for a character; exits if it cannot be written."""
+    """Print JSON, with escapes if the standard output cannot encode a character. Exit if it cannot be written."""
     text = json.dumps(content, indent=1, ensure_ascii=False)
     try:
         text.encode(sys.stdout.encoding)
@@ -135,25 +135,25 @@ def _print_json(content: dict[str, Any]) -> None:
     try:
         print(text, flush=True)  # noqa: T201  a command's output
     except OSError as error:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # for what is flushed at the end
-        if not isinstance(error, BrokenPipeError):  # whoever reads a pipe has seen enough
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # for the flush at the end
+        if not isinstance(error, BrokenPipeError):  # the reader of a pipe has closed it
             sys.exit(f"tribodrive: cannot write the answer: {error.strerror}")
 
 
 def serve(application: str) -> None:
-    """Serve the application at `application` ("module:attribute") with uvicorn until told to stop."""
+    """Serve the application at `application` ("module:attribute") with uvicorn until a signal stops it."""
     limits = settings()
     import uvicorn  # noqa: PLC0415  the other commands need no server
 
     uvicorn.run(
         application,
-        host="" if limits.host == "::" else limits.host,  # both families; addresses of IPv4 clients stay as such
+        host="" if limits.host == "::" else limits.host,  # IPv4 and IPv6; IPv4 addresses of clients keep their form
         port=limits.port,
         http="h11",
         h11_max_incomplete_event_size=limits.max_header_bytes,
         limit_concurrency=limits.limit_concurrency,
         timeout_graceful_shutdown=limits.shutdown_s,
-        log_config=None,  # `app.log` writes
+        log_config=None,  # `app.log` writes the log
         log_level=limits.log_level,
         access_log=False,
         server_header=False,
@@ -161,16 +161,16 @@ def serve(application: str) -> None:
 
 
 def open_standard_streams() -> None:
-    """Open the null device where the standard streams are closed: a socket would get the number of one of them."""
+    """Open the null device for closed standard streams; otherwise a socket would get the number of one of them."""
     for name in ("stdin", "stdout", "stderr"):
         if getattr(sys, name) is None:
-            stream = Path(os.devnull).open("r+")  # noqa: SIM115  the lowest free number, and these are 0 to 2
+            stream = Path(os.devnull).open("r+")  # noqa: SIM115  gets the lowest free number, 0 to 2
             os.set_inheritable(stream.fileno(), True)
             setattr(sys, name, stream)
 
 
 def _documentation() -> str:
-    """The settings, one line each."""
+    """Return the documentation of the settings, one line per setting."""
     rows = ["environment variables:"]
     for name, field in Settings.model_fields.items():
         default = field.get_default(call_default_factory=True)

@@ -1,7 +1,7 @@
 """Log and metrics of the service.
 
-A thread of its own writes the log, so that a reader of it that stops never delays a request; lines that do not fit into
-the queue are dropped and counted. Lines of answered requests go to the standard output, all others to the standard
+A separate thread writes the log, so that a reader of the log that stops never delays a request. Lines that do not fit
+into the queue are dropped and counted. Lines of answered requests go to the standard output, all others to the standard
 error.
 """
 
@@ -16,8 +16,8 @@ from logging.handlers import QueueHandler, QueueListener
 
 from prometheus_client import Counter, Gauge, Histogram
 
-LINES_KEPT = 10_000  # for a reader that stalls; lines beyond are counted, not kept
-LAST_LINES_S = 1.0  # for what is left to be written at the end
+LINES_KEPT = 10_000  # for a reader that stalls; further lines are dropped and counted
+LAST_LINES_S = 1.0  # to write the remaining lines at the end
 REQUEST_LOG = "tribodrive.requests"
 
 # At /metrics, in the Prometheus text format.
@@ -34,19 +34,18 @@ LINES_DROPPED = Counter("tribodrive_log_lines_dropped", "Log lines dropped becau
 
 
 class _Handler(QueueHandler):
-    """Counts records that find no room or cannot be formatted; logging would write about them, and wait."""
+    """Handler that counts records without room in the queue or with a wrong format, instead of writing about them."""
 
     def handleError(self, record: logging.LogRecord) -> None:  # noqa: N802  logging's name
-        """Count a record as lost."""
         del record
         LINES_DROPPED.inc()
 
 
 class _Writer(logging.Handler):
-    """Writes records without logging's locks, for which the end of the process would wait."""
+    """Handler that writes records without the locks of logging, for which the end of the process would wait."""
 
     def handle(self, record: logging.LogRecord) -> bool:
-        """Write one record; no failure ends the thread."""
+        """Write a record. A failure does not end the thread."""
         try:
             stream = sys.stdout if record.name == REQUEST_LOG else sys.stderr
             line = f"{record.getMessage()}\n".encode(errors="replace")
@@ -62,22 +61,25 @@ class _Writer(logging.Handler):
 
 @contextmanager
 def running(level: str) -> Iterator[None]:
-    """Send log records through the queue while the context is open, except the root logger's if it has handlers."""
+    """Send log records through the queue while the context is open.
+
+    The root logger is left alone if it has handlers.
+    """
     lines: queue.Queue[logging.LogRecord] = queue.Queue(LINES_KEPT)
     handler, listener = _Handler(lines), QueueListener(lines, _Writer())
     logger = logging.getLogger("tribodrive")
     logger.setLevel(level.upper())
     logger.propagate = False
     loggers = [logger, *([logging.root] if not logging.root.handlers else [])]
-    for each in loggers:
-        each.addHandler(handler)
+    for own_logger in loggers:
+        own_logger.addHandler(handler)
     listener.start()
     try:
         yield
     finally:
         logger.propagate = True
-        for each in loggers:
-            each.removeHandler(handler)
+        for own_logger in loggers:
+            own_logger.removeHandler(handler)
         with suppress(queue.Full):
             listener.enqueue_sentinel()
         end = time.monotonic() + LAST_LINES_S

@@ -1,4 +1,4 @@
-"""Creates the FastAPI application."""
+"""The FastAPI application."""
 
 import asyncio
 import gc
@@ -28,21 +28,21 @@ DESCRIPTION = """Tribology of high-speed drive trains: gear couplings (Pahl), ai
 Units are in the field names; every example below runs as it stands."""
 
 MODULES = ("app.pages.views", "app.pages.studies.page", "app.rexs.answer")
-"""What workers calculate with, loaded when they start."""
+"""Modules that workers load when they start."""
 COMPRESSED_FROM = 4096  # bytes
-# What is compressed already, and studies, whose lines are to arrive one by one.
+# Content that is compressed already, and studies, whose lines have to arrive one by one.
 NOT_COMPRESSED = (*DEFAULT_EXCLUDED_CONTENT_TYPES, "application/pdf", "application/x-ndjson", "text/csv")
 
 logger = logging.getLogger("tribodrive")
 
 
 def create_app() -> FastAPI:
-    """The service; settings come from the environment."""
+    """Create the application with the settings of the environment."""
     limits = settings()
 
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
-        gc.freeze()  # what was imported stays
+        gc.freeze()  # imported objects stay
         gc.enable()
         app.state.settings = limits
         app.state.pool = pool = Pool(limits, MODULES)
@@ -55,7 +55,7 @@ def create_app() -> FastAPI:
             logger.info("tribodrive: %d workers", limits.workers)
             async with app.state.studies.open(), asyncio.TaskGroup() as group:
                 works = [pool.keep_workers(), start_up.run(), *(pool.serve() for _ in range(limits.workers))]
-                tasks = [group.create_task(each) for each in works]
+                tasks = [group.create_task(work) for work in works]
                 try:
                     yield
                 finally:
@@ -67,9 +67,9 @@ def create_app() -> FastAPI:
         description=DESCRIPTION,
         version=MODEL_VERSION,
         lifespan=lifespan,
-        docs_url=None,  # app.http.routes.service has it
+        docs_url=None,  # app.http.routes.service has this page
         redoc_url=None,
-        redirect_slashes=False,  # its redirects would name the host that the client claims to ask
+        redirect_slashes=False,  # redirects would repeat the host that the client names
     )
     app.include_router(calculations.router)
     app.include_router(calculations.figures)

@@ -1,4 +1,4 @@
-"""Every limit of the service: one environment variable each, `TRIBODRIVE_` and the name in capitals."""
+"""Limits and addresses of the service. Each is an environment variable: `TRIBODRIVE_` and the name in capitals."""
 
 import os
 import sys
@@ -12,11 +12,14 @@ from pydantic_core import ErrorDetails
 from pydantic_settings import BaseSettings, NoDecode, SettingsConfigDict
 
 MEBIBYTE = 2**20  # bytes
-CLUSTER_POINTS = 100_000  # of a study that other machines solve, chosen
+CLUSTER_POINTS = 100_000  # per study that other machines solve; chosen
 
 
 def _share_of_cores() -> int:
-    """Cores for each process of the server: uvicorn and gunicorn have their number in the same places."""
+    """Return the number of cores per process of the server.
+
+    uvicorn and gunicorn take the number of processes from the same argument and variable.
+    """
     number = ArgumentParser(add_help=False, allow_abbrev=False)
     number.add_argument("-w", "--workers", type=int, default=os.environ.get("WEB_CONCURRENCY", "1"))
     processes: int = number.parse_known_args()[0].workers
@@ -24,7 +27,7 @@ def _share_of_cores() -> int:
 
 
 class Settings(BaseSettings):
-    """Limits and addresses; each field's description is its documentation."""
+    """Limits and addresses; the description of a field is its documentation."""
 
     model_config = SettingsConfigDict(env_prefix="TRIBODRIVE_", frozen=True)
 
@@ -72,13 +75,13 @@ class Settings(BaseSettings):
 
     @property
     def most_study_points(self) -> int:
-        """The limit in force."""
+        """Most points of one study: as set, else more for a cluster."""
         return CLUSTER_POINTS if self.scheduler and "study_points" not in self.model_fields_set else self.study_points
 
 
 @lru_cache(maxsize=1)
 def settings() -> Settings:
-    """The settings of this process, read from the environment once; those that are wrong end it with a line each."""
+    """Return the settings of this process, read from the environment once. Wrong settings end it with a line each."""
     try:
         return Settings()
     except ValidationError as error:
@@ -86,12 +89,12 @@ def settings() -> Settings:
 
 
 def unknown_variables() -> list[str]:
-    """A line for each variable of the environment that looks like a setting and is none."""
-    known = [f"TRIBODRIVE_{name.upper()}" for name in Settings.model_fields]
+    """Return a line for each variable of the environment that looks like a setting but is not one."""
+    variables = [f"TRIBODRIVE_{name.upper()}" for name in Settings.model_fields]
     lines = []
     for name in sorted(os.environ):
-        if name.startswith("TRIBODRIVE_") and name not in known:
-            nearest = get_close_matches(name, known, 1)
+        if name.startswith("TRIBODRIVE_") and name not in variables:
+            nearest = get_close_matches(name, variables, 1)
             meant = f"; did you mean {nearest[0]}?" if nearest else ""
             lines.append(f"tribodrive: there is no setting {name}{meant}")
     return lines

@@ -1,4 +1,4 @@
-"""The identity of the solvers' sources, and what the changelog says about their results."""
+"""The hash of the solvers' sources, and the entries of the changelog about their results."""
 
 import re
 from importlib.resources import files
@@ -7,15 +7,15 @@ from solvers.digest import package_digest
 
 
 def changes_since(sources: str) -> list[str]:
-    """The newest entries of the changelog for results of other sources; empty for results of the present ones.
+    """Return the newest entries of the changelog if results come from other sources, else an empty list.
 
-    `sources` is the hash or its beginning, and empty where it is not known.
+    `sources` is the hash of the sources of these results or its beginning, empty if it is not known.
     """
     return [] if SOURCES.startswith(sources) else recent_changes()
 
 
 def recent_changes() -> list[str]:
-    """The entries of the newest section of the changelog, newest first, without the hashes of accepted numbers."""
+    """Return the entries of the newest section of the changelog, newest first, without hashes of accepted numbers."""
     section = files("app").joinpath("CHANGELOG.md").read_text("utf-8").split("\n## ")[1]
     entries = re.split(r"^\* ", section, flags=re.MULTILINE)[1:]
     return [" ".join(re.sub(r"`[0-9a-f]{64}`", "", entry).replace("`", "").split()) for entry in reversed(entries)]

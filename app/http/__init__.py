@@ -1,6 +1,6 @@
 """The service over HTTP.
 
-middleware  limit of bodies; request id, headers, log line and metrics of every answer
+middleware  limit of bodies; request id, headers, log line and metrics of all answers
 json_route  routes with a JSON body
 problems    exceptions as problem documents
 routes      the endpoints and the pages

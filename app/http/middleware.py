@@ -1,4 +1,4 @@
-"""The outermost layer, pure ASGI: request id, limit of bodies, security headers, timing, log, metrics, the 500."""
+"""The outermost layer, pure ASGI: request id, limit of bodies, security headers, timing, log, metrics, status 500."""
 
 import asyncio
 import json
@@ -27,27 +27,27 @@ SECURITY_HEADERS = (
     (b"cache-control", b"no-store"),
     (b"content-security-policy", CONTENT_POLICY),
 )
-# A format is faster than json.dumps; only the client's address, which a proxy may give, needs escaping.
+# A format is faster than json.dumps. Only the client's address needs escaping, because a proxy may give it.
 LOG_LINE = (
     '{"time": %.3f, "request_id": "%s", "client": %s, "method": "%s", "endpoint": "%s", "status": %d, '
     '"duration_ms": %.3f}'
 )
-CLIENT_GONE = 499  # nginx's status of a client that left; seen in the log only
+CLIENT_GONE = 499  # nginx's status for a client that left; it appears only in the log
 
 logger = logging.getLogger(REQUEST_LOG)
 
 
 class Protection:
-    """Wraps the application; see the module's title for what it does."""
+    """The layer around the application."""
 
     def __init__(self, app: ASGIApp, settings: Settings) -> None:
         self._app = app
         self._settings = settings
-        # Files of gear units are larger than requests; they stand in forms and in JSON.
+        # Files of gear units are larger than requests.
         self._most_bytes = dict.fromkeys(("/v1/rexs", "/v1/rexs/results", "/rexs"), (settings.rexs_mb + 1) * MEBIBYTE)
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Answer one request, whatever happens, and log and count it."""
+        """Answer a request in any case, log and count it."""
         if scope["type"] != "http":
             await self._app(scope, receive, send)
             return
@@ -62,7 +62,7 @@ class Protection:
             message = await receive()
             received += len(message.get("body", b""))
             if received > most_bytes:
-                while message.get("more_body", False):  # closing the connection meanwhile could cost the answer
+                while message.get("more_body", False):  # the answer could get lost if the connection were closed before
                     message = await receive()
                 raise ContentTooLarge(f"The request body is larger than {most_bytes} bytes")
             return message
@@ -74,8 +74,8 @@ class Protection:
                 timing = b"total;dur=%.1f" % ((time.perf_counter() - began) * 1e3)
                 own = ((b"x-request-id", identifier.encode()), (b"server-timing", timing), *SECURITY_HEADERS)
                 given = message.get("headers", ())
-                said = {name.lower() for name, _ in given}
-                message["headers"] = [*given, *(header for header in own if header[0] not in said)]
+                names = {name.lower() for name, _ in given}
+                message["headers"] = [*given, *(header for header in own if header[0] not in names)]
             await send(message)
 
         try:
@@ -85,7 +85,7 @@ class Protection:
         except (Exception, asyncio.CancelledError) as error:
             if status != CLIENT_GONE:
                 raise  # too late for another answer: the connection is cut
-            # A server that stops and waits no longer cancels.
+            # A server that stops cancels requests after its time for them.
             stopping = answer(Request(inner), Stopping())
             failure = internal_error(identifier, error) if isinstance(error, Exception) else stopping
             await failure(inner, receive, send_decorated)
@@ -98,7 +98,7 @@ class Protection:
             logger.info(LOG_LINE, *line)
 
     def _inner(self, scope: Scope, identifier: str) -> Scope:
-        """Return the scope for the application, under the prefix of the settings whether a proxy strips it or not."""
+        """Return the scope for the application, under the prefix of the settings even if a proxy strips it."""
         root, path = self._settings.root_path or scope.get("root_path", ""), scope["path"]
         path = path if f"{path}/".startswith(f"{root}/") else root + path
         path = f"{root}/" if path == root else path

@@ -1,8 +1,9 @@
-"""A fixed number of worker processes, and which call the next free one gets.
+"""A fixed number of worker processes, and the queue of their calls.
 
-The next call is that of the owner, a client or a study, with the fewest calls at work; of several such owners, that of
-the one whose last call began longest ago. If the queue is full, the newest call of the owner with the most places is
-refused. A call that nobody waits for any more has `GRACE_S` to end by itself; then its worker is killed and replaced.
+The owner of a call is a client or a study. A free worker gets a call of the owner with the fewest running calls. If
+several owners have as few, the owner whose last call began longest ago is next. If the queue is full, the newest call
+of the owner with the most places is rejected. A call for which nobody waits any more has `GRACE_S` to end by itself;
+then its worker is killed and replaced.
 """
 
 import asyncio
@@ -23,10 +24,10 @@ from app.log import CALCULATIONS, DEADLINES_MISSED, REFUSED, WAITING, WORKERS_LO
 from app.settings import MEBIBYTE, Settings
 from app.workers.worker import perform, prepare
 
-GRACE_S = 2.0  # nearly all calculations end within it, so that paging through the site costs no worker
+GRACE_S = 2.0  # nearly all calculations end in this time, so that paging through the site costs no worker
 START_S = 30.0  # longest time of a worker's start, chosen: it takes 2 s on a quiet core
-IDLE_S = 5.0  # between two looks whether idle workers answer
-PAUSE_S = 0.1  # before a lost worker is replaced
+IDLE_S = 5.0  # between two checks that idle workers answer
+PAUSE_S = 0.1  # before the replacement of a lost worker
 
 logger = logging.getLogger("tribodrive")
 Outcome = asyncio.Future[Any]
@@ -34,17 +35,17 @@ Outcome = asyncio.Future[Any]
 
 @dataclass(eq=False, slots=True)
 class Job:
-    """A pickled function and its arguments for which an owner waits; `timeout` is that of the worker at work."""
+    """A call of an owner: a pickled function with its arguments; `timeout` ends the call while it runs."""
 
     owner: Hashable
     call: bytes
-    is_single: bool  # of no study
+    is_single: bool  # not part of a study
     outcome: Outcome
     timeout: asyncio.Timeout | None = None
 
 
 class Pool:
-    """The workers and the calls that wait for them; a worker loads `modules` before its first call."""
+    """The workers and their calls; a worker loads `modules` before its first call."""
 
     def __init__(self, settings: Settings, modules: Sequence[str]) -> None:
         self.size = settings.workers
@@ -55,18 +56,22 @@ class Pool:
         self._running: list[Job] = []
         self._waiting: list[Job] = []
         self._arrival, self._trouble = asyncio.Event(), asyncio.Event()
-        self._begun: LRUCache[Hashable, float] = LRUCache(1000)  # when the last call of an owner began [s]
+        self._begun: LRUCache[Hashable, float] = LRUCache(1000)  # start of the last call by owner [s]
         WAITING.set_function(lambda: sum(job.is_single for job in self._waiting))
         CALCULATIONS.set_function(lambda: sum(job.is_single for job in (*self._running, *self._waiting)))
 
     async def calculate(self, http: Request, function: Callable[..., Any], *arguments: Any) -> Any:
-        """Return the result for the client that a header names, else for its address; raises errors of PROBLEMS too."""
+        """Run a call in a worker and return its result.
+
+        The owner is the client that a header names, or its address. Raises the errors of the call and those of
+        PROBLEMS.
+        """
         owner = http.headers.get(self._settings.client_header or "") or (http.client.host if http.client else "")
         self._admit(owner)
         return await unless_gone(http, self.submit(owner, function, *arguments), self._settings.deadline_s)
 
     def submit(self, owner: Hashable, function: Callable[..., Any], *arguments: Any, is_single: bool = True) -> Outcome:
-        """Let a call wait for a worker; whoever cancels the future waits no longer."""
+        """Queue a call for a worker. Return the future of its result; to cancel the future gives up the call."""
         job = Job(owner, pickle.dumps((function, arguments)), is_single, asyncio.get_running_loop().create_future())
         job.outcome.add_done_callback(lambda _: self._let_go(job))
         self._waiting.append(job)
@@ -74,7 +79,7 @@ class Pool:
         return job.outcome
 
     def _admit(self, owner: Hashable) -> None:
-        """Refuse a single request if all places are taken; raises QueueFull if that is the owner's new one."""
+        """Make room for a call if all places are taken: reject a waiting call, or raise QueueFull for the new one."""
         queue = [job for job in self._waiting if job.is_single and not job.outcome.done()]
         places = Counter(job.owner for job in (*self._running, *queue) if job.is_single)
         if places.total() < self.size + self._settings.queue:
@@ -86,14 +91,18 @@ class Pool:
         refused.outcome.set_exception(QueueFull())
 
     def _let_go(self, job: Job) -> None:
-        """Take back a call whose outcome is known or not wanted; one at work has a little time to end."""
+        """Remove a call that has a result or is not wanted from the queue; limit the time of a running call."""
         if job in self._waiting:
             self._waiting.remove(job)
         elif job in self._running and job.timeout is not None and not job.timeout.expired():
             job.timeout.reschedule(asyncio.get_running_loop().time() + GRACE_S)
 
     async def keep_workers(self) -> None:
-        """Start the workers, the first alone to be there soon; then call all idle ones, as AnyIO drops unused ones."""
+        """Start the workers and keep them.
+
+        The first worker starts alone, so that it is ready soon. Idle workers are called again and again, because AnyIO
+        ends workers that are not used.
+        """
         count = 1
         while True:
             running = len(self._running)
@@ -112,7 +121,7 @@ class Pool:
         return False
 
     async def serve(self) -> None:
-        """Give one call after the other to a worker; as many of these run as there are workers."""
+        """Give calls to a worker one after another. As many of these loops run as there are workers."""
         while True:
             while not (waiting := [job for job in self._waiting if not job.outcome.done()]):
                 self._arrival.clear()
@@ -123,24 +132,24 @@ class Pool:
             self._waiting.remove(job)
             self._running.append(job)
             try:
-                is_worker_there = await self._carry_out(job)
+                is_usable = await self._carry_out(job)
             finally:
                 self._running.remove(job)
-            if not is_worker_there:
+            if not is_usable:
                 self._trouble.set()
-                await self._is_prepared()  # now: AnyIO forgets a worker that is cancelled while it starts
+                await self._is_prepared()  # at once: AnyIO forgets a worker that is cancelled while it starts
 
     async def _carry_out(self, job: Job) -> bool:
-        """Give a call its result or exception; return whether the worker can go on."""
+        """Run a call and set its result or exception. Return True if the worker can be used again."""
         job.timeout = asyncio.timeout(None if job.is_single else self._settings.deadline_s)
         try:
             async with job.timeout:
-                result, said = await self._in_worker(perform, job.call)
-            for line in said:
+                result, lines = await self._in_worker(perform, job.call)
+            for line in lines:
                 logger.warning("a worker said: %s", line)
             if not job.outcome.done():
                 job.outcome.set_result(result)
-        except Exception as error:  # noqa: BLE001  of the call
+        except Exception as error:  # noqa: BLE001  any error of the call
             is_late, is_lost = job.timeout.expired(), isinstance(error, BrokenWorkerProcess)
             if is_lost:
                 WORKERS_LOST.inc()
@@ -155,12 +164,15 @@ class Pool:
         arguments = (*self._preparation, *arguments)
         try:
             return await to_process.run_sync(function, *arguments, cancellable=True, limiter=self._limiter)
-        except KeyboardInterrupt as error:  # Ctrl-C reached the worker before it ignores it
+        except KeyboardInterrupt as error:  # Ctrl-C reached the worker before it ignored the signal
             raise BrokenWorkerProcess from error
 
 
 async def unless_gone(http: Request, work: Outcome, deadline_s: float | None = None) -> Any:
-    """Return the result of some work, or cancel it and raise ClientGone or DeadlineExceeded."""
+    """Return the result of some work.
+
+    If the client leaves or the deadline passes, cancel the work and raise ClientGone or DeadlineExceeded.
+    """
     departure = asyncio.create_task(_departure(http))
     try:
         await asyncio.wait({work, departure}, timeout=deadline_s, return_when=asyncio.FIRST_COMPLETED)

@@ -1,4 +1,4 @@
-"""The stages in which kernels are compiled: examples that between them call every kernel."""
+"""The stages in which kernels are compiled: examples that together call all kernels."""
 
 from app.calculations import BY_PATH, COUPLING, DRIVE_TRAIN, LINE_CONTACT, LOADS, PUMPING, SLEEVE, Stage
 from app.evaluate import answer_of
@@ -6,11 +6,11 @@ from app.examples import examples
 
 STAGES = (COUPLING, SLEEVE, LOADS, PUMPING, DRIVE_TRAIN, LINE_CONTACT)
 BESIDE = LINE_CONTACT
-"""Takes as long as all others together, and needs of them only the load distribution, late."""
+"""This stage takes as long as all others together. It needs only the load distribution of them, near its end."""
 
 
 def warm(stage: Stage) -> None:
-    """Have every kernel of a stage in this process, and on disk if there is a folder for them."""
+    """Compile or load all kernels of a stage in this process; keep them on disk if there is a folder for them."""
     for name in stage.examples:
         example = examples()[name]
         answer_of(example.endpoint, BY_PATH[example.endpoint].request.model_validate(example.request))

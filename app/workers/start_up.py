@@ -1,4 +1,4 @@
-"""Start-up while workers answer: `tribodrive compile` runs beside them; endpoints open when their kernels are there."""
+"""Start-up of the service: `tribodrive compile` runs beside the workers; endpoints open when their stage is ready."""
 
 import asyncio
 import logging
@@ -19,18 +19,18 @@ logger = logging.getLogger("tribodrive")
 
 
 class StartUp:
-    """Compiles the stages and lets their endpoints answer."""
+    """The compilation of all stages, and their progress."""
 
     def __init__(self) -> None:
         self._percent = dict.fromkeys((stage.name for stage in STAGES), 0)
 
     @property
     def warm(self) -> list[str]:
-        """Names of the stages that answer."""
+        """Names of the stages that are ready."""
         return [name for name, percent in self._percent.items() if percent == 100]
 
     def require(self, *endpoints: str) -> None:
-        """Raise WarmingUp if kernels of one of the endpoints are not there yet, or no stage is ready."""
+        """Raise WarmingUp if the stage of one of the endpoints is not ready, or no stage is."""
         if not {BY_PATH[endpoint].stage.name for endpoint in endpoints} <= {*self.warm} or not self.warm:
             raise self._warming_up()
 
@@ -44,7 +44,7 @@ class StartUp:
         return WarmingUp(f"Kernels are being compiled, once after installation: {report}")
 
     async def run(self) -> None:
-        """Open stage after stage."""
+        """Compile stage after stage. A second attempt begins with an empty folder; after it all endpoints open."""
         began = time.monotonic()
         if FOLDER is not None and not await self._compile(STAGES):
             logger.warning("a process that compiled kernels died: all are compiled anew")
@@ -56,13 +56,13 @@ class StartUp:
         logger.info("tribodrive: everything is warm after %.1f s", time.monotonic() - began)
 
     async def _compile(self, stages: Sequence[Stage]) -> bool:
-        """Follow the lines that `tribodrive compile` prints; False if its process died.
+        """Run `tribodrive compile` and follow the lines that it prints. Return False if its process died.
 
-        As soon as a kernel has to be compiled, another process compiles the stage `BESIDE` the others.
+        As soon as a kernel has to be compiled, a second process compiles the stage `BESIDE` at the same time.
         """
         other: asyncio.Task[bool] | None = None
         process = await asyncio.create_subprocess_exec(
-            *(sys.executable, "-P", "-m", "app", "compile"),  # -P: a folder `app` in the working directory is not ours
+            *(sys.executable, "-P", "-m", "app", "compile"),  # -P: ignore a folder `app` in the working directory
             *(stage.name for stage in stages),
             stdin=DEVNULL,
             stdout=PIPE,
@@ -77,7 +77,7 @@ class StartUp:
                     other = asyncio.create_task(self._compile([BESIDE]))
                 if other is not None and {stage.name for stage in stages} - {BESIDE.name} <= {*self.warm}:
                     return await other
-            return await process.wait() in {0, 130}  # the second after Ctrl-C
+            return await process.wait() in {0, 130}  # 130 after Ctrl-C
         finally:
             if other is not None:
                 other.cancel()

@@ -1,4 +1,4 @@
-"""One POST endpoint for every row of the table of calculations, and one for its figures, as images or as numbers."""
+"""A POST endpoint for each row of the table of calculations, and one for its figures as images or numbers."""
 
 from collections.abc import Callable
 from functools import partial
@@ -18,7 +18,7 @@ from app.schema.model import Request as Model
 from app.schema.quantities import Output
 
 FORMATS: tuple[Format, ...] = tuple(MEDIA_TYPES)
-# A figure needs no script and no other address: styles and images are inside it.
+# A figure needs no script and no other address, because it contains its styles and images.
 ALONE = "default-src 'none'; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'"
 REFUSALS = documented(400, 413, 415, 422, 500, 503, 504)
 
@@ -37,15 +37,19 @@ class FigureSummary(BaseModel):
 
 
 async def calculated(http: Request, path: str, function: Callable[..., bytes], request: Model) -> bytes:
-    """The result of `function(path, request)` in a worker; raises WarmingUp, Unprocessable for endless requests."""
+    """Return the result of `function(path, request)` from a worker.
+
+    Raises WarmingUp if the endpoint is not ready, Unprocessable if the request would take too long, and the errors of
+    the function and of the pool.
+    """
     http.app.state.start_up.require(path)
     refuse_endless(BY_PATH[path], request, http.app.state.settings.deadline_s)
-    made: bytes = await http.app.state.pool.calculate(http, function, path, request)
-    return made
+    content: bytes = await http.app.state.pool.calculate(http, function, path, request)
+    return content
 
 
 def _body_of(calculation: Calculation) -> Any:
-    """The type of the body of a calculation, with the examples of the docs page."""
+    """Return the type of a calculation's body, with the examples for the docs page."""
     shown: dict[str, Any] = {
         example.name: {"summary": example.title, "description": example.source, "value": example.request}
         for example in examples().values()
@@ -59,7 +63,7 @@ def _operation(calculation: Calculation) -> str:
 
 
 def add(router: APIRouter, calculation: Calculation) -> None:
-    """The endpoint of a row of the table."""
+    """Add the endpoint of a calculation to a router."""
 
     async def calculate(http: Request, body: Any) -> Response:
         content = await calculated(http, calculation.path, answer_of, body)
@@ -81,8 +85,8 @@ def add(router: APIRouter, calculation: Calculation) -> None:
 def _add_figures(calculation: Calculation) -> None:
     names = [figure.name for figure in calculation.figures]
 
-    async def known(http: Request) -> None:
-        """404 for an unknown figure or format, before the body is validated."""
+    async def check_name(http: Request) -> None:
+        """Answer 404 for an unknown figure or format, before the body is validated."""
         if http.path_params["name"] not in names or http.path_params["format"] not in FORMATS:
             raise HTTPException(404, f"Available figures: {', '.join(names)}; formats: {', '.join(FORMATS)}")
 
@@ -106,7 +110,7 @@ def _add_figures(calculation: Calculation) -> None:
         calculation.path + "/figures/{name}.{format}",
         show,
         methods=["POST"],
-        dependencies=[Depends(known)],
+        dependencies=[Depends(check_name)],
         route_class_override=JsonRoute,
         operation_id=f"{_operation(calculation)}_figure",
         summary=f"Figures: {calculation.summary}",
@@ -118,7 +122,7 @@ def _add_figures(calculation: Calculation) -> None:
 
 @figures.get("/v1/figures")
 async def list_figures() -> list[FigureSummary]:
-    """Every figure of every endpoint."""
+    """List the figures of all endpoints."""
     return [
         FigureSummary(endpoint=calculation.path, name=figure.name, title=figure.title, source=figure.source)
         for calculation in CALCULATIONS
@@ -126,7 +130,7 @@ async def list_figures() -> list[FigureSummary]:
     ]
 
 
-for each in CALCULATIONS:
-    add(router, each)
-    if each.figures:
-        _add_figures(each)
+for row in CALCULATIONS:
+    add(router, row)
+    if row.figures:
+        _add_figures(row)

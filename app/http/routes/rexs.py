@@ -21,14 +21,14 @@ FILE = {"type": "string", "format": "binary"}
 
 
 def _body(types: tuple[str, ...], **form: dict[str, str]) -> dict[str, Any]:
-    """The body of an operation: a file of one of the types, or a form with the file and these parts."""
+    """Describe the body of an operation: a file of one of the types, or a form with the file and these parts."""
     schema = {
         "type": "object",
         "required": ["file"],
         "additionalProperties": False,
         "properties": {"file": FILE, **form},
     }
-    content = {**{each: {"schema": FILE} for each in types}, FORM: {"schema": schema}}
+    content = {**{media_type: {"schema": FILE} for media_type in types}, FORM: {"schema": schema}}
     return {"requestBody": {"required": True, "content": content}}
 
 
@@ -41,10 +41,10 @@ pages = APIRouter(include_in_schema=False)
 
 @router.post(answer.PATH, response_model=answer.GearUnit, openapi_extra=UPLOAD, operation_id="rexs")
 async def read_unit(http: Request) -> Response:
-    """The stages of a gear unit as ready requests, and what is missing, assumed, not used or wrong in the file."""
+    """Read the stages of a gear unit as ready requests, and list values that are missing, assumed, unused or wrong."""
     content, _ = await _upload(http)
-    found = await http.app.state.pool.calculate(http, answer.unit_json, content, _most_bytes(http))
-    return Response(found, media_type="application/json")
+    unit = await http.app.state.pool.calculate(http, answer.unit_json, content, _most_bytes(http))
+    return Response(unit, media_type="application/json")
 
 
 @router.post(
@@ -57,9 +57,10 @@ async def read_unit(http: Request) -> Response:
 async def write_results(
     http: Request, stage: Annotated[int, Query(description="id of the stage's component")]
 ) -> Response:
-    """The file with the numbers of a stage written to its component.
+    """Write the numbers of a stage into the file as attributes of its component.
 
-    Attributes of the standard where the quantity is the same, `custom_tribodrive_*` otherwise; all else is kept.
+    A quantity of the standard has the attribute of the standard; others have `custom_tribodrive_*`. The rest of the
+    file is kept.
     """
     content, request = await _upload(http)
     limits: Settings = http.app.state.settings
@@ -71,15 +72,15 @@ async def write_results(
 
 @pages.get("/rexs")
 async def ask_for_unit(http: Request) -> Response:
-    """Where a file is chosen."""
+    """Redirect to the field for the file on the start page."""
     return RedirectResponse(f"{root_of(http)}/#rexs-file", 303)
 
 
 @pages.post("/rexs", response_class=HTMLResponse)
 async def open_unit(http: Request) -> Response:
-    """Redirect to the page of the unit, so that the back button returns to it. Send a page too large to keep.
+    """Redirect to the page of the unit, so that the back button returns to it.
 
-    A file that cannot be read is answered with the reason.
+    A page that is too large to keep is sent at once. A file that cannot be read is answered with the reason.
     """
     root = root_of(http)
     try:
@@ -97,7 +98,7 @@ async def open_unit(http: Request) -> Response:
 
 @pages.get("/rexs/{name}", response_class=HTMLResponse)
 async def show_unit(http: Request, name: str) -> Response:
-    """The unit as a page while that is kept: stages, findings, and a link to every calculation."""
+    """Show the page of a unit while it is kept: stages, findings, and links to the calculations."""
     shown = http.app.state.answers.get(_key(root_of(http), name))
     if shown is None:
         return problem_page(http, 410, "The file has to be opened again", GONE)
@@ -105,12 +106,12 @@ async def show_unit(http: Request, name: str) -> Response:
 
 
 def _key(root: str, name: str) -> str:
-    """The key of a unit's page, whose links have the prefix of a proxy."""
+    """Return the key of a unit's page; its links depend on the prefix of a proxy."""
     return f"unit {name} {root}"
 
 
 async def _upload(http: Request) -> tuple[bytes, bytes | None]:
-    """The file, and beside it the request where the form has one."""
+    """Return the file, and the request if the form has one."""
     media_type = http.headers.get("content-type", "").partition(";")[0].strip().lower()
     if media_type in TYPES:
         return await http.body(), None

@@ -21,13 +21,13 @@ router = APIRouter(tags=["service"])
 
 
 class Health(BaseModel):
-    """The service answers."""
+    """The answer of a running service."""
 
     status: Annotated[Literal["ok"], Output("always ok: an answer is the message")] = "ok"
 
 
 class Readiness(BaseModel):
-    """Which calculations are ready, and how many workers."""
+    """Ready calculations, and the number of workers."""
 
     status: Annotated[Literal["ok"], Output("always ok: an answer is the message")] = "ok"
     warm: Annotated[list[str], Output("models, or parts of them, whose kernels are loaded")]
@@ -36,13 +36,13 @@ class Readiness(BaseModel):
 
 @router.get("/v1/examples")
 async def list_examples() -> list[ExampleSummary]:
-    """Every example, without its request."""
+    """List the examples without their requests."""
     return [*examples().values()]
 
 
 @router.get("/v1/examples/{name}", responses=documented(404, 422))
 async def show_example(name: Annotated[str, Path(description="name of the example", max_length=100)]) -> Example:
-    """One example with a ready request body."""
+    """Return an example with its request."""
     try:
         return examples()[name]
     except KeyError:
@@ -51,13 +51,13 @@ async def show_example(name: Annotated[str, Path(description="name of the exampl
 
 @router.get("/healthz")
 async def healthz() -> Health:
-    """Whether the service answers."""
+    """Return `ok` if the service answers."""
     return Health()
 
 
 @router.get("/readyz", responses=documented(503))
 async def readyz(http: Request) -> Readiness:
-    """Whether every calculation answers at once; 503 says how far the warm-up is. Never waits for a calculation."""
+    """Return `ok` if all calculations are ready, else 503 with the progress of the warm-up. Never waits."""
     start_up: StartUp = http.app.state.start_up
     pool: Pool = http.app.state.pool
     start_up.require_all()
@@ -68,7 +68,7 @@ async def readyz(http: Request) -> Readiness:
 
 @router.get("/docs", include_in_schema=False)
 async def docs(http: Request) -> Response:
-    """Swagger's page of the OpenAPI document."""
+    """Show the OpenAPI document on Swagger's page."""
     return Response(
         rendered("docs.html", root_of(http), assets=DOCS_ASSETS, description=http.app.description), media_type=HTML
     )
@@ -76,5 +76,5 @@ async def docs(http: Request) -> Response:
 
 @router.get("/metrics", response_class=Response, include_in_schema=False)
 async def metrics() -> Response:
-    """Counters in the Prometheus text format."""
+    """Return the metrics in the Prometheus text format."""
     return Response(generate_latest(), media_type=CONTENT_TYPE_LATEST)

@@ -1,4 +1,4 @@
-"""Pages of studies, which are sent while the lines of the study arrive, and their files."""
+"""Pages of studies, sent while the lines of the study arrive, and their files."""
 
 import asyncio
 from collections.abc import Callable
@@ -31,7 +31,7 @@ PROGRESS_S = 0.5  # between two looks at a study whose lines take longer
 
 
 def not_from_another_site(http: Request) -> None:
-    """403 where a page of another site asks for a study, which would occupy every core for minutes."""
+    """Answer 403 if a page of another site asks for a study, which would occupy all cores for minutes."""
     asks = http.url.query or http.method == "POST"
     if asks and http.headers.get("sec-fetch-site") == "cross-site":
         raise HTTPException(403, "A page of another site cannot start a study; open the address directly")
@@ -41,7 +41,7 @@ router = APIRouter(include_in_schema=False, dependencies=[Depends(not_from_anoth
 
 
 def _add(calculation: Calculation, own: type[StudyPage]) -> None:
-    """The page of a study of a calculation's cases, its lines and its figures."""
+    """Add the page of a study of a calculation, with its lines, figures and report."""
     path = f"{page_path(calculation)}/{own.link.name}"
     policy = {"Content-Security-Policy": pages.DOCUMENT_POLICY}
 
@@ -58,8 +58,8 @@ def _add(calculation: Calculation, own: type[StudyPage]) -> None:
     async def figure(http: Request, name: str, image_format: str) -> Response:
         if name not in own.figures or image_format not in IMAGE_TYPES:
             raise HTTPException(404, f"Available figures: {', '.join(own.figures)}; formats: {', '.join(IMAGE_TYPES)}")
-        drawn = await _made(http, await checked(http), study_page.file, name, image_format)
-        return Response(drawn, media_type=IMAGE_TYPES[image_format], headers=policy)
+        content = await _made(http, await checked(http), study_page.file, name, image_format)
+        return Response(content, media_type=IMAGE_TYPES[image_format], headers=policy)
 
     async def report(http: Request) -> Response:
         content = await _made(http, await checked(http), study_page.report, pages.printed_host(http))
@@ -77,7 +77,7 @@ def _add(calculation: Calculation, own: type[StudyPage]) -> None:
 
 
 async def _page(http: Request, calculation: Calculation, own: type[StudyPage], path: str) -> Response:
-    """A study's page; whole where there is nothing to calculate."""
+    """Send the page of a study: as a stream, or as a whole if there is nothing to calculate."""
     asked, clean = await pages.asked_of(http, calculation)
     if not clean and http.scope["method"] == "GET":
         return pages.redirected(path, asked)
@@ -91,16 +91,17 @@ async def _page(http: Request, calculation: Calculation, own: type[StudyPage], p
 
 
 async def _planned(http: Request, own: type[StudyPage], asked: Asked, view: Callable[..., Any]) -> Any:
-    """The study of a case, or its page, from a worker."""
+    """Return the study of a case, or its page, from a worker."""
     if asked.pairs:
         http.app.state.start_up.require(asked.calculation.path)
     return await planned(http, partial(view, own, asked), getattr(http.app.state.settings, own.plan.most))
 
 
 async def _made(http: Request, study: StudyPage, view: Callable[..., bytes | str], *arguments: Any) -> bytes:
-    """The result of a view of all lines of a study in a worker; the study ends when the client leaves.
+    """Run a study to its end and return a view of its lines from a worker.
 
-    Raises StudyEnded at an error, HTTPException where the view answers why there is nothing, and ClientGone.
+    Raises StudyEnded if the study ends with an error, HTTPException with the reason if there is nothing to show, and
+    ClientGone if the client leaves; then the study ends too.
     """
 
     async def work() -> bytes:
@@ -109,14 +110,14 @@ async def _made(http: Request, study: StudyPage, view: Callable[..., bytes | str
             received = [line async for group in lines for line in group if line["type"] != "progress"]
         if received[-1]["type"] == "error":
             raise StudyEnded(received[-1]["message"])
-        drawn: bytes | str = await twice_if_lost(http.app.state.studies.own(), view, study, received, *arguments)
-        if isinstance(drawn, str):
-            raise HTTPException(404, drawn)
-        return drawn
+        shown: bytes | str = await twice_if_lost(http.app.state.studies.own(), view, study, received, *arguments)
+        if isinstance(shown, str):
+            raise HTTPException(404, shown)
+        return shown
 
     with http.app.state.studies.place():
-        made: bytes = await unless_gone(http, asyncio.create_task(work()))
-        return made
+        content: bytes = await unless_gone(http, asyncio.create_task(work()))
+        return content
 
 
 for each in CALCULATIONS:
