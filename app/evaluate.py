@@ -111,7 +111,7 @@ def answer_of(path: str, request: Request) -> bytes:
 def figure_of(name: str, image_format: figures.Format, theme: ThemeName, path: str, request: Request) -> bytes:
     """Return a figure of a case; runs in a worker process."""
     declaration = next(figure for figure in BY_PATH[path].figures if figure.name == name)
-    return drawn(BY_PATH[path], declaration, request, image_format, theme)
+    return draw_figure(BY_PATH[path], declaration, request, image_format, theme)
 
 
 def json_answer(calculation: Calculation, request: Request) -> bytes:
@@ -124,7 +124,7 @@ def written(response: Response) -> bytes:
     return response.model_dump_json(exclude_unset=True).encode()
 
 
-def drawn(
+def draw_figure(
     calculation: Calculation,
     declaration: Declaration,
     request: Request,

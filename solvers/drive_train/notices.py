@@ -113,11 +113,10 @@ def unusual_values(inputs: DriveTrainInputs, result: DriveTrainResult) -> Iterat
     yield from plausibility.tooth_temperature(inputs.heat.pinion_bulk, "heat.pinion_bulk")
     yield from plausibility.tooth_temperature(inputs.heat.wheel_bulk, "heat.wheel_bulk")
     yield from plausibility.thin_air(inputs.pumping.ambient.pressure)
-    for k, coupling in enumerate(inputs.couplings):
-        teeth, oil_temperature = coupling.coupling, coupling.lubricant.temperature
-        yield from plausibility.tall_tooth(teeth.tooth_height, teeth.module, f"couplings.{k}.coupling")
-        if oil_temperature is not None:
-            yield from plausibility.oil_temperature(oil_temperature, f"couplings.{k}.lubricant.temperature")
+    for k, each in enumerate(inputs.couplings):
+        yield from plausibility.tall_tooth(each.coupling.tooth_height, each.coupling.module, f"couplings.{k}.coupling")
+        if each.lubricant.temperature is not None:
+            yield from plausibility.oil_temperature(each.lubricant.temperature, f"couplings.{k}.lubricant.temperature")
     yield from plausibility.gears(mesh.gears, mesh.load.pinion_speed)
     yield from unusual_modifications(mesh.modifications)
     yield from plausibility.high_pressure(load.max_pressure)
