@@ -21,7 +21,7 @@ def shown(data: T) -> T:
     Declared computed values are converted as well. Other methods of the copy must not be used, because they would
     compute from values that are not in SI. Undeclared values and None are copied as they are.
     """
-    copy: T = _convert(data, None)
+    copy: T = _converted(data, None)
     return copy
 
 
@@ -37,22 +37,19 @@ def axis_of(leaf: Leaf, **options: Any) -> Axis:
     return Axis(leaf.title, leaf.unit, symbol=leaf.declared.symbol or "", **options)
 
 
-def _convert(value: Any, declared: Quantity | None) -> Any:
-    """Convert a value to its unit.
-
-    `declared` is the quantity of the field that holds the value. It also applies to fields inside that have no unit.
-    """
+def _converted(value: Any, declared: Quantity | None) -> Any:
+    """A value in its unit; `declared` is that of the field that holds it, which counts where one inside has none."""
     if is_dataclass(value) and not isinstance(value, type):
         kind: Any = type(value)
-        quantities_by_name = quantities(kind)
+        known = quantities(kind)
         copy = object.__new__(_plain(kind))
-        for name in {*(item.name for item in fields(value)), *quantities_by_name}:
-            own = quantities_by_name.get(name)
+        for name in {*(each.name for each in fields(value)), *known}:
+            own = known.get(name)
             inner = own if declared is None or (own is not None and own.unit is not None) else declared
-            object.__setattr__(copy, name, _convert(getattr(value, name), inner))
+            object.__setattr__(copy, name, _converted(getattr(value, name), inner))
         return copy
     if isinstance(value, tuple | list):
-        return tuple(_convert(item, declared) for item in value)
+        return tuple(_converted(item, declared) for item in value)
     if declared is None or not isinstance(value, float | np.ndarray):
         return value
     return declared.from_si(value)

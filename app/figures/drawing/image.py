@@ -167,7 +167,7 @@ def _collides(figure: Figure) -> bool:
     with themed("light"):
         sheet, axes = laid_out(figure)
         sheet.draw_without_rendering()  # places the names of axes and the legends
-        texts = []
+        texts = list[Text]()
         for panel_axes in axes:
             texts += [*panel_axes.texts, panel_axes.title, panel_axes.xaxis.label, panel_axes.yaxis.label]
             for axis in (panel_axes.xaxis, panel_axes.yaxis):
