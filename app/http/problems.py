@@ -23,7 +23,7 @@ logger = logging.getLogger("tribodrive")
 class FieldError(BaseModel):
     """The error of one field."""
 
-    pointer: Annotated[str, Output("JSON Pointer into the request; empty: the whole of it")]
+    pointer: Annotated[str, Output("JSON Pointer into the request; empty for the whole request")]
     code: Annotated[str, Output("stable name of the error, meant for programs")]
     message: Annotated[str, Output("what to change")]
 
@@ -34,7 +34,7 @@ class Problem(BaseModel):
     type: Annotated[str, Output("URI that names the kind of problem")]
     title: Annotated[str, Output("the kind of problem in words")]
     status: Annotated[int, Output("the HTTP status")]
-    detail: Annotated[str, Output("what happened this time")]
+    detail: Annotated[str, Output("what happened in this case")]
     instance: Annotated[str, Output("the request id, as in the X-Request-ID header and the log")]
     errors: Annotated[list[FieldError] | None, Output("with 422: the fields at fault, at most a hundred")] = None
 

@@ -33,9 +33,7 @@ class Case(BaseModel):
 
     name: Annotated[str, Output("name in the file")]
     share: Annotated[float, Output("share of the operating time")]
-    overrides: Annotated[
-        dict[str, float | str], Output("what it changes in the request of /v1/scuffing, by dotted path")
-    ]
+    overrides: Annotated[dict[str, float | str], Output("its changes of the request of /v1/scuffing, by dotted path")]
 
 
 class SpectrumCase(BaseModel):
@@ -43,7 +41,7 @@ class SpectrumCase(BaseModel):
 
     name: Annotated[str, Output("name in the file")]
     share: Annotated[float, Output("share of the operating time")]
-    set: Annotated[dict[str, float | str], Output("what it changes in the request of the endpoint, by dotted path")]
+    set: Annotated[dict[str, float | str], Output("its changes of the request of the endpoint, by dotted path")]
 
 
 class Stage(BaseModel):
@@ -52,28 +50,30 @@ class Stage(BaseModel):
     id: Annotated[int, Output("component in the file")]
     name: Annotated[str, Output("its name there")]
     pinion: Annotated[
-        int, Output("driving gear, the pinion of the requests; the smaller one where none is known to drive")
+        int, Output("pinion of the requests: the driving gear, or the smaller gear if no gear is known to drive")
     ]
     wheel: Annotated[int, Output("the other gear")]
-    driver: Annotated[int | None, Output("driving gear; null where power and speed do not follow from the file")]
+    driver: Annotated[int | None, Output("driving gear; null if power and speed do not follow from the file")]
     hand: Annotated[str | None, Output("hand of the pinion's helix")]
-    requests: Annotated[dict[str, dict[str, Any]], Output("a request for each endpoint that can be asked")]
+    requests: Annotated[dict[str, dict[str, Any]], Output("requests by the address of their endpoint")]
     cases: Annotated[list[Case], Output("load spectrum of the file")]
-    spectra: Annotated[dict[str, list[SpectrumCase]], Output("the same as `cases` of /v1/spectrum, for each endpoint")]
-    missing: Annotated[list[MissingValue], Output("what has to be filled in")]
-    assumed: Annotated[list[AssumedValue], Output("what was put in its place")]
-    ignored: Annotated[list[Unused], Output("what could not be used")]
+    spectra: Annotated[
+        dict[str, list[SpectrumCase]], Output("the same in the form of `cases` of /v1/spectrum, by endpoint")
+    ]
+    missing: Annotated[list[MissingValue], Output("fields that have to be filled in")]
+    assumed: Annotated[list[AssumedValue], Output("values used for fields that the file does not give")]
+    ignored: Annotated[list[Unused], Output("attributes that are not used")]
 
 
 class GearUnit(BaseModel):
     """A gear unit read from a file; nothing is solved."""
 
     version: Annotated[str, Output("version of REXS that the file states")]
-    application: Annotated[str, Output("program that wrote it")]
+    application: Annotated[str, Output("program that wrote the file")]
     name: Annotated[str, Output("name of the unit")]
     shafts: Annotated[list[Shaft], Output("shafts")]
     stages: Annotated[list[Stage], Output("stages")]
-    findings: Annotated[list[Fault], Output("what is wrong in the file")]
+    findings: Annotated[list[Fault], Output("faults of the file")]
 
 
 def unit_of(content: bytes, most_bytes: int) -> dict[str, Any]:

@@ -63,7 +63,7 @@ class Fault(BaseModel, frozen=True):
     code: Annotated[str, Output("stable name, meant for programs")]
     component: Annotated[int | None, Output("component in the file")]
     attribute: Annotated[str | None, Output("attribute")]
-    message: Annotated[str, Output("what is wrong, and what was done about it")]
+    message: Annotated[str, Output("what is wrong, and what is used instead")]
 
 
 class MissingValue(BaseModel):
@@ -89,7 +89,7 @@ class Unused(BaseModel):
     component: Annotated[int, Output("component in the file")]
     attribute: Annotated[str | None, Output("attribute, or the whole component")]
     reason: Annotated[str, Output("why")]
-    case: Annotated[str | None, Output("load case that says it; null where the model does")] = None
+    case: Annotated[str | None, Output("load case with the attribute; null if it is the model's")] = None
 
 
 @dataclass

@@ -32,8 +32,8 @@ class FigureSummary(BaseModel):
     endpoint: Annotated[str, Output("where to post the request")]
     name: Annotated[str, Output("name in the address")]
     title: Annotated[str, Output("what it shows")]
-    source: Annotated[str, Output("figures of the paper that it repeats")]
-    formats: Annotated[tuple[Format, ...], Output("formats in which it can be had")] = FORMATS
+    source: Annotated[str, Output("figure or section of the paper that it follows")]
+    formats: Annotated[tuple[Format, ...], Output("available formats")] = FORMATS
 
 
 async def calculated(http: Request, path: str, function: Callable[..., bytes], request: Model) -> bytes:

@@ -39,7 +39,13 @@ router = APIRouter(tags=["files"], responses=documented(400, 413, 415, 422, 500,
 pages = APIRouter(include_in_schema=False)
 
 
-@router.post(answer.PATH, response_model=answer.GearUnit, openapi_extra=UPLOAD, operation_id="rexs")
+@router.post(
+    answer.PATH,
+    response_model=answer.GearUnit,
+    openapi_extra=UPLOAD,
+    operation_id="rexs",
+    summary="The stages of a gear unit's file (REXS) as ready requests",
+)
 async def read_unit(http: Request) -> Response:
     """Read the stages of a gear unit as ready requests, and list values that are missing, assumed, unused or wrong."""
     content, _ = await _upload(http)
@@ -52,6 +58,7 @@ async def read_unit(http: Request) -> Response:
     response_class=Response,
     openapi_extra=UPLOAD_WITH_REQUEST,
     operation_id="rexs_results",
+    summary="A gear unit's file (REXS) with the results of a stage in it",
     responses={200: {"description": "the file with results", "content": {"application/xml": {"schema": FILE}}}},
 )
 async def write_results(

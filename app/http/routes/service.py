@@ -31,7 +31,7 @@ class Readiness(BaseModel):
 
     status: Annotated[Literal["ok"], Output("always ok: an answer is the message")] = "ok"
     warm: Annotated[list[str], Output("models, or parts of them, whose kernels are loaded")]
-    workers: Annotated[int, Output("worker processes that calculate or could")]
+    workers: Annotated[int, Output("number of worker processes that can calculate")]
 
 
 @router.get("/v1/examples")
