@@ -50,7 +50,7 @@ class WarmUnit:
 
 
 def asks_for_balance(inputs: DriveTrainInputs) -> bool:
-    """Return True if a heat balance has still to give the bulk temperature, and an oil is known."""
+    """Return True if the bulk temperature has to come from a heat balance that is not solved yet, with a known oil."""
     temperatures = inputs.mesh.temperatures
     unknown = temperatures.bulk_method == "heat_balance" and temperatures.flanks is None
     return unknown and inputs.mesh.known_oil is not None

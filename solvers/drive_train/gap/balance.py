@@ -137,7 +137,7 @@ def equilibrium(unit: Unit, mesh: LoadedMesh, start: FloatArray | None = None) -
 
 
 def _rough(unit: Unit, mesh: LoadedMesh, hubs: HubLoads) -> tuple[FloatArray, HubLoads]:
-    """Return an approximate gap and the loads of the hubs, from a coarse mesh that starts at a uniform load.
+    """Return an approximate gap and the loads of the hubs, by an iteration with a coarse mesh from a uniform load.
 
     The result need not have converged; the iteration with the full mesh decides.
     """

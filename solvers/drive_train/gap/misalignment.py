@@ -104,5 +104,5 @@ def _curves(
 
 
 def _at_stations(curve: FloatArray, count: int) -> FloatArray:
-    """Return the values at the stations of a curve with more points, among which are the stations."""
+    """Pick the values at the stations from a curve that has further points between them."""
     return curve[:: (curve.size - 1) // (count - 1)]

@@ -1,4 +1,4 @@
-"""Lead and profile errors of gears that are warmer than at the temperature of their drawings.
+"""Lead and profile errors of gears that are warmer than the temperature of their drawings.
 
 The temperature of the teeth and the gas that they pump heat the gears. A heated body grows in proportion: a point moves
 by eps = alpha_L dT times its distance from the axis, and eps times its distance along the axis. In the direction of the

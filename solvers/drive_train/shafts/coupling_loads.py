@@ -52,7 +52,7 @@ class HubMoments:
 
 @dataclass(frozen=True, slots=True)
 class CouplingPort:
-    """A coupling at its shaft, whose torque [N m], speed [rad/s] and sense of rotation it has.
+    """A coupling at its shaft, with the torque [N m], speed [rad/s] and sense of rotation of this shaft.
 
     The tilts of both hubs are `rest` + `lever` @ (U, V, both slopes, motion along Z) of the shaft at the unit's hub.
     `sleeve_weight` (X, Y) [N] is the part of the sleeve's weight on this hub.
