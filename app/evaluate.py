@@ -64,7 +64,8 @@ def refuse_endless(calculation: Calculation, request: Request, deadline_s: float
         if cost.seconds > deadline_s:
             raise Unprocessable(
                 "cannot_finish",
-                f"would take some {cost.seconds:.0f} s, but calculations end after {deadline_s:g} s; make it less",
+                f"the calculation would take about {cost.seconds:.0f} s, but calculations end after {deadline_s:g} s; "
+                "reduce this value",
                 cost.field,
             )
 

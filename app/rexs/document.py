@@ -84,11 +84,11 @@ def _unpacked(content: bytes, most_bytes: int) -> bytes:
                 listed = f": {names}" if names else ""
                 raise not_rexs(f"the archive holds {len(models)} models ({MODELS}); it must hold one{listed}")
             if models[0].compress_type not in PACKINGS:
-                raise not_rexs("the archive is packed in a way that is not read; pack it by deflate, as usual")
+                raise not_rexs("the compression of the archive is not supported; use deflate, the usual one")
             with archive.open(models[0]) as packed:
                 return packed.read(most_bytes + 1)
     except (zipfile.BadZipFile, zlib.error, NotImplementedError, RuntimeError, OSError, EOFError, ValueError) as error:
-        raise not_rexs("the archive is damaged, encrypted or packed in a way that cannot be read") from error
+        raise not_rexs("the archive is damaged, encrypted or compressed by a method that is not supported") from error
 
 
 def _is_model(name: str) -> bool:
@@ -111,7 +111,7 @@ def _model(
     by_id: dict[int, Component] = {}
     for component in components:
         if component.id in by_id:
-            raise not_rexs(f"component {component.id} is there twice")
+            raise not_rexs(f"component {component.id} occurs twice")
         by_id[component.id] = component
     return Model(version[:20], " ".join(filter(None, application)), by_id, tuple(relations), tuple(load_cases))
 
@@ -233,7 +233,7 @@ def _model_of_json(content: bytes) -> Model:
     except json.JSONDecodeError as error:
         raise not_rexs(f"line {error.lineno}: {error.msg}") from error
     except (ValueError, RecursionError) as error:  # not UTF-8, a number of thousands of digits, too deep
-        raise not_rexs("the file is not JSON that can be read") from error
+        raise not_rexs("the file is not valid JSON") from error
     model = document.get("model")
     if not isinstance(model, dict):
         raise not_rexs("model is missing or of the wrong kind")
@@ -253,7 +253,7 @@ def _refuse_constant(name: str) -> float:
 def _finite(text: str) -> float:
     """Return a number. A number that is infinite as a float is rejected, because it could not be written again."""
     if not isfinite(number := float(text)):
-        raise not_rexs(f"the number {text[:20]} is beyond any machine")
+        raise not_rexs(f"the number {text[:20]} is too large")
     return number
 
 

@@ -58,7 +58,7 @@ class Lubrication:
             "oil_kind", oil, None, f"an oil of the kind {vague[:40]} is not modelled; choose the nearest"
         )
         self._stage.lacks(
-            path, oil, None, f"the nearest kind to {vague[:40]}; a mineral oil counts if nothing is chosen"
+            path, oil, None, f"choose the kind nearest to {vague[:40]}; without a choice a mineral oil is used"
         )
 
     def _temperatures(self) -> None:
@@ -95,7 +95,7 @@ class Lubrication:
         if (supply := table.SUPPLY_FACTORS.get(factor)) is not None:
             self._stage.put("temperatures.oil_supply", supply, self._stage.stage, table.SUPPLY_FACTOR)
         else:
-            message = f"the lubrication factor {factor:.4g} is that of no oil supply that is modelled; not used"
+            message = f"no oil supply of the model has the lubrication factor {factor:.4g}; not used"
             self._reading.find("oil_supply", self._stage.stage, table.SUPPLY_FACTOR, message)
 
     def _friction(self) -> None:

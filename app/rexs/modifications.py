@@ -93,7 +93,9 @@ class Modifications:
         if length is not None:
             self._stage.put(f"{path}_length_mm", length, component, f"{kind}_datum_length")
         if len(reliefs) > 1:
-            reason = "both gears are relieved there; amounts add, length and shape of the larger one"
+            reason = (
+                "both gears have a relief there: the sum of the amounts, with length and shape of the larger relief"
+            )
             self._stage.note(f"{path}_um", largest, reason)
         shape = self._reading.text(component, "shape_of_relief")
         exponent = {"linear": 1.0, "parabolic": 2.0}.get(shape)

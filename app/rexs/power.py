@@ -59,7 +59,7 @@ class Train:
         self._reading, self._pairs = reading, pairs
         self._shafts = reading.model.by_type["shaft"]
         if len(self._shafts) > MOST_SHAFTS:
-            message = f"speeds and torques of {len(self._shafts)} shafts are not looked for"
+            message = f"speeds and torques are not determined, because the unit has {len(self._shafts)} shafts"
             reading.find("too_many_shafts", None, None, message)
             self._shafts, self._pairs = [], []
         self._group = self._groups()
@@ -114,7 +114,9 @@ class Train:
             elif restated and shaft.id not in restated:
                 continue  # the model's speed, while the load case states another one
             elif abs(speeds[group] - speed) > BALANCE * max(abs(speed), abs(speeds[group])):
-                message = f"the shaft turns at {speed:.6g} 1/min, by the tooth numbers at {speeds[group]:.6g}; not used"
+                message = (
+                    f"the stated speed is {speed:.6g} 1/min, but {speeds[group]:.6g} by the numbers of teeth; not used"
+                )
                 reading.find("speed_conflict", shaft, "rotational_speed", message)
         return speeds
 
@@ -196,7 +198,7 @@ class Train:
             and abs(abs(of_power) - abs(torque)) > BALANCE * max(abs(of_power), abs(torque))
         ):
             message = (
-                f"the torque is {abs(torque):.6g} N m, by power and speed it is {abs(of_power):.6g}; the torque is used"
+                f"the torque is {abs(torque):.6g} N m, but {abs(of_power):.6g} by power and speed; the torque is used"
             )
             reading.find("power_conflict", load, "power", message)
         return torque * reading.sense(shaft)  # the u axis of a load is that of its shaft

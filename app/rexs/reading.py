@@ -243,7 +243,7 @@ class Reading:
             code, stated = "unit", attribute.unit[:20] or "no unit"
             fault = f"is in {stated}, which is not a unit of its quantity ({unit})"
         elif abs(result) > LARGEST:
-            fault = "is beyond any machine"
+            fault = "is too large"
         else:
             return result
         self.find(code, component, name, f"{name} {fault}; not used")

@@ -50,16 +50,16 @@ def _pair(reading: Reading, stage: Component) -> Pair | None:
 def _teeth(reading: Reading, stage: Component, gear: Component) -> int | None:
     """Return the number of teeth of an external gear; any other gear is a finding."""
     if gear.type != "cylindrical_gear":
-        what = "a ring gear; pairs with one" if gear.type == "ring_gear" else "other pairs than two external gears"
+        what = "pairs with a ring gear" if gear.type == "ring_gear" else "other pairs than two external gears"
         reading.find("stage_not_modelled", stage, None, f"{what} are not modelled; the stage is left out")
         return None
     number = reading.number(gear, "number_of_teeth")
     if number is not None and number < 0.0:
-        message = "a ring gear (teeth below 0); pairs with one are not modelled; the stage is left out"
+        message = "pairs with a ring gear (a negative number of teeth) are not modelled; the stage is left out"
         reading.find("ring_gear", gear, "number_of_teeth", message)
         return None
     if number is None or number != int(number) or not 1 <= number <= 10_000:
-        reading.find("teeth", gear, "number_of_teeth", "the gear has no possible number of teeth; stage left out")
+        reading.find("teeth", gear, "number_of_teeth", "the number of teeth is not possible; the stage is left out")
         return None
     return int(number)
 
@@ -125,7 +125,7 @@ class StageDraft(Draft):
         if by_power is None and len(stated) == 1:
             return stated[0]
         if by_power is not None and stated and by_power not in stated:
-            message = "by torque and speed the other gear drives; used"
+            message = "by torque and speed the other gear is the driver, which is used"
             self.reading.find("driver", pair.gears[stated[0]], None, message)
         return by_power
 
@@ -200,7 +200,8 @@ class StageDraft(Draft):
             tolerance = 1e-3 * max(1.0, abs(along))
             if abs(along - stated) > tolerance and abs(abs(along - stated) - half) > tolerance:
                 message = (
-                    f"the coordinate on the shaft is {stated:.6g} mm, by the position vectors it is {along:.6g}; used"
+                    f"the coordinate on the shaft is {stated:.6g} mm, but {along:.6g} mm by the position vectors, "
+                    "which are used"
                 )
                 reading.find("position", part, table.POSITION.name, message)
         return self.position_of_coordinate(shaft, along)
@@ -344,7 +345,7 @@ class StageDraft(Draft):
         if not values:
             return None
         if any(abs(value - values[0][0]) > SAME for value, _ in values):
-            message = "left and right flank differ, which is not modelled; the left one's is used"
+            message = "left and right flank differ, which is not modelled; the value of the left flank is used"
             self.reading.find("flanks_differ", values[1][1], row.attributes[-1], message)
         self.put(path, *values[0], row.attributes[-1])
         return values[0][0]
@@ -416,7 +417,7 @@ class StageDraft(Draft):
         smallest, tool = min(radii, key=lambda radius_and_tool: radius_and_tool[0])
         self.put(path, smallest, tool, table.TOOL_TIP_RADIUS.attributes[-1])
         if abs(radii[0][0] - radii[-1][0]) > SAME:
-            self.note(path, smallest, "the tools differ; the smaller radius serves both gears")
+            self.note(path, smallest, "the tools differ; the smaller radius is used for both gears")
 
     def _backlash(self) -> None:
         """Fill in the normal backlash of the file minus that which follows from the centre distance.
@@ -435,7 +436,7 @@ class StageDraft(Draft):
         stated = sum(limits) / len(limits)
         own = self._backlash_of_centre_distance()
         if own is None or stated < own - SAME:
-            message = f"the backlash stated, {stated:.4g} mm, is smaller than what the centre distance gives"
+            message = f"the stated backlash of {stated:.4g} mm is smaller than that which the centre distance gives"
             self.reading.find("backlash", self.stage, name, message)
             own = stated
         self.put(path, max(stated - own, 0.0), self.stage, name)
@@ -535,7 +536,7 @@ class StageDraft(Draft):
             else:
                 self.lacks(row.field, self.shafts[0], None, f"the {what} of this stage does not follow from the file")
         if self.driver is None:
-            self.note("gears.pinion", self.gears[0].id, "which gear drives is not known; the smaller one is taken")
+            self.note("gears.pinion", self.gears[0].id, "which gear drives is not known; the smaller gear is used")
 
 
 class Involute:
@@ -566,4 +567,8 @@ class Involute:
     def root_fault(self, diameter: float) -> str | None:
         """Return the fault of a root diameter [mm], or None."""
         low, high = self.reference_diameter - 6.0 * self.module, self.reference_diameter + 2.0 * self.module
-        return None if max(low, 0.0) < diameter < high else f"is {diameter:.6g} mm, which is no root of these teeth"
+        return (
+            None
+            if max(low, 0.0) < diameter < high
+            else f"is {diameter:.6g} mm, which is not a possible root diameter of these teeth"
+        )

@@ -38,7 +38,7 @@ def gear_unit(model: Model) -> dict[str, Any]:
     if len(cases) < len(model.load_cases):
         reading.find("too_many_cases", None, None, f"the first {len(cases)} load cases are read")
     if len(cases) > MOST_SPECTRUM_CASES:
-        message = f"a load spectrum of more than {MOST_SPECTRUM_CASES} load cases cannot be asked as it stands"
+        message = f"/v1/spectrum takes at most {MOST_SPECTRUM_CASES} load cases; the file has more"
         reading.find("too_many_cases", None, None, message)
     train = Train(reading, all_pairs)
     base, flows = train.flow(), [train.flow(case) for case in cases]
@@ -84,7 +84,7 @@ def _stage(pair: Pair, base: Flow, flows: list[Flow]) -> tuple[dict[str, Any], S
     if (case := flow.reading.case) is not None:
         for path in (TORQUE, SPEED, table.OIL_TEMPERATURE.field):
             if path in stage.fields:
-                stage.note(path, stage.fields[path], f"of the load case {case.name}; the model itself states none")
+                stage.note(path, stage.fields[path], f"from the load case {case.name}, because the model states none")
     # The mesh comes first, then the oil.
     paths = sorted({**stage.fields, **stage.missing}, key=lambda path: path.partition(".")[0] not in MESH)
     requests = {endpoint: stage.request(endpoint, paths) for endpoint in SECTIONS}
@@ -205,7 +205,9 @@ def _check_relations(reading: Reading) -> None:
     for relation in model.relations:
         absent = [id_ for _, id_ in relation.parts if id_ not in model.components]
         if absent:
-            message = f"a relation of type {relation.type[:40]} names component {absent[0]}, which is not there"
+            message = (
+                f"a relation of type {relation.type[:40]} names component {absent[0]}, which the file does not have"
+            )
             reading.find("relation", None, None, message)
         whole, part = relation.part("assembly"), relation.part("part")
         if relation.type == "assembly" and whole is not None and part is not None:

@@ -51,7 +51,7 @@ def _check_sections(inputs: DriveTrainInputs, path: PathOfContact, index: int, n
             raise InvalidInput("section_diameter", message, f"{field}.inner_diameter")
         under_face = position < end - COINCIDENT and position + section.length > start + COINCIDENT
         if under_face and section.outer_diameter > tip:
-            message = f"section {k} under the teeth has a larger diameter than their tips; leave it out"
+            message = f"section {k} has a larger diameter than the tips of the teeth on it; leave the diameter out"
             raise InvalidInput("section_diameter", message, f"{field}.outer_diameter")
         position += section.length
 
@@ -72,7 +72,7 @@ def _check_bearings(inputs: DriveTrainInputs, shaft: Shaft, name: str) -> None:
     if distance <= COINCIDENT:
         raise InvalidInput("bearing_order", "the bearings need different positions", f"{name}.bearings.1.position")
     if distance < LEAST_BEARING_DISTANCE * inputs.mesh.distribution.gears.face_width:
-        message = "the bearings are nearer to each other than half the face width"
+        message = "the distance of the bearings is less than half the face width"
         raise InvalidInput("bearing_distance", message, f"{name}.bearings.1.position")
 
 
@@ -87,7 +87,9 @@ def _check_torque(inputs: DriveTrainInputs, index: int, name: str) -> None:
     if position is None:
         hubs = [coupling.position for coupling in inputs.couplings if NAMES[index].startswith(coupling.shaft)]
         if not hubs:
-            raise InvalidInput("torque_position", "say where torque enters a shaft without a coupling", field)
+            raise InvalidInput(
+                "torque_position", "a shaft without a coupling needs the position at which torque enters", field
+            )
         position = hubs[0]
     if not _is_on(shaft, position):
         raise InvalidInput("torque_position", "torque must enter within the shaft", field)
@@ -102,12 +104,12 @@ def _check_couplings(inputs: DriveTrainInputs) -> None:
     for k, coupling in enumerate(inputs.couplings):
         field = f"couplings.{k}"
         if names.index(coupling.shaft) != k:
-            raise InvalidInput("couplings_on_shaft", "a shaft takes one coupling", f"{field}.shaft")
+            raise InvalidInput("couplings_on_shaft", "a shaft can have only one coupling", f"{field}.shaft")
         shaft = inputs.pinion_shaft if coupling.shaft == "pinion" else inputs.wheel_shaft
         if not _is_on(shaft, coupling.position):
             raise InvalidInput("position_outside", "the hub lies outside its shaft", f"{field}.position")
         if (coupling.position > middle) != (coupling.machine_side == "plus"):
-            message = "the machine would lie on the gears' side of the hub; turn machine_side or move the hub"
+            message = "the machine would lie on the gears' side of the hub; change machine_side or move the hub"
             raise InvalidInput("machine_side", message, f"{field}.machine_side")
 
 

@@ -287,7 +287,7 @@ class ShaftBearing:
         viscosity = self.viscosity
         if viscosity is None:
             if oil is None:
-                message = "without an oil of the gears a plain bearing needs its own viscosity; give it, or the oil"
+                message = "a plain bearing needs a viscosity if the gears have no oil; give the viscosity or the oil"
                 raise InvalidInput("no_oil", message, "viscosity")
             film = oil_temperature + FILM_ABOVE_OIL if self.film_temperature is None else self.film_temperature
             viscosity = lubricant_at(oil, film).viscosity_at(0.0, film)

@@ -31,7 +31,9 @@ def shaft_notices(inputs: DriveTrainInputs, shafts: tuple[ShaftResult, ShaftResu
             if isinstance(bearing, JournalBearing):
                 yield from _film_notices(bearing, state.eccentricity_ratio, state.min_film, field)
         if not all(isinstance(bearing, JournalBearing) for bearing in shaft.bearings):
-            message = "the loss of bearings other than plain ones is not known; total loss and efficiency leave it out"
+            message = (
+                "only plain bearings have a known loss; total loss and efficiency do not contain that of other bearings"
+            )
             yield Notice("bearing_loss_left_out", message, f"{name}.bearings", rank="note")
         thrust = result.thrust
         if thrust.reverses:
@@ -63,7 +65,7 @@ def _film_notices(
 def load_notices(inputs: DriveTrainInputs, load: FaceLoad) -> Iterator[Notice]:
     """Warn of load at an end of the face, of flanks that lift off, and of an assumed wall response."""
     if load.face_load_at in {0.0, 1.0}:
-        message = f"the face carries most at its end y/b = {load.face_load_at:.0f}"
+        message = f"the load is largest at the end y/b = {load.face_load_at:.0f} of the face"
         yield Notice("edge_load", message, "mesh.distribution.modifications.helix_slope")
     if load.contact_fraction < LIFTED:
         message = f"only {load.contact_fraction:.2f} of the contact length is loaded"
@@ -92,7 +94,7 @@ def coupling_notices(
         field = f"couplings.{k}"
         for name, stuck, share in zip(("unit", "machine"), coupling.stuck, coupling.friction_share, strict=True):
             if stuck and inputs.coupling_friction == "elastic_plastic":
-                message = f"the {name}'s hub sticks; its friction moment is {share:.2f} of full sliding's"
+                message = f"the {name}'s hub sticks; its friction moment is {share:.2f} times that of full sliding"
                 yield Notice("hub_sticks", message, f"{field}.friction", rank="note")
         for notice in {notice.code: notice for notice in notices}.values():
             code = "misalignment_limit" if notice.code == "sliding_velocity" else notice.code

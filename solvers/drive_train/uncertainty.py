@@ -82,5 +82,7 @@ def _offsets(inputs: DriveTrainInputs) -> Range:
 def no_convergence(failed: int) -> Notice:
     """Return the warning about corners without a solution."""
     return Notice(
-        "no_convergence_of_corner", f"{failed} corners have no solution; the extremes are of the rest", "ranges"
+        "no_convergence_of_corner",
+        f"{failed} corners have no solution; the extremes are those of the other corners",
+        "ranges",
     )

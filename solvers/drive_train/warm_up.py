@@ -124,7 +124,7 @@ def solve(inputs: WarmUpInputs) -> UnitWarmUp:
     """
     unit = inputs.unit
     if not asks_for_balance(unit):
-        message = "a warm-up needs the heat balance: jets of a known oil, and no bulk temperature that is given"
+        message = "a warm-up needs the heat balance: jets of a known oil, and a bulk temperature that is not given"
         raise InvalidInput("not_asked", message, "temperatures.bulk_method")
     walls = unit.mesh.cooling.casing
     if walls.area and walls.mass is None:

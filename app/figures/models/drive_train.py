@@ -162,7 +162,7 @@ def face_load(inputs: DriveTrainInputs, result: DriveTrainResult, others: dict[s
     """Draw the load along the face with all effects, and without single effects."""
     curves, load = result.misalignment.curves, result.load
     if load.face_load_factor is None or load.face_load_at is None:
-        raise NoFigure("no_load", "Without load there is none along the face", "operation")
+        raise NoFigure("no_load", "Without load there is no line load to draw", "operation")
     lines = [Line("as asked", curves.position, curves.line_force)]
     lines += [Line(name, curves.position, force, HUES[name], Role.REFERENCE) for name, force in others.items()]
     y = axis(curves, "line_force", "transverse force per face, mean over the roll")

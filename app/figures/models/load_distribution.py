@@ -134,7 +134,7 @@ def contact_line_load(inputs: LoadDistributionInputs, result: LoadDistribution) 
     """
     load, flank, geometry, width = result.load, result.flank, result.geometry, inputs.gears.face_width
     if load.max_at is None:
-        raise NoFigure("no_load", "Without load there is none along the face", "load")
+        raise NoFigure("no_load", "Without load there is no line load to draw", "load")
     y, start = flank.face_fraction * width / MM, load.max_at.face_fraction * width / MM
     profile = load.max_at.profile_fraction
     if not geometry.base_helix_angle:  # lines are parallel to the rows of the map, between which the load may jump

@@ -133,7 +133,11 @@ def equilibrium(unit: Unit, mesh: LoadedMesh, start: FloatArray | None = None) -
         if state.size <= TOLERANCE:
             return _equilibrium_at(mesh, state, iteration)
         state = _advance(unit, mesh, state)
-    raise NoSolution("drive_train", "shafts and mesh found no common gap", {"residual_um": state.size * 1e6})
+    raise NoSolution(
+        "drive_train",
+        "the iteration for the common gap of shafts and mesh did not converge",
+        {"residual_um": state.size * 1e6},
+    )
 
 
 def _rough(unit: Unit, mesh: LoadedMesh, hubs: HubLoads) -> tuple[FloatArray, HubLoads]:
