@@ -9,8 +9,8 @@ from solvers.pumping.inputs import Flow, PumpingSetup, rpm
 from solvers.pumping.space.face import Stretch
 
 LEAST_TEETH = 5  # chosen: gears of fewer teeth are not in use
-LEAST_SPEED = 1e-100  # rad/s; below it a stroke's duration is no number any more
-NARROW = 0.5  # of the widest slice: below it grooves are the reason for short steps
+LEAST_SPEED = 1e-100  # rad/s; at lower speeds the duration of a stroke overflows
+NARROW = 0.5  # of the widest slice; if a slice is narrower, the grooves are the reason for short steps
 
 
 def check_setup(setup: PumpingSetup) -> None:
@@ -60,16 +60,16 @@ def _check_incompressible(setup: PumpingSetup) -> None:
 
 
 def check_speed(pinion_speed: float) -> None:
-    """Refuse standstill. Raises InvalidInput: speed_not_positive."""
+    """Raise InvalidInput (speed_not_positive) at standstill."""
     if pinion_speed < LEAST_SPEED:
         message = "the speed must be positive; towards standstill power vanishes and pressure is ambient"
         raise InvalidInput("speed_not_positive", message, "pinion_speed")
 
 
 def refuse_cost(pinion_speed: float, parts: list[Stretch], excess: float) -> NoReturn:
-    """Refuse a march that asks for `excess` times the steps it may take, with what would fit.
+    """Refuse a march that needs `excess` times the permitted steps; the message says what would fit.
 
-    Raises InvalidInput: narrow_land where grooves leave so little face somewhere that its slices are the reason,
+    Raises InvalidInput: narrow_land (a stretch between grooves is so short that its slices are the reason) or
     too_many_steps.
     """
     narrowest, widest = min(part.width for part in parts), max(part.width for part in parts)
@@ -91,6 +91,6 @@ def refuse_cost(pinion_speed: float, parts: list[Stretch], excess: float) -> NoR
 
 
 def _rounded_up(value: float) -> float:
-    """To three digits, not below."""
+    """Round up to three digits."""
     unit = 10.0 ** (floor(log10(value)) - 2)
     return ceil(value / unit) * unit

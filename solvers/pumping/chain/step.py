@@ -68,7 +68,7 @@ class Side(NamedTuple):
 
 
 class Passage(NamedTuple):
-    """Flow of mass or heat through an opening from left to right, and its derivatives by pressure and mass of a side."""
+    """Flow of mass or heat through an opening from left to right, and its derivatives by the state of both sides."""
 
     flow: float
     by_left_pressure: float
