@@ -77,9 +77,9 @@ def choking_speeds(inputs: ChokingInputs) -> ChokingSpeeds:
 
 
 class _Demand:
-    """Excess of pressure and exit Mach number of a space over their choking limits, as logarithms, at a logarithmic speed.
+    """Excess of pressure and exit Mach number of a space over their choking limits, as logarithms.
 
-    Every speed is computed once.
+    Speeds are logarithms as well. Every speed is computed once.
     """
 
     def __init__(self, mesh: Mesh, space: Space, slices: int) -> None:
