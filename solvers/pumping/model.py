@@ -227,7 +227,7 @@ def _pinion_correction(mesh: Mesh, result: SpacesResult | None) -> LeadCorrectio
 
 
 def _pulsation(mesh: Mesh, flows: list[SpaceFlow], speed: float, frequency: float) -> Pulsation:
-    """Superpose the flows: spaces of the wheel reach the line of centres half a mesh period after those of the pinion."""
+    """Superpose the flows; the wheel's spaces reach the line of centres half a mesh period after the pinion's."""
     delays = [0.0 if space.of_pinion else 0.5 for space in mesh.spaces]
     speeds = [speed * space.speed_ratio for space in mesh.spaces]
     return pulsation(frequency, list(zip(flows, speeds, delays, strict=True)))

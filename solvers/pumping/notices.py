@@ -68,7 +68,7 @@ def jump_notices(tables: Sequence[StrokeTable]) -> list[Notice]:
 def flow_notices(flow: Flow, largest_mach: float, largest_gauge_pressure: float) -> list[Notice]:
     """Return a warning if the model does not resolve the flow; the pressure is relative to the ambient pressure."""
     if flow is Flow.INCOMPRESSIBLE and largest_mach > INCOMPRESSIBLE_MACH:
-        message = f"the Mach number reaches {largest_mach:.2f}: above {INCOMPRESSIBLE_MACH:g} the gas is not incompressible"
+        message = f"the Mach number is {largest_mach:.2f}: above {INCOMPRESSIBLE_MACH:g} the gas is not incompressible"
         return [Notice("incompressible_mach", message, "flow", rank="invalid")]
     if flow is Flow.POCKET_CHAIN and largest_gauge_pressure < LEAST_GAUGE_PRESSURE:
         message = (
