@@ -55,7 +55,7 @@ def _check_incompressible(setup: PumpingSetup) -> None:
     if setup.model.slice_count != 1:
         raise InvalidInput("slices_incompressible", "the incompressible model is a single pocket", "slices")
     if setup.model.discharge_coefficient == 0.0:
-        message = "incompressible gas cannot stay in a shrinking space"
+        message = "without discharge, incompressible gas cannot leave a shrinking space"
         raise InvalidInput("discharge_coefficient", message, "discharge_coefficient")
 
 
@@ -76,8 +76,8 @@ def refuse_cost(pinion_speed: float, parts: list[Stretch], excess: float) -> NoR
     if narrowest < NARROW * widest:
         land = min(part.width * part.cells for part in parts)
         message = (
-            f"the grooves leave {1e3 * land:.3g} mm of face, whose slices ask for too many steps; leave nothing there, "
-            f"or at least {1e3 * LEAST_SLICES * NARROW * widest:.3g} mm"
+            f"the grooves leave a stretch of {1e3 * land:.3g} mm of the face, whose thin slices need too many steps: "
+            f"leave no stretch there, or at least {1e3 * LEAST_SLICES * NARROW * widest:.3g} mm"
         )
         raise InvalidInput("narrow_land", message, "grooves")
     slices = sum(part.cells for part in parts)

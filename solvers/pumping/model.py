@@ -244,7 +244,7 @@ def _missing(result: SpacesResult, total: Totals, correction: LeadCorrection | N
             Notice("no_temperature", "the incompressible model gives no temperature rise", "flow", rank="note")
         )
     elif result.balance.energy_error is None:
-        message = "the isentropic closure does not conserve energy: temperature rises are about half of the true ones"
+        message = "the isentropic closure loses energy: temperature rises are about half of those of the energy closure"
         notices.append(Notice("no_energy_balance", message, "closure"))
     if correction is None:
         message = "a lead correction needs the temperatures of the pinion's spaces"
