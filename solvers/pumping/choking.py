@@ -114,7 +114,7 @@ def _scan(demands: list[_Demand], top: float) -> list[float]:
 
 
 def _refuse_sealed(speed: float) -> NoReturn:
-    message = f"the spaces are still choked at {rpm(speed):.3g} rpm of the pinion: the openings are too small for the gas"
+    message = f"the spaces are still choked at {rpm(speed):.3g} rpm of the pinion: their openings are too small"
     raise InvalidInput("always_choked", message, "discharge_coefficient")
 
 
