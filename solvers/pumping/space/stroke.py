@@ -106,7 +106,7 @@ def _check_area(angle: FloatArray, area: FloatArray) -> None:
     if wrong.any():
         where = degrees(angle[int(np.argmax(wrong))])
         message = (
-            f"the area of the tooth space has a second minimum near {where:.3f} deg: with tip gaps the point nearest to "
-            "a tip corner can jump along the root, contact gaps have no such jump"
+            f"the area of the tooth space has a second minimum near {where:.3f} deg: with tip gaps the point nearest "
+            "to a tip corner can jump along the root, contact gaps have no such jump"
         )
         raise InvalidInput("tooth_space_minima", message, "gears")
