@@ -20,7 +20,7 @@ class State(NamedTuple):
 
 
 class Conserved(NamedTuple):
-    """Mass, momentum and energy; as a flux, per area and second: [kg/(s m^2)], [Pa], [W/m^2]."""
+    """Mass, momentum and energy; as a flux [kg/s, N, W], per area [kg/(s m^2), Pa, W/m^2]."""
 
     mass: float
     momentum: float
@@ -28,27 +28,38 @@ class Conserved(NamedTuple):
 
 
 @kernel
-def flux(g: float, state: State) -> Conserved:
-    """Compute the flux of a state: (rho u, rho u^2 + p, u (rho E + p)).
+def flux(g: float, area: float, state: State, ram: float) -> Conserved:
+    """Compute the flux of a state through an area: A (rho u, rho u^2 + p, u (rho E + p)).
 
     Parameters
     ----------
     g : float
         Isentropic exponent.
+    area : float
+        Area [m^2]; 1 for the flux per area.
     state : State
         State of the gas at the face.
+    ram : float
+        Ram pressure rho u^2 of this state [Pa].
 
     Returns
     -------
     Conserved
-        Flux of mass [kg/(s m^2)], momentum [Pa] and energy [W/m^2].
+        Flux of mass [kg/s], momentum [N] and energy [W].
 
     Notes
     -----
-    Eq. P6 with rho E = p/(g - 1) + rho u^2/2.
+    Eq. P6 with rho E = p/(g - 1) + rho u^2/2. The caller gives the ram pressure because its rounding counts: a march
+    amplifies the last digit to 1e-7 of a result.
     """
     rho, u, p = state
-    return Conserved(rho * u, rho * u * u + p, u * (g / (g - 1.0) * p + 0.5 * rho * u * u))
+    return Conserved(area * rho * u, area * (ram + p), area * u * (g / (g - 1.0) * p + 0.5 * ram))
+
+
+@kernel
+def ram_pressure(state: State) -> float:
+    """Compute the ram pressure rho u^2 [Pa]."""
+    return state.density * state.velocity * state.velocity
 
 
 @kernel
@@ -63,9 +74,9 @@ def hllc(g: float, left: State, right: State) -> Conserved:
     mean_c = np.sqrt((w_l * c_l * c_l + w_r * c_r * c_r) / (w_l + w_r) + spread)
     s_l, s_r = min(u_l - c_l, mean_u - mean_c), max(u_r + c_r, mean_u + mean_c)
     if s_l >= 0.0:
-        return flux(g, left)
+        return flux(g, 1.0, left, ram_pressure(left))
     if s_r <= 0.0:
-        return flux(g, right)
+        return flux(g, 1.0, right, ram_pressure(right))
     m_l, m_r = rho_l * (s_l - u_l), rho_r * (s_r - u_r)
     s_m = (p_r - p_l + u_l * m_l - u_r * m_r) / (m_l - m_r)
     if s_m >= 0.0:
@@ -77,7 +88,7 @@ def hllc(g: float, left: State, right: State) -> Conserved:
 def _star_flux(g: float, state: State, s: float, s_m: float) -> Conserved:
     """Compute the flux of the state between the outer wave s and the contact s_m."""
     rho, u, p = state
-    outside = flux(g, state)
+    outside = flux(g, 1.0, state, ram_pressure(state))
     total = p / (g - 1.0) + 0.5 * rho * u * u
     star = rho * (s - u) / (s - s_m)
     star_total = star * (total / rho + (s_m - u) * (s_m + p / (rho * (s - u))))

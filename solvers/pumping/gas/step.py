@@ -18,7 +18,7 @@ from solvers.compiled import kernel
 from solvers.pumping.flow.duct import WALL, Duct, Wall, stroke_share, wall_at
 from solvers.pumping.flow.nozzle import Gas
 from solvers.pumping.gas.leakage import Stage, Walls, implicit_stage
-from solvers.pumping.gas.riemann import Conserved, State, flux, front_face, hllc, reservoir_face
+from solvers.pumping.gas.riemann import Conserved, State, flux, front_face, hllc, ram_pressure, reservoir_face
 
 _DIAGONAL = 1.0 - np.sqrt(0.5)  # diagonal coefficient of the two-stage method
 
@@ -212,11 +212,11 @@ def _predict(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, dt: float)
     half, leak = cells.half, cells.leak
     for i in range(low, high):
         left, right = area[i], area[i + 1]
-        into, out = flux(g, _edge(w, s, i, -0.5)), flux(g, _edge(w, s, i, 0.5))
+        into, out = _own_flux(g, left, _edge(w, s, i, -0.5)), _own_flux(g, right, _edge(w, s, i, 0.5))
         force = w[i].pressure * (right - left)
-        mass = c[i].mass - share * (right * out.mass - left * into.mass)
-        momentum = c[i].momentum - share * (right * out.momentum - left * into.momentum - force)
-        energy = c[i].energy - share * (right * out.energy - left * into.energy)
+        mass = c[i].mass - share * (out.mass - into.mass)
+        momentum = c[i].momentum - share * (out.momentum - into.momentum - force)
+        energy = c[i].energy - share * (out.energy - into.energy)
         walls = _walls(duct, cells.walls, cells.next_walls, i, 0.5, dt)
         guess = leak[i].latest + 0.5 * dt * leak[i].growth
         stage = implicit_stage(gas, walls, mass, momentum, energy, 0.5 * dt, guess)
@@ -226,6 +226,12 @@ def _predict(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, dt: float)
         half[i].density, half[i].velocity = stage.mass / walls.area, stage.momentum / stage.mass
         half[i].pressure = stage.pressure
     return True
+
+
+@kernel
+def _own_flux(g: float, area: float, edge: State) -> Conserved:
+    """Compute the flux of a cell's own state at its edge; the square is rounded first, unlike in `ram_pressure`."""
+    return flux(g, area, edge, edge.density * edge.velocity**2)
 
 
 @kernel
@@ -249,26 +255,27 @@ def _safe_edge(w: RecordArray, s: RecordArray, i: int, side: float) -> State:
 
 @kernel
 def _set_fluxes(gas: Gas, duct: Duct, cells: Cells, low: int, high: int) -> None:
-    """Compute the fluxes through all faces, times their areas."""
-    half, slope = cells.half, cells.slope
+    """Compute the fluxes through all faces."""
+    half, slope, fluxes, area = cells.half, cells.slope, cells.flux, cells.face_area
     for i in range(low + 1, high):
         left, right = _safe_edge(half, slope, i - 1, 0.5), _safe_edge(half, slope, i, -0.5)
-        _put_flux(cells, i, 1.0, hllc(gas.exponent, left, right))
+        mass, momentum, energy = hllc(gas.exponent, left, right)
+        fluxes[i].mass, fluxes[i].momentum, fluxes[i].energy = area[i] * mass, area[i] * momentum, area[i] * energy
     _set_end(gas, cells, low, low, 0)
     if high < duct.cells:
         # The border to slices whose stroke is about to begin has the state with which they will begin.
         border = front_face(gas, duct.speed / duct.lag, _safe_edge(half, slope, high - 1, 0.5))
-        _put_flux(cells, high, 1.0, flux(gas.exponent, border))
+        _put_flux(gas, cells, high, 1.0, border)
     else:
         _set_end(gas, cells, high - 1, high, 1)
 
 
 @kernel
-def _put_flux(cells: Cells, face: int, outward: float, through: Conserved) -> None:
-    """Store a flux through a face, times its area; `outward` is -1 if mass and energy count against the axis."""
-    fluxes, area = cells.flux, cells.face_area[face]
-    fluxes[face].mass, fluxes[face].energy = outward * area * through.mass, outward * area * through.energy
-    fluxes[face].momentum = area * through.momentum
+def _put_flux(gas: Gas, cells: Cells, face: int, outward: float, state: State) -> None:
+    """Store the flux of a state through a face; `outward` is -1 if its mass and energy count against the axis."""
+    through, fluxes = flux(gas.exponent, cells.face_area[face], state, ram_pressure(state)), cells.flux
+    fluxes[face].mass, fluxes[face].energy = outward * through.mass, outward * through.energy
+    fluxes[face].momentum = through.momentum
 
 
 @kernel
@@ -277,7 +284,7 @@ def _set_end(gas: Gas, cells: Cells, cell: int, face: int, end: int) -> None:
     outward, ends = 2.0 * end - 1.0, cells.ends
     rho, u, p = _safe_edge(cells.half, cells.slope, cell, 0.5 * outward)
     opening, demand = reservoir_face(gas, State(rho, outward * u, p))
-    _put_flux(cells, face, outward, flux(gas.exponent, opening))
+    _put_flux(gas, cells, face, outward, opening)
     sound = np.sqrt(gas.exponent * opening.pressure / opening.density)
     ends[end].demand, ends[end].mach, ends[end].velocity = demand, opening.velocity / sound, opening.velocity
 
