@@ -7,64 +7,71 @@
 The attribute is in SI; range, default and tolerance of the declaration are in the unit in which the quantity is shown.
 """
 
+import re
 from collections.abc import Callable
-from dataclasses import dataclass, field, fields, is_dataclass
+from dataclasses import MISSING, dataclass, field, fields, is_dataclass
 from functools import cache
+from inspect import cleandoc, formatannotation
 from math import pi
-from typing import Any, Literal, NamedTuple, TypeVar, dataclass_transform, get_type_hints, overload
+from typing import Any, Literal, NamedTuple, TypeVar, dataclass_transform, get_args, get_type_hints, overload
 
 import numpy as np
 
 Detail = Literal["summary", "curves", "fields"]
 T = TypeVar("T")
-_KEY = "quantity"
+_KEY, _TEXT = "quantity", "text"
+_LEFT_OUT_OF_TYPES = re.compile(r"\b(?:[a-z_]\w*\.)+|(?<=ndarray)\[.*?\]\]|^'|'$")  # modules, element types, quotes
 
 
 class Unit(NamedTuple):
-    """A unit in which a quantity is shown: SI value = scale × value + offset; `symbol` is how it is written."""
+    """A unit in which a quantity is shown, written as `symbol`: SI value = scale × value + offset.
+
+    `si` is the symbol of the SI unit, None if the quantity is shown in the SI unit.
+    """
 
     symbol: str
     scale: float
     offset: float = 0.0
+    si: str | None = None
 
 
 UNITS = {
-    "mm": Unit("mm", 1e-3),
-    "mm2": Unit("mm²", 1e-6),
-    "mm2_per_s": Unit("mm²/s", 1e-6),
+    "mm": Unit("mm", 1e-3, si="m"),
+    "mm2": Unit("mm²", 1e-6, si="m²"),
+    "mm2_per_s": Unit("mm²/s", 1e-6, si="m²/s"),
     "m2": Unit("m²", 1.0),
-    "l_per_min": Unit("l/min", 1e-3 / 60),
-    "um": Unit("µm", 1e-6),
-    "um_per_million": Unit("µm per million turns", 1e-12),
-    "mm3_per_n_m": Unit("mm³/(N m)", 1e-9),
-    "deg": Unit("°", pi / 180),
-    "mrad": Unit("mrad", 1e-3),
+    "l_per_min": Unit("l/min", 1e-3 / 60, si="m³/s"),
+    "um": Unit("µm", 1e-6, si="m"),
+    "um_per_million": Unit("µm per million turns", 1e-12, si="m per turn"),
+    "mm3_per_n_m": Unit("mm³/(N m)", 1e-9, si="m³/(N m)"),
+    "deg": Unit("°", pi / 180, si="rad"),
+    "mrad": Unit("mrad", 1e-3, si="rad"),
     "s": Unit("s", 1.0),
-    "rpm": Unit("1/min", pi / 30),
+    "rpm": Unit("1/min", pi / 30, si="rad/s"),
     "hz": Unit("Hz", 1.0),
     "m_per_s": Unit("m/s", 1.0),
-    "mm_per_s": Unit("mm/s", 1e-3),
+    "mm_per_s": Unit("mm/s", 1e-3, si="m/s"),
     "kg": Unit("kg", 1.0),
-    "g_per_s": Unit("g/s", 1e-3),
-    "g_per_mol": Unit("g/mol", 1e-3),
+    "g_per_s": Unit("g/s", 1e-3, si="kg/s"),
+    "g_per_mol": Unit("g/mol", 1e-3, si="kg/mol"),
     "n": Unit("N", 1.0),
     "n_m": Unit("N m", 1.0),
-    "n_per_mm": Unit("N/mm", 1e3),
-    "n_per_um": Unit("N/µm", 1e6),
-    "n_per_mm_um": Unit("N/(mm µm)", 1e9),
+    "n_per_mm": Unit("N/mm", 1e3, si="N/m"),
+    "n_per_um": Unit("N/µm", 1e6, si="N/m"),
+    "n_per_mm_um": Unit("N/(mm µm)", 1e9, si="N/m²"),
     "n_m_per_rad": Unit("N m/rad", 1.0),
-    "mpa": Unit("MPa", 1e6),
-    "kpa": Unit("kPa", 1e3),
-    "gpa": Unit("GPa", 1e9),
-    "per_gpa": Unit("1/GPa", 1e-9),
+    "mpa": Unit("MPa", 1e6, si="Pa"),
+    "kpa": Unit("kPa", 1e3, si="Pa"),
+    "gpa": Unit("GPa", 1e9, si="Pa"),
+    "per_gpa": Unit("1/GPa", 1e-9, si="1/Pa"),
     "per_k": Unit("1/K", 1.0),
     "pa_s": Unit("Pa s", 1.0),
     "w": Unit("W", 1.0),
-    "kw": Unit("kW", 1e3),
+    "kw": Unit("kW", 1e3, si="W"),
     "j": Unit("J", 1.0),
-    "w_per_mm": Unit("W/mm", 1e3),
-    "w_per_mm2": Unit("W/mm²", 1e6),
-    "c": Unit("°C", 1.0, 273.15),
+    "w_per_mm": Unit("W/mm", 1e3, si="W/m"),
+    "w_per_mm2": Unit("W/mm²", 1e6, si="W/m²"),
+    "c": Unit("°C", 1.0, 273.15, si="K"),
     "k": Unit("K", 1.0),
     "kg_per_m3": Unit("kg/m³", 1.0),
     "j_per_kg_k": Unit("J/(kg K)", 1.0),
@@ -182,6 +189,11 @@ def quantity(
     return made
 
 
+def described(text: str, *, default: Any = MISSING) -> Any:
+    """Return a dataclass field that is no quantity; `text` describes the field in the docstring of the class."""
+    return field(default=default, metadata={_TEXT: text})
+
+
 def computed(title: str, symbol: str | None = None, source: str | None = None, **known: Any) -> Callable[[T], T]:
     """Declare a value that a dataclass computes when asked: stands between `property` or `cached_property` and it."""
 
@@ -196,7 +208,7 @@ def computed(title: str, symbol: str | None = None, source: str | None = None, *
 def record(cls: type[T], /) -> type[T]: ...
 @overload
 def record(*, kw_only: bool = False, slots: bool = True) -> Callable[[type[T]], type[T]]: ...
-@dataclass_transform(frozen_default=True, field_specifiers=(quantity, field))
+@dataclass_transform(frozen_default=True, field_specifiers=(quantity, described, field))
 def record(cls: Any = None, /, *, kw_only: bool = False, slots: bool = True) -> Any:
     """Make a frozen dataclass, whose fields may be declared by `quantity` and print with their units.
 
@@ -206,7 +218,9 @@ def record(cls: Any = None, /, *, kw_only: bool = False, slots: bool = True) -> 
     def made(kind: Any) -> Any:
         if "__repr__" not in vars(kind):
             kind.__repr__ = _summary
-        return dataclass(frozen=True, slots=slots, kw_only=kw_only, repr=False)(kind)
+        data: Any = dataclass(frozen=True, slots=slots, kw_only=kw_only, repr=False)(kind)
+        data.__doc__ = _Docstring(data.__doc__)
+        return data
 
     return made if cls is None else made(cls)
 
@@ -286,6 +300,55 @@ def _plain(value: Any, outer: Quantity | None) -> Any:
     if isinstance(value, float) and np.isnan(value):
         return None
     return outer.from_si(value) if outer else value
+
+
+class _Docstring:
+    """Docstring of a dataclass that is completed when it is read: composing all of them slowed the import."""
+
+    def __init__(self, text: str) -> None:
+        self.text = text
+
+    def __get__(self, data: Any, kind: Any) -> str:
+        """Return the docstring with numpydoc's sections on the fields of `kind` and on what it computes."""
+        declared = quantities(kind)
+        given = [item.name for item in sorted(fields(kind), key=lambda item: item.kw_only) if item.init]
+        names = {
+            "Parameters": given,
+            "Attributes": [name for name in declared if name not in kind.__dataclass_fields__],
+        }
+        sections = [
+            "\n".join([title, "-" * len(title), *(_entry(kind, name, declared.get(name)) for name in names[title])])
+            for title in names
+            if names[title]
+        ]
+        return "\n\n".join([cleandoc(self.text), *sections])
+
+
+def _entry(kind: Any, name: str, declared: Quantity | None) -> str:
+    """Return numpydoc's entry on one field: type, description with the SI unit; then symbol, source, range, default."""
+    item = kind.__dataclass_fields__.get(name)
+    annotation = item.type if item else _function_of(getattr(kind, name)).__annotations__["return"]  # type: ignore[union-attr]
+    head = f"{name} : {_LEFT_OUT_OF_TYPES.sub('', formatannotation(annotation))}"
+    if declared is None:
+        texts = (str(part.__doc__) for part in (annotation, *get_args(annotation)) if is_dataclass(part))
+        text = item.metadata.get(_TEXT) or next(texts, "").partition("\n")[0]
+        return f"{head}\n    {text}"
+    title, text = declared.title, declared.text or declared.title
+    text = text if title in text else f"{title}: {text}"
+    si, shown = "", ""
+    if declared.unit:
+        unit = UNITS[declared.unit]
+        si, shown = f" [{unit.si or unit.symbol}]", f" {unit.symbol}"
+    default = None if declared.default in {None, ...} else f"{_brief(declared.default)}{shown}"
+    facts = {
+        "symbol": declared.symbol,
+        "source": declared.source,
+        "range": declared.bounds and f"{allowed(declared)}{shown}",
+        "default": default or declared.default_text,
+    }
+    rest = "; ".join(f"{word} {fact}" for word, fact in facts.items() if fact)
+    sentences = (f"{sentence[0].upper()}{sentence[1:]}." for sentence in (f"{text}{si}", rest) if sentence)
+    return "\n    ".join([head, *sentences])
 
 
 def _summary(data: Any) -> str:
