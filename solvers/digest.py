@@ -9,7 +9,7 @@ from pathlib import Path
 PACKAGE = Path(__file__).resolve().parent
 NO_CALCULATION = "published"
 """The package of published numbers for comparison, which does not affect results."""
-DECLARE = frozenset({"quantity", "Quantity"})
+DECLARE = frozenset({"quantity", "Quantity", "described"})
 LABELS = frozenset({"title", "symbol", "source", "text", "default_text", "assumed", "index"})
 """Arguments of a declaration that are text and do not affect results, beside the positional ones."""
 

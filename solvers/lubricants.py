@@ -8,7 +8,7 @@ import numpy as np
 
 from solvers.compiled import kernel
 from solvers.errors import InvalidInput
-from solvers.quantity import quantity
+from solvers.quantity import described, quantity, record
 
 PressureViscosityLaw = Literal["roelands", "barus"]
 OilKind = Literal["mineral", "pao", "ester", "polyglycol"]
@@ -20,28 +20,26 @@ ROELANDS_LOG_VISCOSITY = 9.67  # -ln of the viscosity 6.31e-5 Pa s at the pole
 ROELANDS_POLE_TEMPERATURE = 138.0  # K
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Lubricant:
     """A lubricating oil; the default is the oil of Xue, Zhang and Wang (second Table 2), its values at 360 K.
 
-    Units: viscosity, at reference_temperature and zero pressure [Pa s], reference_temperature [K],
-    pressure_viscosity (Barus coefficient) [1/Pa], temperature_viscosity (Reynolds coefficient) [1/K],
-    density, at reference_temperature [kg/m^3], specific_heat [J/(kg K)], thermal_conductivity [W/(m K)].
-    An incompressible oil keeps its density at every pressure and temperature. `kind` is its base oil, which only the
-    lubricant factors of the friction laws and of the scuffing test depend on. `viscosity_index` is told, not used.
+    An incompressible oil has the same density at every pressure and temperature.
     """
 
-    viscosity: float = 0.08
-    reference_temperature: float = 360.0
-    pressure_viscosity: float = 21.9e-9
-    temperature_viscosity: float = 0.042
-    density: float = 870.0
-    specific_heat: float = 2000.0
-    thermal_conductivity: float = 0.14
-    pressure_viscosity_law: PressureViscosityLaw = "roelands"
-    compressible: bool = True
-    kind: OilKind = "mineral"
-    viscosity_index: float | None = None
+    viscosity: float = described("Viscosity at the reference temperature and zero pressure [Pa s].", default=0.08)
+    reference_temperature: float = described("Reference temperature [K].", default=360.0)
+    pressure_viscosity: float = described("Pressure-viscosity coefficient of Barus [1/Pa].", default=21.9e-9)
+    temperature_viscosity: float = described("Temperature-viscosity coefficient of Reynolds [1/K].", default=0.042)
+    density: float = described("Density at the reference temperature [kg/m^3].", default=870.0)
+    specific_heat: float = described("Specific heat [J/(kg K)].", default=2000.0)
+    thermal_conductivity: float = described("Thermal conductivity [W/(m K)].", default=0.14)
+    pressure_viscosity_law: PressureViscosityLaw = described("Law of the viscosity over pressure.", default="roelands")
+    compressible: bool = described("Whether the density depends on pressure and temperature.", default=True)
+    kind: OilKind = described(
+        "Base oil; only the lubricant factors of friction laws and scuffing test depend on it.", default="mineral"
+    )
+    viscosity_index: float | None = described("Viscosity index; reported, not used [-].", default=None)
 
     @property
     def laws(self) -> "FluidLaws":

@@ -9,7 +9,7 @@ The attribute is in SI; range, default and tolerance of the declaration are in t
 
 import re
 from collections.abc import Callable
-from dataclasses import MISSING, dataclass, field, fields, is_dataclass
+from dataclasses import dataclass, field, fields, is_dataclass
 from functools import cache
 from inspect import cleandoc, formatannotation
 from math import pi
@@ -189,9 +189,9 @@ def quantity(
     return made
 
 
-def described(text: str, *, default: Any = MISSING) -> Any:
+def described(text: str, **options: Any) -> Any:
     """Return a dataclass field that is no quantity; `text` describes the field in the docstring of the class."""
-    return field(default=default, metadata={_TEXT: text})
+    return field(metadata={_TEXT: text}, **options)
 
 
 def computed(title: str, symbol: str | None = None, source: str | None = None, **known: Any) -> Callable[[T], T]:

@@ -3,29 +3,28 @@
 The friction of the mesh is the load distribution's own; here it only follows the oil's viscosity.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from solvers.arrays import FloatArray
 from solvers.heat_balance.oil import CoolingOil
+from solvers.quantity import described, record
 
 VISCOSITY_EXPONENT = -0.05  # of Schlenk's mean coefficient of friction (quoted, not verified)
 LARGEST_ACCELERATION_SHARE = 0.5  # chosen: of the rise by which the flow is sized
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class MeshHeat:
-    """Friction of the mesh: its power [W] at a temperature of the flanks [K], and the pinion's share.
+    """Friction of the mesh."""
 
-    The power follows the oil's viscosity by `viscosity_exponent`; a coefficient of friction that the user gives is
-    constant, the exponent then 0.
-    """
-
-    power: float
-    temperature: float
-    share_to_pinion: float
-    viscosity_exponent: float = VISCOSITY_EXPONENT
+    power: float = described("Friction power at `temperature` [W].")
+    temperature: float = described("Temperature of the flanks at which the power was computed [K].")
+    share_to_pinion: float = described("Share of the frictional heat that enters the pinion [-].")
+    viscosity_exponent: float = described(
+        "Exponent by which the power follows the viscosity of the oil; 0 if the user gives the coefficient of friction "
+        "[-].",
+        default=VISCOSITY_EXPONENT,
+    )
 
     def at(self, oil: CoolingOil, flanks: float) -> float:
         """Return the power [W] at a mean temperature of both flanks [K] (Eq. H6)."""

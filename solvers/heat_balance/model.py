@@ -1,7 +1,7 @@
 """The heat balance: network of what a user gives, calibration, equilibrium, band."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from math import pi
 
 import numpy as np
@@ -30,25 +30,25 @@ from solvers.heat_balance.results import (
 )
 from solvers.heat_balance.solution import Equilibrium, equilibrium
 from solvers.notices import Notice
+from solvers.quantity import described, record
 
 SPRAY_FACTOR = 1.2  # X_S of ISO/TS 6336-22
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class GearGeometry:
-    """One gear of the pair: lengths [m], speed [rad/s] whatever its sign, conductivity [W/(m K)].
+    """One gear of the pair."""
 
-    `shaft_radii` are those of the shaft beside both faces [m], 0 where there is none.
-    """
-
-    teeth: int
-    face_width: float
-    module: float
-    reference_radius: float
-    tip_radius: float
-    speed: float
-    conductivity: float = 46.0
-    shaft_radii: tuple[float, float] = (0.0, 0.0)
+    teeth: int = described("Number of teeth.")
+    face_width: float = described("Face width [m].")
+    module: float = described("Normal module [m].")
+    reference_radius: float = described("Reference radius [m].")
+    tip_radius: float = described("Tip radius [m].")
+    speed: float = described("Speed, positive [rad/s].")
+    conductivity: float = described("Thermal conductivity [W/(m K)].", default=46.0)
+    shaft_radii: tuple[float, float] = described(
+        "Radii of the shaft at both faces of the gear, 0 without a shaft there [m].", default=(0.0, 0.0)
+    )
 
     @property
     def face_area(self) -> float:
@@ -56,23 +56,23 @@ class GearGeometry:
         return pi * sum(max(self.tip_radius**2 - radius**2, 0.0) for radius in self.shaft_radii)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class HeatBalanceInputs:
-    """What the heat balance of a pair or of a unit depends on.
-
-    `pumping` of pinion and wheel [W]; None: half of `cooling.pumping` each. `couplings` [W] are reported only.
-    `centre_distance` [m] is for the estimate of ISO/TS 6336-22, `iso_tr_13989_bulk` [K] is reported beside it.
-    """
+    """Inputs of the heat balance of a gear pair or gear unit."""
 
     cooling: Cooling
     oil: CoolingOil
-    gears: tuple[GearGeometry, GearGeometry]
+    gears: tuple[GearGeometry, GearGeometry] = described("Geometry and speed of pinion and wheel.")
     mesh: MeshHeat
-    pumping: tuple[float, float] | None = None
-    journals: tuple[Journal, ...] = field(default=())
-    couplings: float = 0.0
-    centre_distance: float | None = None
-    iso_tr_13989_bulk: float | None = None
+    pumping: tuple[float, float] | None = described(
+        "Pumping losses of pinion and wheel; None: half of `cooling.pumping` per gear [W].", default=None
+    )
+    journals: tuple[Journal, ...] = described("Plain bearings.", default=())
+    couplings: float = described("Losses of the couplings, which are reported only [W].", default=0.0)
+    centre_distance: float | None = described("Centre distance, for the estimate by ISO/TS 6336-22 [m].", default=None)
+    iso_tr_13989_bulk: float | None = described(
+        "Bulk temperature by ISO/TR 13989, which is reported beside the estimate [K].", default=None
+    )
 
 
 def solve(inputs: HeatBalanceInputs) -> Heat:

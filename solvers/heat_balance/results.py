@@ -1,7 +1,7 @@
 """Results of a heat balance; SI units."""
 
 from solvers.notices import Notice
-from solvers.quantity import quantity, record
+from solvers.quantity import described, quantity, record
 from solvers.sources import OWN
 
 Range = tuple[float, float]
@@ -101,11 +101,7 @@ class CoolingInForce:
 
 @record
 class Heat:
-    """Temperatures, losses and flows of heat of a gear pair or unit.
-
-    `flank_cases` are the flanks [K] at the well cooled end of the band, in the nominal case and at the poorly cooled
-    end, for a safety with its band.
-    """
+    """Temperatures, losses and heat flows of a gear pair or gear unit."""
 
     pinion: GearTemperatures = quantity("pinion in the balance")
     wheel: GearTemperatures = quantity("wheel in the balance")
@@ -133,5 +129,9 @@ class Heat:
         default=None,
         text="gears against the casing; null without its temperature",
     )
-    flank_cases: tuple[tuple[float, float], ...] = ()
+    flank_cases: tuple[tuple[float, float], ...] = described(
+        "Temperatures of both flanks at the well cooled end of the band, in the nominal case and at the poorly cooled "
+        "end [K].",
+        default=(),
+    )
     warnings: tuple[Notice, ...] = ()

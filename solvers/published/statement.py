@@ -1,39 +1,40 @@
 """One published statement with a number, and how it is computed here."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from math import inf
+
+from solvers.quantity import described, record
 
 INDEPENDENT = "the paper shows a curve; the number is an independent calculation's"
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Row:
-    """A statement beside its computed number; deviation [-] is relative to the printed number, None for a bound."""
+    """A published statement with the number that is computed here."""
 
-    statement: str
-    source: str
-    printed: str
-    computed: float
-    unit: str
-    deviation: float | None
-    holds: bool
-    remark: str
+    statement: str = described("What the source says.")
+    source: str = described("Paper, and its equation, table or figure.")
+    printed: str = described("The number or bound that the source prints.")
+    computed: float = described("The number that is computed here, in `unit`.")
+    unit: str = described("Unit of both numbers; empty for a number without a unit.")
+    deviation: float | None = described("Deviation from the printed number, relative to it; None for a bound [-].")
+    holds: bool = described("Whether the computed number is within the tolerance.")
+    remark: str = described("Why the statement does not hold; empty if it holds.")
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Statement:
-    """What a source says: a number with the tolerance argued for it, or a bound; `remark` where it does not hold."""
+    """A published statement: a number with its tolerance, or a bound."""
 
-    says: str
-    source: str
-    printed: str
-    unit: str
-    compute: Callable[[], float]
-    least: float
-    most: float
-    number: float | None = None
-    remark: str = ""
+    says: str = described("What the source says.")
+    source: str = described("Paper, and its equation, table or figure.")
+    printed: str = described("The number or bound that the source prints.")
+    unit: str = described("Unit of the numbers; empty for a number without a unit.")
+    compute: Callable[[], float] = described("Function that computes the number here, in `unit`.")
+    least: float = described("Least number at which the statement holds, in `unit`.")
+    most: float = described("Largest number at which the statement holds, in `unit`.")
+    number: float | None = described("The printed number; None for a bound, in `unit`.", default=None)
+    remark: str = described("Why the statement does not hold; empty if it holds.", default="")
 
     def row(self) -> Row:
         """The statement with the number that is computed now."""
@@ -43,7 +44,7 @@ class Statement:
         return Row(self.says, self.source, self.printed, computed, self.unit, deviation, holds, self.remark)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Says:
     """What a source says, in words; each method adds the number and how it is computed here."""
 

@@ -1,6 +1,6 @@
 """Inputs of a lubricated line contact, in SI units."""
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Literal
 
 from solvers.lubricants import Lubricant
@@ -138,7 +138,7 @@ class Model:
     film_nodes: int = quantity("nodes across the film", "N_z", default=21, ge=7, le=61, advanced=True)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class LineContactInputs:
     """One line contact; its oil has no default."""
 

@@ -6,7 +6,7 @@ from typing import Literal
 from solvers.arrays import FloatArray
 from solvers.lubricants import OilInUse
 from solvers.notices import Notice
-from solvers.quantity import quantity, record
+from solvers.quantity import described, quantity, record
 from solvers.sources import XUE
 
 Status = Literal["ok", "ok_with_warnings", "no_solution"]
@@ -250,7 +250,7 @@ class Derived(OilInUse):
 class LineContactResult:
     """A lubricated line contact; what was not solved is None, and then status is no_solution."""
 
-    status: Status
+    status: Status = described("Outcome of the calculation.")
     hertz: HertzContact = quantity("dry contact")
     dimensionless: Dimensionless = quantity("dimensionless numbers")
     film: FilmThickness = quantity("film")
