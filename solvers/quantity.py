@@ -123,7 +123,6 @@ class Quantity:
         What the places of a list mean where no field says it.
     gaps
         NaN inside an array marks a point without a value.
-
     """
 
     title: str

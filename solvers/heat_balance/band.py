@@ -50,7 +50,6 @@ def extreme_network(network: Network, cooling: Cooling, extreme: Extreme) -> Net
     -----
     Eq. H21. With a measured temperature of a gear the wetting share is fitted again to the temperature at the end of
     its own uncertainty, as near as it comes.
-
     """
     spray = network.spray
     if cooling.fling_off_factor is None:
@@ -92,7 +91,6 @@ def flank_cases(network: Network, cooling: Cooling, nominal: FloatArray) -> tupl
     -------
     tuple of (float, float)
         Temperatures of pinion and wheel [K]: well cooled, nominal, poorly cooled.
-
     """
     ends = [extreme_network(network, cooling, extreme) for extreme in (WELL_COOLED, POORLY_COOLED)]
     rises = [equilibrium(ends[0], nominal).rises, nominal, equilibrium(ends[1], nominal).rises]

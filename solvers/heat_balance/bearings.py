@@ -27,7 +27,6 @@ def journal_leakage(surface_speed: float, width: float, clearance: float, eccent
     Notes
     -----
     Eq. H12: U L c eps, what Couette flow brings into the half of the bearing that carries less what leaves it.
-
     """
     return surface_speed * width * clearance * eccentricity
 

@@ -38,7 +38,6 @@ def drain_rise(network: Network, rises: FloatArray) -> float:
     -------
     float
         Rise of the mixture of the gears' and the bearings' oil [K].
-
     """
     flows = oil_flows(network, rises)
     warmed = network.spray.flow * rises[MIST] + flows @ rises[MIST + 1 : MIST + 1 + flows.size]
@@ -74,7 +73,6 @@ def with_drain(network: Network, drain: float) -> Network:
     Notes
     -----
     Eq. H20.
-
     """
     wanted = drain - network.oil.inlet
     if wanted <= 0.0:
@@ -124,7 +122,6 @@ def with_rotor(network: Network, node: str, temperature: float, drain: float | N
     Notes
     -----
     Eq. H19.
-
     """
     place, wanted = network.nodes.index(node), temperature - network.oil.inlet
     fitted = _fitted(network, place, wanted, None if drain is None else drain - network.oil.inlet)

@@ -56,7 +56,6 @@ def cylinders_capacity(
     -------
     float
         Heat capacity [J/K].
-
     """
     volume = sum(pi / 4 * length * (outer**2 - inner**2) for length, outer, inner in sections)
     return volume * density * specific_heat
@@ -91,6 +90,5 @@ def loaded_teeth_capacity(
     -------
     float
         Heat capacity z b H pi m_n/4 rho c [J/K].
-
     """
     return teeth * face_width * height * pi * module / 4 * density * specific_heat

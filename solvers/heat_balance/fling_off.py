@@ -58,7 +58,6 @@ def turning_teeth(teeth: int, face_width: float, module: float, radius: float, s
     Notes
     -----
     Eq. H1: A = 2 z b H, H = 2.25 m_n.
-
     """
     height = TOOTH_HEIGHT * module
     return TurningTeeth(2 * teeth * face_width * height, height, radius, speed)
@@ -83,7 +82,6 @@ def heat_number(film: float, turn: float) -> float:
     -----
     Eq. H2. A thin film takes all that it can, q = h0'; after a short time the film is a half space, q = 2 sqrt(t'/pi);
     a thick film ends at 0.98, by similarity. The closed form joins the three within 2.5 % of the solved film.
-
     """
     short = 2 * sqrt(turn / pi)
     unlimited = short**TIME_POWER + LONG_TURN**TIME_POWER
@@ -110,7 +108,6 @@ def fling_off_time(oil: CoolingOil, teeth: TurningTeeth, temperature: float) -> 
     Notes
     -----
     Eq. H3: t* = sqrt(nu H/(a r))/omega.
-
     """
     viscosity = oil.viscosity(temperature) / oil.density
     return sqrt(viscosity * teeth.height / (oil.diffusivity * teeth.radius)) / teeth.speed
@@ -134,7 +131,6 @@ def laid_film(teeth: TurningTeeth, flow: float) -> float:
     Notes
     -----
     Eq. H4: h0 = Q_i/(A_i omega/2 pi).
-
     """
     return flow / (teeth.area * teeth.turns)
 
@@ -178,7 +174,6 @@ def fling_off(oil: CoolingOil, teeth: TurningTeeth, flow: float, factor: float, 
     Notes
     -----
     Eq. H5: G = f omega/(2 pi) A sqrt(k rho c t*) q(h0', t'), G <= rho c Q_i; flooded: h0' = 50.
-
     """
     time = fling_off_time(oil, teeth, (flank + oil.inlet) / 2)
     length, turn = sqrt(oil.diffusivity * time), 1 / (teeth.turns * time)

@@ -37,7 +37,6 @@ def over_the_flow(inputs: HeatBalanceInputs, flows: FloatArray) -> FlowCurve:
     -------
     FlowCurve
         Temperatures at these flows; losses follow the temperatures only.
-
     """
     network = calibrated(network_of(inputs), inputs.cooling)
     start: FloatArray | None = None

@@ -65,7 +65,6 @@ def share_to_pinion(
     -----
     Eq. H7: phi = int q sqrt(u_1)/(sqrt(u_1) + sqrt(u_2)) / int q: both surfaces have the same temperature in the
     contact, which they pass as half spaces under a moving source.
-
     """
     total = float(np.trapezoid(heat, position))
     if total == 0.0:
@@ -98,7 +97,6 @@ def windage(pitch_line_velocity: float, diameter: float, face_width: float, modu
     Notes
     -----
     Eq. H8: torque 1.37e-9 v^1.9 d^1.6 b^0.52 m_n^0.69 N m with lengths in mm; the lowest of three formulas.
-
     """
     sizes = (diameter * 1e3) ** 1.6 * (face_width * 1e3) ** 0.52 * (module * 1e3) ** 0.69
     return float(1.37e-9 * pitch_line_velocity**1.9 * sizes * speed)
@@ -127,7 +125,6 @@ def acceleration_power(oil: CoolingOil, flow: float, velocity: float, jet: float
     -----
     Eq. H9: rho Q v (v - v_jet). Per mass, (v - v_jet)^2/2 of it becomes heat as the oil hits the teeth, the
     rest as the casing stops the oil.
-
     """
     return oil.density * flow * velocity * (velocity - jet)
 
@@ -152,7 +149,6 @@ def impact_rise(oil: CoolingOil, velocity: float, jet: float) -> float:
     Notes
     -----
     Eq. H10: (v - v_jet)^2/(2 c).
-
     """
     return (velocity - jet) ** 2 / (2 * oil.specific_heat)
 
@@ -185,7 +181,6 @@ def flow_by_rise(
     Notes
     -----
     Eq. H11: Q = P/(rho c (dT - min(dT/2, w v (v - v_jet)/c))).
-
     """
     accelerating = wetting_share * velocity * (velocity - jet) / oil.specific_heat
     warming = rise - min(LARGEST_ACCELERATION_SHARE * rise, accelerating)
@@ -214,6 +209,5 @@ def ts_6336_22_bulk_rise(loss: float, centre_distance: float, face_width: float,
     Notes
     -----
     Eq. H13: 7400 (P mu H_v/(a b))^0.72 X_S/1.2, in kW and mm.
-
     """
     return float(7400 * (loss * 1e-3 / (centre_distance * face_width * 1e6)) ** 0.72 * supply_factor / 1.2)

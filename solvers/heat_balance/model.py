@@ -94,7 +94,6 @@ def solve(inputs: HeatBalanceInputs) -> Heat:
         `exclusive` or `measured_unreachable` for measured temperatures.
     NoSolution
         `heat_balance`, `thermal_runaway`, or what a bearing raises.
-
     """
     cooling = inputs.cooling
     cooling.check()
@@ -137,7 +136,6 @@ def network_of(inputs: HeatBalanceInputs) -> Network:
     -------
     Network
         Nodes and flows of heat.
-
     """
     cooling, oil = inputs.cooling, inputs.oil
     pumping = (cooling.pumping / 2, cooling.pumping / 2) if inputs.pumping is None else inputs.pumping
@@ -182,7 +180,6 @@ def calibrated(network: Network, cooling: Cooling) -> Network:
     -------
     Network
         With a fitted wetting share and fitted other losses, where these are measured.
-
     """
     measured = cooling.measured
     if measured.rotors:
@@ -311,7 +308,6 @@ def backlash_loss(
     Notes
     -----
     Eq. H22: 2 tan(alpha_wt) alpha_L sum r_wi (B_i - C).
-
     """
     if heat.casing is None:
         return heat

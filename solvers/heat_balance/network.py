@@ -179,7 +179,6 @@ class Network:
         Notes
         -----
         Eq. H17.
-
         """
         mist, oil, source = float(rises[MIST]), self.size, self.size + 2
         flows = [

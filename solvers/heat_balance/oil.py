@@ -43,7 +43,6 @@ def cooling_oil(oil: OilSheet | Lubricant, inlet: float) -> CoolingOil:
     -------
     CoolingOil
         Its density at the supply temperature and its viscosity at any temperature without pressure.
-
     """
     supplied = lubricant_at(oil, inlet)
     return CoolingOil(

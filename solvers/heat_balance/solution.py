@@ -51,7 +51,6 @@ def equilibrium(network: Network, start: FloatArray | None = None) -> Equilibriu
     Eq. H18. Minus the Jacobian -J is an M-matrix: no element beside its diagonal is positive, and every node warms if
     every node gains a little heat more. Then the equilibrium is stable. Where all row sums of -J are positive it is the
     only one; hot, starved flanks can violate that and are not refused for it.
-
     """
     rises = np.zeros(network.size) if start is None else np.array(start, dtype=float)
     residual = network.residual(rises)

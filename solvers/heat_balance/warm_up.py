@@ -73,7 +73,6 @@ def warm_up(network: Network, capacities: Capacities, start: float, until: float
     Notes
     -----
     Eq. H24: C dT/dt = residual of the network, by backward differentiation.
-
     """
     final, capacity = equilibrium(network).rises, capacities.of(network)
     rates = jacobian(network, final, network.residual(final)) / capacity[:, None]

@@ -79,7 +79,6 @@ def density(laws: FluidLaws, p: Numbers, t: Numbers) -> Numbers:
     -------
     (...) array
         Density [kg/m^3].
-
     """
     p = np.where(p.real > 0.0, p, 0.0)
     compression = laws.pressure_density * p / (1.0 + 1.7e-9 * p)
@@ -102,7 +101,6 @@ def viscosity(laws: FluidLaws, p: Numbers, t: Numbers) -> Numbers:
     -------
     (...) array
         Viscosity [Pa s].
-
     """
     p = np.where(p.real > 0.0, p, 0.0)
     if laws.roelands == 0:
@@ -131,7 +129,6 @@ def effective_fluidity(problem: Problem, tau: Numbers, eta: Numbers) -> Numbers:
     -------
     (n, m) array
         Effective fluidity [1/(Pa s)].
-
     """
     if problem.rheology == NEWTONIAN:
         return np.asarray(1.0 / eta)
@@ -158,7 +155,6 @@ def mid_film_stress(problem: Problem, eta: Numbers, g: Numbers, h: Numbers) -> N
     -------
     (n,) array
         Stress [Pa].
-
     """
     zeta, dz = _intervals(eta.shape[1])
     slide = (problem.speed_2 - problem.speed_1) / h
@@ -195,7 +191,6 @@ def columns(problem: Problem, p: Numbers, g: Numbers, h: Numbers, t: Numbers) ->
     -------
     Columns
         Density, stress and rate of every interval, flow coefficients and stream functions.
-
     """
     zeta, dz = _intervals(t.shape[1] - 1)
     t_mid = 0.5 * (t[:, 1:] + t[:, :-1])
@@ -240,7 +235,6 @@ def uniform_columns(problem: Problem, p: Numbers, g: Numbers, h: Numbers) -> tup
         Flow coefficient A [s].
     b : (n,) array
         Flow coefficient B [kg/(m^2 s)].
-
     """
     inlet = np.full(p.shape, problem.inlet)
     rho, eta = density(problem.laws, p, inlet), viscosity(problem.laws, p, inlet)
@@ -281,7 +275,6 @@ def face_fluxes(grid: Grid, pressure: Numbers, film: Numbers, a: Numbers, b: Num
     -------
     (n - 1,) array
         Mass flux over b^2/R [kg/(m^2 s)].
-
     """
     dx, d = np.diff(grid.x), b * film
     ratio = np.concatenate([[-0.5], 0.5 * dx[1:] / dx[:-1]])
@@ -307,7 +300,6 @@ def balance_of_mass(pressure: Numbers, cavitated: BoolArray, flux: Numbers) -> N
     -------
     (n,) array
         Residual [-].
-
     """
     mass = pressure.astype(flux.dtype)
     inside = np.flatnonzero(~cavitated[1:-1]) + 1
@@ -331,7 +323,6 @@ def film_thickness(grid: Grid, pressure: Numbers, separation: Any) -> Numbers:
     -------
     (n,) array
         H = h R/b^2 [-].
-
     """
     return np.asarray(separation + 0.5 * grid.x**2 + grid.deflection @ pressure)
 
@@ -354,7 +345,6 @@ def pressure_gradient(grid: Grid, pressure: Numbers, cavitated: BoolArray) -> Nu
     -------
     (n,) array
         Gradient [-].
-
     """
     n = grid.x.size
     node = np.arange(n)
@@ -379,7 +369,6 @@ def balance_of_load(grid: Grid, pressure: Numbers) -> Any:
     -------
     number
         Residual [-].
-
     """
     return grid.weights @ pressure - 0.5 * np.pi
 
@@ -408,7 +397,6 @@ def carried_heat(
     -------
     Carried
         Stream function, share of oil and density.
-
     """
     m_dot = flux[pressure.argmax()]
     psi = at.couette + (m_dot - at.couette[:, -1:]) * at.poiseuille
@@ -447,7 +435,6 @@ def balance_of_heat(
     -------
     (n, k) array
         Residual [W/m^2]; of the first column, whose temperatures are given, zero.
-
     """
     n, k = t.shape
     m = k - 1
@@ -492,7 +479,6 @@ def surface_temperatures(problem: Problem, grid: Grid, q_1: Numbers, q_2: Number
         Temperature of surface 1 [K].
     surface_2 : (n,) array
         Temperature of surface 2 [K].
-
     """
     return (
         problem.bulk_1 + problem.surface_heating_1 * (grid.heat @ q_1),
@@ -518,7 +504,6 @@ def inlet_temperatures(problem: Problem, h: float, t: Numbers, m_dot: float) -> 
     -------
     (k,) array
         Temperature [K].
-
     """
     zeta = np.linspace(0.0, 1.0, t.shape[1])
     mean = m_dot / (problem.laws.density * h)
@@ -561,7 +546,6 @@ def residual(
     -------
     Residual
         Of mass, load and heat.
-
     """
     film = film_thickness(grid, pressure, separation)
     h, p = film * problem.gap_scale, pressure * problem.maximum_pressure
@@ -603,7 +587,6 @@ def isothermal_residual(
         Residual of mass over the flux scale [-].
     load : number
         Residual of the load [-].
-
     """
     film = film_thickness(grid, pressure, separation)
     h, p = film * problem.gap_scale, pressure * problem.maximum_pressure
