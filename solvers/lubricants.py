@@ -43,7 +43,7 @@ class Lubricant:
 
     @property
     def laws(self) -> "FluidLaws":
-        """The constants of the laws, as the compiled functions take them."""
+        """Constants of the viscosity and density laws, for the compiled functions."""
         a1 = log(self.viscosity) + ROELANDS_LOG_VISCOSITY
         return FluidLaws(
             log_viscosity=log(self.viscosity),
@@ -64,9 +64,12 @@ class Lubricant:
         )
 
     def viscosity_at(self, pressure: float, temperature: float) -> float:
-        """Viscosity [Pa s] at pressure [Pa] and temperature [K].
+        """Return the viscosity [Pa s] at pressure [Pa] and temperature [K].
 
-        Raises InvalidInput viscosity_range where the law makes it thicker than any oil without pressure.
+        Raises
+        ------
+        InvalidInput
+            `viscosity_range` if the law makes the oil thicker than any oil is without pressure.
         """
         laws = self.laws
         logarithm = float(log_viscosity(laws, pressure_part(laws, 0.0)[0], temperature)[0])
@@ -80,13 +83,13 @@ class Lubricant:
         return float(np.exp(log_viscosity(laws, pressure_part(laws, pressure)[0], temperature)[0]))
 
     def density_at(self, pressure: float, temperature: float) -> float:
-        """Density [kg/m^3] at pressure [Pa] and temperature [K]."""
+        """Return the density [kg/m^3] at pressure [Pa] and temperature [K]."""
         return float(density(self.laws, pressure, temperature)[0])
 
 
 @dataclass(frozen=True, kw_only=True)
 class OilInUse:
-    """The properties of a lubricant that a result reports; units as in `Lubricant`."""
+    """The properties of a lubricant that a result reports."""
 
     viscosity: float = quantity("oil viscosity used", "η_0", unit="pa_s", text="at the reference temperature")
     reference_temperature: float = quantity("oil reference temperature used", "θ_0", unit="c")
@@ -101,12 +104,12 @@ class OilInUse:
 
 
 def oil_in_use(lubricant: Lubricant) -> dict[str, Any]:
-    """The fields of `OilInUse`."""
+    """Return the fields of `OilInUse` by name."""
     return {item.name: getattr(lubricant, item.name) for item in fields(OilInUse)}
 
 
 class FluidLaws(NamedTuple):
-    """Constants of the viscosity and density laws; the symbols are those of the functions below."""
+    """Constants of the viscosity and density laws of one oil, in SI units."""
 
     log_viscosity: float
     reference_temperature: float
@@ -123,10 +126,23 @@ class FluidLaws(NamedTuple):
 
 @kernel
 def pressure_part(laws: FluidLaws, pressure: float) -> tuple[float, float]:
-    """What pressure [Pa] contributes to the logarithm of viscosity, and its derivative [1/Pa].
+    """Compute the pressure term of the logarithm of the viscosity and its derivative.
 
-    Roelands: A1 (1 + 5.1e-9 p)^Z with Z = alpha / (5.1e-9 A1), A1 = ln eta0 + 9.67 (Eq. 20); Barus: alpha p.
-    Suction counts as no pressure: it occurs on the way to a solution only.
+    Parameters
+    ----------
+    laws : FluidLaws
+        Constants of the oil.
+    pressure : float
+        Pressure p [Pa]; a negative pressure counts as zero, because it only occurs during the iteration.
+
+    Returns
+    -------
+    tuple of float
+        Pressure term [-] and its derivative by pressure [1/Pa].
+
+    Notes
+    -----
+    Eq. 20 by Roelands: A1 (1 + 5.1e-9 p)^Z with Z = alpha/(5.1e-9 A1) and A1 = ln eta_0 + 9.67. By Barus: alpha p.
     """
     p = max(pressure, 0.0)
     if laws.roelands == 1:
@@ -143,11 +159,28 @@ def pressure_part(laws: FluidLaws, pressure: float) -> tuple[float, float]:
 
 @kernel
 def log_viscosity(laws: FluidLaws, pressure_term: float, temperature: float) -> tuple[float, float, float]:
-    """ln(eta / Pa s), its derivative by the pressure term of `pressure_part` and by temperature [1/K].
+    """Compute the logarithm of the viscosity and its derivatives.
 
-    Roelands (Eq. 20): A1 {-1 + (1 + 5.1e-9 p)^Z [(t - 138)/(t0 - 138)]^-S0} with S0 = beta (t0 - 138)/A1. The paper
-    prints S0 = beta/(A1 (t0 - 138)), which is no number and would leave the viscosity independent of temperature;
-    only the form here has -d ln eta/dt = beta at t0. Barus and Reynolds: alpha p - beta (t - t0).
+    Parameters
+    ----------
+    laws : FluidLaws
+        Constants of the oil.
+    pressure_term : float
+        Pressure term by `pressure_part` [-].
+    temperature : float
+        Temperature t [K].
+
+    Returns
+    -------
+    tuple of float
+        ln(eta/Pa s) [-], its derivative by the pressure term [-] and its derivative by temperature [1/K].
+
+    Notes
+    -----
+    Eq. 20 by Roelands: ln eta = ln eta_0 + A1 {-1 + (1 + 5.1e-9 p)^Z [(t - 138)/(t_0 - 138)]^-S0} with S0 = beta (t_0 -
+    138)/A1. The paper prints S0 = beta/(A1 (t_0 - 138)), which has the wrong unit and would make the viscosity almost
+    independent of temperature; only the form here gives -d ln eta/dt = beta at t_0. By Barus and Reynolds: ln eta = ln
+    eta_0 + alpha p - beta (t - t_0).
     """
     if laws.roelands == 1:
         above_pole = temperature - ROELANDS_POLE_TEMPERATURE
@@ -162,7 +195,26 @@ def log_viscosity(laws: FluidLaws, pressure_term: float, temperature: float) -> 
 
 @kernel
 def density(laws: FluidLaws, pressure: float, temperature: float) -> tuple[float, float, float]:
-    """Density [kg/m^3], its derivatives by pressure and temperature (Dowson and Higginson, Eq. 19)."""
+    """Compute the density of the oil and its derivatives by Dowson and Higginson.
+
+    Parameters
+    ----------
+    laws : FluidLaws
+        Constants of the oil.
+    pressure : float
+        Pressure p [Pa]; a negative pressure counts as zero.
+    temperature : float
+        Temperature [K].
+
+    Returns
+    -------
+    tuple of float
+        Density [kg/m^3], its derivative by pressure [kg/(m^3 Pa)] and by temperature [kg/(m^3 K)].
+
+    Notes
+    -----
+    Eq. 19.
+    """
     p = max(pressure, 0.0)
     base = 1.0 + 1.7e-9 * p
     heating = temperature - laws.reference_temperature

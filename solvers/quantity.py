@@ -1,4 +1,4 @@
-"""Declarations of quantities (title, symbol, source, unit, range) on the dataclass fields that hold them.
+"""Declarations of quantities (title, symbol, source, unit, range), each at the dataclass field of the quantity.
 
     @record
     class Coupling:
@@ -26,7 +26,7 @@ _LEFT_OUT_OF_TYPES = re.compile(r"\b(?:[a-z_]\w*\.)+|(?<=ndarray)\[.*?\]\]|^'|'$
 class Unit(NamedTuple):
     """A unit in which a quantity is shown, written as `symbol`: SI value = scale × value + offset.
 
-    `si` is the symbol of the SI unit, None if the quantity is shown in the SI unit.
+    `si` is the symbol of the SI unit, or None if the quantity is shown in its SI unit.
     """
 
     symbol: str
@@ -79,7 +79,7 @@ UNITS = {
     "w_per_m2_k": Unit("W/(m² K)", 1.0),
     "w_per_k": Unit("W/K", 1.0),
 }
-"""By the suffix that names of the HTTP interface carry."""
+"""Units by the suffix of field names in the API."""
 
 
 @dataclass(frozen=True)
@@ -88,41 +88,41 @@ class Quantity:
 
     Parameters
     ----------
-    title
-        Label that stands alone.
-    symbol, source
-        Of the field's literature.
-    text
-        Description, where the title does not suffice.
-    unit
-        Key of `UNITS`; None for what has no unit.
-    ge, gt, le, lt
+    title : str
+        Label that can be read alone.
+    symbol, source : str, optional
+        Symbol of the quantity and the literature that uses it.
+    text : str, optional
+        Description, if the title is not enough.
+    unit : str, optional
+        Key of `UNITS`; None if the quantity has no unit.
+    ge, gt, le, lt : float, optional
         Range of an input.
-    default
-        Of an input or of an option; `...` where there is none.
-    default_text
-        What None stands for.
-    assumed
-        Reason behind a default that is ours and not the paper's; a result that rests on the default lists it.
-    advanced
-        An option of model or resolution.
-    folded
-        An input that few users know: a form shows it on demand.
-    tolerance, relative_tolerance
-        What manufacture or measurement usually leaves open, in the shown unit; and as a share of the value where that
-        is more. Every input that may be zero has a tolerance, by which a sensitivity moves it.
-    if_above, if_negative
-        What to give instead of a value above the range, or of text; and instead of a negative one.
-    length
+    default : Any
+        Default of an input or of an option; `...` if there is none.
+    default_text : str, optional
+        What None means.
+    assumed : str, optional
+        Reason for a default that is our own and not that of the paper; a result that depends on the default lists it.
+    advanced : bool
+        Whether the field is an option of model or resolution.
+    folded : bool
+        Whether a form shows the input on demand only, because few users know it.
+    tolerance, relative_tolerance : float, optional
+        Usual uncertainty from manufacture or measurement, in the shown unit and as a share of the value; the larger one
+        counts. Every input that may be zero has a tolerance, by which a sensitivity varies it.
+    if_above, if_negative : str, optional
+        What to give instead of text or of a value above the range, and instead of a negative value.
+    length : tuple of (int, int), optional
         Least and largest number of values of a list.
-    detail
-        Least level of detail at which a result holds the field.
-    axis
-        Field over which a curve runs, or the two of a map; a dotted name starts at the whole result.
-    index
-        What the places of a list mean where no field says it.
-    gaps
-        NaN inside an array marks a point without a value.
+    detail : str
+        Lowest level of detail at which a result contains the field.
+    axis : str or tuple of (str, str), optional
+        Field along which a curve runs, or both fields of a map; a dotted name starts at the whole result.
+    index : str, optional
+        What the positions in a list mean, if no field says it.
+    gaps : bool
+        Whether NaN in an array marks a point without a value.
     """
 
     title: str
@@ -151,18 +151,18 @@ class Quantity:
 
     @property
     def bounds(self) -> dict[str, float]:
-        """The ends of the range by name, those there are."""
+        """Ends of the range by name, without those that are not given."""
         return {name: end for name in ("ge", "gt", "le", "lt") if (end := getattr(self, name)) is not None}
 
     def to_si(self, value: Any) -> Any:
-        """A number, or a list of them, in SI; what is no number passes unchanged."""
+        """Return a number or a list of numbers in SI; return any other value unchanged."""
         unit = UNITS[self.unit] if self.unit else None
-        return value if unit is None else _each(lambda number: number * unit.scale + unit.offset, value)
+        return value if unit is None else _convert(lambda number: number * unit.scale + unit.offset, value)
 
     def from_si(self, value: Any) -> Any:
-        """A number, or a list of them, in the shown unit."""
+        """Return a number or a list of numbers in the shown unit; return any other value unchanged."""
         unit = UNITS[self.unit] if self.unit else None
-        return value if unit is None else _each(lambda number: (number - unit.offset) / unit.scale, value)
+        return value if unit is None else _convert(lambda number: (number - unit.offset) / unit.scale, value)
 
 
 def quantity(
@@ -173,10 +173,10 @@ def quantity(
     default: Any = ...,
     default_factory: Callable[[], Any] | None = None,
     kw_only: bool = False,
-    **known: Any,
+    **details: Any,
 ) -> Any:
-    """A dataclass field with its `Quantity`; the default is given in the shown unit and held in SI."""
-    declared = Quantity(title, symbol, source, default=default, **known)
+    """Return a dataclass field with its `Quantity`; the default is given in the shown unit and held in SI."""
+    declared = Quantity(title, symbol, source, default=default, **details)
     options: dict[str, Any] = {"metadata": {_KEY: declared}}
     if kw_only:
         options["kw_only"] = True
@@ -184,20 +184,20 @@ def quantity(
         options["default_factory"] = default_factory
     elif default is not ...:
         options["default"] = declared.to_si(default)
-    made: Any = field(**options)
-    return made
+    declared_field: Any = field(**options)
+    return declared_field
 
 
 def described(text: str, **options: Any) -> Any:
-    """Return a dataclass field that is no quantity; `text` describes the field in the docstring of the class."""
+    """Return a dataclass field without a `Quantity`; the docstring of the class describes the field by `text`."""
     return field(metadata={_TEXT: text}, **options)
 
 
-def computed(title: str, symbol: str | None = None, source: str | None = None, **known: Any) -> Callable[[T], T]:
-    """Declare a value that a dataclass computes when asked: stands between `property` or `cached_property` and it."""
+def computed(title: str, symbol: str | None = None, source: str | None = None, **details: Any) -> Callable[[T], T]:
+    """Declare a value that a dataclass computes; the decorator stands directly above the function, below `property`."""
 
     def declare(function: T) -> T:
-        setattr(function, _KEY, Quantity(title, symbol, source, **known))
+        setattr(function, _KEY, Quantity(title, symbol, source, **details))
         return function
 
     return declare
@@ -209,41 +209,42 @@ def record(cls: type[T], /) -> type[T]: ...
 def record(*, kw_only: bool = False, slots: bool = True) -> Callable[[type[T]], type[T]]: ...
 @dataclass_transform(frozen_default=True, field_specifiers=(quantity, described, field))
 def record(cls: Any = None, /, *, kw_only: bool = False, slots: bool = True) -> Any:
-    """Make a frozen dataclass, whose fields may be declared by `quantity` and print with their units.
+    """Make a frozen dataclass whose fields may be declared by `quantity`; it prints its values with their units.
 
-    Without slots it can keep what it computes (`cached_property`).
+    The docstring of the class gets numpydoc's sections on its fields. A dataclass without slots can keep what it
+    computes (`cached_property`).
     """
 
-    def made(kind: Any) -> Any:
+    def make(kind: Any) -> Any:
         if "__repr__" not in vars(kind):
             kind.__repr__ = _summary
         data: Any = dataclass(frozen=True, slots=slots, kw_only=kw_only, repr=False)(kind)
         data.__doc__ = _Docstring(data.__doc__)
         return data
 
-    return made if cls is None else made(cls)
+    return make if cls is None else make(cls)
 
 
 @cache
 def quantities(kind: Any) -> dict[str, Quantity]:
-    """The declarations of a dataclass by name: of its fields in their order, then of what it computes."""
-    found = {each.name: each.metadata[_KEY] for each in fields(kind) if _KEY in each.metadata}
+    """Return the declarations of a dataclass by name: of its fields in their order, then of its computed values."""
+    declared = {item.name: item.metadata[_KEY] for item in fields(kind) if _KEY in item.metadata}
     for base in reversed(kind.__mro__):
         for name, member in vars(base).items():
             function = _function_of(member)
             if hasattr(function, _KEY):
-                found[name] = getattr(function, _KEY)
-    return found
+                declared[name] = getattr(function, _KEY)
+    return declared
 
 
 def type_of(kind: Any, name: str) -> Any:
-    """The type of a declared field or computed value."""
+    """Return the type of a declared field or computed value."""
     function = _function_of(getattr(kind, name, None))
     return _hints(kind)[name] if function is None else get_type_hints(function)["return"]
 
 
 def _function_of(member: Any) -> Callable[[Any], Any] | None:
-    """What computes a property; None of another member."""
+    """Return the function that computes a property; None for any other member."""
     return member.fget if isinstance(member, property) else getattr(member, "func", None)
 
 
@@ -253,7 +254,7 @@ def _hints(kind: Any) -> dict[str, Any]:
 
 
 def allowed(declared: Quantity) -> str:
-    """The range in words, in the shown unit but without it."""
+    """Return the range in words, in the shown unit but without its symbol."""
     ends = declared.bounds
     if {"ge", "le"} <= set(ends):
         return f"{ends['ge']:.12g} to {ends['le']:.12g}"
@@ -262,35 +263,36 @@ def allowed(declared: Quantity) -> str:
 
 
 def advice(declared: Quantity, value: Any) -> str:
-    """Say what to give instead of text or a value outside the range, in the shown unit; empty if nothing is known."""
+    """Return what to give instead of text or of a value outside the range, in the shown unit; may be empty."""
     is_number = isinstance(value, int | float) and not isinstance(value, bool)
     if is_number and value < 0:
-        said = declared.if_negative
+        text = declared.if_negative
     elif is_number:
         most = declared.bounds.get("le", declared.bounds.get("lt"))
-        said = declared.if_above if most is not None and value > most else None
+        text = declared.if_above if most is not None and value > most else None
     else:
-        said = declared.if_above if isinstance(value, str) else None
-    return f"; {said}" if said else ""
+        text = declared.if_above if isinstance(value, str) else None
+    return f"; {text}" if text else ""
 
 
 def to_dict(data: Any) -> dict[str, Any]:
-    """The declared values of a dataclass in the units shown, named as in the interface: `module` as `module_mm`.
+    """Return the declared values of a dataclass in the shown units, named as in the API: `module` as `module_mm`.
 
-    Arrays become lists, dataclasses inside it dictionaries; NaN, which marks a point without a value, becomes None.
+    Arrays become lists, and inner dataclasses become dictionaries. NaN, which marks a point without a value, becomes
+    None.
     """
     return _plain(data, None)  # type: ignore[no-any-return]
 
 
 def _plain(value: Any, outer: Quantity | None) -> Any:
-    """A value as JSON can hold it; `outer` declares the values of a dataclass that have no unit of their own."""
+    """Return a value as JSON can hold it; `outer` declares the inner values that have no unit of their own."""
     if is_dataclass(value):
         kind: Any = type(value)
         named = {}
         for name, declared in quantities(kind).items():
-            known = outer if outer and declared.unit is None else declared
+            counting = outer if outer and declared.unit is None else declared
             own = f"{name}_{declared.unit}" if declared.unit else name
-            named[own] = _plain(getattr(value, name), known)
+            named[own] = _plain(getattr(value, name), counting)
         return named
     if isinstance(value, np.ndarray):
         return _plain(value.tolist(), outer)
@@ -302,7 +304,10 @@ def _plain(value: Any, outer: Quantity | None) -> Any:
 
 
 class _Docstring:
-    """Docstring of a dataclass that is completed when it is read: composing all of them slowed the import."""
+    """Docstring of a dataclass that is completed when it is read.
+
+    Completing the docstrings of all dataclasses at once would slow the import.
+    """
 
     def __init__(self, text: str) -> None:
         self.text = text
@@ -351,15 +356,14 @@ def _entry(kind: Any, name: str, declared: Quantity | None) -> str:
 
 
 def _summary(data: Any) -> str:
-    """One line: numbers with their units, lists and arrays by their shape, dataclasses by their class."""
+    """Return one line: numbers with their units, lists and arrays by their shape, dataclasses by their class."""
     kind: Any = type(data)
     declared = quantities(kind)
     parts = []
-    for name in dict.fromkeys([*(each.name for each in fields(data) if each.repr), *declared]):
-        known = declared.get(name)
-        value = getattr(data, name)
-        shown = known.from_si(value) if known and not is_dataclass(value) else value
-        parts.append(f"{name}={_brief(shown)}{_symbol(known, value)}")
+    for name in dict.fromkeys([*(item.name for item in fields(data) if item.repr), *declared]):
+        own, value = declared.get(name), getattr(data, name)
+        shown = own.from_si(value) if own and not is_dataclass(value) else value
+        parts.append(f"{name}={_brief(shown)}{_symbol(own, value)}")
     return f"{type(data).__name__}({', '.join(parts)})"
 
 
@@ -385,12 +389,12 @@ def _brief(value: Any) -> str:
             return str(value)
 
 
-def _each(convert: Callable[[Any], Any], value: Any) -> Any:
-    """Convert a number, an array or each member of a list; leave text, booleans and None."""
+def _convert(convert: Callable[[Any], Any], value: Any) -> Any:
+    """Convert a number, an array or all members of a list; leave text, booleans and None."""
     match value:
         case None | bool() | str():
             return value
         case list() | tuple():
-            return tuple(_each(convert, item) for item in value)
+            return tuple(_convert(convert, item) for item in value)
         case _:
             return convert(value)

@@ -13,7 +13,10 @@ RACK_A = 0.38  # normal modules; rack A of ISO 53, assumed where the stiffness o
 
 @record
 class GearTeeth:
-    """One gear's teeth; every coefficient counts normal modules. A tip diameter given counts, not the addendum."""
+    """Teeth of one gear; all coefficients are in normal modules.
+
+    If a tip diameter is given, the addendum is not used.
+    """
 
     teeth: int = quantity(
         "number of teeth", "z", ISO_21771, ge=5, le=1000, if_negative="internal gears are not modelled"
@@ -129,9 +132,15 @@ class GearPairInputs:
         return self.module if self.module_plane == "normal" else self.module * cos(self.helix_angle)
 
     def addendum_of(self, teeth: GearTeeth) -> float:
-        """Addendum coefficient of one gear of the pair: h_aP* = (d_a - d)/(2 m_n) - x of a tip diameter d_a.
+        """Return the addendum coefficient of one gear of the pair.
 
-        Raises InvalidInput: missing_property with neither; tip_diameter where no rack makes it.
+        A tip diameter d_a gives h_aP* = (d_a - d)/(2 m_n) - x.
+
+        Raises
+        ------
+        InvalidInput
+            `missing_property` if neither addendum nor tip diameter is given; `tip_diameter` if no rack makes the given
+            one.
         """
         name = "pinion" if teeth is self.pinion else "wheel"
         if teeth.tip_diameter is None:

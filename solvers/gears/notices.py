@@ -1,4 +1,4 @@
-"""Warnings about a gear pair that meshes, the same in every model."""
+"""Warnings about a gear pair that meshes; they are the same in every model."""
 
 from solvers.gears.gear import Gear, rack_tip_radius
 from solvers.gears.pair import PathOfContact
@@ -8,7 +8,7 @@ THIN_TIP = 0.2  # normal modules
 
 
 def pair_notices(path: PathOfContact) -> list[Notice]:
-    """Rack tips held to their racks, undercut, thin tips, a path cut short by fillets."""
+    """Return the warnings about limited rack tip radii, undercut, thin tips and a path shortened by fillets."""
     inputs, notices = path.pair.inputs, []
     for gear, teeth, name in (
         (path.pair.pinion, inputs.pinion, "pinion"),

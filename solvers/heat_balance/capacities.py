@@ -24,7 +24,22 @@ class Capacities:
     )
 
     def of(self, network: Network) -> FloatArray:
-        """Return the capacity of each node [J/K] (Eq. H23)."""
+        """Compute the heat capacity of each node.
+
+        Parameters
+        ----------
+        network : Network
+            The network.
+
+        Returns
+        -------
+        FloatArray
+            Heat capacities (n,) [J/K].
+
+        Notes
+        -----
+        Eq. H23.
+        """
         oil = network.oil.heat_capacity
         gears = [
             capacity

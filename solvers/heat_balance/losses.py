@@ -27,7 +27,24 @@ class MeshHeat:
     )
 
     def at(self, oil: CoolingOil, flanks: float) -> float:
-        """Return the power [W] at a mean temperature of both flanks [K] (Eq. H6)."""
+        """Compute the friction power at other flank temperatures.
+
+        Parameters
+        ----------
+        oil : CoolingOil
+            The oil.
+        flanks : float
+            Mean temperature of both flanks [K].
+
+        Returns
+        -------
+        float
+            Friction power [W].
+
+        Notes
+        -----
+        Eq. H6.
+        """
         if self.viscosity_exponent == 0.0:
             return self.power
         thinning = oil.viscosity(flanks) / oil.viscosity(self.temperature)

@@ -1,4 +1,4 @@
-"""One published statement with a number, and how it is computed here."""
+"""One published statement with a number, and the number that is computed here."""
 
 from collections.abc import Callable
 from math import inf
@@ -37,7 +37,7 @@ class Statement:
     remark: str = described("Why the statement does not hold; empty if it holds.", default="")
 
     def row(self) -> Row:
-        """The statement with the number that is computed now."""
+        """Compute the number and return it beside the statement."""
         computed = self.compute()
         deviation = None if not self.number else computed / self.number - 1.0
         holds = self.least <= computed <= self.most
@@ -46,7 +46,7 @@ class Statement:
 
 @record
 class Says:
-    """What a source says, in words; each method adds the number and how it is computed here."""
+    """The words of a source; the methods add the printed number and the function that computes it here."""
 
     source: str
     words: str
@@ -54,25 +54,28 @@ class Says:
     def equals(
         self, number: float, unit: str, compute: Callable[[], float], tolerance: float, remark: str = ""
     ) -> Statement:
-        """A printed number with a relative tolerance."""
+        """Return the statement of a printed number with a relative tolerance."""
         least, most = number - tolerance * abs(number), number + tolerance * abs(number)
         return Statement(self.words, self.source, f"{number:g}", unit, compute, least, most, number, remark)
 
     def below(self, bound: float, unit: str, compute: Callable[[], float]) -> Statement:
-        """A printed upper bound."""
+        """Return the statement of a printed upper bound."""
         return Statement(self.words, self.source, f"below {bound:g}", unit, compute, -inf, bound)
 
     def above(self, bound: float, unit: str, compute: Callable[[], float]) -> Statement:
-        """A printed lower bound."""
+        """Return the statement of a printed lower bound."""
         return Statement(self.words, self.source, f"above {bound:g}", unit, compute, bound, inf)
 
     def between(self, low: float, high: float, unit: str, compute: Callable[[], float]) -> Statement:
-        """A printed range."""
+        """Return the statement of a printed range."""
         return Statement(self.words, self.source, f"{low:g} to {high:g}", unit, compute, low, high)
 
     def not_reproduced(
-        self, number: float, unit: str, compute: Callable[[], float], found: float, remark: str
+        self, number: float, unit: str, compute: Callable[[], float], by_equations: float, remark: str
     ) -> Statement:
-        """A printed number that its own equations do not give; the test holds on to what they do give, to 3 %."""
-        least, most = 0.97 * found, 1.03 * found
+        """Return the statement of a printed number that the equations of its source do not give.
+
+        The statement holds if the computed number stays within 3 % of `by_equations`, which the equations give.
+        """
+        least, most = 0.97 * by_equations, 1.03 * by_equations
         return Statement(self.words, self.source, f"{number:g}", unit, compute, least, most, number, remark)

@@ -22,10 +22,18 @@ MIN_FILM_NODES = 5  # three inside the film: the fewest that show a maximum of t
 
 
 def check(inputs: LineContactInputs) -> None:
-    """Refuse what has no solution or lies outside the laws of the lubricant.
+    """Refuse a contact that has no solution or lies outside the laws of the lubricant.
 
-    Raises InvalidInput: no_load, no_entrainment, stationary_surface, viscosity_range, temperature_range,
-    pressure_range, load_range, film_range, resolution.
+    Parameters
+    ----------
+    inputs : LineContactInputs
+        The contact.
+
+    Raises
+    ------
+    InvalidInput
+        `no_load`, `no_entrainment`, `stationary_surface`, `viscosity_range`, `temperature_range`, `pressure_range`,
+        `load_range`, `film_range` or `resolution`.
     """
     _check_motion(inputs)
     _check_resolution(inputs)
@@ -34,7 +42,18 @@ def check(inputs: LineContactInputs) -> None:
 
 
 def lightest(inputs: LineContactInputs) -> LineContactInputs:
-    """The same contact under the least load that is not refused as too light (`load_range`)."""
+    """Find the same contact under the least load that `check` accepts.
+
+    Parameters
+    ----------
+    inputs : LineContactInputs
+        The contact.
+
+    Returns
+    -------
+    LineContactInputs
+        The contact with the least line load that is not refused as `load_range`; its own load if that is accepted.
+    """
 
     def excess(logarithm: float) -> float:
         loaded = replace(inputs, contact=replace(inputs.contact, line_load=exp(logarithm)))
@@ -75,7 +94,7 @@ def _check_resolution(inputs: LineContactInputs) -> None:
 
 
 def _check_oil(inputs: LineContactInputs) -> None:
-    """Viscosity and temperatures; an isothermal film knows the inlet temperature only."""
+    """Check viscosity and temperatures; an isothermal film has the inlet temperature only."""
     oil, temperatures = inputs.lubricant, inputs.temperatures
     if oil.viscosity < LOWEST_VISCOSITY:
         raise InvalidInput(
@@ -99,7 +118,10 @@ def _check_oil(inputs: LineContactInputs) -> None:
 
 
 def _check_load(inputs: LineContactInputs) -> None:
-    """Pressure and the film to be expected: thick against the deformation it is no elastic contact any more."""
+    """Check the pressure and the expected film.
+
+    If the film is thick compared with the deformation, the contact is not elastic any more.
+    """
     scales = groups(inputs)
     if scales.maximum_pressure > HIGHEST_PRESSURE:
         raise InvalidInput("pressure_range", "the Hertzian pressure must not exceed 4 GPa", "line_load")
@@ -131,6 +153,6 @@ def _check_load(inputs: LineContactInputs) -> None:
 
 
 def _log_viscosity(inputs: LineContactInputs, pressure: float, temperature: float) -> float:
-    """ln(eta / Pa s), which is a number where the viscosity itself is not."""
+    """Return ln(eta/Pa s), which stays finite if the viscosity itself overflows."""
     laws = inputs.lubricant.laws
     return float(log_viscosity(laws, pressure_part(laws, pressure)[0], temperature)[0])

@@ -1,4 +1,4 @@
-"""Warnings of the line contact: one for every range that is left."""
+"""Warnings of the line contact: one per exceeded range."""
 
 from collections.abc import Iterator
 
@@ -31,7 +31,7 @@ FAILURES: dict[Stage, str] = {
 
 
 def input_notices(inputs: LineContactInputs, groups: Dimensionless) -> list[Notice]:
-    """What can be said before the solution."""
+    """Return the warnings that follow from the inputs."""
     notices = []
     model = inputs.model
     slowest = min(groups.peclet_1, groups.peclet_2)
@@ -58,7 +58,7 @@ def input_notices(inputs: LineContactInputs, groups: Dimensionless) -> list[Noti
 
 
 def result_notices(film: FilmThickness, friction: ContactFriction, heat: ContactHeat | None) -> list[Notice]:
-    """What the solution shows."""
+    """Return the warnings that follow from the solution."""
     notices = []
     if film.minimum is not None and film.minimum < THIN_FILM:
         notices.append(
@@ -84,7 +84,7 @@ def result_notices(film: FilmThickness, friction: ContactFriction, heat: Contact
 
 
 def mesh_notices(error: MeshError | None) -> list[Notice]:
-    """What the mesh leaves uncertain."""
+    """Return the warnings about the accuracy of the mesh."""
     if error is None:
         return [Notice("mesh_error", "the error of the mesh could not be estimated; compare with more nodes", "nodes")]
     if error.largest <= LARGEST_MESH_ERROR:
@@ -96,7 +96,7 @@ def mesh_notices(error: MeshError | None) -> list[Notice]:
 
 
 def failure_notice(convergence: Convergence) -> Notice:
-    """Why there is no solution."""
+    """Return the warning that says why there is no solution."""
     message = f"{FAILURES[convergence.stage]} on {convergence.nodes} nodes; try other nodes or ree_eyring"
     return Notice("not_converged", message, "nodes", rank="invalid")
 

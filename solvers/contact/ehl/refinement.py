@@ -39,7 +39,7 @@ LEAST = {"friction": 1e-3, "surface_1_flash": 25.0, "surface_2_flash": 25.0}  # 
 
 
 def departure(inputs: LineContactInputs, curves: ContactCurves, field: ContactField) -> float:
-    """The largest departure [K] of temperatures from what they must be."""
+    """Return the largest difference [K] between temperatures and what they must be."""
     contact, bulk = inputs.contact, inputs.temperatures
     t = field.temperature
     fluxes = (curves.surface_1_heat_flux, curves.surface_2_heat_flux)
@@ -59,11 +59,27 @@ def departure(inputs: LineContactInputs, curves: ContactCurves, field: ContactFi
 
 
 def surface_heating(solid: Solid, speed: float, x: FloatArray, flux: FloatArray) -> FloatArray:
-    """Temperature rise (n,) [K] of a surface under a heat flux [W/m^2] that is linear between positions x (n,) [m].
+    """Compute the temperature rise of a surface under a heat flux that is linear between positions.
 
-    Strip sources on a fast half-space (Carslaw and Jaeger): (pi rho c lambda u)^-1/2 int q(s) (x - s)^-1/2 ds.
+    Parameters
+    ----------
+    solid : Solid
+        Material of the surface.
+    speed : float
+        Speed u of the surface [m/s].
+    x : FloatArray
+        Positions (n,) [m].
+    flux : FloatArray
+        Heat flux into the surface (n,) [W/m^2].
 
-    Eq. E12.
+    Returns
+    -------
+    FloatArray
+        Temperature rise (n,) [K].
+
+    Notes
+    -----
+    Eq. E12: strip sources on a fast half-space (Carslaw and Jaeger), (pi rho c lambda u)^-1/2 int q(s) (x - s)^-1/2 ds.
     """
     effusivity_squared = solid.density * solid.specific_heat * solid.thermal_conductivity
     return strip_integral(x, flux) / sqrt(pi * effusivity_squared * speed)
@@ -71,7 +87,10 @@ def surface_heating(solid: Solid, speed: float, x: FloatArray, flux: FloatArray)
 
 @kernel
 def strip_integral(x: FloatArray, flux: FloatArray) -> FloatArray:
-    """The integral of q(s) (x - s)^-1/2 up to each x (n,), by parts: 2 q_0 (x - x_0)^1/2 + int 2 q' (x - s)^1/2 ds."""
+    """Compute the integral of q(s) (x - s)^-1/2 up to each x (n,).
+
+    By parts it is 2 q_0 (x - x_0)^1/2 + int 2 q' (x - s)^1/2 ds.
+    """
     n = x.size
     slope = np.empty(n)
     before = 0.0
@@ -90,9 +109,10 @@ def strip_integral(x: FloatArray, flux: FloatArray) -> FloatArray:
 
 
 def inlet_departure(inputs: LineContactInputs, t: FloatArray) -> float:
-    """How far [K] the first column of t (n, k) is off.
+    """Return the error [K] of the first column of t (n, k).
 
-    Its walls are at bulk temperature; oil has that of the inlet or, where it leaves, of the column behind.
+    Its walls have their bulk temperatures. Oil that enters has the temperature of the inlet, oil that leaves that of
+    the next column.
     """
     bulk = inputs.temperatures
     walls = max(abs(t[0, 0] - bulk.surface_1), abs(t[0, -1] - bulk.surface_2))
@@ -102,10 +122,10 @@ def inlet_departure(inputs: LineContactInputs, t: FloatArray) -> float:
 
 
 def undercooling(inputs: LineContactInputs, curves: ContactCurves, t: FloatArray) -> float:
-    """How much colder [K] the coldest place of t (n, k) is than bulk, inlet and decompression explain.
+    """Return by how much [K] t (n, k) is colder at its coldest place than bulk, inlet and decompression explain.
 
-    Decompression takes q = 0.00065 T u |dp/dx| h per area, which cools the surfaces by its strip integral and the
-    film between them by q h/(8 lambda).
+    Decompression takes q = 0.00065 T u |dp/dx| h per area. It cools the surfaces by its strip integral and the film
+    between them by q h/(8 lambda).
     """
     bulk, contact, oil = inputs.temperatures, inputs.contact, inputs.lubricant
     missing = min(bulk.surface_1, bulk.surface_2, bulk.inlet) - float(t.min())
@@ -124,7 +144,7 @@ def undercooling(inputs: LineContactInputs, curves: ContactCurves, t: FloatArray
 class Comparison:
     """The results of a contact and of the same contact on half the nodes, in groups named as in `MeshError`.
 
-    With the steepest fall of P from one node to the next and the kinks of the surfaces' temperatures [K].
+    `fall` is the steepest fall of P from one node to the next; `kinks` are the kinks of the surface temperatures [K].
     """
 
     fine: dict[str, tuple[float, ...]]
@@ -133,11 +153,11 @@ class Comparison:
     kinks: dict[str, float]
 
     def smooth_error(self) -> MeshError:
-        """What is left where nothing is steep: the part of the error that more nodes soon mend."""
+        """Return the error that is left without spikes and kinks, which more nodes soon reduce."""
         return self._error(0.0, {})
 
     def error(self) -> MeshError:
-        """What is left, that of spikes included: no mesh here resolves those, and they may take more of it than one."""
+        """Return the error that is left, including that of spikes, which no mesh here resolves."""
         return self._error(min(LEFT_BY_FALL * self.fall, 1.0), self.kinks)
 
     def _error(self, left_at_spike: float, kinks: dict[str, float]) -> MeshError:
@@ -155,10 +175,11 @@ class Comparison:
 def refined(
     inputs: LineContactInputs, constants: Problem, resolution: Resolution, attempt: Attempt, budget: Budget
 ) -> tuple[Attempt, MeshError | None]:
-    """A converged attempt on a mesh fine enough for its numbers, and the error left in them (None: not known).
+    """Return a converged attempt on a fine enough mesh, and the error left in its results (None: not known).
 
-    It stays on its mesh if that is fine enough, the finest or all that was asked for, and if the finer one does not
-    converge within the steps left. What decides is the contact itself, never how its solution was found.
+    The attempt stays on its mesh if this is fine enough, is the finest, or if no refinement is asked for, or if the
+    finer one does not converge within the steps left. The decision depends on the contact only, never on the way to its
+    solution.
     """
     found = compared(inputs, constants, resolution, attempt)
     while inputs.model.refine_mesh and not acceptable(found) and resolution.nodes < FINEST:
@@ -175,12 +196,15 @@ def refined(
 
 
 def acceptable(found: Comparison | None) -> bool:
-    """Whether a mesh is so fine that a finer one is not worth its price."""
+    """Return whether a finer mesh is not worth its price."""
     return found is not None and found.smooth_error().largest <= LARGEST_MESH_ERROR
 
 
 def finer_nodes(nodes: int, found: Comparison | None) -> int:
-    """Nodes that bring an error of second order below the limit, in steps of sqrt(2) so that meshes are shared."""
+    """Return a number of nodes with a second-order error below the limit.
+
+    It grows in steps of sqrt(2), so that contacts share meshes.
+    """
     excess = 4.0 if found is None else min(found.smooth_error().largest / LARGEST_MESH_ERROR, 16.0)
     half_octaves = max(ceil(log2(excess)), 1)
     return min(round((nodes - 1) * sqrt(2.0) ** half_octaves) + 1, FINEST)
@@ -189,10 +213,10 @@ def finer_nodes(nodes: int, found: Comparison | None) -> int:
 def compared(
     inputs: LineContactInputs, constants: Problem, resolution: Resolution, attempt: Attempt
 ) -> Comparison | None:
-    """A contact beside the same on every other node (Richardson); None if that is not found.
+    """Return the comparison of a contact with the same on every other node (Richardson); None if that is not solved.
 
-    So near is that contact that one Newton step mostly finds it; a spike or a film that runs hot takes more, as half
-    the nodes keep the peak they are given.
+    The contact on half the nodes is so near that mostly one Newton step solves it. A spike or a hot film needs more
+    steps, because half the nodes keep the peak that they are given.
     """
     grid = grid_for(resolution.gap, resolution.nodes // 2 + 1)
     state = interpolate(attempt.state, attempt.grid.x, grid.x)
@@ -208,14 +232,14 @@ def compared(
 
 
 def _steepest_fall(attempt: Attempt) -> float:
-    """The largest fall of P from one node to the next, behind the centre."""
+    """Return the largest fall of P from one node to the next, behind the centre."""
     return float(-np.diff(attempt.state.pressure[attempt.grid.x > 0.0]).min())
 
 
 def _kink(attempt: Attempt, surface: int) -> float:
-    """How far a surface's temperature at one node behind the centre stands above the mean of both neighbours [K].
+    """Return by how much a surface temperature behind the centre exceeds the mean of both neighbours [K].
 
-    The heat of a spike that no other node sees: as much again comes with a node that stands nearer to it.
+    It is the heat of a spike that only one node sees: a node nearer to the spike would receive as much again.
     """
     t = attempt.state.temperature[attempt.grid.x > 0.0, surface]
     return float((t[1:-1] - 0.5 * (t[:-2] + t[2:])).max())
@@ -246,6 +270,6 @@ def _parts(inputs: LineContactInputs, constants: Problem, attempt: Attempt) -> d
 
 
 def _before_and_behind(attempt: Attempt, by_node: FloatArray) -> tuple[float, float]:
-    """Sums of what the nodes before and behind the place where spikes begin contribute (n,)."""
+    """Return the sums of the contributions (n,) of the nodes before and behind the place where spikes begin."""
     before = attempt.grid.x <= BEFORE_SPIKES
     return float(by_node[before].sum()), float(by_node[~before].sum())
