@@ -1,4 +1,4 @@
-"""Band of the temperatures: what they are if much or little oil reaches the flanks. A range, not a probability."""
+"""Band of the temperatures, if much or little oil reaches the flanks: a range, not a probability."""
 
 from dataclasses import dataclass, replace
 
@@ -14,7 +14,7 @@ MEASURED_WITHIN = 3.0  # K, chosen: uncertainty of a measured temperature
 
 @dataclass(frozen=True, slots=True)
 class Extreme:
-    """How well the oil cools at one end of the band; None is as in the nominal case.
+    """How well the oil cools at one end of the band; None leaves the value of the nominal case.
 
     `measured` is added to the measured temperature of a gear [K].
     """

@@ -1,4 +1,4 @@
-"""Calibration: a measured temperature of a gear fixes the wetting share, that of the drain the other losses."""
+"""Calibration: a measured temperature of a gear fixes the wetting share, that of the drain fixes the other losses."""
 
 from dataclasses import replace
 
@@ -153,10 +153,11 @@ def with_rotor(network: Network, node: str, temperature: float, drain: float | N
 
 
 def _fitted(network: Network, place: int, wanted: float, drain: float | None) -> Network | None:
-    """Return the network with the share, and the other losses, that give a node its rise [K] and the drain its own.
+    """Return the network whose share and other losses give a node its rise and the drain its rise [K].
 
-    Newton's method for the rises of the other nodes, the logarithm of the share and the other losses together; it
-    starts from all oil on the flanks. None if it does not converge to a share from 0.02 to 1 and an equilibrium there.
+    Newton's method solves for the rises of the other nodes, the logarithm of the share and the other losses together.
+    It starts with all oil on the flanks. The function returns None if the method does not converge to a share from 0.02
+    to 1 and an equilibrium at this share.
     """
     try:
         start = equilibrium(wetted(network, MOST_WETTING)).rises

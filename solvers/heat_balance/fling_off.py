@@ -21,7 +21,7 @@ FILM_POWER, TIME_POWER = -5.5, -8.0  # of the closed form, fitted to the solved 
 
 @dataclass(frozen=True, slots=True)
 class TurningTeeth:
-    """The teeth of a gear under way: both flanks of all teeth [m^2], tooth height [m], radius [m], speed [rad/s]."""
+    """The teeth of a rotating gear: area of both flanks of all teeth [m^2], height [m], radius [m], speed [rad/s]."""
 
     area: float
     height: float
@@ -137,10 +137,10 @@ def laid_film(teeth: TurningTeeth, flow: float) -> float:
 
 @dataclass(frozen=True, slots=True)
 class FlingOff:
-    """Cooling of one gear by its film: conductances [W/K], of the film as laid and of one that floods the flank.
+    """Cooling of one gear by its film: conductances [W/K] of the film as laid and of a film that floods the flank.
 
-    `film` is what the jets lay on in a turn, `turn_film` what a turn can use [m]; `limited` if the conductance
-    is the oil's heat capacity.
+    `film` is the thickness that the jets lay per turn, and `turn_film` the thickness that can take heat in a turn [m].
+    `limited` is true if the heat capacity of the oil limits the conductance.
     """
 
     conductance: float

@@ -1,4 +1,4 @@
-"""The heat balance: network of what a user gives, calibration, equilibrium, band."""
+"""The heat balance: network from the inputs, calibration, equilibrium, band."""
 
 from collections.abc import Iterator
 from dataclasses import replace
@@ -204,7 +204,7 @@ def _cooled(gear: GearGeometry, pumping: float) -> CooledGear:
 def _cases(
     network: Network, cooling: Cooling, state: Equilibrium
 ) -> tuple[tuple[tuple[float, float], ...], tuple[Notice, ...]]:
-    """Return the flanks over the band, or of the nominal case alone with the reason."""
+    """Return the flanks over the band, or those of the nominal case with the reason why there is no band."""
     inlet = network.oil.inlet
     nominal = ((inlet + float(state.rises[FLANKS[0]]), inlet + float(state.rises[FLANKS[1]])),)
     if not cooling.band:
@@ -239,7 +239,7 @@ def _bearings(network: Network, rises: FloatArray) -> Iterator[BearingHeat]:
 
 
 def _flows(network: Network, flows: list[Flow]) -> Iterator[HeatFlow]:
-    """Every flow of heat that is not nothing."""
+    """Yield the heat flows that are not zero."""
     for flow in flows:
         if flow.power != 0.0:
             yield HeatFlow(network.places[flow.origin], network.places[flow.target], flow.carrier, flow.power)
@@ -276,7 +276,7 @@ def _estimates(inputs: HeatBalanceInputs) -> BulkEstimates:
 
 
 def _deviation(network: Network, cooling: Cooling, rises: FloatArray) -> float | None:
-    """Return calculated less measured temperature of the wheel [K], where the share was fitted to the pinion."""
+    """Return calculated minus measured temperature of the wheel [K], if the share was fitted to the pinion."""
     rotors = list(cooling.measured.rotors.items())
     if len(rotors) < 2:
         return None
@@ -317,7 +317,20 @@ def backlash_loss(
 
 
 def cooling_in_force(cooling: Cooling, heat: Heat) -> CoolingInForce:
-    """Return what stands for the values of the cooling that were left open."""
+    """Return the values in use for what the inputs of the cooling leave open.
+
+    Parameters
+    ----------
+    cooling : Cooling
+        Inputs of the cooling.
+    heat : Heat
+        Result of `solve`.
+
+    Returns
+    -------
+    CoolingInForce
+        Flow, shares and losses in use.
+    """
     return CoolingInForce(
         gear_flow=heat.gear_flow,
         wetting_share=heat.wetting_share,
@@ -329,5 +342,5 @@ def cooling_in_force(cooling: Cooling, heat: Heat) -> CoolingInForce:
 
 
 def unusual_values(inputs: HeatBalanceInputs, heat: Heat) -> Iterator[Notice]:
-    """Tell of unusual values of the inputs."""
+    """Return warnings about unusual inputs."""
     return unusual_flow(inputs.cooling.gear_flow, heat, inputs.oil)

@@ -18,7 +18,7 @@ USUAL_RISE = (2.0, 60.0)  # K, chosen: of the oil by the losses of the gears
 
 
 def heat_notices(network: Network, rises: FloatArray, cooling: Cooling) -> Iterator[Notice]:
-    """Speed, oil, films and measured temperatures for which the balance is doubtful."""
+    """Return warnings about speed, oil, films and measured temperatures for which the balance is doubtful."""
     if network.spray.velocity < SLOW:
         message = (
             f"the heat balance counts the oil of the jets only; at {network.spray.velocity:.4g} m/s, below {SLOW:g}, "

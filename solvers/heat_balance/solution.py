@@ -18,7 +18,7 @@ HOTTEST = 1200.0  # K over the supply temperature; steel melts
 
 @dataclass(frozen=True, slots=True)
 class Equilibrium:
-    """Rises of the nodes over the supplied oil [K], and what it took: Newton's steps, the residual [W]."""
+    """Rises of the nodes over the supplied oil [K], number of Newton steps, and residual [W]."""
 
     rises: FloatArray
     iterations: int

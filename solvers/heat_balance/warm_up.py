@@ -34,7 +34,7 @@ class WarmUpCurves:
 
 @record
 class WarmUp:
-    """A warm-up: final temperatures [K], when each node has made 95 % of its way [s], the bodies' difference."""
+    """A warm-up: final temperatures, times to 95 % of the temperature change, and difference of the bodies."""
 
     nodes: tuple[str, ...] = quantity("nodes", index="flanks and bodies, mist, bearings, casing")
     final: FloatArray = quantity("final temperatures", "θ_end", unit="c", index="nodes")
@@ -84,7 +84,7 @@ def warm_up(network: Network, capacities: Capacities, start: float, until: float
     difference = rises[BODIES[0]] - rises[BODIES[1]]
     greatest = int(np.argmax(np.abs(difference)))
     shown = end * np.linspace(0.0, 1.0, SHOWN + 1) ** 2  # dense at the start, where most happens
-    drawn = path(shown)
+    curves = path(shown)
     return WarmUp(
         nodes=network.nodes,
         final=frozen(network.oil.inlet + final),
@@ -93,8 +93,8 @@ def warm_up(network: Network, capacities: Capacities, start: float, until: float
         greatest_difference_at=float(times[greatest]),
         curves=WarmUpCurves(
             time=frozen(shown),
-            temperature=frozen(network.oil.inlet + drawn.T),
-            difference=frozen(drawn[BODIES[0]] - drawn[BODIES[1]]),
+            temperature=frozen(network.oil.inlet + curves.T),
+            difference=frozen(curves[BODIES[0]] - curves[BODIES[1]]),
         ),
     )
 
@@ -116,7 +116,7 @@ def _integrated(network: Network, capacity: FloatArray, begin: FloatArray, end: 
 
 
 def _time_95(times: FloatArray, rises: FloatArray, final: float) -> float | None:
-    """Return the time after which a node stays within 5 % of its way; None if it never does, or has no way to go."""
+    """Return the time after which a node stays within 5 % of its change; None if it never does or does not change."""
     left = np.abs(rises - final)
     outside = np.flatnonzero(left > (1 - WARM) * left[0])
     if outside.size == 0 or outside[-1] == times.size - 1:

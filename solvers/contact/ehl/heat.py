@@ -228,7 +228,7 @@ def column_residual(i: int, temperature: FloatArray, g: float, h: float, film: F
     temperature : FloatArray
         Temperatures (n, k) [K].
     g : float
-        h dp/dx [Pa].
+        Film thickness times pressure gradient, h dp/dx [Pa].
     h : float
         Film thickness [m].
     film : Film

@@ -18,7 +18,7 @@ from solvers.contact.ehl.problem import (
     peclet_number,
     problem,
 )
-from solvers.contact.ehl.refinement import refined
+from solvers.contact.ehl.refinement import refine
 from solvers.contact.ehl.results import (
     Convergence,
     Derived,
@@ -110,17 +110,17 @@ def conclude(
     if not attempt.converged:
         return replace(unsolved, warnings=(*notices, failure_notice(unsolved.convergence)))
     steps = Budget(STEPS_TO_REFINE)
-    attempt, error = refined(inputs, constants, resolution, attempt, steps)
+    attempt, error = refine(inputs, constants, resolution, attempt, steps)
     convergence = _convergence(inputs, attempt, iterations + steps.spent)
-    found = _read(inputs, constants, attempt, replace(unsolved, convergence=convergence))
-    stage = _failed_criterion(attempt, found)
+    result = _read(inputs, constants, attempt, replace(unsolved, convergence=convergence))
+    stage = _failed_criterion(attempt, result)
     if stage is not None:
-        convergence = replace(found.convergence, stage=stage)
+        convergence = replace(result.convergence, stage=stage)
         return replace(unsolved, convergence=convergence, warnings=(*notices, failure_notice(convergence)))
-    assert found.friction is not None
-    notices += result_notices(found.film, found.friction, found.heat)
+    assert result.friction is not None
+    notices += result_notices(result.film, result.friction, result.heat)
     notices += mesh_notices(error)
-    return replace(found, status="ok_with_warnings" if notices else "ok", mesh_error=error, warnings=tuple(notices))
+    return replace(result, status="ok_with_warnings" if notices else "ok", mesh_error=error, warnings=tuple(notices))
 
 
 def _read(
@@ -144,9 +144,9 @@ def _read(
     )
 
 
-def _failed_criterion(attempt: Attempt, found: LineContactResult) -> Stage | None:
+def _failed_criterion(attempt: Attempt, result: LineContactResult) -> Stage | None:
     """Return the check that a converged state fails: load, heat balance or the solved equations; None if it passes."""
-    convergence, heat = found.convergence, found.heat
+    convergence, heat = result.convergence, result.heat
     if convergence.load_error >= WORST_LOAD:
         return convergence.stage
     if heat is not None and heat.balance_error >= WORST_BALANCE and measures.temperature_range(attempt) >= TIGHT[1]:

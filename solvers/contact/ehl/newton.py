@@ -7,7 +7,7 @@ from solvers.compiled import inlined_kernel, kernel
 from solvers.contact.ehl.flow import FlowCoefficients
 from solvers.contact.ehl.grid import Grid
 from solvers.contact.ehl.heat import factor_columns
-from solvers.contact.ehl.linear_algebra import combine_basis, dot, extend_basis, factor, solved, substitute
+from solvers.contact.ehl.linear_algebra import combine_basis, dot, extend_basis, factor, solve_step, substitute
 from solvers.contact.ehl.problem import Problem
 from solvers.contact.ehl.reynolds import (
     PATIENCE,
@@ -52,7 +52,7 @@ def uniform_film(problem: Problem, i: int, p: float, g: float, h: float, coeffic
     p : float
         Pressure [Pa].
     g : float
-        h dp/dx [Pa].
+        Film thickness times pressure gradient, h dp/dx [Pa].
     h : float
         Film thickness [m].
     coefficients : FlowCoefficients
@@ -119,7 +119,7 @@ def solve_isothermal(
         changed = release_cavitated(work.faces, state.cavitated, rupture_tolerance)
         balance_of_mass(grid, state.pressure, state.cavitated, work.faces, residual)
         assemble_jacobian(grid, state.cavitated, work.faces, jacobian)
-        if not solved(jacobian, residual, step):
+        if not solve_step(jacobian, residual, step):
             return False
         largest = np.abs(step[:n]).max()
         state.history[0].pressure_change = largest

@@ -90,7 +90,7 @@ def mesh_notices(error: MeshError | None) -> list[Notice]:
     if error.largest <= LARGEST_MESH_ERROR:
         return []
     worst = [
-        f"{name.replace('_', ' ')} {value:.1%}" for name, value in error.known.items() if value > LARGEST_MESH_ERROR
+        f"{name.replace('_', ' ')} {value:.1%}" for name, value in error.estimates.items() if value > LARGEST_MESH_ERROR
     ]
     return [Notice("mesh_error", f"the mesh leaves more than 2 % of error: {', '.join(worst)}; raise nodes", "nodes")]
 

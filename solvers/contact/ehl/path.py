@@ -31,7 +31,7 @@ from solvers.errors import InvalidInput
 # equations have one solution for each pair of nodes between which the fall can lie. A start that needs more steps tends
 # to end in a neighbouring one of these, so the contact is solved again from no start, as it is alone.
 STEPS_FROM_NEIGHBOURS = 5.0
-MOST_KNOWN = 5  # states that are extrapolated: more only add the errors that they were left with
+MOST_STATES = 5  # states that are extrapolated: more states only add their remaining errors
 HOPELESS = 12  # failures in a row, from no start too; the contacts after them rarely converge
 SHARE_WITHOUT_HOPE = 0.1  # of the steps of a contact alone, for each contact after that many failures
 
@@ -40,20 +40,20 @@ SHARE_WITHOUT_HOPE = 0.1  # of the steps of a contact alone, for each contact af
 class _Walk:
     """The last solved states of the path, their mesh, and the number of consecutive failures."""
 
-    known: list[State] = field(default_factory=list)
+    states: list[State] = field(default_factory=list)
     grid: Grid | None = None
     failures: int = 0
 
     def move_to(self, grid: Grid) -> None:
         """Interpolate the states onto a mesh, unless they are on it."""
         if self.grid is not None and self.grid is not grid:
-            self.known = [interpolate(state, self.grid.x, grid.x) for state in self.known]
+            self.states = [interpolate(state, self.grid.x, grid.x) for state in self.states]
         self.grid = grid
 
-    def arrive(self, solved: State | None) -> None:
+    def arrive(self, state: State | None) -> None:
         """Record the state of a solved contact, or a failure (None)."""
-        self.known = [] if solved is None else [*self.known[1 - MOST_KNOWN :], solved]
-        self.failures = self.failures + 1 if solved is None else 0
+        self.states = [] if state is None else [*self.states[1 - MOST_STATES :], state]
+        self.failures = self.failures + 1 if state is None else 0
 
 
 def solve_path(contacts: Sequence[LineContactInputs]) -> list[LineContactResult]:
@@ -106,20 +106,20 @@ def _attempts(constants: Problem, resolution: Resolution, walk: _Walk, spent: Bu
     """Yield an attempt from the neighbours, then one as for a contact alone."""
     grid = grid_for(resolution.gap, resolution.nodes)
     walk.move_to(grid)
-    if walk.known:
-        guess = _guess(walk.known)
+    if walk.states:
+        guess = _guess(walk.states)
         most = STEPS_FROM_NEIGHBOURS * price(resolution, resolution.nodes)
         yield polish(constants, resolution, grid, guess, TIGHT, spent.part(most))
     share = 1.0 if walk.failures < HOPELESS else SHARE_WITHOUT_HOPE
     yield solve_cold(constants, resolution, spent.part(share * budget_for(resolution).remaining))
 
 
-def _guess(known: Sequence[State]) -> State:
+def _guess(states: Sequence[State]) -> State:
     """Return the next state, extrapolated and made physical; nodes broken in the last state stay broken."""
-    last = known[-1]
-    film = _extrapolated(np.array([np.append(state.pressure, state.separation) for state in known]))
+    last = states[-1]
+    film = _extrapolated(np.array([np.append(state.pressure, state.separation) for state in states]))
     pressure = np.where(last.cavitated, 0.0, np.maximum(film[:-1], 0.0))
-    temperature = _extrapolated(np.array([state.temperature for state in known]))
+    temperature = _extrapolated(np.array([state.temperature for state in states]))
     return State(
         pressure=pressure,
         separation=film[-1:].copy(),

@@ -1,8 +1,8 @@
 """Accuracy of a finished contact: the error estimated from half as many nodes, and balances checked by separate code.
 
-Only what is reported enters: curves, field and inputs in SI units. The temperature of each surface must be that of its
-bulk plus the rise caused by the heat flux into it, the oil must enter at the given temperature, and no point may be
-colder than the coldest of surfaces and inlet by more than the decompression of the oil explains.
+Only reported values are used: curves, field and inputs in SI units. The temperature of each surface must equal its bulk
+temperature plus the rise by the heat flux into it. The oil must enter at the given temperature. No point may be colder
+than the coldest of surfaces and inlet by more than the decompression of the oil explains.
 """
 
 from dataclasses import dataclass, replace
@@ -172,7 +172,7 @@ class Comparison:
         return MeshError(**errors)
 
 
-def refined(
+def refine(
     inputs: LineContactInputs, constants: Problem, resolution: Resolution, attempt: Attempt, budget: Budget
 ) -> tuple[Attempt, MeshError | None]:
     """Return a converged attempt on a fine enough mesh, and the error left in its results (None: not known).
@@ -181,9 +181,9 @@ def refined(
     finer one does not converge within the steps left. The decision depends on the contact only, never on the way to its
     solution.
     """
-    found = compared(inputs, constants, resolution, attempt)
-    while inputs.model.refine_mesh and not acceptable(found) and resolution.nodes < FINEST:
-        resolution = replace(resolution, nodes=finer_nodes(resolution.nodes, found))
+    comparison = compare(inputs, constants, resolution, attempt)
+    while inputs.model.refine_mesh and not is_acceptable(comparison) and resolution.nodes < FINEST:
+        resolution = replace(resolution, nodes=finer_nodes(resolution.nodes, comparison))
         grid = grid_for(resolution.gap, resolution.nodes)
         guess = interpolate(attempt.state, attempt.grid.x, grid.x)
         steps = budget.part(STEPS_ON_FINER * price(resolution, resolution.nodes))
@@ -191,26 +191,26 @@ def refined(
         if not finer.converged:
             break
         attempt = finer
-        found = compared(inputs, constants, resolution, attempt)
-    return attempt, None if found is None else found.error()
+        comparison = compare(inputs, constants, resolution, attempt)
+    return attempt, None if comparison is None else comparison.error()
 
 
-def acceptable(found: Comparison | None) -> bool:
+def is_acceptable(comparison: Comparison | None) -> bool:
     """Return whether a finer mesh is not worth its price."""
-    return found is not None and found.smooth_error().largest <= LARGEST_MESH_ERROR
+    return comparison is not None and comparison.smooth_error().largest <= LARGEST_MESH_ERROR
 
 
-def finer_nodes(nodes: int, found: Comparison | None) -> int:
+def finer_nodes(nodes: int, comparison: Comparison | None) -> int:
     """Return a number of nodes with a second-order error below the limit.
 
     It grows in steps of sqrt(2), so that contacts share meshes.
     """
-    excess = 4.0 if found is None else min(found.smooth_error().largest / LARGEST_MESH_ERROR, 16.0)
+    excess = 4.0 if comparison is None else min(comparison.smooth_error().largest / LARGEST_MESH_ERROR, 16.0)
     half_octaves = max(ceil(log2(excess)), 1)
     return min(round((nodes - 1) * sqrt(2.0) ** half_octaves) + 1, FINEST)
 
 
-def compared(
+def compare(
     inputs: LineContactInputs, constants: Problem, resolution: Resolution, attempt: Attempt
 ) -> Comparison | None:
     """Return the comparison of a contact with the same on every other node (Richardson); None if that is not solved.
@@ -224,8 +224,8 @@ def compared(
     coarse = polish(constants, resolution, grid, state, NEAR, steps)
     if not coarse.converged:
         return None
-    fine, other = (_parts(inputs, constants, found) for found in (attempt, coarse))
-    if not all(isfinite(sum(parts)) for found in (fine, other) for parts in found.values()):
+    fine, other = (_parts(inputs, constants, state) for state in (attempt, coarse))
+    if not all(isfinite(sum(parts)) for values in (fine, other) for parts in values.values()):
         return None
     kinks = {name: _kink(attempt, surface) for name, surface in SURFACES.items()} if inputs.model.thermal else {}
     return Comparison(fine, other, _steepest_fall(attempt), kinks)
@@ -246,11 +246,11 @@ def _kink(attempt: Attempt, surface: int) -> float:
 
 
 def _parts(inputs: LineContactInputs, constants: Problem, attempt: Attempt) -> dict[str, tuple[float, ...]]:
-    """The results of a contact except local maxima, by the names of `MeshError`, as sums of parts.
+    """Return the results of a contact except local maxima, by the names of `MeshError`, as sums of parts.
 
     Friction, heat and flash temperatures are divided where the pressure spike begins. With more nodes the film is
-    thicker, so that there is less heat before the spike, and the spike is sharper, so that there is more behind it. The
-    sum of both can be equal on two meshes although it is not converged; the parts differ.
+    thicker, so that less heat arises before the spike; the spike is sharper, so that more heat arises behind it. The
+    sum can therefore be equal on two meshes although it has not converged; the parts differ.
     """
     heights = measures.film_heights(constants, attempt)
     parts: dict[str, tuple[float, ...]] = {

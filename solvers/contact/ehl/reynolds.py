@@ -139,7 +139,7 @@ def mass_fluxes(
     film : FloatArray
         Film thickness H (n,) [b^2/R].
     coefficients : FlowCoefficients
-        ln A and B of the nodes.
+        Coefficients ln A and B of the nodes.
     faces : FaceFluxes
         Receives fluxes and derivatives.
 

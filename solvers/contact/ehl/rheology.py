@@ -36,7 +36,7 @@ def mid_film_stress(problem: Problem, i: int, g: float, h: float, shear: Shear) 
     i : int
         Number of the column.
     g : float
-        h dp/dx [Pa].
+        Film thickness times pressure gradient, h dp/dx [Pa].
     h : float
         Film thickness [m].
     shear : Shear
@@ -97,7 +97,7 @@ def shear_rates(problem: Problem, i: int, g: float, tau_m: float, shear: Shear) 
     i : int
         Number of the column.
     g : float
-        h dp/dx [Pa].
+        Film thickness times pressure gradient, h dp/dx [Pa].
     tau_m : float
         Mid-film stress [Pa].
     shear : Shear
@@ -153,7 +153,7 @@ def uniform_shear(problem: Problem, log_eta: float, g: float, h: float) -> tuple
     problem : Problem
         Constants of the contact.
     log_eta : float
-        ln(eta/Pa s) [-].
+        Logarithm of the viscosity, ln(eta/Pa s) [-].
     g : float
         G = h dp/dx [Pa].
     h : float
@@ -162,7 +162,7 @@ def uniform_shear(problem: Problem, log_eta: float, g: float, h: float) -> tuple
     Returns
     -------
     tuple of float
-        ln(12 eta A/rho) [-], its derivatives by ln eta [-], by G [1/Pa] and by h [1/m], and tau_m [Pa].
+        Logarithm ln(12 eta A/rho) [-], its derivatives by ln eta [-], by G [1/Pa] and by h [1/m], and tau_m [Pa].
 
     Notes
     -----
