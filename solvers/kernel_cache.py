@@ -18,7 +18,7 @@ import numba
 from solvers.digest import cache_base, package_digest
 
 NEEDED_BYTES = 100_000_000  # all kernels take 25 MB
-KEPT_FOLDERS = 5  # chosen: versions between which one goes back and forth
+KEPT_FOLDERS = 5  # chosen: number of versions between which a developer switches
 
 logger = logging.getLogger(__name__)
 

@@ -112,9 +112,9 @@ CELSIUS = 273.15  # K
 WALTHER_SHIFT = 0.7  # mm^2/s
 DENSITY_TEMPERATURE = 15.0 + CELSIUS  # K
 THERMAL_EXPANSION = 0.00065  # 1/K
-LEAST_VISCOSITY_100 = 1e-6  # m^2/s; ASTM D341 has further terms for oils as thin as that
+LEAST_VISCOSITY_100 = 1e-6  # m^2/s; ASTM D341 has further terms for thinner oils
 VISCOSITY_INDICES = (-100.0, 500.0)  # naphthenic and aromatic oils reach -100, silicone oils 400
-LARGEST_VISCOSITY = 0.1  # m^2/s; an oil that thick hardly flows, and the law does not know where it sets
+LARGEST_VISCOSITY = 0.1  # m^2/s; an oil this thick hardly flows, and the law does not contain its pour point
 
 TYPICAL_INDEX: dict[OilKind, float] = {"mineral": 95.0, "pao": 150.0, "ester": 150.0, "polyglycol": 210.0}
 MINERAL_VISCOSITY_100 = {

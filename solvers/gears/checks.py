@@ -4,8 +4,8 @@ from solvers.errors import InvalidInput
 from solvers.gears.gear import Gear, full_rack_tip_radius
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 
-# Published pairs print centre distances, profile shifts and modules such as 25.4/3 mm rounded: that much of the
-# centre distance may be missing, and is taken as backlash-free.
+# Publications print rounded centre distances, profile shifts and modules such as 25.4/3 mm. A centre distance that is
+# too small by this share counts as backlash-free.
 PRINTED = 1e-4
 
 

@@ -187,7 +187,7 @@ def fillet_sector_area(fillet: RackFillet, end: float) -> float:
     """
     r, tip, cos_helix = fillet.reference_radius, fillet.tip_radius, fillet.cos_helix
     area = 0.0
-    for node, weight in zip(_NODES, _WEIGHTS):  # noqa: B905  numba's zip knows no strict
+    for node, weight in zip(_NODES, _WEIGHTS):  # noqa: B905  numba's zip has no strict
         t = 0.5 * end * (1.0 + node)
         y, dy = fillet.centre_y - tip * np.cos(t), tip * np.sin(t)
         across, up = -y * np.tan(t) * cos_helix, y + r
@@ -214,7 +214,7 @@ def root_profile(pair: GearPairInputs, teeth: GearTeeth, gear: Gear) -> RootProf
         fillet = fillet._replace(end=end)
     radius, half_angle = fillet_point(fillet, fillet.end)
     root_half_angle = fillet_point(fillet, 0.0)[1]
-    step = _half_space_angle(gear, radius) - half_angle  # 0 but where an undercut ends on the base circle
+    step = _half_space_angle(gear, radius) - half_angle  # 0, unless an undercut ends on the base circle
     area = root_half_angle * gear.root_radius**2 / 2 + fillet_sector_area(fillet, fillet.end) + step * radius**2 / 2
     return RootProfile(fillet, gear.root_radius, root_half_angle, roll, area)
 

@@ -8,7 +8,7 @@ from solvers.quantity import quantities, quantity, record
 from solvers.sources import ISO_21771
 
 GROUND_FILLET = 0.25  # normal modules; usual tip radius of the rack of ground teeth
-RACK_A = 0.38  # normal modules; rack A of ISO 53, assumed where the stiffness of the teeth counts
+RACK_A = 0.38  # normal modules; rack A of ISO 53, assumed if the stiffness of the teeth matters
 
 
 @record

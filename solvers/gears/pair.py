@@ -23,9 +23,9 @@ from solvers.gears.inputs import GearPairInputs, GearTeeth
 
 Real = TypeVar("Real", float, FloatArray)
 
-# A helix whose overlap is below this is a spur gear: its contact line would enter within rounding of one roll position.
+# A helical gear with less overlap is treated as a spur gear: a contact line would enter within rounding at once.
 LEAST_OVERLAP = 1e-9
-# Reduced radius over normal module below which neither Hertz nor Blok has a limit to offer.
+# Ratio of reduced radius to normal module below which the formulas of Hertz and Blok have no limit.
 LEAST_RADIUS = 0.02
 ROUNDING = 1e-9  # of the line of action
 

@@ -67,7 +67,7 @@ def _fitted_again(network: Network, node: str, temperature: float) -> Network:
     """Return the network with the wetting share that gives the node its temperature, or comes nearest to it."""
     place, wanted = network.nodes.index(node), temperature - network.oil.inlet
     all_oil = wetted(network, MOST_WETTING)
-    if float(equilibrium(all_oil).rises[place]) >= wanted:  # no share cools that well
+    if float(equilibrium(all_oil).rises[place]) >= wanted:  # no share cools so well
         return all_oil
     try:
         return with_rotor(network, node, temperature)

@@ -14,7 +14,7 @@ LEAST_WETTING, MOST_WETTING = 0.02, 1.0
 TRIED_SHARES = np.geomspace(MOST_WETTING, LEAST_WETTING, 8)
 CLOSE = 1e-7  # of the wetting share
 SHARE_STEP = 1e-5  # of the logarithm of the wetting share, and of the scale of the other losses, in differences
-MOST_FITS, LARGEST_FIT = 20, 1.0  # steps, and the most that the logarithm of the share moves in one of them
+MOST_FITS, LARGEST_FIT = 20, 1.0  # steps, and largest change of the logarithm of the share per step
 FITTED = 1e-6  # K; of the last step
 MET = 1e-5  # K; of the measured temperature
 

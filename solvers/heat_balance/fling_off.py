@@ -13,9 +13,9 @@ from solvers.heat_balance.oil import CoolingOil
 
 TOOTH_HEIGHT = 2.25  # H over the normal module: addendum, dedendum and tip clearance of the basic rack
 LONG_TURN = 0.98  # q of thick films and long turns, by similarity
-FLOODED = 50.0  # a scaled film this thick cools no better if it is thicker
-USED_SHARE = 0.9  # of the flooded heat; the film that reaches it is what a turn can use
-LIMITED_FROM = 0.98  # chosen: of the oil's heat capacity; a conductance that high no longer depends on the film
+FLOODED = 50.0  # scaled thickness above which a film cools no better
+USED_SHARE = 0.9  # of the flooded heat; a turn can use the film that takes this share
+LIMITED_FROM = 0.98  # chosen: of the oil's heat capacity; a higher conductance does not depend on the film
 FILM_POWER, TIME_POWER = -5.5, -8.0  # of the closed form, fitted to the solved film (2.5 %)
 
 

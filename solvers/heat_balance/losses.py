@@ -10,7 +10,7 @@ from solvers.heat_balance.oil import CoolingOil
 from solvers.quantity import described, record
 
 VISCOSITY_EXPONENT = -0.05  # of Schlenk's mean coefficient of friction (quoted, not verified)
-LARGEST_ACCELERATION_SHARE = 0.5  # chosen: of the rise by which the flow is sized
+LARGEST_ACCELERATION_SHARE = 0.5  # chosen: largest share of the rise by which the flow is sized
 
 
 @record

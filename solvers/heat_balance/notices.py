@@ -11,7 +11,7 @@ from solvers.heat_balance.results import Heat
 from solvers.notices import Notice
 from solvers.plausibility import unusual_value
 
-SLOW = 40.0  # m/s; below it the jets' oil is not all that wets the flanks
+SLOW = 40.0  # m/s; below this speed the flanks are not wetted by the jets alone
 TURBULENT = 41.0  # times sqrt(R/c): Reynolds number at which vortices begin in a plain bearing (Taylor)
 KNOWN_WITHIN = 15.0  # K, chosen
 USUAL_RISE = (2.0, 60.0)  # K, chosen: of the oil by the losses of the gears

@@ -8,7 +8,7 @@ from solvers.arrays import FloatArray
 from solvers.errors import NoSolution
 from solvers.heat_balance.network import Network
 
-TOLERANCE = 1e-5  # K; of the last full step of Newton, which leaves about its square
+TOLERANCE = 1e-5  # K; of the last full Newton step, whose square is about the error left
 DIFFERENCE = 1e-4  # K; step of the Jacobian's differences
 MOST_STEPS, MOST_HALVINGS = 50, 30
 LARGEST_STEP = 100.0  # K

@@ -15,7 +15,7 @@ from solvers.heat_balance.network import BODIES, Network
 from solvers.heat_balance.solution import equilibrium, jacobian
 from solvers.quantity import quantity, record
 
-LONGEST = 6.0  # time constants; what is left then is a four hundredth
+LONGEST = 6.0  # time constants; a four hundredth of the change is left then
 WARM = 0.95
 POINTS = 2000  # of the times in search of `WARM`
 SHOWN = 200
@@ -83,7 +83,7 @@ def warm_up(network: Network, capacities: Capacities, start: float, until: float
     rises = path(times)
     difference = rises[BODIES[0]] - rises[BODIES[1]]
     greatest = int(np.argmax(np.abs(difference)))
-    shown = end * np.linspace(0.0, 1.0, SHOWN + 1) ** 2  # dense at the start, where most happens
+    shown = end * np.linspace(0.0, 1.0, SHOWN + 1) ** 2  # dense at the start, where temperatures change fastest
     curves = path(shown)
     return WarmUp(
         nodes=network.nodes,

@@ -16,17 +16,17 @@ from solvers.contact.ehl.rheology import REE_EYRING
 from solvers.contact.ehl.state import State, Work, no_steps, work_arrays
 from solvers.contact.ehl.temperature import march_temperatures
 
-STEPS_A_SOLVE = 60  # limit of Newton steps; what has not converged by then is tried another way
+STEPS_A_SOLVE = 60  # limit of Newton steps; a solve that has not converged by then is tried in another way
 STEPS_IN_ALL = 500.0  # in Newton steps at 121 x 21 nodes, about a quarter of a second
-STEPS_ON_FINEST = 25  # that even a very fine mesh is given
-STEPS_TO_REFINE = 100.0  # in the same units, for each contact on finer meshes
+STEPS_ON_FINEST = 25  # least number of steps at the finest mesh, however fine it is
+STEPS_TO_REFINE = 100.0  # in the same units, per contact, for solves on finer meshes
 Stage = Literal["isothermal", "coupling"]
 
 COARSEST = 61  # nodes of the first of the nested meshes, chosen for speed
 TIGHT = (1e-5, 0.01)  # of P and of temperature [K]
-LOOSE = (1e-3, 1.0)  # for meshes that only give the next one its start: relative residual, change of temperature [K]
-MARCH = 5  # steps that a march of temperatures lasts at most
-# Shares of the speed, a factor of 3 apart, when the full speed does not converge at once
+LOOSE = (1e-3, 1.0)  # of P and of temperature [K], for meshes that only give the start of the next mesh
+MARCH = 5  # steps that a march of temperatures costs at most
+# Shares of the speed, a factor of 3 apart, if the full speed does not converge at once
 SPEED_STEPS = (1 / 27, 1 / 9, 1 / 3)
 SOFT_STRESSES = tuple(5e6 * 2.0**k for k in range(10))  # Pa
 

@@ -10,7 +10,7 @@ from solvers.arrays import FloatArray, frozen
 from solvers.compiled import kernel
 
 SHORTEST_INLET = 4.0  # half widths of the contact upstream of its centre, chosen
-CLEARANCE = 40.0  # undeformed gap at the inlet over the central film
+CLEARANCE = 40.0  # ratio of the undeformed gap at the inlet to the central film
 
 
 @kernel

@@ -121,7 +121,7 @@ def solve_step(matrix: FloatArray, residual: FloatArray, step: FloatArray) -> bo
     """
     try:
         step[:] = np.linalg.solve(matrix, -residual)
-    except Exception:  # noqa: BLE001  numba knows no narrower one
+    except Exception:  # noqa: BLE001  numba cannot catch a narrower one
         return False
     return bool(np.all(np.isfinite(step)))
 

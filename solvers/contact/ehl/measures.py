@@ -15,7 +15,7 @@ from solvers.contact.ehl.results import (
     ContactTemperature,
 )
 
-PEAK_ZONE = 0.1  # half widths behind the centre: what lies before is the Hertz maximum
+PEAK_ZONE = 0.1  # half widths behind the centre: a maximum before it is the Hertzian one
 
 
 def load_error(attempt: Attempt) -> float:

@@ -30,8 +30,8 @@ from solvers.contact.ehl.results import (
 )
 from solvers.lubricants import Lubricant, oil_in_use
 
-WORST_BALANCE = 1e-3  # of the heat: ten times what is warned of (`notices.BALANCE_ERROR`)
-WORST_LOAD = 1e-9  # of the load: far above rounding, far below what is shown
+WORST_BALANCE = 1e-3  # of the heat: ten times the limit of the warning (`notices.BALANCE_ERROR`)
+WORST_LOAD = 1e-9  # of the load: far above rounding, far below the digits shown
 WORST_DEPARTURE = 0.1  # K
 
 

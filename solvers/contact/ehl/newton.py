@@ -34,9 +34,9 @@ LARGEST_PRESSURE_STEP = 0.3  # of the Hertzian pressure: viscosity is exponentia
 LARGEST_TEMPERATURE_STEP = 40.0  # K
 LOWEST_TEMPERATURE = 200.0  # K, of iterates
 FIRST_DAMPING = 30.0  # of the temperatures, in units of their conduction across the film
-FROZEN = 1e4  # damping beyond which more is of no use
-SHORT_STEP = 3e-3  # of P, behind which the Jacobian still holds
-SHRINKING = 0.1  # what the next step is of such a one, if it does
+FROZEN = 1e4  # more damping than this has no effect
+SHORT_STEP = 3e-3  # of P; the Jacobian still holds after such a step
+SHRINKING = 0.1  # ratio of a step to the step before, if the steps shrink
 
 
 @inlined_kernel

@@ -27,13 +27,13 @@ from solvers.contact.ehl.results import LineContactResult
 from solvers.contact.ehl.state import State, no_steps
 from solvers.errors import InvalidInput
 
-# Most steps from a start extrapolated from the neighbours. Where pressure falls steeply between two nodes, the discrete
-# equations have one solution for each pair of nodes between which the fall can lie. A start that needs more steps tends
-# to end in a neighbouring one of these, so the contact is solved again from no start, as it is alone.
+# Largest number of steps from a start that is extrapolated from the neighbours. If the pressure falls steeply between
+# two nodes, the discrete equations have one solution per pair of nodes between which the fall can lie. A start that
+# needs more steps often ends in the solution of a neighbouring pair, so the contact is solved again as if alone.
 STEPS_FROM_NEIGHBOURS = 5.0
 MOST_STATES = 5  # states that are extrapolated: more states only add their remaining errors
-HOPELESS = 12  # failures in a row, from no start too; the contacts after them rarely converge
-SHARE_WITHOUT_HOPE = 0.1  # of the steps of a contact alone, for each contact after that many failures
+HOPELESS = 12  # consecutive failures, solves without a start included; the contacts after them rarely converge
+SHARE_WITHOUT_HOPE = 0.1  # share of the steps of a contact alone, after `HOPELESS` failures
 
 
 @dataclass(slots=True)

@@ -24,18 +24,22 @@ from solvers.materials import Solid
 FINEST = 481  # chosen: the cost of the dense solution grows with the third power of the nodes
 STEPS_ON_FINER = 20.0  # Newton steps that a refinement may take, chosen
 STEPS_ON_COARSER = 12  # Newton steps of the comparison with half as many nodes, chosen
-# A step of the contact on half the nodes after which its numbers are known well enough: dP, dT [K].
+# A contact on half the nodes is accurate enough after a step within dP, dT [K].
 NEAR = (0.12, 12.0)
-# What is left of the difference that half as many nodes make: 1/3 in second order. Where pressure falls steeply from
-# one node to the next, half as many nodes have the fall between the same two, wherever it ought to be, and agree with
-# the others more than either do with the truth: all of their difference is left where it falls by p_H/2.
+# Error that is left, as a share of the difference to half as many nodes: 1/3 in second order. If the pressure falls
+# steeply from one node to the next, both meshes have the fall between the same two nodes, wherever it should be. They
+# then agree better with each other than with the truth: from a fall of p_H/2 on, the error is the whole difference.
 SECOND_ORDER = 1 / 3
-LEFT = {"friction": 1 / 2, "generated_heat": 1 / 2}  # less than second order is observed where heat decides
-LEFT_BY_FALL = 2.0  # per fall in p_H: all of the difference is left from p_H/2 on
-AT_INLET = {"central_film", "centre_pressure"}  # decided there, whatever the pressure does at the outlet
-BEFORE_SPIKES = 0.5  # half widths behind the centre: spikes of pressure stand further back
+LEFT = {"friction": 1 / 2, "generated_heat": 1 / 2}  # where heat decides, the observed order is below two
+LEFT_BY_FALL = 2.0  # per fall in p_H: the error is the whole difference from a fall of p_H/2 on
+AT_INLET = {"central_film", "centre_pressure"}  # the inlet decides them, whatever the pressure does at the outlet
+BEFORE_SPIKES = 0.5  # half widths behind the centre: pressure spikes lie further downstream
 SURFACES = {"surface_1_flash": 0, "surface_2_flash": -1}  # places across the film
-LEAST = {"friction": 1e-3, "surface_1_flash": 25.0, "surface_2_flash": 25.0}  # [-], [K]: smaller numbers count as these
+LEAST = {
+    "friction": 1e-3,
+    "surface_1_flash": 25.0,
+    "surface_2_flash": 25.0,
+}  # [-], [K]: smaller results are compared with these
 
 
 def departure(inputs: LineContactInputs, curves: ContactCurves, field: ContactField) -> float:
@@ -167,7 +171,7 @@ class Comparison:
             left = max(LEFT.get(name, SECOND_ORDER), 0.0 if name in AT_INLET else left_at_spike)
             missing = max(left * moved, kinks.get(name, 0.0))
             errors[name] = missing / max(abs(sum(parts)), LEAST.get(name, 0.0))
-        # What passes the centre flows where the film is thinnest, too.
+        # The oil that passes the centre also passes the thinnest place.
         errors["minimum_film"] = max(errors["minimum_film"], errors["central_film"])
         return MeshError(**errors)
 

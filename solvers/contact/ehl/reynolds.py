@@ -11,9 +11,9 @@ from solvers.contact.ehl.grid import Grid
 from solvers.contact.ehl.linear_algebra import multiply
 from solvers.contact.ehl.problem import Problem
 
-PATIENCE = 10  # iterations before the rupture tolerance counts
+PATIENCE = 10  # iterations before the rupture tolerance applies
 RUPTURE_TOLERANCE = 5e-3  # of the flux
-HALVINGS = 12  # a step of 1/4096 of Newton's no longer helps
+HALVINGS = 12  # a step below 1/4096 of Newton's step does not help
 
 
 class FaceFluxes(NamedTuple):
@@ -284,7 +284,7 @@ def assemble_jacobian(grid: Grid, cavitated: BoolArray, faces: FaceFluxes, jacob
             jacobian[i, :] = 0.0
             jacobian[i, i] = 1.0
             continue
-        # The faces right and left of a node know the film at four nodes between them.
+        # The faces right and left of a node depend on the film at four nodes.
         far, left, here, right = max(i - 2, 0), i - 1, i, i + 1
         by_far, by_left = -by_film[i - 1, 0], by_film[i, 0] - by_film[i - 1, 1]
         by_here, by_right = by_film[i, 1] - by_film[i - 1, 2], by_film[i, 2]

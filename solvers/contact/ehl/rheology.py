@@ -13,7 +13,7 @@ from solvers.contact.ehl.problem import Problem
 from solvers.contact.ehl.shear import Shear
 
 REE_EYRING, NEWTONIAN = range(2)  # in the order of `inputs.Rheology`
-STRESS_LIMIT = 300.0  # of |h dp/dx| / (2 tau0): exp(300)^2 is still a number
+STRESS_LIMIT = 300.0  # of |h dp/dx| / (2 tau0): exp(300)^2 does not overflow
 
 
 @kernel

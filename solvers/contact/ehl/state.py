@@ -14,7 +14,7 @@ from solvers.contact.ehl.reynolds import FaceFluxes, face_arrays, film_shape, ma
 from solvers.contact.ehl.rheology import limited_gradient
 from solvers.contact.ehl.shear import Film, film_arrays
 
-# Columns from which passes start; not literals, for each of which numba would compile the passes once more.
+# First columns of the passes. They are not literals, because numba would compile the passes again for each literal.
 FIRST, NEXT = cast("int", np.int64(0)), cast("int", np.int64(1))
 
 

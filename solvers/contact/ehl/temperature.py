@@ -22,8 +22,8 @@ from solvers.contact.ehl.shear import Film
 from solvers.contact.ehl.state import State, Work
 
 LARGEST_STEP = 40.0  # K
-COLUMN_ITERATIONS = 60  # limit; a column that has not converged by then does not
-REVERSE_SWEEPS = 3  # chosen: each sweep carries the heat of oil that flows back once against the direction of the march
+COLUMN_ITERATIONS = 60  # limit; a column that has not converged by then does not converge at all
+REVERSE_SWEEPS = 3  # chosen: one sweep carries the heat of reverse flow once against the direction of the march
 
 
 @kernel
