@@ -76,8 +76,8 @@ class Lubricant:
         if not logarithm < log(HIGHEST_VISCOSITY):
             message = (
                 f"the oil's law gives it 10^{logarithm / log(10.0):.2g} Pa s at {temperature:g} K, beyond "
-                f"{HIGHEST_VISCOSITY:g}; temperatures must lie nearer to the reference temperature, or the "
-                "temperature-viscosity coefficient be smaller"
+                f"{HIGHEST_VISCOSITY:g}; bring the temperatures nearer to the reference temperature, or lower the "
+                "temperature-viscosity coefficient"
             )
             raise InvalidInput("viscosity_range", message, "lubricant.temperature_viscosity")
         return float(np.exp(log_viscosity(laws, pressure_part(laws, pressure)[0], temperature)[0]))

@@ -18,7 +18,7 @@ def check_rack(inputs: GearPairInputs, teeth: GearTeeth, name: str) -> None:
         `pointed_rack`.
     """
     if full_rack_tip_radius(teeth.dedendum, inputs.normal_pressure_angle) < 0.0:
-        message = f"the {name}'s dedendum leaves the rack no tip; reduce it"
+        message = f"the dedendum of the {name} is so large that the rack has no tip; reduce the dedendum"
         raise InvalidInput("pointed_rack", message, f"{name}.dedendum")
 
 

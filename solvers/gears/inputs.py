@@ -153,7 +153,8 @@ class GearPairInputs:
         if not declared["ge"] <= addendum <= declared["le"]:
             message = (
                 f"a tip diameter of {teeth.tip_diameter * 1e3:.6g} mm makes an addendum coefficient of {addendum:.4g}; "
-                f"permissible {declared['ge']:g} to {declared['le']:g}: check it, the module and the profile shift"
+                f"permissible {declared['ge']:g} to {declared['le']:g}: check the tip diameter, the module and the "
+                "profile shift"
             )
             raise InvalidInput("tip_diameter", message, f"{name}.tip_diameter")
         return addendum

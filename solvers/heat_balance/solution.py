@@ -116,7 +116,7 @@ def _check_stability(network: Network, slopes: FloatArray) -> None:
 def _unsolved(residual: FloatArray) -> NoSolution:
     largest = float(np.abs(residual).max())
     message = (
-        f"the heat balance does not converge; it is left with {largest:.3g} W at a node: with less heat or more oil "
+        f"the heat balance does not converge; {largest:.3g} W remain at a node: with less heat or more oil "
         "there may be an equilibrium"
     )
     return NoSolution("heat_balance", message, {"residual_w": largest})

@@ -111,8 +111,8 @@ def _check_oil(inputs: LineContactInputs) -> None:
             raise InvalidInput(
                 "viscosity_range",
                 f"the oil's laws give it a viscosity of 10^{logarithm / log(10.0):.2g} Pa s at {temperature:g} K, "
-                f"beyond {LOWEST_VISCOSITY:g} to {HIGHEST_VISCOSITY:g} Pa s; temperatures must lie nearer to the "
-                "reference temperature, or the temperature-viscosity coefficient be smaller",
+                f"beyond {LOWEST_VISCOSITY:g} to {HIGHEST_VISCOSITY:g} Pa s; bring the temperatures nearer to "
+                "the reference temperature, or lower the temperature-viscosity coefficient",
                 "temperature_viscosity",
             )
 
@@ -130,17 +130,17 @@ def _check_load(inputs: LineContactInputs) -> None:
         raise InvalidInput(
             "viscosity_range",
             f"the oil's laws give it more than {HIGHEST_VISCOSITY_UNDER_PRESSURE:g} Pa s at the Hertzian pressure of "
-            f"{scales.maximum_pressure * 1e-9:.2g} GPa; the pressure-viscosity coefficient or the load must be "
-            "smaller, or (Roelands) the viscosity higher",
+            f"{scales.maximum_pressure * 1e-9:.2g} GPa; lower the pressure-viscosity coefficient or the load, "
+            "or (Roelands) raise the viscosity",
             "pressure_viscosity",
         )
     gap = expected_gap(inputs)
     if gap > THICKEST_FILM:
         raise InvalidInput(
             "load_range",
-            f"the film would be more than {THICKEST_FILM:g} times as thick as the surfaces deform (Moes' load "
-            f"parameter M = {scales.moes_m:.2g}): they are rigid, and no elastic contact is left to compute; raise "
-            "the line load, or lower speed or viscosity",
+            f"the film would be more than {THICKEST_FILM:g} times as thick as the deformation of the surfaces "
+            f"(Moes' load parameter M = {scales.moes_m:.2g}): the surfaces are practically rigid, and the contact is "
+            "not elastic; raise the line load, or lower speed or viscosity",
             "line_load",
         )
     if gap * scales.gap_scale < THINNEST_FILM:

@@ -25,7 +25,7 @@ LARGEST_MESH_ERROR = 0.02  # chosen: the accuracy asked of film, friction and te
 FAILURES: dict[Stage, str] = {
     "isothermal": "the isothermal film did not converge",
     "coupling": "pressures and temperatures did not converge together",
-    "heat_balance": "the solution leaves the heat balance open",
+    "heat_balance": "the solution does not close the heat balance",
     "verification": "the solution contradicts the heat that flows into its surfaces or the oil that enters",
 }
 
@@ -49,8 +49,8 @@ def input_notices(inputs: LineContactInputs, groups: Dimensionless) -> list[Noti
         notices.append(
             Notice(
                 "newtonian_low_slip",
-                "Newtonian: traction not reliable for |slide-roll ratio| < 0.3, where no heat limits it; "
-                "use ree_eyring",
+                "the traction of a Newtonian oil is not reliable for |slide-roll ratio| < 0.3, because no heat limits "
+                "it; use ree_eyring",
                 "rheology",
             )
         )
@@ -72,7 +72,8 @@ def result_notices(film: FilmThickness, friction: ContactFriction, heat: Contact
         notices.append(
             Notice(
                 "high_traction",
-                f"shear stress reaches {friction.traction_ratio:.2g} of the pressure; oils shear at 0.05 to 0.08 of it",
+                f"shear stress reaches {friction.traction_ratio:.2g} of the pressure; oils shear at 0.05 to 0.08 of "
+                "the pressure",
                 "rheology",
             )
         )
@@ -92,7 +93,7 @@ def mesh_notices(error: MeshError | None) -> list[Notice]:
     worst = [
         f"{name.replace('_', ' ')} {value:.1%}" for name, value in error.estimates.items() if value > LARGEST_MESH_ERROR
     ]
-    return [Notice("mesh_error", f"the mesh leaves more than 2 % of error: {', '.join(worst)}; raise nodes", "nodes")]
+    return [Notice("mesh_error", f"the mesh causes errors above 2 %: {', '.join(worst)}; raise nodes", "nodes")]
 
 
 def failure_notice(convergence: Convergence) -> Notice:
