@@ -304,10 +304,7 @@ def _plain(value: Any, outer: Quantity | None) -> Any:
 
 
 class _Docstring:
-    """Docstring of a dataclass that is completed when it is read.
-
-    Completing the docstrings of all dataclasses at once would slow the import.
-    """
+    """Docstring of a dataclass that is completed when it is read, so that the import does not take longer."""
 
     def __init__(self, text: str) -> None:
         self.text = text
@@ -351,7 +348,7 @@ def _entry(kind: Any, name: str, declared: Quantity | None) -> str:
         "default": default or declared.default_text,
     }
     rest = "; ".join(f"{word} {fact}" for word, fact in facts.items() if fact)
-    sentences = (f"{sentence[0].upper()}{sentence[1:]}." for sentence in (f"{text}{si}", rest) if sentence)
+    sentences = (f"{words[0].upper()}{words[1:].removesuffix('.')}." for words in (f"{text}{si}", rest) if words)
     return "\n    ".join([head, *sentences])
 
 
