@@ -1,4 +1,4 @@
-"""The identity of the solvers' sources: one hash that names results and the folder of compiled kernels."""
+"""The digest of the sources of the solvers, which names results and the folder of compiled kernels."""
 
 import ast
 import os
@@ -9,7 +9,7 @@ from pathlib import Path
 PACKAGE = Path(__file__).resolve().parent
 NO_CALCULATION = "published"
 """The package of published numbers for comparison, which does not affect results."""
-DECLARE = frozenset({"quantity", "Quantity"})
+DECLARE = frozenset({"quantity", "Quantity", "described"})
 LABELS = frozenset({"title", "symbol", "source", "text", "default_text", "assumed", "index"})
 """Arguments of a declaration that are text and do not affect results, beside the positional ones."""
 
@@ -22,8 +22,11 @@ def cache_base() -> Path:
 
 
 def package_digest() -> str:
-    """Return the digest of this package; it is kept on disk by the state of the files, because it takes a second."""
-    status = [(str(path), (found := path.stat()).st_mtime_ns, found.st_size) for path in sorted(PACKAGE.rglob("*.py"))]
+    """Return the digest of this package.
+
+    The digest takes a second to compute, so it is kept on disk under the state of the files.
+    """
+    status = [(str(path), (state := path.stat()).st_mtime_ns, state.st_size) for path in sorted(PACKAGE.rglob("*.py"))]
     kept = cache_base() / "digests" / sha256(repr(status).encode()).hexdigest()
     with suppress(OSError):
         if len(digest := kept.read_text("ascii")) == sha256().digest_size * 2:
@@ -38,20 +41,20 @@ def package_digest() -> str:
 def digest_of(package: Path) -> str:
     """Return the SHA-256 of the syntax trees of the modules in `package`, without docstrings, comments and labels.
 
-    Layout and prose leave it as it is; a constant, a formula or the name of a module changes it. The trees, and with
-    them the digest, may differ between versions of Python.
+    Changes of layout and prose leave the digest as it is; a change of a constant, a formula or the name of a module
+    changes it. The trees, and with them the digest, may differ between versions of Python.
     """
-    found = sha256()
+    digest = sha256()
     for path in sorted(package.rglob("*.py")):
         place = path.relative_to(package)
         if NO_CALCULATION not in place.parts:
-            found.update(f"{place.as_posix()}\n".encode())
-            found.update(ast.dump(_without_prose(path)).encode())
-    return found.hexdigest()
+            digest.update(f"{place.as_posix()}\n".encode())
+            digest.update(ast.dump(_without_prose(path)).encode())
+    return digest.hexdigest()
 
 
 def _without_prose(path: Path) -> ast.Module:
-    """Return the tree of a module without text that stands alone and without the labels of quantities."""
+    """Return the syntax tree of a module without its docstrings and without the labels of quantities."""
     tree = ast.parse(path.read_bytes())
     for node in ast.walk(tree):
         if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef):

@@ -1,8 +1,8 @@
 """The folder in which numba keeps the machine code of compiled kernels.
 
-An entry of numba's cache knows the file of its own kernel only: after an edit of a kernel that it calls, the old
-machine code would run on. The folder is therefore named by the digest of all sources of the solvers and by numba's
-version. This module is imported before the first kernel is decorated.
+An entry of numba's cache only knows the file of its own kernel: after an edit of another kernel that it calls, the old
+machine code would still run. The name of the folder therefore contains a digest of all sources of the solvers and of
+numba's version. This module is imported before the first kernel is decorated.
 """
 
 import logging
@@ -18,19 +18,19 @@ import numba
 from solvers.digest import cache_base, package_digest
 
 NEEDED_BYTES = 100_000_000  # all kernels take 25 MB
-KEPT_FOLDERS = 5  # chosen: versions between which one goes back and forth
+KEPT_FOLDERS = 5  # chosen: number of versions between which a developer switches
 
 logger = logging.getLogger(__name__)
 
 
 def _writable(folder: Path) -> Path | None:
-    """Return the folder, made if need be; None, with a warning, if nothing can be kept there."""
+    """Create the folder if necessary and return it; warn and return None if nothing can be kept there."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
         os.utime(folder)
         tempfile.TemporaryFile(dir=folder).close()
         free = shutil.disk_usage(folder).free
-        folders = sorted(folder.parent.iterdir(), key=lambda each: each.stat().st_mtime)
+        folders = sorted(folder.parent.iterdir(), key=lambda path: path.stat().st_mtime)
     except OSError as error:
         logger.warning("compiled kernels are not kept: %s", error)
         return None

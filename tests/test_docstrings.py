@@ -1,14 +1,18 @@
 """Docstrings of public objects have numpydoc's form: its validator finds nothing of the checks in pyproject."""
 
+import inspect
 import tomllib
 from dataclasses import is_dataclass
 from importlib import import_module
 from pathlib import Path
 
 import pytest
+from numpydoc.docscrape import NumpyDocString
 from numpydoc.validate import validate
 
 from app.manual.equations import module_of
+from solvers import scuffing
+from solvers.quantity import UNITS, Unit, quantities
 from tests.manual.citations import SOLVERS, cited, docstrings, implementing
 
 ROOT = Path(__file__).parents[1]
@@ -37,5 +41,31 @@ PUBLIC = sorted(exported() | with_equation())
 
 @pytest.mark.parametrize("name", PUBLIC)
 def test_docstring_has_the_form(name: str) -> None:
-    checks = CHECKS - {"PR01"} if is_dataclass(implementing(name)) else CHECKS  # a field is documented where it stands
-    assert [(code, text) for code, text in validate(name)["errors"] if code in checks] == []
+    assert [(code, text) for code, text in validate(name)["errors"] if code in CHECKS] == []
+
+
+def fields_in_help(kind: type) -> dict[str, str]:
+    """Return what `help` says of each field and computed value of a dataclass."""
+    document = NumpyDocString(inspect.getdoc(kind))
+    return {entry.name: " ".join(entry.desc) for entry in document["Parameters"] + document["Attributes"]}
+
+
+@pytest.mark.parametrize("name", [name for name in PUBLIC if is_dataclass(implementing(name))])
+def test_help_names_the_unit_of_every_quantity(name: str) -> None:
+    kind = implementing(name)
+    units = {field: UNITS[declared.unit] for field, declared in quantities(kind).items() if declared.unit}
+    shown = fields_in_help(kind)
+    assert {field for field, unit in units.items() if f" [{unit.si or unit.symbol}]." not in shown[field]} == set()
+
+
+def test_help_of_a_load_states_si_units_and_the_range_in_the_shown_unit() -> None:
+    shown = fields_in_help(scuffing.Load)
+    assert shown["pinion_torque"].startswith("Pinion torque [N m].")
+    assert shown["pinion_speed"] == "Pinion speed [rad/s]. Symbol n_1; source Xue 2020; range 0.1 to 200000 1/min."
+    assert shown["power"].startswith("Transmitted power [W].")
+    assert shown["dynamic_factor"].endswith("default 1.")
+
+
+@pytest.mark.parametrize("unit", UNITS.values())
+def test_a_unit_that_is_converted_names_its_si_unit(unit: Unit) -> None:
+    assert (unit.si is None) == ((unit.scale, unit.offset) == (1.0, 0.0))

@@ -3,14 +3,14 @@
 Attributes are in SI; declarations give range and default in the unit shown.
 """
 
-from dataclasses import dataclass, field, fields
+from dataclasses import field, fields
 from itertools import pairwise
 from math import atan, inf, isfinite, radians
 from typing import Literal
 
 from solvers.errors import InvalidInput
 from solvers.oils import OilBySheet
-from solvers.quantity import quantity, record
+from solvers.quantity import described, quantity, record
 from solvers.sources import PAHL
 
 Arrangement = Literal["single", "parallel_offset", "angular"]
@@ -248,22 +248,23 @@ class OperatingRange(Load):
 
 @record
 class Operation(Load):
-    """Operating point with the tilt [rad] of hub against sleeve at one mesh; its sign counts."""
+    """Operating point with the misalignment of one mesh."""
 
-    misalignment: float = field(kw_only=True)
+    misalignment: float = described("Tilt of the hub against the sleeve, with its sign [rad].", kw_only=True)
 
 
 @record
 class Lubricant:
-    """Oil at the teeth; the default viscosity is that of ISO VG 46 near 50 C.
-
-    `viscosity_index` and `temperature` [K] of an oil by grade or data sheet are told, not used.
-    """
+    """Oil at the teeth; the default viscosity is that of ISO VG 46 near 50 C."""
 
     viscosity: float = quantity("oil viscosity at the teeth", "η", unit="pa_s", default=0.025, gt=0)
     reference_film: float = quantity("film of the load capacity", "h_0", unit="um", default=1.0, gt=0)
-    viscosity_index: float | None = None
-    temperature: float | None = None
+    viscosity_index: float | None = described(
+        "Viscosity index of an oil by grade or data sheet; reported, not used [-].", default=None
+    )
+    temperature: float | None = described(
+        "Temperature of an oil by grade or data sheet; reported, not used [K].", default=None
+    )
 
 
 @record
@@ -488,7 +489,7 @@ class ModelOptions:
     )
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class CouplingInputs:
     """One coupling at one operating point."""
 
@@ -499,16 +500,16 @@ class CouplingInputs:
     model: ModelOptions = field(default_factory=ModelOptions)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class RecommendationInputs:
-    """A coupling whose crowning is sought for a range of misalignment [rad], 0 < minimum <= maximum.
+    """A coupling whose crowning is sought for a range of misalignment, 0 < minimum <= maximum.
 
     `design` gives everything else; its own crowning ratio and misalignment are not read.
     """
 
     design: CouplingInputs
-    min_misalignment: float
-    max_misalignment: float
+    min_misalignment: float = described("Least misalignment of the range [rad].")
+    max_misalignment: float = described("Largest misalignment of the range [rad].")
 
 
 def check_inputs(inputs: CouplingInputs) -> None:

@@ -4,7 +4,7 @@ The Z axis runs along the pinion's axis, X and Y are normal to it. Positions alo
 same for both shafts. "Pinion" is the driving gear.
 """
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from math import cos
 from typing import Literal
 
@@ -15,7 +15,7 @@ from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.lubricants import Lubricant
 from solvers.oils import OilSheet, lubricant_at
 from solvers.pumping.inputs import PumpingSetup
-from solvers.quantity import quantity, record
+from solvers.quantity import described, quantity, record
 from solvers.scuffing.inputs import ScuffingInputs
 from solvers.sources import OCVIRK
 
@@ -26,6 +26,8 @@ State = Literal["hot", "cold"]
 ASSUMED_RESPONSE = 0.5  # chosen within the range of published values, 0.2 to 1
 FILM_ABOVE_OIL = 15.0  # K
 COINCIDENT = 1e-9  # m; nearer positions are the same
+BEARING_POSITION = "Position along the Z of the unit [m]."
+BEARING_OFFSET = "Offset (X, Y) of the bore from the datum axis [m]."
 
 
 @record
@@ -119,23 +121,26 @@ def sections_of(
     return tuple(sections)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class JournalBearing:
-    """A plain bearing: position, diameter and width [m], viscosity of its film [Pa s].
+    """A plain bearing."""
 
-    If `radial_clearance` [m] is None, it is 1.5e-3 of the journal's radius. `offset` (X, Y) [m] is the distance of the
-    bore from the datum axis. If `in_gear_oil`, the bearing runs in the gears' oil, whose viscosity follows the film
-    temperature of a heat balance. If `oil_flow` [m^3/s] is given, the heat balance uses it instead of the side leakage.
-    """
-
-    position: float
-    diameter: float
-    width: float
-    viscosity: float
-    radial_clearance: float | None = None
-    offset: Vector2 = (0.0, 0.0)
-    in_gear_oil: bool = False
-    oil_flow: float | None = None
+    position: float = described(BEARING_POSITION)
+    diameter: float = described("Diameter of the journal [m].")
+    width: float = described("Width of the bearing [m].")
+    viscosity: float = described("Viscosity of the oil in the film [Pa s].")
+    radial_clearance: float | None = described(
+        "Radial clearance; None: 1.5e-3 of the radius of the journal [m].", default=None
+    )
+    offset: Vector2 = described(BEARING_OFFSET, default=(0.0, 0.0))
+    in_gear_oil: bool = described(
+        "Whether the oil of the gears lubricates the bearing; its viscosity then follows the temperature of the film "
+        "in a heat balance.",
+        default=False,
+    )
+    oil_flow: float | None = described(
+        "Oil flow in a heat balance; None: the leakage at the sides [m^3/s].", default=None
+    )
 
     @property
     def clearance(self) -> float:
@@ -143,21 +148,21 @@ class JournalBearing:
         return 0.75e-3 * self.diameter if self.radial_clearance is None else self.radial_clearance
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class LinearBearing:
-    """A bearing with a `stiffness` matrix ((xx, xy), (yx, yy)) [N/m], which need not be symmetric."""
+    """A bearing given by its stiffness."""
 
-    position: float
-    stiffness: tuple[Vector2, Vector2]
-    offset: Vector2 = (0.0, 0.0)
+    position: float = described(BEARING_POSITION)
+    stiffness: tuple[Vector2, Vector2] = described("Stiffness ((xx, xy), (yx, yy)), symmetric or not [N/m].")
+    offset: Vector2 = described(BEARING_OFFSET, default=(0.0, 0.0))
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class RigidBearing:
     """A bearing that does not yield; position and offset [m]."""
 
-    position: float
-    offset: Vector2 = (0.0, 0.0)
+    position: float = described(BEARING_POSITION)
+    offset: Vector2 = described(BEARING_OFFSET, default=(0.0, 0.0))
 
 
 Bearing = JournalBearing | LinearBearing | RigidBearing
@@ -645,8 +650,7 @@ class DriveTrainInputs:
 
     The mesh and the pumped spaces describe the same gear pair; only the tip radius of the rack may differ. The load
     factors of the mesh raise the load of its contacts only. A thrust collar on the pinion replaces the pinion's thrust
-    bearing. If `bulk_given`, the cold unit has the same bulk temperature as the hot unit, else the reference
-    temperature. The result describes the hot unit; if `states` contains "cold", it also contains the cold unit.
+    bearing. The result describes the hot unit; if `states` contains "cold", it also contains the cold unit.
     """
 
     mesh: ScuffingInputs
@@ -691,7 +695,10 @@ class DriveTrainInputs:
     local_bulk: bool = quantity(
         "local bulk temperature", default=False, text="whether the contact's bulk is warmer where more heat is pumped"
     )
-    bulk_given: bool = True
+    bulk_given: bool = described(
+        "Whether the bulk temperature is given: the cold unit then has the same one, else the reference temperature.",
+        default=True,
+    )
     states: tuple[State, ...] = quantity(
         "states",
         default=("hot",),

@@ -9,7 +9,7 @@ from solvers.drive_train.shafts.thrust_budget import Thrust
 from solvers.heat_balance import FlowCurve
 from solvers.heat_balance.results import Heat
 from solvers.notices import Notice
-from solvers.quantity import computed, quantity, record
+from solvers.quantity import computed, described, quantity, record
 from solvers.scuffing.inputs import ISO_TR_15144, TR_13989
 from solvers.scuffing.micropitting.results import Micropitting, Wear
 from solvers.scuffing.results import LoadDistribution, Place
@@ -313,12 +313,7 @@ class States:
 
 @record
 class DriveTrainResult:
-    """Results of a gear unit; `mesh` is the load distribution in equilibrium.
-
-    `over_the_flow` computes the temperatures of the heat balance at other oil flows [m^3/s]. `contact_temperature` is
-    the map [profile, face] of Blok's contact temperature [K]. `film_ratio` is the map of the specific film thickness
-    against micropitting, None if no such check was asked for.
-    """
+    """The result of a gear unit."""
 
     misalignment: Misalignment = quantity("misalignment", text="gap over the face, by causes")
     load: FaceLoad = quantity("load", text="how the face carries")
@@ -338,10 +333,14 @@ class DriveTrainResult:
     heat: Heat | None = quantity(
         "heat balance", text="null unless the bulk temperature is asked for by heat balance, of a known oil"
     )
-    over_the_flow: Callable[[FloatArray], FlowCurve] | None
-    mesh: LoadDistribution
-    contact_temperature: FloatArray
-    film_ratio: FloatArray | None
+    over_the_flow: Callable[[FloatArray], FlowCurve] | None = described(
+        "Function that returns the temperatures of the heat balance at other oil flows [m^3/s]; None without a balance."
+    )
+    mesh: LoadDistribution = described("Load distribution in equilibrium with the gap of the whole unit.")
+    contact_temperature: FloatArray = described("Contact temperature by Blok over the flank [profile, face] [K].")
+    film_ratio: FloatArray | None = described(
+        "Film ratio against micropitting over the flank [profile, face]; None if it is not asked for [-]."
+    )
     warnings: tuple[Notice, ...]
     derived: Derived = quantity("what was left open, as used")
     states: States | None = quantity("states", text="null unless other states were asked for", default=None)

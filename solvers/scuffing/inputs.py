@@ -11,7 +11,7 @@ from solvers.heat_balance.inputs import Cooling
 from solvers.lubricants import Lubricant
 from solvers.materials import Solid
 from solvers.oils import OilSheet
-from solvers.quantity import quantity, record
+from solvers.quantity import described, quantity, record
 from solvers.sources import ISO_6336, XUE
 
 FZG = "ISO 14635-1"
@@ -325,16 +325,12 @@ class Model:
 
 @record
 class Resolution:
-    """Points of the numerical solution and of its output.
+    """Points of the numerical solution and of its output."""
 
-    roll_positions in one base pitch, slices of each contact line, points of the flank map along the profile and along
-    the face, points of the feature line.
-    """
-
-    roll_positions: int = 200
-    slices: int = 100
-    profile_points: int = 201
-    face_points: int = 101
+    roll_positions: int = described("Number of roll positions per base pitch.", default=200)
+    slices: int = described("Number of slices of each contact line.", default=100)
+    profile_points: int = described("Number of points of the flank map along the profile.", default=201)
+    face_points: int = described("Number of points of the flank map along the face.", default=101)
     feature_points: int = quantity("points of the feature line", None, XUE, default=51, ge=2, le=1001, advanced=True)
 
 
@@ -404,7 +400,7 @@ class Temperatures:
 
     With bulk_method "estimated" the bulk follows from the oil, its supply and Blok's flash temperature, and `bulk` is
     None until it does; a bulk that is given needs the method "given". With "heat_balance" it is the mean of both
-    `flanks` [K] that the balance of losses and oil gives. The scuffing temperature is a property of oil and material
+    `flanks`. The scuffing temperature is a property of oil and material
     that the paper does not give: a number, or what a test says; with neither there is no safety.
     """
 
@@ -464,7 +460,9 @@ class Temperatures:
     scuffing_test: ScuffingTest | None = quantity(
         "scuffing test", default=None, text="instead of the temperature: the stage at which the oil fails"
     )
-    flanks: tuple[float, float] | None = None
+    flanks: tuple[float, float] | None = described(
+        "Temperatures of both flanks from the heat balance; None with another method [K].", default=None
+    )
 
     @property
     def surfaces(self) -> tuple[float, float] | None:

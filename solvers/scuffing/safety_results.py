@@ -7,7 +7,7 @@ from solvers.contact.film import Regime
 from solvers.heat_balance.results import CoolingInForce, Heat
 from solvers.lubricants import OilInUse
 from solvers.notices import Notice
-from solvers.quantity import computed, quantity, record
+from solvers.quantity import computed, described, quantity, record
 from solvers.scuffing.inputs import ISO_TR_15144, TR_13989
 from solvers.scuffing.micropitting.results import Micropitting, Wear
 from solvers.scuffing.results import Derived, Flank, LoadDistribution
@@ -338,10 +338,8 @@ class HeatedFlank(Flank):
 class Scuffing:
     """The scuffing check on a load distribution; `safety` is None without a scuffing temperature.
 
-    Without an oil, contact temperature, film and safety are None. `flank_flash` is Blok's flash temperature [K] at the
-    points of the flank's maps [profile, face], NaN where it has no limit or no coefficient of friction is known.
-    `flank_film_ratio` is the film ratio of micropitting at these points, None if it is not asked for. `warnings` are
-    those of the load distribution and of the check.
+    Without an oil, contact temperature, film and safety are None. `warnings` are those of the load distribution and of
+    the check.
     """
 
     distribution: LoadDistribution
@@ -366,8 +364,13 @@ class Scuffing:
         default=None,
         text="null unless the bulk temperature is asked for by heat balance, of a known oil",
     )
-    flank_flash: FloatArray
-    flank_film_ratio: FloatArray | None
+    flank_flash: FloatArray = described(
+        "Flash temperature by Blok over the flank [profile, face]; NaN if it is unbounded, or if the coefficient of "
+        "friction is not known [K]."
+    )
+    flank_film_ratio: FloatArray | None = described(
+        "Film ratio against micropitting over the flank [profile, face]; None if it is not asked for [-]."
+    )
     derived: ScuffingDerived = quantity("load, lengths and oil used")
     warnings: tuple[Notice, ...]
     unsolved_points: int = quantity("unsolved points", text="points of the path without a solution or refused")
