@@ -1,7 +1,5 @@
 """Results for the flanks from the balanced load: load over the face, feature line, maps of line load and pressure."""
 
-from dataclasses import fields
-
 import numpy as np
 
 from solvers.arrays import FloatArray, frozen
@@ -33,7 +31,8 @@ def face_load_factor(balance: LoadBalance, y: float) -> float:
     which errs for lines loaded in part: there at every place that is nearly the largest. Eq. L17.
     """
     plane = balance.mesh.plane
-    places = _apart([*np.linspace(0.0, plane.face_width, FACE_POINTS), *kinks_along_face(balance.mesh.gap), y])
+    evenly = np.linspace(0.0, plane.face_width, FACE_POINTS)
+    places = _apart(np.append(evenly, [*kinks_along_face(balance.mesh.gap), y]))
     highest = tops(face_loads(balance, places, 1))[-TOPS if _in_part(balance) else -1 :]
     largest = max(_largest_around(balance, places, top) for top in highest)
     factor = largest * plane.face_width / (balance.force * plane.cos_base_helix)
@@ -56,16 +55,16 @@ def _largest_around(balance: LoadBalance, places: FloatArray, top: int) -> float
     """Largest force per face width [N/m] between the neighbours of a place."""
     for _ in range(ZOOMS):
         low, high = places[max(top - 1, 0)], places[min(top + 1, places.size - 1)]
-        places = _apart([*np.linspace(low, high, ZOOM_POINTS), places[top]])
+        places = _apart(np.append(np.linspace(low, high, ZOOM_POINTS), places[top]))
         shares = face_loads(balance, places)
         top = int(np.argmax(shares))
     return float(shares.max())
 
 
-def _apart(places: list[float]) -> FloatArray:
-    """Places in order, without those that differ from their neighbour by rounding only and would hide it."""
-    found = np.unique(places)
-    return np.asarray(found[np.append(np.diff(found) > SAME * (found[-1] - found[0]), True)])
+def _apart(places: FloatArray) -> FloatArray:
+    """Return the places in ascending order, without those that only rounding separates from the next place."""
+    ascending = np.sort(places)
+    return np.asarray(ascending[np.append(np.diff(ascending) > SAME * (ascending[-1] - ascending[0]), True)])
 
 
 def face_loads(balance: LoadBalance, y: FloatArray, substeps: int = SUBSTEPS) -> FloatArray:
@@ -110,18 +109,10 @@ def _face_loads(mesh: Mesh, phase: FloatArray, error: FloatArray, substeps: int,
 def contact_points(
     path: PathOfContact, x: FloatArray, load: FloatArray, pinion_speed: float, modulus: float
 ) -> ContactPoints:
-    """Load, radius and speeds at points x [m] of the path under w [N/m], arrays of one shape; E' [Pa]."""
+    """Return the contacts at points x [m] of the path under line loads [N/m], arrays of one shape; modulus E' [Pa]."""
     radius = reduced_radius(path.plane, x)
-    pinion, wheel = path.surface_speeds(x, pinion_speed)
-    return ContactPoints(
-        gamma=frozen(path.profile_parameter(x)),
-        line_load=frozen(load),
-        pressure=frozen(contact_pressure(path.plane, radius, load, modulus)),
-        half_width=frozen(hertz.half_width(load, np.where(radius < path.plane.least_radius, 0.0, radius), modulus)),
-        radius=frozen(radius),
-        pinion_speed=frozen(pinion),
-        wheel_speed=frozen(wheel),
-    )
+    half_width = hertz.half_width(load, np.where(radius < path.plane.least_radius, 0.0, radius), modulus)
+    return ContactPoints(load, half_width, radius, *path.surface_speeds(x, pinion_speed))
 
 
 def feature_line(
@@ -138,9 +129,15 @@ def feature_line(
     line = contact_points(path, x, load, pinion_speed, modulus)
     sharing = iso_load_sharing(path, x)
     return FeatureLine(
-        **{item.name: getattr(line, item.name) for item in fields(line)},
+        gamma=frozen(path.profile_parameter(x)),
+        line_load=frozen(load),
+        pressure=frozen(contact_pressure(path.plane, line.radius, load, modulus)),
+        half_width=frozen(line.half_width),
+        radius=frozen(line.radius),
+        pinion_speed=frozen(line.pinion_speed),
+        wheel_speed=frozen(line.wheel_speed),
         psi=frozen(psi),
-        load_sharing=None if tangential_force == 0.0 else frozen(_load_sharing(path, line.line_load, tangential_force)),
+        load_sharing=None if tangential_force == 0.0 else frozen(_load_sharing(path, load, tangential_force)),
         iso_load_sharing=None if sharing is None else frozen(sharing),
     )
 

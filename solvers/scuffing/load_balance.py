@@ -186,14 +186,15 @@ def balance_load(
     if force < LEAST_LINE_LOAD * mesh.plane.face_width:
         force = 0.0
     balance = _balanced(mesh, rolls, force, slices, _nothing(rolls) if start is None else start)
+    bent = _bent_steps(balance)
     for _ in range(MAX_HALVINGS):
-        bent = _bent_steps(balance)
         if bent.size == 0 or bent.size > MOST_ADDED:
             break
         phase = balance.rolls.phase
         between = RollPositions((phase[bent] + phase[bent + 1]) / 2, np.zeros(bent.size), np.zeros(bent.size, bool))
         balance = _merged(balance, _balanced(mesh, between, force, slices, _nothing(between)), bent + 1)
-    return replace(balance, bent_steps=_bent_steps(balance).size)
+        bent = _bent_steps(balance)
+    return replace(balance, bent_steps=bent.size)
 
 
 def _nothing(rolls: RollPositions) -> Start:

@@ -4,7 +4,7 @@ x runs along the path from A to E, y along the face from the end that meshes fir
 """
 
 from collections.abc import Callable
-from dataclasses import field
+from dataclasses import dataclass, field
 from functools import cached_property
 
 from solvers.arrays import BoolArray, FloatArray, frozen
@@ -219,9 +219,30 @@ class FrictionLoss:
     efficiency: float | None = quantity("mesh efficiency", "η_z", text="1 - μ_m H_V; null without load")
 
 
-@record
+@dataclass(frozen=True, slots=True)
 class ContactPoints:
-    """At points of the flank: line load [N/m], Hertzian pressure [Pa], half width and reduced radius [m], speeds [m/s].
+    """Contacts at points of the flank: line load [N/m], half width and reduced radius [m], surface speeds [m/s]."""
+
+    line_load: FloatArray
+    half_width: FloatArray
+    radius: FloatArray
+    pinion_speed: FloatArray
+    wheel_speed: FloatArray
+
+    @property
+    def in_contact(self) -> BoolArray:
+        """Where the flanks touch and move, so that film and flash temperature have a meaning."""
+        return (self.line_load > 0.0) & (self.half_width > 0.0) & (self.pinion_speed + self.wheel_speed > 0.0)
+
+    @property
+    def undefined(self) -> BoolArray:
+        """Where a load presses too near a base circle for a width of contact, a pressure or a flash temperature."""
+        return (self.line_load > 0.0) & (self.half_width <= 0.0)
+
+
+@record(kw_only=True)
+class FeatureLine:
+    """Points along the feature line; load sharing is None without load, the standard's also where it has no diagram.
 
     pressure is NaN where the reduced radius vanishes.
     """
@@ -253,28 +274,6 @@ class ContactPoints:
     wheel_speed: FloatArray = quantity(
         "surface speed of the wheel", "u_2", f"{XUE}, Eq. 18", unit="m_per_s", axis="psi"
     )
-
-    @property
-    @computed("sliding speed", "u_1 − u_2", unit="m_per_s", axis="psi")
-    def sliding(self) -> FloatArray:
-        """Sliding velocity u_1 - u_2 [m/s]."""
-        return frozen(self.pinion_speed - self.wheel_speed)
-
-    @property
-    def in_contact(self) -> BoolArray:
-        """Where the flanks touch and move, so that film and flash temperature have a meaning."""
-        return (self.line_load > 0.0) & (self.half_width > 0.0) & (self.pinion_speed + self.wheel_speed > 0.0)
-
-    @property
-    def undefined(self) -> BoolArray:
-        """Where a load presses too near a base circle for a width of contact, a pressure or a flash temperature."""
-        return (self.line_load > 0.0) & (self.half_width <= 0.0)
-
-
-@record(kw_only=True)
-class FeatureLine(ContactPoints):
-    """Points along the feature line; load sharing is None without load, the standard's also where it has no diagram."""
-
     psi: FloatArray = quantity(
         "feature line position", "Ψ", f"{XUE}, Fig. 18", text="fraction of the feature line, A1 to E2"
     )
@@ -288,6 +287,12 @@ class FeatureLine(ContactPoints):
         text="the standard's diagram; null where it has none",
         axis="psi",
     )
+
+    @property
+    @computed("sliding speed", "u_1 − u_2", unit="m_per_s", axis="psi")
+    def sliding(self) -> FloatArray:
+        """Sliding velocity u_1 - u_2 [m/s]."""
+        return frozen(self.pinion_speed - self.wheel_speed)
 
 
 @record

@@ -6,6 +6,7 @@ solution is asked for along two lines: the paper's feature line, and the profile
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -17,7 +18,7 @@ from solvers.heat_balance import Heat, cooling_in_force
 from solvers.lubricants import OilInUse, oil_in_use
 from solvers.oils import OilSheet
 from solvers.scuffing.contact_slices import Peak, reaches_base_circle
-from solvers.scuffing.inputs import ScuffingInputs, Temperatures
+from solvers.scuffing.inputs import LoadDistributionInputs, ScuffingInputs, Temperatures
 from solvers.scuffing.micropitting.check import CheckedFlank, check_micropitting
 from solvers.scuffing.micropitting.wear import wear_asked_for
 from solvers.scuffing.model import solve
@@ -35,6 +36,7 @@ from solvers.scuffing.safety_results import (
 from solvers.scuffing.thermal.blok import blok_flash
 from solvers.scuffing.thermal.flank import (
     SURVEY_POINTS,
+    ContactFunction,
     contact_at_points,
     find_hottest,
     find_thinnest,
@@ -70,10 +72,11 @@ def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
     given, bulk = inputs.distribution, inputs.temperatures.bulk
     whole = inputs.line == "flank"
     hottest = find_hottest(given, distribution, flash_map) if whole else None
-    thinnest = find_thinnest(inputs, distribution, flash_map) if whole else None
-    lines, beside = _lines(inputs, distribution, hottest)
+    film_at = formula_film(inputs)
+    thinnest = find_thinnest(given, distribution, flash_map, film_at) if whole else None
+    lines, beside = _lines(inputs, distribution, hottest, film_at)
     if thinnest is not None and beside is not None:
-        thinnest = _or_along(inputs, distribution, beside, thinnest)
+        thinnest = _or_along(distribution, beside, thinnest)
     warnings, unknown = (*distribution.warnings, *oil_notices(inputs, distribution.path_of_contact)), 0
     paths = [_closed_form_path(inputs, line) for line in lines]
     if inputs.lubrication == "thermal_ehl" and bulk is not None:
@@ -118,25 +121,34 @@ def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
 
 
 class _Line(NamedTuple):
-    """Points of a line over the flank: fraction of the path from A, distance from the end that meshes first [m]."""
+    """Points of a line over the flank, with Blok's flash temperature [K] and the film of the formula [m].
+
+    `psi` is the fraction of the path from A, `face` the distance from the end that meshes first [m].
+    """
 
     psi: FloatArray
     face: FloatArray
     points: ContactPoints
+    flash: FloatArray
+    film: FloatArray
 
 
 def _line_at(
-    inputs: ScuffingInputs, distribution: LoadDistribution, psi: FloatArray, face: float | None = None
+    given: LoadDistributionInputs,
+    distribution: LoadDistribution,
+    film_at: ContactFunction,
+    psi: FloatArray,
+    face: float | None = None,
 ) -> _Line:
-    """Return the points of the profile line at a face position [m], or of the feature line."""
+    """Return the profile line at a face position [m], or the feature line."""
     plane = distribution.path_of_contact.plane
     across = psi * plane.face_width if face is None else np.full(psi.size, face)
-    points = contact_at_points(inputs.distribution, distribution, psi * plane.path_length, across)
-    return _Line(frozen(psi), frozen(across), points)
+    points = contact_at_points(given, distribution, psi * plane.path_length, across)
+    return _Line(frozen(psi), frozen(across), points, blok_flash(given, points), film_at(points))
 
 
 def _lines(
-    inputs: ScuffingInputs, distribution: LoadDistribution, hottest: Peak | None
+    inputs: ScuffingInputs, distribution: LoadDistribution, hottest: Peak | None, film_at: ContactFunction
 ) -> tuple[list[_Line], _Line | None]:
     """Return the lines to check, and the profile line through the hottest point even if it is not one of them.
 
@@ -144,39 +156,38 @@ def _lines(
     where Blok's flash temperature is largest and the film of the formula thinnest. Without these, a maximum would
     depend on the number of points.
     """
+    line_at = partial(_line_at, inputs.distribution, distribution, film_at)
     even = np.linspace(0.0, 1.0, inputs.path_points)
-    survey = _line_at(inputs, distribution, np.linspace(0.0, 1.0, SURVEY_POINTS))
-    flash, film = blok_flash(inputs.distribution, survey.points), formula_film(inputs)(survey.points)
+    survey = line_at(np.linspace(0.0, 1.0, SURVEY_POINTS))
     added = [
         survey.psi[extreme(curve)]
-        for curve, extreme in ((flash, np.nanargmax), (film, np.nanargmin))
+        for curve, extreme in ((survey.flash, np.nanargmax), (survey.film, np.nanargmin))
         if np.isfinite(curve[survey.points.in_contact]).any()
     ]
     if survey.points.undefined.any():
         added.append(survey.psi[np.argmax(survey.points.undefined)])
-    feature = _line_at(inputs, distribution, np.unique([*even, *added]))
+    feature = line_at(np.unique(np.append(even, added)))
     if hottest is None:
         return [feature], None
-    on_line = int(np.argmax(flash))
-    hotter = hottest.value > (1.0 + AS_HOT) * flash[on_line]
+    on_line = int(np.argmax(survey.flash))
+    hotter = hottest.value > (1.0 + AS_HOT) * survey.flash[on_line]
     psi, face = hottest.x / distribution.path_of_contact.length, hottest.y
-    if flash[on_line] > hottest.value:
+    if survey.flash[on_line] > hottest.value:
         psi, face = survey.psi[on_line], float(survey.face[on_line])
-    profile = _line_at(inputs, distribution, np.unique([*even, psi]), face)
+    profile = line_at(np.unique(np.append(even, psi)), face)
     return [feature, profile] if hotter else [feature], profile
 
 
-def _or_along(inputs: ScuffingInputs, distribution: LoadDistribution, line: _Line, thinnest: Peak) -> Peak:
+def _or_along(distribution: LoadDistribution, line: _Line, thinnest: Peak) -> Peak:
     """Return the thinnest film by the formula, or the thinnest of a line's points if that is thinner.
 
     Whether the profile line is checked depends on the feature line, which in the mirror image of a spur pair is another
     one. Its points always count, so that both have one thinnest film.
     """
-    film = formula_film(inputs)(line.points)
-    if np.isnan(film).all():
+    if np.isnan(line.film).all():
         return thinnest
-    k = int(np.nanargmin(film))
-    along = Peak(float(film[k]), float(line.psi[k]) * distribution.path_of_contact.length, float(line.face[k]))
+    k = int(np.nanargmin(line.film))
+    along = Peak(float(line.film[k]), float(line.psi[k]) * distribution.path_of_contact.length, float(line.face[k]))
     return min(thinnest, along, key=lambda peak: peak.value)
 
 
@@ -257,13 +268,12 @@ def _closed_form_path(inputs: ScuffingInputs, line: _Line) -> ScuffingPath:
     A loaded point too near a base circle has neither: it is "refused". Without an oil there is no film.
     """
     pinion, wheel, points = inputs.distribution.pinion_material, inputs.distribution.wheel_material, line.points
-    film = formula_film(inputs)(points)
     return ScuffingPath(
         psi=line.psi,
         status=tuple(np.where(points.in_contact, "ok", np.where(points.undefined, "refused", "unloaded")).tolist()),
-        blok_flash=frozen(blok_flash(inputs.distribution, points)),
-        dowson_higginson=frozen(film),
-        thickness_ratio=frozen(thickness_ratio(film, pinion.roughness, wheel.roughness)),
+        blok_flash=frozen(line.flash),
+        dowson_higginson=frozen(line.film),
+        thickness_ratio=frozen(thickness_ratio(line.film, pinion.roughness, wheel.roughness)),
     )
 
 

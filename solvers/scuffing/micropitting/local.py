@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from solvers.arrays import FloatArray
+from solvers.contact.hertz import maximum_pressure
 from solvers.scuffing.contact_slices import Peak, reaches_base_circle
 from solvers.scuffing.inputs import ScuffingInputs
 from solvers.scuffing.micropitting.film import Conditions, Contacts, films
@@ -41,7 +42,7 @@ class FlankFilm:
         if self.bulk is not None:
             conditions = replace(conditions, bulk=self.bulk(np.broadcast_to(y, touching.shape)[touching]))
         ratio = np.full(touching.shape, np.nan)
-        ratio[touching] = films(conditions, contacts_of(points)).ratio
+        ratio[touching] = films(conditions, contacts_of(points, conditions.modulus)).ratio
         return ratio
 
     def at(self, x: FloatArray, y: FloatArray) -> FloatArray:
@@ -54,12 +55,13 @@ class FlankFilm:
         return self.ratio(contacts_under_load(self.inputs.distribution, self.distribution, x, grid.load), grid.y)
 
 
-def contacts_of(points: ContactPoints) -> Contacts:
-    """Return the points that are in contact."""
+def contacts_of(points: ContactPoints, modulus: float) -> Contacts:
+    """Return the points that are in contact; modulus E' [Pa]."""
     touching = points.in_contact
-    return Contacts(
-        *(values[touching] for values in (points.pressure, points.radius, points.pinion_speed, points.wheel_speed))
+    load, radius, pinion_speed, wheel_speed = (
+        values[touching] for values in (points.line_load, points.radius, points.pinion_speed, points.wheel_speed)
     )
+    return Contacts(maximum_pressure(load, radius, modulus), radius, pinion_speed, wheel_speed)
 
 
 def flank_film(

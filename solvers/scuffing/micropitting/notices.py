@@ -58,7 +58,7 @@ def hot_film_notices(film: FlankFilm, least: Peak) -> Iterator[Notice]:
     """Warn of a contact that is hotter than the laws of the oil hold."""
     points = contact_at_points(film.inputs.distribution, film.distribution, np.array([least.x]), np.array([least.y]))
     bulk = film.conditions.bulk if film.bulk is None else film.bulk(np.array([least.y]))
-    contact = float(np.max(bulk + flash_temperature(film.conditions, contacts_of(points))))
+    contact = float(np.max(bulk + flash_temperature(film.conditions, contacts_of(points, film.conditions.modulus))))
     if contact > HOTTEST_OIL:
         message = (
             f"the contact with the thinnest film reaches {contact - 273.15:.4g} °C; beyond "

@@ -33,6 +33,9 @@ FlankFunction = Callable[[FloatArray, FloatArray], FloatArray]
 FaceFunction = Callable[[FloatArray], FloatArray]
 """A value at distances y [m] from the end that meshes first."""
 
+ContactFunction = Callable[[ContactPoints], FloatArray]
+"""A value at contacts."""
+
 
 @dataclass(frozen=True, slots=True)
 class FlashMap:
@@ -150,8 +153,21 @@ def find_hottest(
     return _or_beside(distribution, peak, value)
 
 
-def find_thinnest(inputs: ScuffingInputs, distribution: LoadDistribution, flash: FlashMap) -> Peak | None:
+def find_thinnest(
+    given: LoadDistributionInputs, distribution: LoadDistribution, flash: FlashMap, film_at: ContactFunction
+) -> Peak | None:
     """Find where the film of the formula is thinnest over the flank.
+
+    Parameters
+    ----------
+    given : LoadDistributionInputs
+        The pair.
+    distribution : LoadDistribution
+        Its load distribution.
+    flash : FlashMap
+        What `map_flash` returns for both.
+    film_at : callable
+        What `formula_film` returns: the film [m] at contacts.
 
     Returns
     -------
@@ -159,14 +175,13 @@ def find_thinnest(inputs: ScuffingInputs, distribution: LoadDistribution, flash:
         Thinnest film [m] and its place [m]; None if no film is known anywhere.
 
     """
-    film_at = formula_film(inputs)
 
     def thinness(points: ContactPoints) -> FloatArray:
         film = film_at(points)
         return np.divide(1.0, film, out=np.zeros(film.shape), where=~np.isnan(film))
 
     def value(x: FloatArray, y: FloatArray) -> FloatArray:
-        return thinness(contact_at_points(inputs.distribution, distribution, x, y))
+        return thinness(contact_at_points(given, distribution, x, y))
 
     known = np.zeros(flash.load.shape)
     known[np.arange(flash.x.size), np.argmax(flash.load, axis=1)] = thinness(flash.heaviest)
@@ -176,7 +191,7 @@ def find_thinnest(inputs: ScuffingInputs, distribution: LoadDistribution, flash:
     return Peak(1.0 / peak.value, peak.x, peak.y)
 
 
-def formula_film(inputs: ScuffingInputs) -> Callable[[ContactPoints], FloatArray]:
+def formula_film(inputs: ScuffingInputs) -> ContactFunction:
     """Return the function that computes the minimum film [m] of Dowson and Higginson at points.
 
     It returns NaN where nothing is in contact, and everywhere without an oil or a bulk temperature.
@@ -229,7 +244,7 @@ def _peak_at_kinks(distribution: LoadDistribution, function: FlankFunction, peak
     plane, rolls = distribution.path_of_contact.plane, distribution.balance.rolls
     phase = rolls.phase[rolls.side == 0.0]  # at the others a spur gear's load jumps: both sides are places of the map
     lines = np.add.outer(plane.base_pitch * np.arange(line_count(plane)), phase).ravel()
-    x = np.clip(lines - peak.y * plane.tan_base_helix, 0.0, plane.path_length)
+    x = np.unique(np.clip(lines - peak.y * plane.tan_base_helix, 0.0, plane.path_length))
     values = function(x, np.full(x.size, peak.y))
     top = int(np.argmax(np.where(np.isnan(values), -np.inf, values)))
     return Peak(float(values[top]), float(x[top]), peak.y)

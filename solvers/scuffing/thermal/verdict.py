@@ -77,16 +77,14 @@ def largest_flash(lines: Sequence[CheckedLine], hottest: Peak | None, path_lengt
     if hottest is not None and hottest.value > largest:
         at_profile = hottest.x / path_length
         flash = replace(flash, blok_max=hottest.value, blok_at_profile=at_profile, blok_at_face=hottest.y)
-    curves = [
-        np.full(line.face.size, np.nan)
-        if line.path.thermal is None
-        else np.fmax(line.path.thermal.pinion_flash, line.path.thermal.wheel_flash)
-        for line in lines
-    ]
-    found = _extreme(lines, curves, largest=True)
-    if found is None:
+    if path.thermal is None:
         return flash
-    value, profile, across = found
+    solutions = [line.path.thermal for line in lines if line.path.thermal is not None]
+    curves = [np.fmax(thermal.pinion_flash, thermal.wheel_flash) for thermal in solutions]
+    hottest_of_film = _extreme(lines, curves, largest=True)
+    if hottest_of_film is None:
+        return flash
+    value, profile, across = hottest_of_film
     return replace(
         flash,
         thermal_ehl_max=value,
