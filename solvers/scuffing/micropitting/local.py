@@ -1,4 +1,4 @@
-"""Method A of ISO/TR 15144-1: the film over the whole flank under the load that the flank has."""
+"""Method A of ISO/TR 15144-1: the film over the whole flank under its computed load."""
 
 from dataclasses import dataclass, replace
 
@@ -25,9 +25,10 @@ LEAST = 1e-9  # ratio below which films are equally thin
 
 @dataclass(frozen=True, slots=True)
 class FlankFilm:
-    """What the film ratio over the flank depends on; the bulk temperature of `conditions` is that of the oil's entry.
+    """What the film ratio over the flank depends on.
 
-    `bulk` is the bulk temperature along the face, None where it is one.
+    `bulk` is the bulk temperature along the face. If it is None, the bulk temperature of `conditions`, at which the oil
+    enters the contact, holds everywhere.
     """
 
     inputs: ScuffingInputs
@@ -56,7 +57,7 @@ class FlankFilm:
 
 
 def contacts_of(points: ContactPoints, modulus: float) -> Contacts:
-    """Return the points that are in contact; modulus E' [Pa]."""
+    """Return the contacts at those points that are in contact; `modulus` is E' [Pa]."""
     touching = points.in_contact
     load, radius, pinion_speed, wheel_speed = (
         values[touching] for values in (points.line_load, points.radius, points.pinion_speed, points.wheel_speed)
@@ -94,8 +95,7 @@ def find_least(flank: FlankFilm, grid: FlashMap, ratio: FloatArray) -> Peak | No
     Returns
     -------
     Peak or None
-        Least ratio and its place [m]; None if nothing is in contact, or where the loaded path reaches a base circle.
-
+        Least ratio and its place [m]; None if nothing is in contact, or if the loaded path reaches a base circle.
     """
     if np.isnan(ratio).all() or reaches_base_circle(flank.distribution.balance.survey):
         return None

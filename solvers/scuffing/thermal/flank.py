@@ -140,7 +140,6 @@ def find_hottest(
     -------
     Peak or None
         Largest value [K] and its place [m]; None if the flash temperature is not known everywhere.
-
     """
     if np.isnan(flash.flash).any():
         return None
@@ -173,7 +172,6 @@ def find_thinnest(
     -------
     Peak or None
         Thinnest film [m] and its place [m]; None if no film is known anywhere.
-
     """
 
     def thinness(points: ContactPoints) -> FloatArray:

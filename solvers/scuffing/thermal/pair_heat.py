@@ -49,7 +49,6 @@ def pair_heat(inputs: ScuffingInputs, distribution: LoadDistribution, estimate: 
         `exclusive` or `measured_unreachable` for measured temperatures.
     NoSolution
         `heat_balance` or `thermal_runaway`.
-
     """
     heat = heat_balance.solve(balance_inputs(inputs, distribution, estimate))
     return with_backlash_loss(heat, distribution.path_of_contact.pair)
@@ -128,7 +127,6 @@ def friction_to_pinion(given: LoadDistributionInputs, distribution: LoadDistribu
     -------
     float
         Share phi [-] (Eq. H7).
-
     """
     path, flank = distribution.path_of_contact, distribution.flank
     along = flank.profile_fraction * path.plane.path_length

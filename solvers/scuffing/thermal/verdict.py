@@ -66,7 +66,6 @@ def largest_flash(lines: Sequence[CheckedLine], hottest: Peak | None, path_lengt
         Largest flash temperature over the flank [K], if the flank was checked.
     path_length : float
         Length of the path of contact [m].
-
     """
     path, face = lines[0]
     if not _any_number(path.blok_flash):
@@ -109,7 +108,6 @@ def thinnest_film(
         Length of the path of contact [m].
     given : LoadDistributionInputs
         The pair, whose roughness the film is compared with.
-
     """
     formula = [line.path.dowson_higginson for line in lines]
     judged = _extreme(lines, formula, largest=False)
