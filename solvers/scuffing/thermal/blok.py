@@ -9,9 +9,24 @@ from solvers.scuffing.results import ContactPoints
 
 
 def blok_flash(given: LoadDistributionInputs, points: ContactPoints) -> FloatArray:
-    """Blok's flash temperature [K] (Eq. 25) at the points.
+    """Compute Blok's flash temperature at points of the flank.
 
-    0 where nothing touches or moves; NaN where it has no limit, and at every contact without a coefficient of friction.
+    Parameters
+    ----------
+    given : LoadDistributionInputs
+        The pair with its materials and its coefficient of friction.
+    points : ContactPoints
+        The contacts at the points.
+
+    Returns
+    -------
+    ndarray
+        Flash temperature [K]; 0 at points without contact or motion. NaN at loaded points too near a base circle, and
+        at every point in contact if the coefficient of friction is None.
+
+    Notes
+    -----
+    Eq. 25.
     """
     flash, touching = np.where(points.undefined, np.nan, 0.0), points.in_contact
     if given.friction_coefficient is None:
