@@ -1,7 +1,7 @@
 """Scuffing of a loaded pair over the whole flank: contact temperature and film thickness against their limits.
 
 The closed forms are Blok's flash temperature (Eq. 25) and Dowson and Higginson's film (Eq. 27). The thermal EHL
-solution is asked for along two lines: the paper's feature line, and the profile line through the hottest point.
+solution is computed along two lines: the paper's feature line, and the profile line through the hottest point.
 """
 
 from collections.abc import Sequence
@@ -55,15 +55,34 @@ from solvers.scuffing.thermal.verdict import (
     without_thermal,
 )
 
-AS_HOT = 0.02  # of the flash temperature: a hottest point no hotter than this above the line needs no line of its own
+AS_HOT = 0.02  # of the flash temperature: the hottest point must exceed the feature line by it to get its profile line
 
 
 def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
-    """Load distribution and scuffing check (Eq. 16).
+    """Compute the load distribution of a pair and check it against scuffing.
 
-    Without an oil or a bulk temperature there are neither film nor contact temperature nor safety. Raises InvalidInput
-    exclusive for a bulk temperature beside the method that estimates it, what `model.solve` and `in_force` raise, and
-    what the thermal EHL solver raises if it refuses every point.
+    Parameters
+    ----------
+    inputs : ScuffingInputs
+        The pair, its load, its oil and its temperatures.
+
+    Returns
+    -------
+    Scuffing
+        Load distribution, flash temperature and path of the check. Film, contact temperature and safety are None if
+        the oil or the bulk temperature is unknown.
+
+    Raises
+    ------
+    InvalidInput
+        `exclusive` if a bulk temperature is given and its method is "estimated"; the errors of `model.solve` and
+        `in_force`; the error of the thermal EHL solver if it refuses every point.
+    NoSolution
+        The errors of `model.solve` and `in_force`.
+
+    Notes
+    -----
+    Eq. 16.
     """
     if inputs.temperatures.bulk_method == "estimated" and inputs.temperatures.bulk is not None:
         message = "an estimated bulk and a bulk temperature are both given; keep one, or set the method to given"
@@ -150,11 +169,11 @@ def _line_at(
 def _lines(
     inputs: ScuffingInputs, distribution: LoadDistribution, hottest: Peak | None, film_at: ContactFunction
 ) -> tuple[list[_Line], _Line | None]:
-    """Return the lines to check, and the profile line through the hottest point even if it is not one of them.
+    """Return the lines to check, and the profile line through the hottest point even if it is not checked.
 
-    The lines are the feature line, and the profile line if that is hotter. Both are equidistant but for the places
-    where Blok's flash temperature is largest and the film of the formula thinnest. Without these, a maximum would
-    depend on the number of points.
+    The lines are the feature line, and the profile line if that is hotter. Their points are equidistant; added are the
+    places at which Blok's flash temperature is largest and the film of the formula is thinnest. Without these places, a
+    maximum would depend on the number of points.
     """
     line_at = partial(_line_at, inputs.distribution, distribution, film_at)
     even = np.linspace(0.0, 1.0, inputs.path_points)
@@ -179,10 +198,10 @@ def _lines(
 
 
 def _or_along(distribution: LoadDistribution, line: _Line, thinnest: Peak) -> Peak:
-    """Return the thinnest film by the formula, or the thinnest of a line's points if that is thinner.
+    """Return the thinnest film by the formula, or the thinnest film of a profile line if that is thinner.
 
-    Whether the profile line is checked depends on the feature line, which in the mirror image of a spur pair is another
-    one. Its points always count, so that both have one thinnest film.
+    Whether the profile line is checked depends on the feature line, and a spur pair and its mirror image have different
+    feature lines. The points of the profile line always count, so that both have the same thinnest film.
     """
     if np.isnan(line.film).all():
         return thinnest
@@ -199,12 +218,12 @@ def _surfaces(temperatures: Temperatures, line: _Line) -> FloatArray:
 def _contact_temperature(
     temperatures: Temperatures, bulk: float, flash: Flash, lines: Sequence[CheckedLine]
 ) -> ContactTemperature:
-    """Bulk [K] and flash; by thermal EHL of either surface from its own bulk."""
+    """Add the flash temperatures to the bulk temperature [K]; by thermal EHL to that of the surface."""
     thermal = None
     if flash.thermal_ehl_max is not None:
         surfaces = np.array(temperatures.surfaces)[:, None]
-        solved = [line.path.thermal for line in lines if line.path.thermal is not None]
-        thermal = float(np.nanmax(np.concatenate([hotter_surface(path, surfaces) for path in solved])))
+        paths = [line.path.thermal for line in lines if line.path.thermal is not None]
+        thermal = float(np.nanmax(np.concatenate([hotter_surface(path, surfaces) for path in paths])))
     return ContactTemperature(
         bulk=bulk, blok_max=None if flash.blok_max is None else bulk + flash.blok_max, thermal_ehl_max=thermal
     )
@@ -213,20 +232,20 @@ def _contact_temperature(
 def _with_band(
     temperatures: Temperatures, heat: Heat, flash: Flash, safety: Safety | None
 ) -> tuple[Heat, Safety | None]:
-    """Return the balance with the safety at the ends of its band, and the safety with the verdict of the lower end."""
+    """Add the safety at both ends of its band to the balance, and take the verdict from the lower end."""
     if safety is None or safety.blok_factor is None or flash.blok_max is None or heat.band is None:
         return heat, safety
     contacts = [sum(flanks) / 2 + flash.blok_max for flanks in heat.flank_cases]
     factors = [safety_factor(safety.scuffing, temperatures.oil, contact) for contact in contacts]
-    known = [factor for factor in factors if factor is not None]
-    if len(known) < len(factors):
+    defined = [factor for factor in factors if factor is not None]
+    if len(defined) < len(factors):
         return heat, safety
-    band = replace(heat.band, safety=(min(known), max(known)))
-    return replace(heat, band=band), replace(safety, verdict=scuffing_risk(min(known)))
+    band = replace(heat.band, safety=(min(defined), max(defined)))
+    return replace(heat, band=band), replace(safety, verdict=scuffing_risk(min(defined)))
 
 
 def _derived(inputs: ScuffingInputs, mesh: Derived, heat: Heat | None) -> ScuffingDerived:
-    """What follows from the inputs for mesh and oil."""
+    """Return the values of mesh, oil and cooling that follow from the inputs."""
     sheet = inputs.oil if isinstance(inputs.oil, OilSheet) else None
     return ScuffingDerived(
         mesh=mesh,
@@ -239,7 +258,26 @@ def _derived(inputs: ScuffingInputs, mesh: Derived, heat: Heat | None) -> Scuffi
 
 
 def safety_factor(scuffing: float, oil: float, contact: float) -> float | None:
-    """S = (t_s - t_oil) / (max t_B - t_oil) (Eq. 26), temperatures in one unit; None where the rise is not positive."""
+    """Compute the safety factor against scuffing.
+
+    Parameters
+    ----------
+    scuffing : float
+        Scuffing temperature t_s [K].
+    oil : float
+        Oil temperature t_oil [K].
+    contact : float
+        Largest contact temperature t_B [K].
+
+    Returns
+    -------
+    float or None
+        Safety factor S [-]; None if the contact is not hotter than the oil.
+
+    Notes
+    -----
+    S = (t_s - t_oil) / (max t_B - t_oil) (Eq. 26).
+    """
     return (scuffing - oil) / (contact - oil) if contact > oil else None
 
 
@@ -263,9 +301,9 @@ def _safety(temperatures: Temperatures, contact: ContactTemperature, flash: Flas
 
 
 def _closed_form_path(inputs: ScuffingInputs, line: _Line) -> ScuffingPath:
-    """Flash temperature (Eq. 25) and film (Eqs. 27, 28) along a line.
+    """Return flash temperature (Eq. 25) and film (Eqs. 27, 28) along a line.
 
-    A loaded point too near a base circle has neither: it is "refused". Without an oil there is no film.
+    A loaded point too near a base circle has neither; its status is "refused". Without an oil there is no film.
     """
     pinion, wheel, points = inputs.distribution.pinion_material, inputs.distribution.wheel_material, line.points
     return ScuffingPath(
@@ -278,17 +316,18 @@ def _closed_form_path(inputs: ScuffingInputs, line: _Line) -> ScuffingPath:
 
 
 def _with_thermal(inputs: ScuffingInputs, path: ScuffingPath, thermal: ThermalPath) -> ScuffingPath:
-    """The path with everything the thermal EHL solution knows, its film judged instead of the formula's."""
+    """Add the thermal EHL solution to a path; the thickness ratio is then that of its film."""
     given = inputs.distribution
     ratio = thickness_ratio(thermal.minimum_film, given.pinion_material.roughness, given.wheel_material.roughness)
     status = tuple(
-        formula if formula == "refused" else solved for formula, solved in zip(path.status, thermal.status, strict=True)
+        formula if formula == "refused" else thermal_status
+        for formula, thermal_status in zip(path.status, thermal.status, strict=True)
     )
     return replace(path, status=status, thickness_ratio=frozen(ratio), thermal=thermal)
 
 
 def _with_film_ratio(flank: CheckedFlank, path: ScuffingPath, line: _Line) -> ScuffingPath:
-    """The path with the film ratio of micropitting, if that is asked for and known."""
+    """Add the film ratio of micropitting to a path, if the check has one."""
     if flank.film is None:
         return path
     return replace(path, micropitting_ratio=frozen(flank.film.ratio(line.points, line.face)))

@@ -72,8 +72,8 @@ def with_friction(inputs: ScuffingInputs, distribution: LoadDistribution) -> tup
     """Return the inputs with the friction of the flash temperature, the load distribution with that of the losses.
 
     A given coefficient of friction is used for both. Otherwise the flash temperature uses the coefficient of ISO/TR
-    13989-1, which is on the safe side for scuffing; the losses use Schlenk's coefficient, a mean for the efficiency. Both
-    coefficients are None without an oil, a load or a speed.
+    13989-1, which is on the safe side for scuffing; the losses use Schlenk's coefficient, a mean for the efficiency.
+    Both coefficients are None without an oil, a load or a speed.
     """
     if inputs.friction == "given":
         return inputs, distribution
