@@ -274,9 +274,9 @@ class Model:
     """Options of the physical model.
 
     `tooth_stiffness` is "ishikawa", or "parabola" through Ishikawa's maximum with `parabola_end_ratio` at A and E; the
-    parabola is calibrated to the paper's load maxima. `contact` is "hertzian" for half-spaces (Weber, Johnson), or "linear" for
-    the paper's term. `section` is the section of the tooth for its compliance. `load_convention` is "exact" for F_bn in
-    the balance, or "paper" for F_bt (Eq. 1).
+    parabola is calibrated to the paper's load maxima. `contact` is "hertzian" for half-spaces (Weber, Johnson), or
+    "linear" for the paper's term. `section` is the section of the tooth for its compliance. `load_convention` is
+    "exact" for F_bn in the balance, or "paper" for F_bt (Eq. 1).
     """
 
     tooth_stiffness: ToothModel = quantity(
