@@ -257,9 +257,9 @@ class ScuffingPath:
     The feature line runs diagonally, y = psi b; the profile line lies at the face position of the hottest point. The
     points are equidistant; added are the places at which Blok's flash temperature is largest and the film of the
     formula is thinnest. A point without load or motion has the status "unloaded"; its film and ratio are NaN, and its
-    flash temperature by Blok is 0. A loaded point at which the reduced radius vanishes is "refused", and all its values are NaN.
-    `thermal` is None in closed form. Points that the thermal EHL solver did not solve are "no_solution", points that it
-    does not accept "refused". The thickness ratio is that of the film by thermal EHL if there is one.
+    flash temperature by Blok is 0. A loaded point at which the reduced radius vanishes is "refused"; all its values are
+    NaN. `thermal` is None in closed form. Points that the thermal EHL solver did not solve are "no_solution", points
+    that it does not accept "refused". The thickness ratio is that of the film by thermal EHL if there is one.
     """
 
     psi: FloatArray = quantity(
