@@ -28,17 +28,17 @@ def blok_flash(given: LoadDistributionInputs, points: ContactPoints) -> FloatArr
     -----
     Eq. 25.
     """
-    flash, touching = np.where(points.undefined, np.nan, 0.0), points.in_contact
+    apart = np.where(points.undefined, np.nan, 0.0)
     if given.friction_coefficient is None:
-        flash[touching] = np.nan
-        return flash
-    flash[touching] = blok_flash_temperature(
-        friction=given.friction_coefficient,
-        line_load=points.line_load[touching],
-        speed_1=points.pinion_speed[touching],
-        speed_2=points.wheel_speed[touching],
-        half_width=points.half_width[touching],
-        solid_1=given.pinion_material,
-        solid_2=given.wheel_material,
-    )
-    return flash
+        return np.where(points.in_contact, np.nan, apart)
+    with np.errstate(divide="ignore", invalid="ignore"):  # at points that are not in contact
+        flash = blok_flash_temperature(
+            friction=given.friction_coefficient,
+            line_load=points.line_load,
+            speed_1=points.pinion_speed,
+            speed_2=points.wheel_speed,
+            half_width=points.half_width,
+            solid_1=given.pinion_material,
+            solid_2=given.wheel_material,
+        )
+    return np.where(points.in_contact, flash, apart)

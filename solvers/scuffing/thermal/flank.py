@@ -201,16 +201,16 @@ def formula_film(inputs: ScuffingInputs) -> ContactFunction:
     modulus = reduced_modulus(inputs.distribution.pinion_material, inputs.distribution.wheel_material)
 
     def film_at(points: ContactPoints) -> FloatArray:
-        film, touching = np.full(points.line_load.shape, np.nan), points.in_contact
-        film[touching] = dowson_higginson_minimum(
-            viscosity=viscosity,
-            pressure_viscosity=pressure_viscosity,
-            mean_speed=(points.pinion_speed[touching] + points.wheel_speed[touching]) / 2,
-            radius=points.radius[touching],
-            line_load=points.line_load[touching],
-            modulus=modulus,
-        )
-        return film
+        with np.errstate(divide="ignore", invalid="ignore"):  # at points that are not in contact
+            film = dowson_higginson_minimum(
+                viscosity=viscosity,
+                pressure_viscosity=pressure_viscosity,
+                mean_speed=(points.pinion_speed + points.wheel_speed) / 2,
+                radius=points.radius,
+                line_load=points.line_load,
+                modulus=modulus,
+            )
+        return np.where(points.in_contact, film, np.nan)
 
     return film_at
 
