@@ -1,7 +1,6 @@
 """Contact lines in the plane of action: their total length, and the parts of them that are loaded."""
 
 from dataclasses import dataclass
-from itertools import pairwise
 from math import ceil, floor
 from typing import NamedTuple
 
@@ -95,15 +94,16 @@ def roll_positions(
     corners = np.unique(np.append(np.add.outer(x, y * plane.tan_base_helix).ravel() % pitch, pitch))
     corners = corners[np.append(np.diff(corners) > COINCIDENT * pitch, True)]
     corners[0] = 0.0
-    phases, sides = [], []
-    for start, end in pairwise(corners):
-        steps = max(LEAST_STEPS, ceil(count * (end - start) / pitch))
-        phases.append(np.linspace(start, end, steps + 1))
-        sides.append(np.concatenate(([1.0], np.zeros(steps - 1), [-1.0])))
-    if plane.tan_base_helix > 0.0:
-        phases, sides = ([part[:-1] for part in parts[:-1]] + parts[-1:] for parts in (phases, sides))
-    phase, side = np.concatenate(phases), np.concatenate(sides)
-    return RollPositions(phase, side if plane.tan_base_helix == 0.0 else np.zeros(side.size), side != 0.0)
+    steps = np.maximum(LEAST_STEPS, np.ceil(count * np.diff(corners) / pitch)).astype(int)
+    part = np.repeat(np.arange(steps.size), steps + 1)  # between two corners, both included
+    number = np.arange(part.size) - (np.cumsum(steps + 1) - steps - 1)[part]  # of the position in its part
+    phase = number * (np.diff(corners) / steps)[part] + corners[part]
+    first, last = number == 0, number == steps[part]
+    phase[last] = corners[1:]
+    if plane.tan_base_helix == 0.0:
+        return RollPositions(phase, 1.0 * first - last, first | last)
+    once = np.append(~last[:-1], True)
+    return RollPositions(phase[once], np.zeros(np.count_nonzero(once)), (first | last)[once])
 
 
 @kernel
