@@ -158,8 +158,8 @@ def oil_notices(inputs: ScuffingInputs, path: PathOfContact) -> Iterator[Notice]
         yield Notice("bulk_lower_bound", message, "temperatures.bulk_method")
     if inputs.temperatures.bulk_method != "heat_balance" and inputs.cooling != Cooling():
         message = (
-            f"the bulk temperature is {inputs.temperatures.bulk_method}; what is said of the cooling is used by the "
-            "method heat_balance alone"
+            f"the bulk temperature is {inputs.temperatures.bulk_method}; the inputs of the cooling are only used by the "
+            "method heat_balance"
         )
         yield Notice("cooling_not_used", message, "temperatures.bulk_method", rank="note")
 
@@ -176,8 +176,8 @@ def _material_notices(inputs: ScuffingInputs) -> Iterator[Notice]:
     for name, solid in (("pinion", given.pinion_material), ("wheel", given.wheel_material)):
         if estimated and not least <= solid.youngs_modulus <= largest:
             message = (
-                f"the {name} is no steel ({solid.youngs_modulus / 1e9:.4g} GPa), for which ISO/TR 13989-1 estimates "
-                f"{' and '.join(estimated)}: give measured values"
+                f"the {name} is not of steel ({solid.youngs_modulus / 1e9:.4g} GPa), but ISO/TR 13989-1 estimates "
+                f"{' and '.join(estimated)} for gears of steel: give measured values"
             )
             yield Notice("made_for_steel", message, f"materials.{name}.youngs_modulus")
 

@@ -189,7 +189,7 @@ def path_notices(
     notices = []
     status = [outcome for path in paths for outcome in path.status]
     if "unloaded" in paths[0].status:
-        message = "there is no film where the feature line is not loaded or does not move"
+        message = "there is no film at points of the feature line without load or motion"
         notices.append(Notice("no_film", message, _what_leaves_no_film(distribution), rank="note"))
     if unknown:
         notices.append(
@@ -219,6 +219,6 @@ def _other_verdict(flank: float, feature_line: float | None) -> list[Notice]:
     """Return a note if the feature line, which alone was judged before version 0.3, has another risk than the flank."""
     if feature_line is not None and scuffing_risk(feature_line) == scuffing_risk(flank):
         return []
-    along = "nothing there gets warmer than the oil" if feature_line is None else f"{feature_line:.2f}"
-    message = f"judged over the whole flank since 0.3: {flank:.2f}; along the feature line: {along}"
+    along = "the teeth stay as cool as the oil" if feature_line is None else f"the safety is {feature_line:.2f}"
+    message = f"since version 0.3 the whole flank is judged: its safety is {flank:.2f}; along the feature line {along}"
     return [Notice("whole_flank", message, "model.line", rank="note")]
