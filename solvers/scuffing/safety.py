@@ -85,7 +85,7 @@ def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
     Eq. 16.
     """
     if inputs.temperatures.bulk_method == "estimated" and inputs.temperatures.bulk is not None:
-        message = "a bulk temperature is given but its method is 'estimated'; set the method to 'given' or remove one"
+        message = "a bulk temperature is given, but its method is estimated; set the method to given or leave it out"
         raise InvalidInput("exclusive", message, "temperatures.bulk_method")
     inputs, distribution, flash_map, heat = in_force(inputs, solve(inputs.distribution))
     given, bulk = inputs.distribution, inputs.temperatures.bulk

@@ -158,8 +158,8 @@ def oil_notices(inputs: ScuffingInputs, path: PathOfContact) -> Iterator[Notice]
         yield Notice("bulk_lower_bound", message, "temperatures.bulk_method")
     if inputs.temperatures.bulk_method != "heat_balance" and inputs.cooling != Cooling():
         message = (
-            f"the bulk temperature is {inputs.temperatures.bulk_method}; the inputs of the cooling are only used by the "
-            "method heat_balance"
+            f"the bulk temperature is {inputs.temperatures.bulk_method}; the inputs of the cooling are only used by "
+            "the method heat_balance"
         )
         yield Notice("cooling_not_used", message, "temperatures.bulk_method", rank="note")
 
