@@ -312,7 +312,7 @@ class _Docstring:
     def __get__(self, data: Any, kind: Any) -> str:
         """Return the docstring with numpydoc's sections on the fields of `kind` and on what it computes."""
         declared = quantities(kind)
-        given = [item.name for item in sorted(fields(kind), key=lambda item: item.kw_only) if item.init]
+        given = [item.name for item in sorted(fields(kind), key=lambda item: bool(item.kw_only)) if item.init]
         names = {
             "Parameters": given,
             "Attributes": [name for name in declared if name not in kind.__dataclass_fields__],
@@ -328,7 +328,7 @@ class _Docstring:
 def _entry(kind: Any, name: str, declared: Quantity | None) -> str:
     """Return numpydoc's entry on one field: type, description with the SI unit; then symbol, source, range, default."""
     item = kind.__dataclass_fields__.get(name)
-    annotation = item.type if item else _function_of(getattr(kind, name)).__annotations__["return"]  # type: ignore[union-attr]
+    annotation = item.type if item else _function_of(getattr(kind, name)).__annotations__["return"]
     head = f"{name} : {_LEFT_OUT_OF_TYPES.sub('', formatannotation(annotation))}"
     if declared is None:
         texts = (str(part.__doc__) for part in (annotation, *get_args(annotation)) if is_dataclass(part))
