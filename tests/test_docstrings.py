@@ -3,6 +3,7 @@
 import inspect
 import tomllib
 from dataclasses import is_dataclass
+from enum import EnumType
 from importlib import import_module
 from pathlib import Path
 
@@ -41,7 +42,9 @@ PUBLIC = sorted(exported() | with_equation())
 
 @pytest.mark.parametrize("name", PUBLIC)
 def test_docstring_has_the_form(name: str) -> None:
-    assert [(code, text) for code, text in validate(name)["errors"] if code in CHECKS] == []
+    is_enumeration = isinstance(implementing(name), EnumType)  # has the parameters of `str`
+    checks = CHECKS - {"PR01"} if is_enumeration else CHECKS
+    assert [(code, text) for code, text in validate(name)["errors"] if code in checks] == []
 
 
 def fields_in_help(kind: type) -> dict[str, str]:

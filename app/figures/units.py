@@ -38,7 +38,7 @@ def axis_of(leaf: Leaf, **options: Any) -> Axis:
 
 
 def _converted(value: Any, declared: Quantity | None) -> Any:
-    """A value in its unit; `declared` is that of the field that holds it, which counts where one inside has none."""
+    """Return a value in its unit; `declared` belongs to the outer field and holds for inner fields without a unit."""
     if is_dataclass(value) and not isinstance(value, type):
         kind: Any = type(value)
         known = quantities(kind)

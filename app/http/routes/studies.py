@@ -92,7 +92,7 @@ router = APIRouter(tags=["studies"], route_class=JsonRoute, responses=documented
 
 
 def _add(kind: type[Study], answer: Callable[..., Coroutine[Any, Any, Response]], *formats: Format) -> None:
-    """The endpoint of a kind of study."""
+    """Add the endpoint of a kind of study."""
     answer.__annotations__["body"] = Annotated[kind.model, Body(openapi_examples=EXAMPLES[kind.path])]
     content = {MEDIA_TYPES[each]: {"schema": {"type": "string"}} for each in formats}
     router.add_api_route(
@@ -121,7 +121,7 @@ async def sweep(
         Format, Query(alias="format", description="JSON a line, or a table; the Accept header can choose it too")
     ] = "ndjson",
 ) -> Response:
-    """The lines of a sweep, or its table."""
+    """Return the lines of a sweep, or its table."""
     return await started(http, Sweep, body, wanted_format(http, written_as))
 
 
