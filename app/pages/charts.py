@@ -2,6 +2,7 @@
 
 import base64
 import json
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from itertools import zip_longest
 from typing import Any
@@ -112,11 +113,16 @@ def data_address(figure: Figure, theme: ThemeName = "light") -> str:
     return "data:image/svg+xml;base64," + base64.b64encode(written(figure, "svg", theme)).decode()
 
 
-def in_column(figure: Figure) -> Figure:
-    """Return the figure for a report's column; a figure that needs the whole width stays as it is."""
-    from app.figures.drawing.image import narrowed  # noqa: PLC0415  only workers draw
+def in_columns(figures: Iterable[Figure]) -> list[Figure]:
+    """Return the figures in the order in which a report in two columns sets them.
 
-    return narrowed(figure)
+    Figures that fit into a column come first, the highest first, so that those beside each other are about as high; a
+    figure that needs the whole width stays as it is.
+    """
+    from app.figures.drawing.image import narrowed, size  # noqa: PLC0415  only workers draw
+
+    placed = [narrowed(figure) for figure in figures]
+    return sorted(placed, key=lambda figure: (not figure.narrow, -size(figure)[1] if figure.narrow else 0.0))
 
 
 def values_of(figure: Figure) -> bytes:

@@ -34,17 +34,6 @@ function finish() {
   document.querySelectorAll(".plot").forEach((plot) => (plot.dataset.study ? prepareStudy(plot) : plot.dataset.content && prepareChart(plot)));
 }
 
-// A report of a study calculates it again: until it comes, a bar says so.
-document.addEventListener("click", (event) => {
-  const link = event.target.closest("a[href*='/report?']");
-  if (!link || event.ctrlKey || event.metaKey || event.shiftKey) return;
-  const bar = document.createElement("progress");
-  bar.setAttribute("aria-label", "the report is calculated");
-  link.after(bar);
-  document.getElementById("state").textContent = "The report is calculated …";
-  window.addEventListener("pageshow", () => { bar.remove(); document.getElementById("state").textContent = ""; }, { once: true });
-});
-
 // The point under the pointer or the arrow keys; a click or the Enter key opens its case.
 function prepareStudy(plot) {
   const study = JSON.parse(plot.dataset.study);
