@@ -116,13 +116,18 @@ def data_address(figure: Figure, theme: ThemeName = "light") -> str:
 def in_columns(figures: Iterable[Figure]) -> list[Figure]:
     """Return the figures in the order in which a report in two columns sets them.
 
-    Figures that fit into a column come first, the highest first, so that those beside each other are about as high; a
-    figure that needs the whole width stays as it is.
+    Beside a figure that fits into a column stands the one of the nearest height. A figure that needs the whole width
+    stays as it is; such figures come last.
     """
     from app.figures.drawing.image import narrowed, size  # noqa: PLC0415  only workers draw
 
     placed = [narrowed(figure) for figure in figures]
-    return sorted(placed, key=lambda figure: (not figure.narrow, -size(figure)[1] if figure.narrow else 0.0))
+    left, ordered = [(size(figure)[1], figure) for figure in placed if figure.narrow], list[Figure]()
+    while left:
+        height, figure = left.pop(0)
+        nearest = min(range(len(left)), key=lambda place: abs(left[place][0] - height), default=None)
+        ordered += [figure] if nearest is None else [figure, left.pop(nearest)[1]]
+    return ordered + [figure for figure in placed if not figure.narrow]
 
 
 def values_of(figure: Figure) -> bytes:
