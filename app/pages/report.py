@@ -28,7 +28,7 @@ LABELS = {name: name for name in REPORT_NAMES} | {
 }
 """What the fields of the form are called."""
 MOST_SHORT = 4  # figures of the short form, two beside each other
-LONGEST_LINK = 200  # as text; what it leads to is the whole
+LONGEST_LINK = 160  # as text; what it leads to is the whole
 _element = re.compile(r"(\.\d+){1,2}$")  # of a list or a matrix of numbers
 
 
