@@ -192,7 +192,7 @@ form.addEventListener("keydown", (event) => { if (event.key === "Escape") event.
 form.addEventListener("focusin", () => form.querySelectorAll(".quiet").forEach((field) => field.classList.remove("quiet")));
 // Help between the fields stays until the button is up: what is clicked below it does not move away from the pointer.
 document.addEventListener("mousedown", () => {
-  const field = document.activeElement.closest("#form .field");
+  const field = document.activeElement?.closest("#form .field");
   field?.classList.add("held");
   window.addEventListener("mouseup", () => setTimeout(() => field?.classList.remove("held")), { once: true });
 });
