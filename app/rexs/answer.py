@@ -86,9 +86,9 @@ def unit_json(content: bytes, most_bytes: int) -> bytes:
     return json.dumps(unit_of(content, most_bytes), allow_nan=False, ensure_ascii=False).encode()
 
 
-def unit_html(root: str, content: bytes, most_bytes: int) -> bytes:
-    """Return the answer as a page; `root` is the prefix of its links."""
-    return unit_page(root, unit_of(content, most_bytes), sha256(content).hexdigest()).encode()
+def unit_html(root: str, content: bytes, most_bytes: int, name: str = "") -> bytes:
+    """Return the answer as a page; `root` is the prefix of its links, `name` the name of the file."""
+    return unit_page(root, unit_of(content, most_bytes), name, sha256(content).hexdigest()).encode()
 
 
 def with_results(content: bytes, most_bytes: int, stage: int, request: bytes | None, deadline_s: float) -> File:

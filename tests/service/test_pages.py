@@ -458,6 +458,30 @@ def test_the_help_of_a_field_covers_no_field(visit: Callable[..., Page], name: s
     assert overflow(page) == 0
 
 
+@pytest.mark.parametrize("touch", [False, True], ids=["mouse", "touch"])
+def test_a_choice_below_an_open_help_is_hit(visit: Callable[..., Page], touch: bool) -> None:
+    """The help between them closes, and the layout moves, when the button is up."""
+    page = visit(address_of(SCUFFING), viewport=PHONE, has_touch=touch, is_mobile=touch)
+    choice = page.locator("fieldset.choice").first
+    one, other = choice.locator("label.pick").nth(0), choice.locator("label.pick").nth(1)
+    one.locator("input").check()
+    choice.locator(".field input:visible").first.focus()
+    expect(choice.locator(".help").first).to_be_visible()
+    other.scroll_into_view_if_needed()
+    box = other.bounding_box()
+    assert box
+    x, y = box["x"] + 12.0, box["y"] + box["height"] / 2.0
+    if touch:
+        page.touchscreen.tap(x, y)
+    else:
+        page.mouse.move(x, y)
+        page.mouse.down()
+        page.wait_for_timeout(100)
+        page.mouse.up()
+    expect(other.locator("input")).to_be_checked()
+    expect(choice.locator(".help").first).to_be_hidden()
+
+
 @pytest.mark.slow
 def test_the_bar_of_a_phone_jumps_to_where_each_part_begins(visit: Callable[..., Page]) -> None:
     page = visit(address_of(SCUFFING), viewport=PHONE)

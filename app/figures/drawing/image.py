@@ -27,6 +27,7 @@ PLANE, PLANE_BESIDE = 3.3, 1.8  # inches, height of a plane, and of planes side 
 TOUCH = 0.025  # inches by which the boxes of two texts may overlap: the space above and below their letters
 NARROW_HEIGHT = 0.66  # height of axes in narrow figures over the usual height
 ROW_HEIGHT = 0.3  # inches, of a bar with a name of up to two lines
+APART, FEWEST_TICKS = 0.05, 3  # inches between neighbouring tick labels; number of ticks that is always kept
 ABSCISSA = 0.45  # inches, height of ticks and name below axes
 TICKS = 0.35  # inches, least width of the tick labels left of axes
 LEGEND, BAR, END = 1.5, 1.1, 0.15  # inches right of axes: with a legend, with a colour bar, with neither
@@ -211,6 +212,8 @@ def _axes(sheet: Sheet, figure: Figure) -> list[Axes]:
         wspace=between * columns / (width - left - right - between * (columns - 1)),
         hspace=_gap(figure) * rows / sum(heights),
     )
+    for panel_axes in axes:
+        _thin_ticks(panel_axes)
     return axes
 
 
@@ -219,6 +222,18 @@ def _room_right(axes: Axes, *, narrow: bool) -> float:
     if axes.child_axes:
         return BAR
     return LEGEND if axes.get_legend() and not narrow else END + _overhang(axes)
+
+
+def _thin_ticks(axes: Axes) -> None:
+    """Keep every second tick of a linear abscissa while the labels of two neighbours are too close to read."""
+    low, high = sorted(axes.get_xlim())
+    ticks = [tick for tick in axes.get_xticks() if low <= tick <= high]
+    while axes.get_xscale() == "linear" and len(ticks) > FEWEST_TICKS:
+        boxes = [text.get_window_extent() for text in axes.get_xticklabels() if text.get_visible() and text.get_text()]
+        if all(other.x0 - box.x1 >= APART * axes.figure.dpi for box, other in pairwise(boxes)):
+            return
+        ticks = ticks[::2]
+        axes.set_xticks(ticks)
 
 
 def _overhang(axes: Axes) -> float:

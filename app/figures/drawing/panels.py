@@ -376,4 +376,4 @@ def place_texts(axes: Axes, panel: Panel) -> None:
                 costs[place] = crossed + 10.0 * sum(box.overlaps(other) for other in taken) + outside + reach / 32.0
         best = min(costs, key=costs.__getitem__)
         text.set_position((best[0] / point, best[1] / point))
-        taken.append(size.translated(*best))
+        taken.append(size.translated(*best).padded(2.0 * point))  # the patches of two texts keep apart

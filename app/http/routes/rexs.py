@@ -1,7 +1,8 @@
 """Gear units from REXS files: read, shown as a page, and sent back with results."""
 
 from hashlib import sha256
-from typing import Annotated, Any
+from pathlib import PurePath
+from typing import Annotated, Any, NamedTuple
 
 from fastapi import APIRouter, HTTPException, Query, Request, Response
 from fastapi.responses import HTMLResponse, RedirectResponse
@@ -9,6 +10,7 @@ from fastapi.responses import HTMLResponse, RedirectResponse
 from app.errors import Unprocessable
 from app.http.problems import documented
 from app.http.routes.pages import html, problem_page, root_of
+from app.pages.query import REPORT_NAMES
 from app.rexs import answer
 from app.rexs.document import File
 from app.settings import MEBIBYTE, Settings
@@ -35,6 +37,15 @@ def _body(types: tuple[str, ...], **form: dict[str, str]) -> dict[str, Any]:
 UPLOAD = _body(DOCUMENTED_TYPES)
 UPLOAD_WITH_REQUEST = _body((), request={"type": "string", "description": "the stage's request as edited, JSON"})
 
+
+class Upload(NamedTuple):
+    """A file as it was sent: its content, its name where a form has one, and the request beside it."""
+
+    content: bytes
+    name: str = ""
+    request: bytes | None = None
+
+
 router = APIRouter(tags=["files"], responses=documented(400, 413, 415, 422, 500, 503, 504))
 pages = APIRouter(include_in_schema=False)
 
@@ -48,8 +59,8 @@ pages = APIRouter(include_in_schema=False)
 )
 async def read_unit(http: Request) -> Response:
     """Read the stages of a gear unit as ready requests, and list values that are missing, assumed, unused or wrong."""
-    content, _ = await _upload(http)
-    unit = await http.app.state.pool.calculate(http, answer.unit_json, content, _most_bytes(http))
+    upload = await _upload(http)
+    unit = await http.app.state.pool.calculate(http, answer.unit_json, upload.content, _most_bytes(http))
     return Response(unit, media_type="application/json")
 
 
@@ -69,9 +80,9 @@ async def write_results(
     A quantity of the standard has the attribute of the standard; others have `custom_tribodrive_*`. The rest of the
     file is kept.
     """
-    content, request = await _upload(http)
+    upload = await _upload(http)
     limits: Settings = http.app.state.settings
-    arguments = (content, _most_bytes(http), stage, request, limits.deadline_s)
+    arguments = (upload.content, _most_bytes(http), stage, upload.request, limits.deadline_s)
     file: File = await http.app.state.pool.calculate(http, answer.with_results, *arguments)
     headers = {"Content-Disposition": f'attachment; filename="results{file.suffix}"'}
     return Response(file.content, media_type=file.media_type, headers=headers)
@@ -91,11 +102,12 @@ async def open_unit(http: Request) -> Response:
     """
     root = root_of(http)
     try:
-        content, _ = await _upload(http)
-        shown = await http.app.state.pool.calculate(http, answer.unit_html, root, content, _most_bytes(http))
+        upload = await _upload(http)
+        arguments = (upload.content, _most_bytes(http), upload.name)
+        shown = await http.app.state.pool.calculate(http, answer.unit_html, root, *arguments)
     except Unprocessable as error:
         return problem_page(http, 422, "The file cannot be read", error.message)
-    name = sha256(content).hexdigest()
+    name = sha256(upload.content).hexdigest()
     try:
         http.app.state.answers[_key(root, name)] = shown
     except ValueError:  # larger than all that may be kept
@@ -117,18 +129,19 @@ def _key(root: str, name: str) -> str:
     return f"unit {name} {root}"
 
 
-async def _upload(http: Request) -> tuple[bytes, bytes | None]:
-    """Return the file, and the request if the form has one."""
+async def _upload(http: Request) -> Upload:
+    """Return what was sent; raises HTTPException for another media type, Unprocessable for a form without a file."""
     media_type = http.headers.get("content-type", "").partition(";")[0].strip().lower()
     if media_type in TYPES:
-        return await http.body(), None
+        return Upload(await http.body())
     if media_type != FORM:
         raise HTTPException(415, f"send the file as {', '.join(DOCUMENTED_TYPES)} or as {FORM}")
     async with http.form(max_files=2, max_fields=2, max_part_size=_most_bytes(http)) as form:
         parts = {name: await part.read() if not isinstance(part, str) else part.encode() for name, part in form.items()}
+        name = getattr(form.get("file"), "filename", None) or ""
     if "file" not in parts:
         raise Unprocessable("missing", "the form needs a part named file", "file")
-    return parts["file"], parts.get("request") or None
+    return Upload(parts["file"], PurePath(name).name[: REPORT_NAMES["rexs_file"]], parts.get("request") or None)
 
 
 def _most_bytes(http: Request) -> int:

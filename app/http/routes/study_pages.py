@@ -18,7 +18,7 @@ from app.pages.cases import Asked
 from app.pages.studies import PAGES
 from app.pages.studies import page as study_page
 from app.pages.studies.page import StudyPage
-from app.pages.studies.stream import pieces
+from app.pages.studies.stream import pieces, report_pieces
 from app.pages.study_links import study_links
 from app.pages.templating import page_path
 from app.studies.engine import encoded, twice_if_lost
@@ -62,8 +62,9 @@ def _add(calculation: Calculation, own: type[StudyPage]) -> None:
         return Response(content, media_type=IMAGE_TYPES[image_format], headers=policy)
 
     async def report(http: Request) -> Response:
-        content = await _made(http, await checked(http), study_page.report, pages.printed_host(http))
-        return Response(content, media_type=pages.HTML, headers=policy)
+        found = await checked(http)
+        parts = partial(report_pieces, http.app.state.studies.own, found, pages.printed_host(http))
+        return await streamed(http, found.study, parts, pages.HTML, policy, PROGRESS_S)
 
     async def checked(http: Request) -> StudyPage:
         asked, _ = await pages.asked_of(http, calculation)
