@@ -18,8 +18,8 @@ from solvers.coupling.results import Geometry, KinematicCurves, Kinematics
 
 _LEAST_ROTOR_POSITIONS = 208  # rotor positions per revolution: 4 per pitch for the paper's 52 teeth
 _CURVE_ANGLE = frozen(np.linspace(0.0, 2.0 * pi, 181))  # curves in steps of 2°
-# Number of parts of a pitch; each part has a Gauss rule of _PITCH_NODES points. The number is even (chosen): half a turn
-# shifts the teeth by half a pitch if their number is odd, and then maps the parts onto themselves.
+# Number of parts of a pitch; each part has a Gauss rule of _PITCH_NODES points. The number is even (chosen): half a
+# turn shifts the teeth by half a pitch if their number is odd, and then maps the parts onto themselves.
 _PITCH_PARTS = 4
 _PITCH_NODES = 8  # chosen: 32 angles per pitch, and exact for polynomials up to degree 15 in each part
 _gauss_rule = cache(np.polynomial.legendre.leggauss)
@@ -47,8 +47,8 @@ def tooth_geometry(coupling: Coupling) -> Geometry:
     -----
     Eq. C1. The centre of the cutter moves on the crowning radius r_b. At the axial distance zeta the cutter therefore
     feeds radially by zeta^2/(2 r_b). The flank recedes by this feed times tan(alpha) tangentially and times sin(alpha)
-    along its normal. Hence the flank radius is r_b/tan(alpha) in the tangential plane and r_b/sin(alpha) in the plane of
-    action; the latter is Pahl's "pressure line radius" R_e.
+    along its normal. Hence the flank radius is r_b/tan(alpha) in the tangential plane and r_b/sin(alpha) in the plane
+    of action; the latter is Pahl's "pressure line radius" R_e.
     """
     radius = pitch_radius(coupling)
     crowning_radius = coupling.crowning_ratio * radius
@@ -88,7 +88,7 @@ class MeshMotion:
 
 
 def positions_per_pitch(teeth: int) -> int:
-    """Return the number of rotor angles per tooth pitch for at least 208 per revolution, which are at most 1.7° apart."""
+    """Return the number of rotor angles per tooth pitch: at least 208 per revolution, at most 1.7 degrees apart."""
     return ceil(_LEAST_ROTOR_POSITIONS / teeth)
 
 
@@ -139,8 +139,8 @@ def mesh_motion(
     f_t = r_o delta^2/(2 cos alpha) sin(phi - alpha) [eps sin(phi - alpha)/sin alpha + cos phi], exact to first order
     (confirmed by brute-force involute geometry). Side -1 replaces phi by pi - phi in f_t.
 
-    `tangential` keeps the tilt alone: s_1 = -side R_t delta sin phi and f_t = R_t delta^2/2 sin^2 phi. The paper's words
-    describe this model, in which sliding, displacement and reversal peak together.
+    `tangential` keeps the tilt alone: s_1 = -side R_t delta sin phi and f_t = R_t delta^2/2 sin^2 phi. The paper's
+    words describe this model, in which sliding, displacement and reversal peak together.
     """
     delta = tilt * operation.misalignment
     alpha, ratio, radius = coupling.pressure_angle, coupling.crowning_ratio, geometry.pitch_radius
@@ -330,8 +330,8 @@ def flank_normals(mesh: MeshMotion, teeth: ToothPositions) -> FloatArray:
 
     Notes
     -----
-    Eq. C4: n = side cos(alpha) e_t + sin(alpha) e_r. The tangential tooth force times n/cos(alpha) is the lateral force on
-    the sleeve. Its radial part points outward at both sides.
+    Eq. C4: n = side cos(alpha) e_t + sin(alpha) e_r. The tangential tooth force times n/cos(alpha) is the lateral force
+    on the sleeve. Its radial part points outward at both sides.
     """
     radial = tan(mesh.pressure_angle)
     return np.stack(
@@ -359,8 +359,9 @@ def friction_reversals(mesh: MeshMotion, axial_velocity: float) -> list[float]:
 def rotor_samples(coupling: Coupling, mesh: MeshMotion, axial_velocity: float) -> RotorSamples:
     """Return Gauss points between the rotor angles at which friction reverses at some tooth.
 
-    Friction jumps if a tooth's relative velocity changes sign. The pitch is divided at these angles, so that the integrand
-    of each part is continuous and has kinks only where a tooth comes under load. Several hundred midpoints are no better.
+    Friction jumps if a tooth's relative velocity changes sign. The pitch is divided at these angles, so that the
+    integrand of each part is continuous and has kinks only where a tooth comes under load. Several hundred midpoints
+    are no better.
     """
     uneven = coupling.pitch_errors is not None
     return _samples(coupling.teeth, uneven, tuple(friction_reversals(mesh, axial_velocity)))

@@ -49,8 +49,8 @@ _LIMIT_MARGIN = 0.9999  # of the force that the teeth can hold, chosen
 class Unbalance(NamedTuple):
     """Residual of the sleeve's force balance and its derivatives.
 
-    `x` and `y` are the components of Phi(g) - g, `size` its magnitude. The others are derivatives of g - Phi(g) by g: `xy`
-    is the derivative of the x component by g_y.
+    `x` and `y` are the components of Phi(g) - g, `size` its magnitude. The others are derivatives of g - Phi(g) by g:
+    `xy` is the derivative of the x component by g_y.
     """
 
     size: float
@@ -68,8 +68,8 @@ def add_friction_moment(
 ) -> tuple[float, float, float]:
     """Add the friction moment of one mesh along one axis to `moment`.
 
-    Returns the new moment, moment + sum F_t sgn(v_r) e_r, and the derivatives of the sum by the force (x, y) on the mesh.
-    `arm` (teeth) holds sgn(v_r) e_r. `ahead` and `hessian` describe the mesh as `float_sleeve` left it.
+    Returns the new moment, moment + sum F_t sgn(v_r) e_r, and the derivatives of the sum by the force (x, y) on the
+    mesh. `arm` (teeth) holds sgn(v_r) e_r. `ahead` and `hessian` describe the mesh as `float_sleeve` left it.
     """
     normal_x, normal_y = normal
     torque, x, y = 0.0, 0.0, 0.0
@@ -197,8 +197,8 @@ def balance_rows(
 ) -> float:
     """Balance the sleeve at every rotor angle, and leave the tooth forces in `share` (rows, 2, teeth).
 
-    The balance at each angle starts from the previous angle, and from rest if this fails. Returns the largest residual. The
-    first angle without balance is the last to be tried.
+    The balance at each angle starts from the previous angle, and from rest if this fails. Returns the largest residual.
+    The first angle without balance is the last to be tried.
     """
     force, places = np.zeros(2), Places(np.zeros(2), np.zeros(2), np.zeros(2))
     largest = 0.0
@@ -223,8 +223,8 @@ def balance_rows(
 class SleeveEquilibrium:
     """Means of two meshes on one sleeve over one tooth pitch (over one revolution with pitch deviations).
 
-    `thrust` [N] acts on one shaft and is positive if it pulls the shafts together. `overturning_moment` [N m] is the moment
-    of friction on the sleeve.
+    `thrust` [N] acts on one shaft and is positive if it pulls the shafts together. `overturning_moment` [N m] is the
+    moment of friction on the sleeve.
     """
 
     thrust: float
