@@ -131,8 +131,8 @@ def rotation_of_leads(ahead: FloatArray, highest: float, start: float) -> float:
 def turn_to_torque(ahead: FloatArray, start: float) -> tuple[float, float]:
     """Replace the lead w_i of each tooth by the interference u_i that carries unit torque, in place.
 
-    Returns the common rotation psi twice: against the tooth with the largest lead, and against the hub. The first is
-    sought from `start`.
+    Returns the common rotation psi twice: counted from the largest lead, and counted from zero. The first is sought from
+    `start`.
     """
     highest: float = ahead[0]
     for lead in ahead:
@@ -336,7 +336,8 @@ def floating_rows(
 ) -> None:
     """Compute the shares and places of a floating sleeve under `force` (rows, 2).
 
-    Each row starts from the previous row. The first row without balance gets negative iterations; later rows are not computed.
+    Each row starts from the previous row. The first row without balance gets negative iterations; later rows are not
+    computed.
     """
     for row in range(interference.shape[0]):
         before = max(row - 1, 0)
