@@ -131,8 +131,8 @@ def rotation_of_leads(ahead: FloatArray, highest: float, start: float) -> float:
 def turn_to_torque(ahead: FloatArray, start: float) -> tuple[float, float]:
     """Replace the lead w_i of each tooth by the interference u_i that carries unit torque, in place.
 
-    Returns the common rotation psi twice: counted from the largest lead, and counted from zero. The first is sought from
-    `start`.
+    Returns the common rotation psi twice: counted from the largest lead, and counted from zero. The first is sought
+    from `start`.
     """
     highest: float = ahead[0]
     for lead in ahead:
