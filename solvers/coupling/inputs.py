@@ -114,7 +114,7 @@ class CouplingDesign:
     )
 
     def coupling(self) -> "Coupling":
-        """The coupling with the proportions and the stiffness that were left open."""
+        """Return the coupling, with defaults for the proportions and the stiffness that are None."""
         known = {each.name: getattr(self, each.name) for each in fields(self)}
         width = 8 * self.module if self.face_width is None else self.face_width
         height = 2 * self.module if self.tooth_height is None else self.tooth_height
@@ -216,7 +216,7 @@ class OperatingPoint(Load):
     )
 
     def operation(self, hub_distance: float) -> "Operation":
-        """The operating point with its tilt; `hub_distance` [m] lies between the tooth planes."""
+        """Return the operating point with its tilt; `hub_distance` [m] lies between the tooth planes."""
         tilt = self.misalignment
         if tilt is None:
             if self.parallel_offset is None:
@@ -241,7 +241,7 @@ class OperatingRange(Load):
     )
 
     def operation(self) -> "Operation":
-        """The operating point at the smallest misalignment."""
+        """Return the operating point at the smallest misalignment."""
         known = {each.name: getattr(self, each.name) for each in fields(Load)}
         return Operation(**known, misalignment=self.misalignment_range[0])
 
@@ -305,7 +305,7 @@ class CouplingOil(OilBySheet):
     )
 
     def lubricant(self) -> Lubricant:
-        """The oil at the teeth; grade or data sheet count before the viscosity.
+        """Return the oil at the teeth; a grade or data sheet takes precedence over the viscosity.
 
         Raises InvalidInput missing_property where neither is given.
         """
