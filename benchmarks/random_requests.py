@@ -148,7 +148,7 @@ def refuse(constant: str) -> float:
 
 
 def solve_random(seed: int) -> tuple[str, str, float]:
-    """Solve the request of a seed; return its endpoint, its outcome (status, refusal or failure) and its CPU time [s]."""
+    """Solve the request of a seed; return endpoint, outcome (status, refusal or failure) and CPU time [s]."""
     path, body = request(seed)
     began = time.process_time()  # other processes on the machine do not count
     try:
