@@ -1,4 +1,4 @@
-"""Faults that the service survives: workers killed and stopped and clients that leave under load, random input.
+"""Reliability of the service: a mixed load while workers and clients fail, scenarios of faults, random input.
 
 Prints the table of the README's section "Reliability". Run from the project's root: python -m benchmarks.reliability
 (a minute of load), or with --seconds 600 --faults 2000 for the long one.

@@ -54,7 +54,11 @@ def start(cache: str) -> dict[str, float]:
 
 
 def new_workers(cache: str) -> tuple[list[float], float, float, float]:
-    """Measure the time until a killed worker is replaced [ms] and the memory of new and used workers [MB]."""
+    """Measure the replacement of killed workers.
+
+    Returns the times until a killed worker is replaced [ms], the private memory of a new and of a used worker, and the
+    resident memory of a worker [MB].
+    """
     with started_server(environment={"NUMBA_CACHE_DIR": cache}, workers=1, log_level="error") as (process, address):
         wait_until_warm(process, address)
         source = template(process)

@@ -98,7 +98,7 @@ def _print_ratios(
     revision: str | None,
     processor: str | None,
 ) -> None:
-    """Yield the best times of both versions, and the median of the ratios of times measured side by side."""
+    """Print the best times of both versions, and the median of the ratios of times measured side by side."""
     print(f"| figure | measured | {revision or processor} | ratio | aim |\n|---|---|---|---|---|")
     target = {"NUMBA_CPU_NAME": processor, "NUMBA_CPU_FEATURES": ""} if processor else {}
     with (
