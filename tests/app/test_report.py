@@ -54,7 +54,7 @@ def test_inputs_say_the_value_used_and_where_it_comes_from() -> None:
     assert inputs["rheology"] == ("Ree-Eyring", "assumed")
     left = unescape(re.sub(r"<[^>]+>", "", report(SCUFFING).partition("<h3>Left to their defaults")[2]))
     assert "Young's modulus E 206 GPa;" in left
-    assert "bulk temperature θM (estimated);" in left
+    assert "bulk temperature θM (estimated)." in left
 
 
 @pytest.mark.parametrize("name", SHORT[:3])

@@ -19,7 +19,8 @@ from solvers.drive_train.inputs import DriveTrainInputs, Effects
 from solvers.drive_train.results import DriveTrainResult
 from solvers.drive_train.states import solve
 from solvers.pumping.inputs import Groove
-from solvers.scuffing.flank_results import feature_line
+from solvers.scuffing.flank_results import contact_points
+from solvers.scuffing.load_balance import line_loads
 from solvers.scuffing.thermal.blok import blok_flash
 from tests.support.changes import changed, value_at
 from tests.support.drive_trains import GROUND, NO_EFFECTS, cold, rigid_bearings, running_axis, turbo_gear
@@ -101,11 +102,11 @@ ELASTIC_PLASTIC = {
 def at_fifty_points(row: int) -> float:
     """Largest flash temperature [K] of 50 equidistant points of the feature line, which is what the table has."""
     given, mesh = UNITS[row].mesh.distribution, answer(row).mesh
+    path, psi = mesh.path_of_contact, np.linspace(0.0, 1.0, 50)
+    x = psi * path.length
+    load = line_loads(mesh.balance, x, psi * path.plane.face_width)
     modulus = reduced_modulus(given.pinion_material, given.wheel_material)
-    psi = np.linspace(0.0, 1.0, 50)
-    force = mesh.load.tangential_force
-    line = feature_line(mesh.path_of_contact, mesh.balance, given.load.pinion_speed, force, modulus, psi)
-    return float(blok_flash(given, line).max())
+    return float(blok_flash(given, contact_points(path, x, load, given.load.pinion_speed, modulus)).max())
 
 
 @cache
