@@ -4,6 +4,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import httpx
 import pytest
 
 from tests.support.server import ROOT, running_server
@@ -15,6 +16,7 @@ def schemathesis(*options: str) -> subprocess.CompletedProcess[str]:
     """A run against a service whose studies end after a second: a thousand of a minute each would say nothing more."""
     program = Path(sys.executable).with_name("schemathesis")
     with running_server(study_points=16, spectrum_solves=16, study_deadline_s=1) as (_, address):
+        httpx.get(f"{address}/openapi.json", timeout=60).raise_for_status()  # made once; the program waits for 10 s
         return subprocess.run(
             [program, "run", "--checks", "all", "--generation-deterministic", *options, f"{address}/openapi.json"],
             cwd=ROOT,
