@@ -124,10 +124,10 @@ def test_the_file_that_a_stage_was_read_from_stands_on_its_report_untyped(
     opening = page.locator("form", has=page.locator("#rexs-file"))
     follow(opening.get_by_role("button", name="Open"), window)
     expect(page.locator(".lead")).to_contain_text("mill 7.rexs")
-    follow(page.get_by_role("link", name="Load distribution").first, window)
+    follow(page.locator("main").get_by_role("link", name="Load distribution").first, window)
     expect(page.locator(".card").first).to_be_visible()
     follow(page.get_by_role("link", name="Report", exact=True), window)
-    expect(page.locator(".names")).to_contain_text(f"mill 7.rexs, SHA-256 {sha256(content).hexdigest()}")
+    expect(page.locator("header")).to_contain_text(f"mill 7.rexs, SHA-256 {sha256(content).hexdigest()}")
     expect(page.get_by_label("name of the REXS file")).to_have_value("mill 7.rexs")
 
 
