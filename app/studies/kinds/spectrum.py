@@ -1,9 +1,17 @@
-"""A load spectrum: cases as a table to paste, tolerances beside the fields that scatter, probabilities and losses."""
+"""Load spectra: a machine with its tolerances over its cases, and the probability that it exceeds its limits.
+
+On its page the cases are a table to paste, the tolerances stand beside the fields that scatter.
+"""
 
 import csv
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Any, NamedTuple
+from time import perf_counter
+from typing import Annotated, Any, NamedTuple, Self
+
+import numpy as np
+from pydantic import Field, model_validator
+from pydantic_core import PydanticCustomError
 
 from app.calculations import Calculation
 from app.errors import Unprocessable
@@ -11,21 +19,55 @@ from app.figures.data import Figure, NoFigure
 from app.figures.spectrum import Limited, SpectrumCase, chance_text, chances, deciding, losses, overlap, sentence
 from app.figures.units import axis_of
 from app.figures.wording import difference_unit, number, percent
-from app.pages import study_links
 from app.pages.form import FieldView
-from app.pages.query import SCATTERING, Pairs, link, pairs_of
+from app.pages.query import CASES, Pairs, link, pairs_of
+from app.pages.studies.controls import Control, field_choices, is_number
 from app.pages.studies.page import Controls, Link, Number, Result, StudyPage, Table, titled
-from app.pages.studies.sweep import field_choices, is_number
+from app.pages.study_kinds import StudyLink
+from app.pages.study_links import Starter
 from app.pages.templating import page_path
 from app.pages.typed import as_typed, number_of, power_between, question, scaled, separator_of, text_of
 from app.pages.typesetting import cited, shown, words
-from app.schema.fields import ITEM, leaf_at, leaves
-from app.schema.quantities import split_unit
-from app.studies.engine import Line
+from app.schema.fields import ITEM, Leaf, leaf_at, leaves
+from app.schema.quantities import Input, split_unit
+from app.studies import runner, statistics
 from app.studies.fields import NUMBERS, scalar_at, value_at
-from app.studies.points import SOLVED
-from app.studies.requests import DRIVE_TRAIN, EXAMPLES
-from app.studies.spectrum import RELATIVE_DEVIATION, SCUFFING, Spectrum
+from app.studies.point_sets import anchors, cut, drawn, fields_set, scattering, unit_cube
+from app.studies.points import SOLVED, BaseRequest, Question, solve_point
+from app.studies.requests import (
+    COUNT,
+    DRIVE_TRAIN,
+    EXAMPLES,
+    LARGEST,
+    METHOD,
+    FieldPath,
+    Inputs,
+    Method,
+    Overrides,
+    Part,
+    Seed,
+    StudyRequest,
+    Value,
+)
+from app.studies.runner import Clock, Line, Lines, Pool, Study, output_header, paths_of
+from app.studies.statistics import Limit
+from solvers.arrays import FloatArray
+
+PROGRESS_S = 0.5  # between two lines that say how far a spectrum has come
+KILOWATTS = {"W": 1e-3, "kW": 1.0}  # per unit
+RELATIVE_DEVIATION = 0.15  # AGMA 925-A03, quoted, not verified against the standard
+LIMIT_VARIES = 1e-9  # relative
+SHARES_OFF = 0.01  # how far the sum of the shares may be from 1
+ASSUMED_DEVIATION = (
+    "the scuffing temperature is normally distributed with 0.15 of itself as deviation (AGMA 925-A03, secondary source)"
+)
+
+RARE = 0.005  # below this the intervals of a probability cover less than they say
+RARE_NOTE = (
+    "a probability below 0.5 %: the means of the replicates are skewed, and a 90 % interval covers less, about 80 % at "
+    "0.1 % with 128 machines in each of 8 replicates; draw more machines"
+)
+NOT_USED = "not used"  # how the reason of an assumption begins whose value changes nothing
 
 NAME, SHARE = "name", "share"
 REPLICATES = 8  # samples from which the page tells how certain a mean is
@@ -47,7 +89,344 @@ LOSSES = {
     DRIVE_TRAIN: ("losses.coupling_w", "losses.pumping_w", "losses.mesh_w", "losses.bearings_w"),
 }
 MOST_BARS = 40  # that fit a page side by side
-TOLERANCES = tuple(f"t{place}" for place in range(SCATTERING))
+TOLERANCES = tuple(f"t{place}" for place in range(12))  # fields that may scatter on the page
+
+
+class LoadCase(Part):
+    """A part of the operating time, and what it changes in the request."""
+
+    name: Annotated[str | None, Field(max_length=100), Input("name", default_text="its number")] = None
+    share: Annotated[
+        float | None, Input("share", text="of the operating time", ge=0.0, le=1.01, default_text="equal shares")
+    ] = None
+    set: Annotated[dict[str, Value], Input("what the case changes", text="values by their dotted paths")] = Field({})
+
+
+class Tolerances(Part):
+    """The distributions of the fields of a machine, and how many machines are drawn."""
+
+    method: Annotated[Method, METHOD] = "sobol"
+    count: Annotated[int, COUNT] = 128
+    replicates: Annotated[
+        int, Input("replicates", text="independent samples; the scatter of their means is the error", ge=1, le=1000)
+    ] = 8
+    seed: Seed = 1
+    inputs: Annotated[Inputs, Input("distributions", text="the fields and their distributions")]
+
+
+class Threshold(Part):
+    """A number, or normally distributed: a property of oil and material, one value for all cases of a machine."""
+
+    value: Annotated[float | None, Input("fixed limit", ge=-LARGEST, le=LARGEST)] = None
+    mean: Annotated[float | None, Input("mean of the limit", ge=-LARGEST, le=LARGEST)] = None
+    deviation: Annotated[float | None, Input("standard deviation of the limit", gt=0.0, le=LARGEST)] = None
+
+    @model_validator(mode="after")
+    def one_kind(self) -> Self:
+        """Refuse a limit that is neither fixed nor distributed."""
+        if (self.mean is None) != (self.deviation is None) or (self.value is None) == (self.mean is None):
+            raise PydanticCustomError("value_or_mean", "Give either value, or mean and deviation")
+        return self
+
+
+class SpectrumLimit(Part):
+    """A limit on one output of every case."""
+
+    exactly_one = ("above", "below")
+    output: Annotated[FieldPath, Input("limited output", text="dotted path of a single number of the answer")]
+    above: Annotated[Threshold | None, Input("upper limit", text="values above it exceed the limit")] = None
+    below: Annotated[Threshold | None, Input("lower limit", text="values below it exceed the limit")] = None
+
+
+class SpectrumRequest(StudyRequest):
+    """A machine with its tolerances over the cases of its load spectrum."""
+
+    cases: Annotated[
+        list[LoadCase],
+        Field(min_length=1, max_length=100),
+        Input("cases", text="what each case changes, and its share"),
+    ]
+    tolerances: Annotated[Tolerances | None, Input("tolerances", default_text="the nominal machine alone")] = None
+    limits: Annotated[
+        list[SpectrumLimit] | None,
+        Field(max_length=20),
+        Input(
+            "limits",
+            text="values that an output must not exceed",
+            default_text="the scuffing temperature, where there is one",
+        ),
+    ] = None
+    hours_per_year: Annotated[
+        float | None,
+        Input("hours per year", text="operating time, to turn mean powers into energies", gt=0.0, le=8784.0),
+    ] = None
+    points: Annotated[bool, Input("points", text="whether every solved point is a line of the answer")] = False
+
+
+class Scuffing(NamedTuple):
+    """The paths of contact temperature and scuffing temperature in an answer."""
+
+    contact: str
+    limit: str
+
+
+SCUFFING = {
+    "/v1/scuffing": Scuffing("contact_temperature.blok_max_c", "safety.scuffing_c"),
+    DRIVE_TRAIN: Scuffing("flash.contact_max_c", "derived.temperatures.scuffing_c"),
+}
+
+
+class Spectrum(Study):
+    """Machines are drawn from the tolerances; each runs every case, and its worst case is compared with the limits.
+
+    The last line has the probability of exceeding each limit with its 90 % interval, for the spectrum and for each case
+    alone; how often each case is the worst (`decides`); the rank correlation with each tolerance; and of every output
+    the mean over the operating time, the extremes, and the 5, 50 and 95 % quantiles in each case. Draws without
+    solution are counted: where there are any, the probability is only known between its `bounds`. Where no output needs
+    the thermal film, it is not calculated. Lines of `progress` come every half second.
+    """
+
+    path = "/v1/spectrum"
+    summary = "A machine with its tolerances over its load spectrum: probabilities, losses, what decides"
+    answer = "a line for the spectrum, one for each point if asked for, and one for the end"
+    model = SpectrumRequest
+    most = "spectrum_solves"
+    body: SpectrumRequest
+
+    def _outputs(self, base: BaseRequest) -> tuple[Leaf, ...]:
+        """The outputs asked for, by default the headline numbers, and those that are limited."""
+        body = self.body
+        found = {f"outputs.{place}": leaf for place, leaf in enumerate(base.outputs(body.outputs))}
+        if body.outputs is None:
+            found = {place: leaf for place, leaf in found.items() if leaf.kind in NUMBERS}
+        for number, each in enumerate(body.limits or ()):
+            place = f"limits.{number}.output"
+            found[place] = base.output(each.output, place)
+        for place, leaf in found.items():
+            if leaf.kind not in NUMBERS:
+                raise Unprocessable("unknown_output", f"{leaf.path} is no number", place)
+        if body.limits is None and body.endpoint in SCUFFING:
+            found["limits"] = base.output(SCUFFING[body.endpoint].contact, "limits")
+        return tuple({leaf.path: leaf for leaf in found.values()}.values())
+
+    def _planned(self, base: BaseRequest, most: int) -> int:
+        body, tolerances = self.body, self.body.tolerances
+        known = fields_set([case.set for case in body.cases], base, "cases.{}.set")
+        inputs = tolerances.inputs if tolerances else []
+        self.scattering = scattering(inputs, base, "tolerances.inputs")
+        for place, leaf in enumerate(self.scattering):
+            if leaf.path in known:
+                message = f"{leaf.path} has a value in a case; a field either scatters or is set"
+                raise Unprocessable("duplicate_path", message, f"tolerances.inputs.{place}.path")
+        if body.limits is None and body.endpoint in SCUFFING:  # columns behind those of the outputs
+            columns = dict.fromkeys([*self.question.outputs, *SCUFFING[body.endpoint]])
+            self.question = self.question._replace(outputs=list(columns))
+        typical = {each.path: next(iter(anchors(each).values())) for each in inputs}
+        for case in body.cases:
+            base.checked({**typical, **case.set})
+        total = len(body.cases) * (tolerances.count * tolerances.replicates if tolerances else 1)
+        if total > most:
+            message = _too_many(self.question, {**typical, **body.cases[0].set}, total, most)
+            raise Unprocessable("too_many_points", message, "tolerances.count" if tolerances else "cases")
+        self.cases = _with_shares(body.cases)
+        # The values that scatter, a row a machine, replicate after replicate; the nominal machine alone has none.
+        self.machines = _machines(tolerances, self.scattering) if tolerances else np.empty((1, 0))
+        return total
+
+    def overrides(self, index: int) -> Overrides:
+        """What a point changes in the base request; points are the cases of the first machine, then of the next."""
+        draw, case = divmod(index, len(self.cases))
+        machine = dict(zip(paths_of(self.scattering), self.machines[draw].tolist(), strict=True))
+        return machine | self.cases[case].set
+
+    async def lines(self, pool: Pool, clock: Clock) -> Lines:
+        """The header, the points if they are asked for, how far it has come, the end."""
+        yield [
+            self.header(
+                cases=[case.model_dump() for case in self.cases],
+                tolerances=self._tolerances_header(),
+                outputs=[output_header(leaf) for leaf in self.outputs],
+                total=self.total,
+            )
+        ]
+        tally, due = runner.Tally(self.question.outputs), PROGRESS_S
+        async for indices, points in runner.in_order(pool, self.question, self.overrides, range(self.total), clock):
+            lines: list[Line] = []
+            for index, point in zip(indices, points, strict=True):
+                tally.add(point)
+                tally.keep(point.out if point.status in SOLVED else [None] * len(point.out))
+                if self.body.points:
+                    draw, case = divmod(index, len(self.cases))
+                    shown = point._replace(out=point.out[: len(self.outputs)])
+                    lines.append({**runner.point_line(index, self.overrides(index), shown), "draw": draw, "case": case})
+            if clock.elapsed_s >= due:
+                lines.append(clock.line())
+                due = clock.elapsed_s + PROGRESS_S
+            yield lines
+        replicates = self.body.tolerances.replicates if self.body.tolerances else 1
+        values = tally.values.reshape(replicates, -1, len(self.cases), len(self.question.outputs))
+        concluded = await runner.twice_if_lost(pool, evaluated, self, values)
+        assumptions = list(tally.assumptions.values())
+        yield [
+            {
+                "type": "end",
+                **concluded,
+                "notes": [*concluded["notes"], *self._ignored(assumptions)],
+                "points": self.total,
+                "counts": dict(sorted(tally.counts.items())),
+                "errors": dict(sorted(tally.errors.items())),
+                "warnings": dict(sorted(tally.warnings.items())),
+                "assumptions": [*concluded["assumptions"], *assumptions],
+                "elapsed_s": clock.elapsed_s,
+            }
+        ]
+
+    def _tolerances_header(self) -> Line | None:
+        """How the machines are drawn, and what share of each distribution is cut off."""
+        if self.body.tolerances is None:
+            return None
+        inputs = [
+            {**each.model_dump(), "unit": leaf.unit, "title": leaf.title, "cut_off": cut(each, leaf).cut_off}
+            for each, leaf in zip(self.body.tolerances.inputs, self.scattering, strict=True)
+        ]
+        return {**self.body.tolerances.model_dump(), "inputs": inputs}
+
+    def _ignored(self, assumptions: Sequence[Line]) -> list[str]:
+        """What is to be said of tolerances that the model does not use as the request stands."""
+        found = {each["field"]: each["reason"] for each in assumptions if each["reason"].startswith(NOT_USED)}
+        return [f"{path} scatters without effect; {found[path]}" for path in paths_of(self.scattering) if path in found]
+
+
+def evaluated(study: Spectrum, values: FloatArray) -> Line:
+    """The content of the last line, from the outputs `[replicate, draw, case, output]`; runs in a worker."""
+    columns = {path: values[..., place] for place, path in enumerate(study.question.outputs)}
+    limits, assumptions, notes = _limits(study, columns)
+    limited = [_of_limit(study, each, columns[each.output]) for each in limits]
+    if any(each["interval"] and each["deviation"] and each["bounds"][1] < RARE for each in limited):
+        notes = [*notes, RARE_NOTE]
+    shown = {leaf.path: columns[leaf.path] for leaf in study.outputs}
+    return {
+        "cases": [
+            {
+                "name": case.name,
+                "share": case.share,
+                "unsolved": float(np.isnan(values[:, :, place]).all(axis=-1).mean()),
+                "means": {path: statistics.mean(column[..., place]) for path, column in shown.items()},
+                "quantiles": {path: statistics.quantiles(column[..., place]) for path, column in shown.items()},
+                "limits": [statistics.of_case(columns[each.output][..., place], each)._asdict() for each in limits],
+            }
+            for place, case in enumerate(study.cases)
+        ],
+        "limits": limited,
+        "outputs": {leaf.path: _of_output(study, leaf, columns[leaf.path]) for leaf in study.outputs},
+        "notes": notes,
+        "assumptions": assumptions,
+    }
+
+
+def _limits(study: Spectrum, columns: dict[str, FloatArray]) -> tuple[list[Limit], list[Line], list[str]]:
+    """The limits used, the assumption where the default limit is used, and notes."""
+    paths = SCUFFING.get(study.question.endpoint)
+    if study.body.limits is not None or paths is None:
+        return [_limit(each) for each in study.body.limits or ()], [], []
+    known = columns[paths.limit][~np.isnan(columns[paths.limit])]
+    if not known.size:
+        return [], [], ["no limit is given, and the request has no scuffing temperature: give one of them"]
+    first = columns[paths.limit][..., 0]
+    mean = float(np.nanmedian(known if np.isnan(first).all() else first))  # no single machine of a sample sets it
+    limit = Limit("above", mean, RELATIVE_DEVIATION * abs(mean), paths.contact)
+    assumption = {"field": "limits", "value": limit.deviation, "reason": ASSUMED_DEVIATION}
+    varies = np.ptp(known) > LIMIT_VARIES * abs(mean)
+    note = (
+        "the scuffing temperature differs between the cases or the machines; the limit is its median in the first "
+        f"case, {mean:.4g}; give limits"
+    )
+    return [limit], [assumption], [note] if varies else []
+
+
+def _of_limit(study: Spectrum, limit: Limit, outputs: FloatArray) -> Line:
+    """The probability over the spectrum, how often each case is the worst, the correlation with each tolerance."""
+    worst = limit.worst(outputs)
+    edges, density = statistics.histogram(worst)
+    solved = ~np.isnan(outputs).any(axis=-1).ravel()
+    correlation = {
+        leaf.path: statistics.rank_correlation(column[solved], worst.ravel()[solved])
+        for leaf, column in zip(study.scattering, study.machines.T, strict=True)
+    }
+    return {
+        "output": limit.output,
+        "side": limit.side,
+        "mean": limit.mean,
+        "deviation": limit.deviation or None,
+        **statistics.of_spectrum(outputs, limit)._asdict(),
+        "unsolved": 1.0 - float(solved.mean()),
+        "decides": statistics.deciding(outputs.reshape(-1, outputs.shape[-1]), limit),
+        "rank_correlation": correlation or None,
+        "quantiles": statistics.quantiles(worst),
+        "histogram": {"edges": edges, "density": density},
+    }
+
+
+def _of_output(study: Spectrum, leaf: Leaf, column: FloatArray) -> Line:
+    """Mean of an output over the spectrum, the energy per year of a power, and the extremes."""
+    mean = statistics.weighted_mean(column, [case.share or 0.0 for case in study.cases])
+    content: Line = mean._asdict() if mean else {"mean": None, "standard_error": None, "interval": None}
+    scale = KILOWATTS.get(leaf.unit or "")
+    if mean is not None and scale is not None and study.body.hours_per_year is not None:
+        content["energy_kwh_per_year"] = mean.mean * scale * study.body.hours_per_year
+    if np.isnan(column).all():
+        return {**content, "min": None, "max": None}
+    for end, index in {"min": int(np.nanargmin(column)), "max": int(np.nanargmax(column))}.items():
+        draw, case = divmod(index, len(study.cases))
+        content[end] = {"value": float(column.flat[index]), "case": case, "draw": draw, "at": study.overrides(index)}
+    return content
+
+
+def _limit(given: SpectrumLimit) -> Limit:
+    """A limit of the request."""
+    threshold = given.above or given.below
+    assert threshold is not None
+    mean = threshold.mean if threshold.value is None else threshold.value
+    assert mean is not None
+    return Limit("above" if given.above else "below", mean, threshold.deviation or 0.0, given.output)
+
+
+def _with_shares(cases: Sequence[LoadCase]) -> list[LoadCase]:
+    """The cases with their names and their shares of the operating time, whose sum is 1; raises Unprocessable."""
+    given = [each.share for each in cases if each.share is not None]
+    if given and len(given) < len(cases):
+        raise Unprocessable("shares", "give every case its share, or none", "cases")
+    shares = given or [1.0] * len(cases)
+    whole = sum(shares)
+    if given and abs(whole - 1.0) > SHARES_OFF + 1e-12:
+        message = f"the shares add up to {whole:.6g}; give fractions of the time that add up to 1"
+        raise Unprocessable("shares", message, "cases")
+    return [
+        each.model_copy(update={"name": each.name or f"case {place}", "share": share / whole})
+        for place, (each, share) in enumerate(zip(cases, shares, strict=True), start=1)
+    ]
+
+
+def _machines(tolerances: Tolerances, leaves: Sequence[Leaf]) -> FloatArray:
+    """The values that scatter, a row a machine; each replicate is a random sample of its own."""
+    seeds = np.random.SeedSequence(tolerances.seed).spawn(tolerances.replicates)
+    cubes = [
+        unit_cube(tolerances.method, tolerances.count, len(leaves), np.random.default_rng(seed), "tolerances.count")
+        for seed in seeds
+    ]
+    return drawn(tolerances.inputs, leaves, np.concatenate(cubes))
+
+
+def _too_many(question: Question, overrides: Overrides, total: int, most: int) -> str:
+    """The refusal of a study with too many points, with an estimate of its time from one of them."""
+    solve_point(question, overrides)  # the first one may load kernels
+    started = perf_counter()
+    solve_point(question, overrides)
+    seconds = perf_counter() - started
+    return (
+        f"cases x machines are {total} solutions; the limit is {most}. One takes some {seconds:.2g} s, "
+        f"all of them {total * seconds:,.0f} s on one core"
+    )
 
 
 class Column(NamedTuple):
@@ -164,54 +543,85 @@ def address_of(endpoint: Calculation, request: Pairs, body: dict[str, Any]) -> s
         views |= {"limit.by": text_of(known["deviation"])} if "deviation" in known else {}
     if "hours_per_year" in body:
         views["hours"] = text_of(body["hours_per_year"])
-    return link(f"{page_path(endpoint)}/{study_links.SPECTRUM.name}", request, **views)
+    return link(f"{page_path(endpoint)}/{SpectrumPage.link.name}", request, **views)
 
 
 class SpectrumPage(StudyPage):
     """A machine with its tolerances over its load spectrum."""
 
-    link = study_links.SPECTRUM
+    link = StudyLink(
+        "spectrum",
+        "Load spectrum",
+        "cases and tolerances: the probability of exceeding a limit, and the mean losses",
+        place=3,
+    )
     question = "its load spectrum"
     about = "Machines are drawn from the tolerances; each runs every case, and its worst case meets the limit."
+    names = frozenset(
+        {f"{name}{part}" for name in TOLERANCES for part in ("", ".law", ".by", ".about")}
+        | {CASES, "hours", "machines", "limit", "limit.by", "limit.side"}
+    )
     figures = ("limit", "probability", "decides", "losses")
     outputs = tuple(paths.contact for paths in SCUFFING.values())
     needs = ("cases", *TOLERANCES)
     choose = "Cases are a table of what each part of the operating time changes; tolerances say how the fields scatter."
     plan = Spectrum
+    address_of = staticmethod(address_of)
     study: Spectrum
 
     def body(self) -> dict[str, Any]:
         """The cases and tolerances as typed, the output shown with its limit, and the losses."""
-        calculation, views, output = self.calculation, self.views, self.output.path
-        inputs = [self._scatter(name, place) for place, name in enumerate(self._given())]
-        machines = self.number("machines", int(MACHINES[0][1]))
+        calculation, output, given = self.calculation, self.output.path, self.given()
+        tolerances = given["tolerances"]
+        drawn = tolerances.get("inputs", [])
+        inputs = [self._scatter(each, f"tolerances.inputs.{place}") for place, each in enumerate(drawn)]
+        machines = tolerances["count"]
         if not isinstance(machines, int):
             raise Unprocessable("int_type", "give a whole number", "tolerances.count")
         tolerances = {"inputs": inputs, "count": machines // REPLICATES, "replicates": REPLICATES}
         return {
             "endpoint": calculation.path,
             "request": self.asked.body,
-            "cases": cases_of(calculation, views.get("cases", "")),
+            "cases": cases_of(calculation, given["cases"]),
             "tolerances": tolerances if inputs else None,
             "outputs": list(dict.fromkeys([output, *LOSSES.get(calculation.path, ())])),
             "limits": self._limits(),
-            "hours_per_year": self.number("hours"),
+            "hours_per_year": given.get("hours_per_year"),
         }
 
     def _given(self) -> list[str]:
         """The controls of the tolerances that are filled in; others between them may be empty."""
         return [name for name in TOLERANCES if self.views.get(name)]
 
-    def _scatter(self, name: str, place: int) -> dict[str, Any]:
-        """The distribution of one field: around the value of the case, by its usual tolerance."""
-        where = f"tolerances.inputs.{place}"
-        leaf = scalar_at(self.calculation.request, self.views[name], f"{where}.path", "unknown_path")
-        about = self.number(f"{name}.about", value_at(self.case, leaf.path))
-        by = self.number(f"{name}.by", leaf.declared.tolerance)
+    def declared(self) -> tuple[Control, ...]:
+        """The table of cases, the machines, the hours, and each tolerance around the value of the case, by its own."""
+        found = [
+            Control("cases", "cases", "", str),
+            Control("machines", "tolerances.count", int(MACHINES[0][1])),
+            Control("machines", "tolerances", sets=False),
+            Control("hours", "hours_per_year"),
+            Control("limit", "limits", sets=False),
+        ]
+        for place, name in enumerate(self._given()):
+            where, path = f"tolerances.inputs.{place}", self.views[name]
+            leaf = self.field_at(path)
+            found += (
+                Control(name, f"{where}.path", read=str),
+                Control(f"{name}.law", f"{where}.distribution", "normal", str),
+                Control(f"{name}.about", f"{where}.mean", value_at(self.case, path)),
+                Control(f"{name}.about", f"{where}.median", sets=False),
+                Control(f"{name}.by", f"{where}.deviation", leaf.declared.tolerance if leaf else None),
+                Control(f"{name}.by", where, sets=False),
+            )
+        return (*found, *(Control(name, "tolerances.inputs", sets=False) for name in self._given()[:1]))
+
+    def _scatter(self, given: dict[str, Any], where: str) -> dict[str, Any]:
+        """The distribution of one field by its law: what is given are its mean and deviation."""
+        leaf = scalar_at(self.calculation.request, given["path"], f"{where}.path", "unknown_path")
+        about, by, law = given.get("mean"), given.get("deviation"), given["distribution"]
         for value, lacks in ((about, "around which value"), (by, "by how much")):
             if not is_number(value):
                 raise Unprocessable("missing", f"{leaf.title}: say {lacks}", where)
-        law = self.views.get(f"{name}.law") or "normal"
         known = {
             "normal": {"mean": about, "deviation": by},
             "lognormal": {"median": about, "factor": by},
@@ -238,16 +648,6 @@ class SpectrumPage(StudyPage):
         side = self.views.get("limit.side") or ("below" if view.greatest_is_best else "above")
         threshold = {"value": value} if scatter is None else {"mean": value, "deviation": scatter}
         return [{"output": self.output.path, side: threshold}]
-
-    def places(self) -> dict[str, str]:
-        """The names of the controls of cases, tolerances, limit, machines and hours."""
-        places = {"cases": "cases", "limits": "limit", "tolerances": "machines", "hours_per_year": "hours"}
-        for place, name in enumerate(self._given()):
-            where = f"tolerances.inputs.{place}"
-            places |= {where: f"{name}.by", f"{where}.path": name}
-            places |= {f"{where}.{middle}": f"{name}.about" for middle in ("mean", "median")}
-            places.setdefault("tolerances.inputs", name)
-        return places
 
     def controls(self) -> tuple[Controls, ...]:
         """The table of cases, and the tolerances: those given and two more."""
@@ -286,14 +686,14 @@ class SpectrumPage(StudyPage):
             self.field("hours", "hours a year"),
         )
 
-    def starters(self) -> Sequence[study_links.Starter]:
+    def starters(self) -> Sequence[Starter]:
         """Links to the ready studies of /v1/spectrum; none where the query has a case."""
         starters = []
         for each in EXAMPLES["/v1/spectrum"].values():
             body = each["value"]
             if body["endpoint"] == self.calculation.path and not self.asked.pairs:
                 address = address_of(self.calculation, pairs_of(body["request"]), body)
-                starters.append(study_links.Starter(each["summary"], "example", address))
+                starters.append(Starter(each["summary"], "example", address))
         return starters
 
     def result(self, lines: list[Line]) -> Result:
@@ -436,3 +836,6 @@ def _tolerances_table(header: Line, found: Line | None) -> Table:
     head = ("field", "distribution", "unit", Number("cut off"), Number("rank"))
     note = "Cut off is the share beyond four deviations or the field's range"
     return Table("Tolerances", head, rows, f"{note}; rank is the correlation with the worst case.")
+
+
+PAGE = SpectrumPage
