@@ -345,14 +345,14 @@ class SweepPage(StudyPage):
         """The controls of the axes; what is wrong with an axis is shown at its first end, with all at their number."""
         found = [Control("x.count", "vary", sets=False)]
         for place, name in enumerate(AXES):
-            if path := self.views.get(name):
-                usual: dict[str, Any] = {"count": COUNTS[name]}
-                if leaf := self.field_at(path):
-                    usual |= zip(("start", "stop"), self._usual_ends(leaf), strict=True)
-                for each in AXIS:
-                    own = {"name": f"{name}{each.name}", "path": f"vary.{place}.{each.path}"}
-                    found.append(each._replace(**own, default=usual.get(each.path, each.default)))
-                found.append(Control(f"{name}.from", f"vary.{place}", sets=False))
+            path = self.views.get(name, "")
+            usual: dict[str, Any] = {"count": COUNTS[name]}
+            if leaf := self.field_at(path):
+                usual |= zip(("start", "stop"), self._usual_ends(leaf), strict=True)
+            for each in AXIS:
+                own = {"name": f"{name}{each.name}", "path": f"vary.{place}.{each.path}", "sets": bool(path)}
+                found.append(each._replace(**own, default=usual.get(each.path, each.default)))
+            found.append(Control(f"{name}.from", f"vary.{place}", sets=False))
         return tuple(found)
 
     def _axis(self, given: dict[str, Any], where: str) -> dict[str, Any]:
