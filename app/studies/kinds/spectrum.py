@@ -618,10 +618,12 @@ class SpectrumPage(StudyPage):
     def _scatter(self, given: dict[str, Any], where: str) -> dict[str, Any]:
         """The distribution of one field by its law: what is given are its mean and deviation."""
         leaf = scalar_at(self.calculation.request, given["path"], f"{where}.path", "unknown_path")
-        about, by, law = given.get("mean"), given.get("deviation"), given["distribution"]
+        about: Any = given.get("mean")
+        by: Any = given.get("deviation")
         for value, lacks in ((about, "around which value"), (by, "by how much")):
             if not is_number(value):
                 raise Unprocessable("missing", f"{leaf.title}: say {lacks}", where)
+        law = given["distribution"]
         known = {
             "normal": {"mean": about, "deviation": by},
             "lognormal": {"median": about, "factor": by},

@@ -350,8 +350,8 @@ class SweepPage(StudyPage):
             if leaf := self.field_at(path):
                 usual |= zip(("start", "stop"), self._usual_ends(leaf), strict=True)
             for each in AXIS:
-                own = {"name": f"{name}{each.name}", "path": f"vary.{place}.{each.path}", "sets": bool(path)}
-                found.append(each._replace(**own, default=usual.get(each.path, each.default)))
+                own = each._replace(name=f"{name}{each.name}", path=f"vary.{place}.{each.path}", sets=bool(path))
+                found.append(own._replace(default=usual.get(each.path, each.default)))
             found.append(Control(f"{name}.from", f"vary.{place}", sets=False))
         return tuple(found)
 
@@ -369,7 +369,7 @@ class SweepPage(StudyPage):
                 message = f"{leaf.title} has no numbers; vary another field along it"
                 raise Unprocessable("not_scalar", message, f"{where}.path")
             return {**axis, "values": choices}
-        start, stop, count, scale = (given.get(name) for name in ("start", "stop", "count", "scale"))
+        start, stop, count, scale = given.get("start"), given.get("stop"), given["count"], given["scale"]
         if start is None or stop is None:
             raise Unprocessable("values_or_range", "the case has no value here to go from: give from and to", where)
         if start == stop:
