@@ -7,9 +7,9 @@
 The attribute is in SI; range, default and tolerance of the declaration are in the unit in which the quantity is shown.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, fields, is_dataclass
-from functools import cache
+from functools import cache, partial
 from math import pi
 from typing import Any, Literal, NamedTuple, TypeVar, dataclass_transform, get_type_hints, overload
 
@@ -26,6 +26,14 @@ class Unit(NamedTuple):
     symbol: str
     scale: float
     offset: float = 0.0
+
+    def to_si(self, value: Any) -> Any:
+        """A number or an array in SI."""
+        return value * self.scale + self.offset
+
+    def from_si(self, value: Any) -> Any:
+        """A number or an array of SI in this unit."""
+        return (value - self.offset) / self.scale
 
 
 UNITS = {
@@ -150,13 +158,11 @@ class Quantity:
 
     def to_si(self, value: Any) -> Any:
         """A number, or a list of them, in SI; what is no number passes unchanged."""
-        unit = UNITS[self.unit] if self.unit else None
-        return value if unit is None else _each(lambda number: number * unit.scale + unit.offset, value)
+        return converted(value, UNITS[self.unit].to_si) if self.unit else value
 
     def from_si(self, value: Any) -> Any:
         """A number, or a list of them, in the shown unit."""
-        unit = UNITS[self.unit] if self.unit else None
-        return value if unit is None else _each(lambda number: (number - unit.offset) / unit.scale, value)
+        return converted(value, UNITS[self.unit].from_si) if self.unit else value
 
 
 def quantity(
@@ -261,31 +267,72 @@ def advice(declared: Quantity, value: Any) -> str:
     return f"; {said}" if said else ""
 
 
+def converted(
+    value: Any,
+    number: Callable[[Any], Any],
+    inside: Callable[[Any], Any] | None = None,
+    listed: Callable[[Iterable[Any]], Any] = tuple,
+) -> Any:
+    """Apply a conversion to every number in a value: the one way between SI and the units shown, in both directions.
+
+    Parameters
+    ----------
+    value
+        A number, an array, a dataclass or a section of a request, or lists of them; None, booleans and text stay.
+    number
+        Converts a number or an array.
+    inside
+        Converts what has fields of its own; None leaves it.
+    listed
+        Makes a list of its converted items.
+
+    Returns
+    -------
+    Any
+        The converted value.
+
+    """
+    if value is None or isinstance(value, bool | str):
+        return value
+    if isinstance(value, tuple | list):
+        return listed(converted(item, number, inside, listed) for item in value)
+    if isinstance(value, int | float | np.ndarray | np.generic):
+        return number(value)
+    return value if inside is None else inside(value)
+
+
+def as_json(value: Any) -> Any:
+    """An array as lists, in which None stands for NaN, a point without a value; a number stays."""
+    if not isinstance(value, np.ndarray):
+        return value
+    if value.dtype.kind == "f" and np.isnan(value).any():
+        missing, value = np.isnan(value), value.astype(object)
+        value[missing] = None
+    return value.tolist()
+
+
 def to_dict(data: Any) -> dict[str, Any]:
     """The declared values of a dataclass in the units shown, named as in the interface: `module` as `module_mm`.
 
     Arrays become lists, dataclasses inside it dictionaries; NaN, which marks a point without a value, becomes None.
     """
-    return _plain(data, None)  # type: ignore[no-any-return]
+    return _named(data, None)
 
 
-def _plain(value: Any, outer: Quantity | None) -> Any:
-    """A value as JSON can hold it; `outer` declares the values of a dataclass that have no unit of their own."""
-    if is_dataclass(value):
-        kind: Any = type(value)
-        named = {}
-        for name, declared in quantities(kind).items():
-            known = outer if outer and declared.unit is None else declared
-            own = f"{name}_{declared.unit}" if declared.unit else name
-            named[own] = _plain(getattr(value, name), known)
-        return named
-    if isinstance(value, np.ndarray):
-        return _plain(value.tolist(), outer)
-    if isinstance(value, tuple | list):
-        return [_plain(item, outer) for item in value]
-    if isinstance(value, float) and np.isnan(value):
-        return None
-    return outer.from_si(value) if outer else value
+def _named(data: Any, outer: Quantity | None) -> dict[str, Any]:
+    """The declared values by name; `outer` declares those that have no unit of their own."""
+    kind: Any = type(data)
+    named = {}
+    for name, declared in quantities(kind).items():
+        known = outer if outer and declared.unit is None else declared
+        own = f"{name}_{declared.unit}" if declared.unit else name
+        named[own] = converted(getattr(data, name), partial(_shown, known), partial(_named, outer=known), list)
+    return named
+
+
+def _shown(declared: Quantity, value: Any) -> Any:
+    """A number or an array in its unit as JSON can hold it."""
+    return None if isinstance(value, float) and np.isnan(value) else as_json(declared.from_si(value))
 
 
 def _summary(data: Any) -> str:
@@ -321,14 +368,3 @@ def _brief(value: Any) -> str:
             return f"{type(value).__name__}(...)"
         case _:
             return str(value)
-
-
-def _each(convert: Callable[[Any], Any], value: Any) -> Any:
-    """Convert a number, an array or each member of a list; leave text, booleans and None."""
-    match value:
-        case None | bool() | str():
-            return value
-        case list() | tuple():
-            return tuple(_each(convert, item) for item in value)
-        case _:
-            return convert(value)

@@ -145,7 +145,7 @@ def title_of(request: type[Request], path: str) -> str:
 def form(request: type[Request], state: State) -> tuple[Section, ...]:
     """The sections of the form: those with required fields first, model options last."""
     root, loose = tree(request), list[Block]()
-    state = replace(state, endpoint=ENDPOINTS[request])
+    state = replace(state, endpoint=ENDPOINTS.get(request, ""))
     sections = []
     for block in _blocks(root, "", state):
         if not isinstance(block, Section):

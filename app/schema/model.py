@@ -40,7 +40,7 @@ from pydantic_core import PydanticCustomError
 
 from app.schema.quantities import Input, Output, View, meaning_of
 from solvers.notices import Rank
-from solvers.quantity import UNITS, Detail, Quantity, Unit, quantities, type_of
+from solvers.quantity import UNITS, Detail, Quantity, Unit, as_json, converted, quantities, type_of
 
 T = TypeVar("T")
 LEVELS: tuple[Detail, ...] = ("summary", "curves", "fields")
@@ -201,13 +201,13 @@ def _record_in(hint: Any) -> Any:
 
 
 def _in_si(value: Any, unit: Unit | None, record: Any) -> Any:
-    if value is None:
-        return None
-    if isinstance(value, list):
-        return tuple(_in_si(item, unit, record) for item in value)
-    if record is not None:
-        return value.si(record)
-    return value if unit is None else value * unit.scale + unit.offset
+    """A value of a request in SI; a section fills the dataclass `record`."""
+    inside = None if record is None else lambda section: section.si(record)
+    return converted(value, unit.to_si if unit else _unchanged, inside)
+
+
+def _unchanged(value: Any) -> Any:
+    return value
 
 
 def from_si(group: type[Documented], result: Any, detail: Detail) -> dict[str, Any]:
@@ -238,20 +238,9 @@ def _sources(group: type[Documented], record: Any, detail: Detail) -> tuple[tupl
 
 def _displayed(value: Any, member: Member, detail: Detail) -> Any:
     """A value in the unit of its field; NaN inside an array marks a point without a value and becomes None."""
-    if value is None:
-        return None
-    if isinstance(value, tuple):
-        return [_displayed(item, member, detail) for item in value]
-    if member.group is not None:
-        return from_si(member.group, value, detail)
-    if member.unit is not None:
-        value = (value - member.unit.offset) / member.unit.scale
-    if not isinstance(value, np.ndarray):
-        return value
-    if value.dtype.kind == "f" and np.isnan(value).any():
-        missing, value = np.isnan(value), value.astype(object)
-        value[missing] = None
-    return value.tolist()
+    group, unit = member.group, member.unit
+    inside = None if group is None else lambda part: from_si(group, part, detail)
+    return converted(value, lambda number: as_json(unit.from_si(number) if unit else number), inside, list)
 
 
 def _with_choices(document: dict[str, Any], section: type[Any]) -> None:
