@@ -2,7 +2,7 @@
 
 from typing import Annotated, Any, ClassVar
 
-from app.schema.model import Derived, Request, Response, Section, groups
+from app.schema.model import Derived, Group, Request, Response, Section
 from app.schema.oil import CouplingLubricant
 from app.schema.quantities import Input, View
 from solvers.coupling import crowning, results
@@ -132,62 +132,89 @@ class RecommendationRequest(_CouplingRequest):
         return si.RecommendationInputs(design, min_misalignment=smallest, max_misalignment=largest)
 
 
-groups(
-    CouplingGeometry=(results.Geometry, "Radii of the crowned tooth."),
-    CouplingKinematicCurves=(
-        results.KinematicCurves,
-        "Motion over one revolution of a tooth; 90° and 270° are the tilt positions.",
-    ),
-    CouplingKinematics=(
-        results.Kinematics,
-        "Largest values of the tooth's motion over a revolution.",
-        {"max_sliding_velocity": View(headline=3, limit="limits.sliding_velocity_limit_m_per_s", bound="upper")},
-    ),
-    CouplingLoadCurves=(results.LoadCurves, "Tooth forces."),
-    CouplingLoadDistribution=(
-        results.LoadDistribution,
-        "Load over the teeth of one mesh, the one where the hub drives the sleeve, at the rotor angle asked for.",
-    ),
-    FrictionRegime=(
-        results.Regime,
-        "Area of the map of friction conditions; an open end of its friction band is null.",
-    ),
-    CouplingLubrication=(
-        results.Lubrication,
-        "Contact and film of the highest loaded tooth of a revolution.",
-        {
-            "hertz_pressure": View(limit=2000.0, bound="upper"),
-            "contact_overlap": View(limit=1.0, bound="upper"),
-            "load_capacity_coefficient": View(headline=2, limit=0.8, bound="lower", verdict=".regime.name"),
-        },
-    ),
-    SelfInducedThrust=(results.SelfInducedThrust, "Thrust without axial motion."),
-    CouplingThrust=(
-        results.AxialThrust,
-        "Axial thrust, mean over one tooth pitch (one revolution with pitch deviations).",
-        {
-            "design_force": View(headline=1),
-            "force": View(limit="axial_thrust.coaxial_limit_n", bound="upper"),
-            "fraction_of_limit": View(limit=1.0),
-        },
-    ),
-    CouplingLosses=(
-        results.Losses,
-        "Friction losses and moments of one mesh, the one where the hub drives the sleeve.",
-    ),
-    CouplingLimits=(results.Limits, "Limits and stiffnesses.", {"allowable_misalignment": View(headline=4)}),
-    SleeveOrbit=(results.Orbit, "Path of the sleeve centre."),
-    SleeveInertia=(results.InertiaForce, "Inertia force of the sleeve mass of one mesh."),
-    RecommendedPoint=(
-        crowning.RecommendedPoint,
-        "The recommended coupling at one end of the range.",
-        {
-            "contact_overlap": View(limit=1.0, bound="upper"),
-            "load_capacity_coefficient": View(limit=0.8, bound="lower"),
-        },
-    ),
-    CrowningScan=(crowning.CrowningScan, "How crowning trades off.", {"max_contact_overlap": View(limit=1.0)}),
-)
+class CouplingGeometry(Group, of=results.Geometry):
+    """Radii of the crowned tooth."""
+
+
+class CouplingKinematicCurves(Group, of=results.KinematicCurves):
+    """Motion over one revolution of a tooth; 90° and 270° are the tilt positions."""
+
+
+class CouplingKinematics(Group, of=results.Kinematics):
+    """Largest values of the tooth's motion over a revolution."""
+
+    views: ClassVar = {
+        "max_sliding_velocity": View(headline=3, limit="limits.sliding_velocity_limit_m_per_s", bound="upper")
+    }
+
+
+class CouplingLoadCurves(Group, of=results.LoadCurves):
+    """Tooth forces."""
+
+
+class CouplingLoadDistribution(Group, of=results.LoadDistribution):
+    """Load over the teeth of one mesh, the one where the hub drives the sleeve, at the rotor angle asked for."""
+
+
+class FrictionRegime(Group, of=results.Regime):
+    """Area of the map of friction conditions; an open end of its friction band is null."""
+
+
+class CouplingLubrication(Group, of=results.Lubrication):
+    """Contact and film of the highest loaded tooth of a revolution."""
+
+    views: ClassVar = {
+        "hertz_pressure": View(limit=2000.0, bound="upper"),
+        "contact_overlap": View(limit=1.0, bound="upper"),
+        "load_capacity_coefficient": View(headline=2, limit=0.8, bound="lower", verdict=".regime.name"),
+    }
+
+
+class SelfInducedThrust(Group, of=results.SelfInducedThrust):
+    """Thrust without axial motion."""
+
+
+class CouplingThrust(Group, of=results.AxialThrust):
+    """Axial thrust, mean over one tooth pitch (one revolution with pitch deviations)."""
+
+    views: ClassVar = {
+        "design_force": View(headline=1),
+        "force": View(limit="axial_thrust.coaxial_limit_n", bound="upper"),
+        "fraction_of_limit": View(limit=1.0),
+    }
+
+
+class CouplingLosses(Group, of=results.Losses):
+    """Friction losses and moments of one mesh, the one where the hub drives the sleeve."""
+
+
+class CouplingLimits(Group, of=results.Limits):
+    """Limits and stiffnesses."""
+
+    views: ClassVar = {"allowable_misalignment": View(headline=4)}
+
+
+class SleeveOrbit(Group, of=results.Orbit):
+    """Path of the sleeve centre."""
+
+
+class SleeveInertia(Group, of=results.InertiaForce):
+    """Inertia force of the sleeve mass of one mesh."""
+
+
+class RecommendedPoint(Group, of=crowning.RecommendedPoint):
+    """The recommended coupling at one end of the range."""
+
+    views: ClassVar = {
+        "contact_overlap": View(limit=1.0, bound="upper"),
+        "load_capacity_coefficient": View(limit=0.8, bound="lower"),
+    }
+
+
+class CrowningScan(Group, of=crowning.CrowningScan):
+    """How crowning trades off."""
+
+    views: ClassVar = {"max_contact_overlap": View(limit=1.0)}
 
 
 class CouplingProportions(Derived, of=si.Coupling, only=("face_width", "tooth_height", "tooth_stiffness")):

@@ -10,7 +10,7 @@ from pydantic_core import PydanticCustomError
 from app.schema.cooling import GearCooling
 from app.schema.coupling import CrownedCoupling
 from app.schema.gears import BacklashGears, GearMaterials
-from app.schema.model import Group, Response, Section, groups
+from app.schema.model import Group, Response, Section
 from app.schema.oil import CouplingLubricant, Oil
 from app.schema.pumping import GearGroove, Mist, PumpingOptions
 from app.schema.quantities import Input, View
@@ -295,43 +295,84 @@ class WarmUpRequest(DriveTrainRequest, of=warm_up.WarmUpInputs):
         return self.si(warm_up.WarmUpInputs, unit=super().inputs())
 
 
-groups(
-    BearingLoad=(results.BearingResult, "A bearing; what only a plain one has is null of others."),
-    ShaftThrust=(
-        thrust_budget.Thrust,
-        "Axial load, positive towards +Z; of a coupling's friction only the limit is known.",
-        {"use": View(limit=1.0)},
-    ),
-    ShaftLine=(results.ShaftCurves, "Displaced axis of a shaft."),
-    UnitCouplingState=(results.CouplingResult, "A coupling as its shaft meets it."),
-    BearingInForce=(derived.DerivedBearing, "A plain bearing's defaults; null of others."),
-    SectionInForce=(derived.DerivedSection, "A section's diameter."),
-    ShaftInForce=(derived.DerivedShaft, "A shaft's defaults."),
-    HeatInForce=(derived.DerivedHeat, "Wall responses."),
-    TemperaturesInForce=(derived.DerivedTemperatures, "Bulk and scuffing temperature."),
-    GapCurves=(results.GapCurves, "Over the face, positive where the flanks part."),
-    TrainLoad=(
-        results.FaceLoad,
-        "How the face carries.",
-        {"face_load_factor": View(headline=2), "contact_fraction": View(percent=True)},
-    ),
-    TrainSafety=(
-        results.TrainSafety,
-        "Safety factor against scuffing; thermal EHL values are null in closed form, or where a point is not known.",
-        {
-            "blok_feature": View(limit=1.0, bound="lower"),
-            "blok_flank": View(limit=1.0, bound="lower"),
-            "thermal_ehl_feature": View(limit=1.0, bound="lower"),
-            "thermal_ehl_profile": View(limit=1.0, bound="lower"),
-            "minimum": View(headline=1, limit=1.0, bound="lower", band="heat.band.safety"),
-        },
-    ),
-    TrainFlash=(results.FlashPlaces, "Largest flash temperature by Blok."),
-    TrainLosses=(results.TrainLosses, "What the unit loses."),
-    TrainBalance=(results.ForceBalance, "How well forces and moments on the shafts balance; null without load."),
-    TrainConvergence=(results.Convergence, "How shafts and mesh came to one gap."),
-    TrainMaps=(results.FlankMaps, "Over the flank, `[profile][face]`."),
-)
+class BearingLoad(Group, of=results.BearingResult):
+    """A bearing; what only a plain one has is null of others."""
+
+
+class ShaftThrust(Group, of=thrust_budget.Thrust):
+    """Axial load, positive towards +Z; of a coupling's friction only the limit is known."""
+
+    views: ClassVar = {"use": View(limit=1.0)}
+
+
+class ShaftLine(Group, of=results.ShaftCurves):
+    """Displaced axis of a shaft."""
+
+
+class UnitCouplingState(Group, of=results.CouplingResult):
+    """A coupling as its shaft meets it."""
+
+
+class BearingInForce(Group, of=derived.DerivedBearing):
+    """A plain bearing's defaults; null of others."""
+
+
+class SectionInForce(Group, of=derived.DerivedSection):
+    """A section's diameter."""
+
+
+class ShaftInForce(Group, of=derived.DerivedShaft):
+    """A shaft's defaults."""
+
+
+class HeatInForce(Group, of=derived.DerivedHeat):
+    """Wall responses."""
+
+
+class TemperaturesInForce(Group, of=derived.DerivedTemperatures):
+    """Bulk and scuffing temperature."""
+
+
+class GapCurves(Group, of=results.GapCurves):
+    """Over the face, positive where the flanks part."""
+
+
+class TrainLoad(Group, of=results.FaceLoad):
+    """How the face carries."""
+
+    views: ClassVar = {"face_load_factor": View(headline=2), "contact_fraction": View(percent=True)}
+
+
+class TrainSafety(Group, of=results.TrainSafety):
+    """Safety factor against scuffing; thermal EHL values are null in closed form, or where a point is not known."""
+
+    views: ClassVar = {
+        "blok_feature": View(limit=1.0, bound="lower"),
+        "blok_flank": View(limit=1.0, bound="lower"),
+        "thermal_ehl_feature": View(limit=1.0, bound="lower"),
+        "thermal_ehl_profile": View(limit=1.0, bound="lower"),
+        "minimum": View(headline=1, limit=1.0, bound="lower", band="heat.band.safety"),
+    }
+
+
+class TrainFlash(Group, of=results.FlashPlaces):
+    """Largest flash temperature by Blok."""
+
+
+class TrainLosses(Group, of=results.TrainLosses):
+    """What the unit loses."""
+
+
+class TrainBalance(Group, of=results.ForceBalance):
+    """How well forces and moments on the shafts balance; null without load."""
+
+
+class TrainConvergence(Group, of=results.Convergence):
+    """How shafts and mesh came to one gap."""
+
+
+class TrainMaps(Group, of=results.FlankMaps):
+    """Over the flank, `[profile][face]`."""
 
 
 class ShaftSummary(Group, of=results.ShaftResult, without=("curves",)):
@@ -352,7 +393,7 @@ class CouplingInForce(Group, of=derived.DerivedCoupling):
     coupling: ProportionsInForce
 
 
-class OilInForce(Group, of=OilInUse):
+class OilInForce(Group, of=OilInUse, stands=False):
     """The gears' oil as it enters the contact."""
 
 
@@ -396,11 +437,18 @@ class TrainStates(Group, of=results.States):
     cold: TrainSummary | None
 
 
-groups(
-    WarmUpCurves=(WarmUpCurves, "Over time."),
-    WarmUpOfNodes=(WarmUp, "How every node warms up.", {"greatest_difference": View(headline=1)}),
-    AlignmentAtTimes=(warm_up.AlignmentOverTime, "Load and safety at five times."),
-)
+class WarmUpCurves(Group, of=WarmUpCurves):
+    """Over time."""
+
+
+class WarmUpOfNodes(Group, of=WarmUp):
+    """How every node warms up."""
+
+    views: ClassVar = {"greatest_difference": View(headline=1)}
+
+
+class AlignmentAtTimes(Group, of=warm_up.AlignmentOverTime):
+    """Load and safety at five times."""
 
 
 class WarmUpResponse(Response, of=warm_up.UnitWarmUp):

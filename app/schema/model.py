@@ -7,7 +7,7 @@ has a field for each declaration on `si.ModelOptions`, named with the suffix of 
 its end where it would be a word of Python (`from_`). What stands in the class
 itself is an ordinary field of pydantic: under the name of a filled field it changes the type or the default, and with
 `Input` or `Output` beside the type it replaces the declaration; `Input.of(Record, "field", text=...)` changes part of
-one. Sections of answers that add nothing are rows of `groups`. Requests give the solver's dataclasses in SI
+one. Requests give the solver's dataclasses in SI
 (`Section.si`), responses are read from them (`from_si`), by names and units looked up once a model (`members`).
 """
 
@@ -34,7 +34,7 @@ from typing import (
 )
 
 import numpy as np
-from pydantic import BaseModel, ConfigDict, Field, PrivateAttr, create_model, model_validator
+from pydantic import BaseModel, ConfigDict, Field, PrivateAttr, model_validator
 from pydantic.fields import FieldInfo
 from pydantic_core import PydanticCustomError
 
@@ -72,12 +72,14 @@ class Documented(BaseModel):
         of: type | tuple[type, ...] = (),
         only: tuple[str, ...] = (),
         without: tuple[str, ...] = (),
+        stands: bool = True,
         **config: Any,
     ) -> None:
         """Fill the model from the declarations of dataclasses: all, `only` some, or all `without` some.
 
         Of several the first is the solver's result; the others are members of it, which may be None. Fields that a base
-        has stay as they are.
+        has stay as they are. A model of a whole dataclass `stands` for it wherever another dataclass holds it; raises
+        TypeError where two do.
         """
         super().__init_subclass__(**config)
         records: tuple[Any, ...] = of if isinstance(of, tuple) else (of,)
@@ -102,8 +104,10 @@ class Documented(BaseModel):
             if field not in vars(cls):
                 setattr(cls, field, default)
         cls.__annotations__ = filled | {name: kind for name, kind in own.items() if name not in filled}
-        if records and not only and not without:
-            _MODELS.setdefault((cls._declares, records[0]), cls)
+        if stands and records and not only and not without:
+            if (other := _MODELS.get((cls._declares, records[0]), cls)) is not cls:
+                raise TypeError(f"{other.__name__} and {cls.__name__} both stand for {records[0].__name__}")
+            _MODELS[cls._declares, records[0]] = cls
 
     @classmethod
     @abstractmethod
@@ -112,7 +116,7 @@ class Documented(BaseModel):
 
 
 _MODELS: dict[tuple[type, type], type[Documented]] = {}
-"""The first model filled from a dataclass stands for it wherever another dataclass holds it."""
+"""The model that stands for a dataclass in a request, or in an answer, wherever another dataclass holds it."""
 
 
 def _published(hint: Any, declared: Quantity, declares: type) -> Any:
@@ -351,13 +355,6 @@ class Group(Documented):
         return Annotated[kind | None if optional or nullable else kind, meaning], None if optional else ...
 
 
-def groups(**rows: tuple[Any, ...]) -> None:
-    """Make groups that add nothing to declarations, by name: the dataclass, what the group is, views of its outputs."""
-    for name, (record, text, *judged) in rows.items():
-        views = (ClassVar[Any], judged[0] if judged else {})
-        create_model(name, __base__=Group, __doc__=text, __cls_kwargs__={"of": record}, views=views)  # type: ignore[arg-type]
-
-
 class Notice(Group):
     """A value outside its range of validity, or without meaning."""
 
@@ -386,6 +383,10 @@ class Assumption(Group):
 
 class Derived(Group):
     """What follows from the request before any physics."""
+
+
+GROUNDS = frozenset({"assumptions", "model_version", "sources", "model", "derived", "inputs", "case"})
+"""What results rest on: the last fields of every answer."""
 
 
 class Response(Group):
@@ -434,6 +435,6 @@ class Response(Group):
     @classmethod
     def __pydantic_init_subclass__(cls, **_: Any) -> None:
         """Results stand before what they rest on."""
-        for name in ("assumptions", "model_version", "sources", "model", "derived", "inputs", "case"):
-            cls.model_fields[name] = cls.model_fields.pop(name)
+        known = cls.__pydantic_fields__
+        cls.__pydantic_fields__ = {name: known[name] for name in sorted(known, key=lambda name: name in GROUNDS)}
         cls.model_rebuild(force=True)

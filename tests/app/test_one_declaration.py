@@ -320,6 +320,18 @@ def test_a_section_names_declared_fields_only() -> None:
             views: ClassVar = {"colour": View(headline=1)}
 
 
+def test_one_model_stands_for_a_dataclass_whatever_the_order() -> None:
+    with pytest.raises(TypeError, match="InnerGroup and Twin both stand for Inner"):
+
+        class Twin(Group, of=Inner):
+            """Another width."""
+
+    class Other(Group, of=Inner, stands=False):
+        """A width that no other dataclass holds."""
+
+    assert list(Other.model_fields) == ["width_mm"]
+
+
 def test_defaults_are_written_in_the_shown_unit_and_held_in_si() -> None:
     assert Spring(1.0).stiffness == 2e6
     assert quantities(Spring)["stiffness"].default == 2.0
