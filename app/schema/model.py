@@ -59,6 +59,7 @@ class Documented(BaseModel):
     member_unit: ClassVar[str | None] = None
     views: ClassVar[dict[str, View]] = {}
     _declares: ClassVar[type[Input] | type[Output]] = Input
+    _stands: ClassVar[bool] = True  # whether it may be inside another model
     _optional: ClassVar[bool] = False  # whether filled fields may be missing: where there is no solution
 
     if TYPE_CHECKING:
@@ -104,7 +105,7 @@ class Documented(BaseModel):
             if field not in vars(cls):
                 setattr(cls, field, default)
         cls.__annotations__ = filled | {name: kind for name, kind in own.items() if name not in filled}
-        if stands and records and not only and not without:
+        if stands and cls._stands and records and not only and not without:
             if (other := _MODELS.get((cls._declares, records[0]), cls)) is not cls:
                 raise TypeError(f"{other.__name__} and {cls.__name__} both stand for {records[0].__name__}")
             _MODELS[cls._declares, records[0]] = cls
@@ -325,6 +326,7 @@ class Request(Section):
     ] = "curves"
 
     model_config = ConfigDict(json_schema_extra=_in_reading_order)
+    _stands: ClassVar = False
 
     @abstractmethod
     def inputs(self) -> Any:
@@ -393,6 +395,7 @@ class Response(Group):
     """What every result says about itself; each adds its results."""
 
     _optional: ClassVar = True
+    _stands: ClassVar = False
 
     status: Annotated[
         Literal["ok", "ok_with_warnings", "no_solution"],
