@@ -31,7 +31,8 @@ from solvers.drive_train import inputs as si
 from solvers.drive_train.shafts import thrust_budget
 from solvers.errors import InvalidInput
 from solvers.gears.inputs import GROUND_FILLET, RACK_A, GearPairInputs
-from solvers.heat_balance.warm_up import WarmUp, WarmUpCurves
+from solvers.heat_balance.warm_up import WarmUp
+from solvers.heat_balance.warm_up import WarmUpCurves as CurvesOfNodes
 from solvers.lubricants import OilInUse
 from solvers.pumping import inputs as pumping
 from solvers.scuffing import inputs as mesh
@@ -437,7 +438,7 @@ class TrainStates(Group, of=results.States):
     cold: TrainSummary | None
 
 
-class WarmUpCurves(Group, of=WarmUpCurves):
+class WarmUpCurves(Group, of=CurvesOfNodes):
     """Over time."""
 
 

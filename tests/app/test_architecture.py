@@ -120,13 +120,11 @@ The kinds of study are an own one: their pages are made of parts of pages, which
 
 
 KINDS = "studies.kinds"
-NAMES_BEFORE = {f"app.studies.{name}" for name in ("design", "sensitivity", "spectrum", "sweep")}
-"""Where the HTTP layer still looks for kinds of study."""
 
 
 def room(name: str) -> str | None:
     """The entry of `app` to which a module belongs."""
-    if name.startswith(f"app.{KINDS}.") or name in NAMES_BEFORE:
+    if name.startswith(f"app.{KINDS}."):
         return KINDS
     return name.split(".")[1] if name.startswith("app.") else None
 

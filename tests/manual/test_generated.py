@@ -22,8 +22,8 @@ from app.manual import NAMES, chapters
 from app.manual.equations import anchor
 from app.pages.cases import Asked
 from app.pages.manual import shown_studies
-from app.pages.studies import PAGES
 from app.pages.studies.page import checked, file
+from app.pages.study_kinds import study_page
 from app.settings import Settings
 from app.studies.runner import Clock, Line
 from solvers.published import STATEMENTS, Row
@@ -148,9 +148,8 @@ def _renewed(block: re.Match[str]) -> str:
 def study_figure(name: str) -> bytes:
     """The picture of a study."""
     shown = shown_studies()[name]
-    page = next(each for link, each in PAGES.items() if link.name == shown.page)
     asked = Asked(shown.path, shown.pairs, {**shown.controls, "theme": "light"})
-    study = checked(page, asked, STUDY_POINTS, DEADLINE_S)
+    study = checked(study_page(shown.page), asked, STUDY_POINTS, DEADLINE_S)
 
     async def lines() -> list[Line]:
         clock = Clock(study.study.total)

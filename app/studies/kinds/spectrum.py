@@ -199,8 +199,8 @@ class Spectrum(Study):
         found = {f"outputs.{place}": leaf for place, leaf in enumerate(base.outputs(body.outputs))}
         if body.outputs is None:
             found = {place: leaf for place, leaf in found.items() if leaf.kind in NUMBERS}
-        for number, each in enumerate(body.limits or ()):
-            place = f"limits.{number}.output"
+        for index, each in enumerate(body.limits or ()):
+            place = f"limits.{index}.output"
             found[place] = base.output(each.output, place)
         for place, leaf in found.items():
             if leaf.kind not in NUMBERS:

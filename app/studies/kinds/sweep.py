@@ -46,7 +46,7 @@ from app.studies.requests import (
     Seed,
     StudyRequest,
 )
-from app.studies.runner import Clock, Line, Lines, Pool, Study, json_line, output_header, paths_of
+from app.studies.runner import Clock, Line, Lines, Pool, Study, output_header, paths_of
 from app.studies.statistics import of_sample
 
 AROUND = 0.5  # of a value, to both sides
@@ -227,6 +227,12 @@ class Sweep(Study):
         """The lines behind those of the points, of which `end` is the last."""
         return [end]
 
+    def encoder(self, written_as: str) -> Callable[[Line], bytes]:
+        """Return what writes a line: as JSON, or as a row of a table."""
+        if written_as == "csv":
+            return partial(table_row, self.points, self.outputs)
+        return super().encoder(written_as)
+
 
 def table_row(points: PointSet, outputs: tuple[Leaf, ...], line: Line) -> bytes:
     """A line of a sweep as comma-separated values, the first one as a header with units.
@@ -252,13 +258,6 @@ def table_row(points: PointSet, outputs: tuple[Leaf, ...], line: Line) -> bytes:
         case _:
             return b""
     return csv_of([row])
-
-
-def encoder(study: Study, written_as: str) -> Callable[[Line], bytes]:
-    """Return what writes the lines of a study; those of a sweep also as the rows of a table."""
-    if isinstance(study, Sweep) and written_as == "csv":
-        return partial(table_row, study.points, study.outputs)
-    return json_line
 
 
 def _sampled(sample: Sample, base: BaseRequest, most: int) -> PointSet:
