@@ -1,5 +1,6 @@
 """Lubricants, and the laws by which pressure and temperature change their viscosity and density."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass, fields
 from math import log
 from typing import Any, Literal, NamedTuple
@@ -8,12 +9,17 @@ import numpy as np
 
 from solvers.compiled import kernel
 from solvers.errors import InvalidInput
+from solvers.notices import Notice, unusual_value
 from solvers.quantity import quantity
 
 PressureViscosityLaw = Literal["roelands", "barus"]
 OilKind = Literal["mineral", "pao", "ester", "polyglycol"]
 
 HIGHEST_VISCOSITY = 1e4  # Pa s without pressure; no oil flows there
+# Chosen limits of unusual values.
+THICK_OIL = 1.0  # Pa s at operating temperature
+HOTTEST = 403.15  # K, of oil and teeth; mineral oils age within days
+COLDEST_OIL = 243.15  # K; below the pour point of most gear oils
 
 ROELANDS_PRESSURE = 5.1e-9  # 1/Pa
 ROELANDS_LOG_VISCOSITY = 9.67  # -ln of the viscosity 6.31e-5 Pa s at the pole
@@ -171,3 +177,32 @@ def density(laws: FluidLaws, pressure: float, temperature: float) -> tuple[float
     value = laws.density * (1.0 + laws.pressure_density * p / base - laws.thermal_expansion * heating)
     slope = laws.density * laws.pressure_density / base**2 if pressure > 0.0 else 0.0
     return value, slope, -laws.density * laws.thermal_expansion
+
+
+def thick_oil(viscosity: float | None, field: str = "lubricant.viscosity") -> Iterator[Notice]:
+    """A viscosity [Pa s] at operating temperature that few machines run with."""
+    if viscosity is not None and viscosity > THICK_OIL:
+        yield unusual_value(field, f"{viscosity:.4g} Pa s at operating temperature is very thick; was mPa s meant?")
+
+
+def oil_temperature(temperature: float, field: str = "temperatures.oil") -> Iterator[Notice]:
+    """An oil [K] that is hotter or colder than gear oils are."""
+    yield from hotter_than_gears(temperature, field)
+    if temperature < COLDEST_OIL:
+        shown = f"{temperature - 273.15:g} °C"
+        yield unusual_value(field, f"{shown} is colder than oils are in service; is the sign right?")
+
+
+def hotter_than_gears(temperature: float, field: str) -> Iterator[Notice]:
+    """A temperature [K] of oil or teeth that gears in service do not have."""
+    if temperature > HOTTEST:
+        shown = f"{temperature - 273.15:g} °C"
+        yield unusual_value(field, f"{shown} is hotter than gears are in service; were degrees Fahrenheit meant?")
+
+
+def hot_oil(oil: float, bulk: float | None) -> Iterator[Notice]:
+    """Oil [K] that is hotter than the teeth [K]."""
+    if bulk is not None and oil > bulk:
+        message = f"the oil at {oil - 273.15:g} °C is hotter than the teeth at {bulk - 273.15:g} °C"
+        message += "; are they exchanged?"
+        yield unusual_value("temperatures.oil", message)

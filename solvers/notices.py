@@ -22,3 +22,8 @@ class Notice:
     message: str
     field: str | None = None
     rank: Rank = "doubtful"
+
+
+def unusual_value(field: str, message: str) -> Notice:
+    """The warning of an unusual value of an input."""
+    return Notice("unusual_value", message, field)

@@ -26,7 +26,7 @@ from solvers.coupling.inputs import (
 )
 from solvers.coupling.notices import unusual_values
 from solvers.coupling.results import CouplingResult, OrbitResult
-from solvers.plausibility import guarded
+from solvers.guards import guarded
 
 solve = guarded(model.solve, unusual_values)
 solve_orbit = guarded(orbit.solve_orbit, unusual_values)

@@ -25,7 +25,7 @@ from solvers.drive_train.inputs import (
 from solvers.drive_train.notices import unusual_values
 from solvers.drive_train.results import DriveTrainResult
 from solvers.drive_train.warm_up import UnitWarmUp, WarmUpInputs
-from solvers.plausibility import guarded
+from solvers.guards import guarded
 
 solve = guarded(states.solve, unusual_values)
 solve_warm_up = guarded(warm_up.solve, warm_up.unusual_values)

@@ -5,7 +5,7 @@ duct, record) -> one of gas, chain and incompressible -> resolution, lead_correc
 `model.solve`). `spaces` prepares what no speed changes and picks the flow model; on top of it choking and speed_scan.
 """
 
-from solvers.plausibility import guarded
+from solvers.guards import guarded
 from solvers.pumping import choking, model
 from solvers.pumping.inputs import (
     Ambient,

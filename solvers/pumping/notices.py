@@ -3,10 +3,9 @@
 from collections.abc import Iterator, Sequence
 from math import degrees, expm1, inf, pi
 
-from solvers import plausibility
-from solvers.gears.notices import pair_notices
+from solvers.gears.notices import pair_notices, unusual_gears
 from solvers.gears.pair import GearPair, PathOfContact
-from solvers.notices import Notice
+from solvers.notices import Notice, unusual_value
 from solvers.pumping.flow.nozzle import Gas
 from solvers.pumping.inputs import ChokingInputs, Flow, PumpingInputs, PumpingSetup
 from solvers.pumping.results import MassFlow, Resolution
@@ -21,6 +20,7 @@ RESOLVED = 0.06  # of a number, by its resolution
 NET_UNCERTAINTY = 0.3  # of the net flow
 NEGLIGIBLE = 1e-3  # of the gross flow
 LEAST_GAUGE_PRESSURE = 1e-6  # of the ambient pressure
+THIN_AIR = 20e3  # Pa, chosen; nearly a vacuum
 
 
 def setup_notices(setup: PumpingSetup, path: PathOfContact, active_slices: float) -> list[Notice]:
@@ -131,6 +131,12 @@ def speed_notices(pair: GearPair, gas: Gas, pinion_speed: float) -> list[Notice]
 
 def unusual_values(inputs: PumpingInputs | ChokingInputs, _result: object) -> Iterator[Notice]:
     """Unusual values of ambient, gears and speed."""
-    yield from plausibility.thin_air(inputs.setup.ambient.pressure)
+    yield from thin_air(inputs.setup.ambient.pressure)
     speed = inputs.pinion_speed if isinstance(inputs, PumpingInputs) else None
-    yield from plausibility.gears(inputs.setup.gears, speed)
+    yield from unusual_gears(inputs.setup.gears, speed)
+
+
+def thin_air(pressure: float) -> Iterator[Notice]:
+    """An ambient pressure [Pa] that is nearly none."""
+    if pressure < THIN_AIR:
+        yield unusual_value("ambient.pressure", f"{pressure / 1e3:g} kPa is nearly a vacuum; was bar meant?")

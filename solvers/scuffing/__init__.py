@@ -9,8 +9,8 @@ Lubrication Simulation of Helical Gears", Global J. of Researches in Engineering
 """
 
 from solvers.gears.inputs import GearPairInputs, GearTeeth
+from solvers.guards import guarded
 from solvers.oils import OilChoice
-from solvers.plausibility import guarded
 from solvers.scuffing import model, safety
 from solvers.scuffing.inputs import (
     LeadCurve,

@@ -32,8 +32,8 @@ from app.studies.points import Question, solve_point
 from solvers.arrays import FloatArray
 from solvers.coupling.inputs import Coupling, CouplingDesign
 from solvers.errors import InvalidInput
+from solvers.guards import checked
 from solvers.notices import Notice
-from solvers.plausibility import checked
 from solvers.quantity import quantities, quantity, record
 
 

@@ -12,7 +12,7 @@ from app.calculations import BY_PATH
 from app.examples import examples
 from solvers.coupling.inputs import CouplingDesign
 from solvers.errors import InvalidInput
-from solvers.plausibility import checked
+from solvers.guards import checked
 from solvers.quantity import quantity, record, to_dict
 
 NAMES = (
