@@ -2,40 +2,85 @@
 
 from typing import Annotated, Any, ClassVar
 
+from pydantic import Field
+
 from app.schema.model import Derived, Group, Request, Response, Section
 from app.schema.oil import CouplingLubricant
-from app.schema.quantities import Input, View
+from app.schema.quantities import Input, Output, View
 from solvers.coupling import crowning, results
 from solvers.coupling import inputs as si
+from solvers.quantity import UNITS, quantities
+from solvers.sources import PAHL
 
 STIFFNESS = "tooth_stiffness_n_per_um"
 
 
-class CouplingDesign(Section, of=si.CouplingDesign, without=("crowning_ratio",)):
+class CouplingDesign(Section, of=si.Coupling, without=("crowning_ratio",)):
     """The coupling without its crowning."""
+
+    face_width_mm: float | None
+    tooth_height_mm: float | None
+    tooth_stiffness_n_per_um: float | None
 
     def stands_for_null(self, name: str) -> Any:
         """The stiffness of teeth of this material, which not every answer repeats."""
-        return self.si(si.CouplingDesign).coupling().tooth_stiffness * 1e-6 if name == STIFFNESS else None
+        return self.si(si.Coupling).tooth_stiffness * 1e-6 if name == STIFFNESS else None
 
 
-class CrownedCoupling(CouplingDesign, of=si.CouplingDesign):
+class CrownedCoupling(CouplingDesign, of=si.Coupling):
     """The coupling."""
 
 
-class CouplingLoad(Section, of=si.Load):
+class CouplingLoad(Section, of=si.Operation, without=("misalignment",)):
     """Torque, speed and arrangement."""
 
 
-class CouplingOperation(CouplingLoad, of=si.OperatingPoint):
+class CouplingOperation(CouplingLoad):
     """Operating point; the tilt is given, or follows from the shafts' offset."""
 
     exclusive: ClassVar = (("misalignment_deg", "parallel_offset_mm"),)
     choice_missing: ClassVar = "misalignment_or_offset"
 
+    misalignment_deg: Annotated[
+        float | None, Input.of(si.Operation, "misalignment", default_text="by the parallel offset")
+    ] = None
+    parallel_offset_mm: Annotated[
+        float | None,
+        Input(
+            "parallel offset of the shafts",
+            "e",
+            text="instead of the tilt, which is atan(offset over hub distance)",
+            unit="mm",
+            ge=-1000,
+            le=1000,
+            tolerance=0.05,
+        ),
+    ] = None
 
-class CouplingOperationRange(CouplingLoad, of=si.OperatingRange):
+    def operation(self, hub_distance: float) -> si.Operation:
+        """The operating point of the solver; `hub_distance` [m] lies between the tooth planes."""
+        if self.parallel_offset_mm is None:
+            return self.si(si.Operation)
+        offset = UNITS["mm"].to_si(self.parallel_offset_mm)
+        return self.si(si.Operation, misalignment=si.tilt_of_offset(offset, hub_distance))
+
+
+class CouplingOperationRange(CouplingLoad):
     """Operating point with a range of misalignment."""
+
+    misalignment_range_deg: Annotated[
+        list[float],
+        Field(min_length=2, max_length=2),
+        Input(
+            "range of misalignment",
+            "δ_HS",
+            PAHL,
+            text="smallest and largest tilt of hub in sleeve",
+            unit="deg",
+            ge=1e-4,
+            le=6,
+        ),
+    ]
 
 
 class MixedFrictionTable(Section, of=si.MixedFrictionTable):
@@ -80,9 +125,7 @@ class _CouplingRequest(Request):
         }
 
     def _design(self, operation: si.Operation) -> si.CouplingInputs:
-        coupling = self.coupling.si(si.CouplingDesign).coupling()
-        lubricant = self.lubricant.si(si.CouplingOil).lubricant()
-        return self.si(si.CouplingInputs, coupling=coupling, operation=operation, lubricant=lubricant)
+        return self.si(si.CouplingInputs, operation=operation, lubricant=self.lubricant.at_teeth())
 
 
 class CouplingRequest(_CouplingRequest):
@@ -93,8 +136,7 @@ class CouplingRequest(_CouplingRequest):
 
     def inputs(self) -> si.CouplingInputs:
         """The solver's inputs."""
-        hub_distance = self.coupling.si(si.CouplingDesign).hub_distance
-        return self._design(self.operation.si(si.OperatingPoint).operation(hub_distance))
+        return self._design(self.operation.operation(self.coupling.si(si.Coupling).hub_distance))
 
 
 class SleeveOrbitRequest(CouplingRequest):
@@ -126,9 +168,8 @@ class RecommendationRequest(_CouplingRequest):
 
     def inputs(self) -> si.RecommendationInputs:
         """The solver's inputs."""
-        operation = self.operation.si(si.OperatingRange)
-        smallest, largest = operation.misalignment_range
-        design = self._design(operation.operation())
+        smallest, largest = map(UNITS["deg"].to_si, self.operation.misalignment_range_deg)
+        design = self._design(self.operation.si(si.Operation, misalignment=smallest))
         return si.RecommendationInputs(design, min_misalignment=smallest, max_misalignment=largest)
 
 
@@ -217,7 +258,21 @@ class CrowningScan(Group, of=crowning.CrowningScan):
     views: ClassVar = {"max_contact_overlap": View(limit=1.0)}
 
 
-class CouplingProportions(Derived, of=si.Coupling, only=("face_width", "tooth_height", "tooth_stiffness")):
+def _used(name: str, title: str) -> Output:
+    """The declaration of what the coupling has if the request omits it."""
+    declared = quantities(si.Coupling)[name]
+    return Output(title, declared.symbol, unit=declared.unit, origin=(si.Coupling, name))
+
+
+class ProportionsInForce(Group):
+    """A coupling's proportions and the stiffness of its teeth."""
+
+    face_width_mm: Annotated[float, _used("face_width", "face width used")]
+    tooth_height_mm: Annotated[float, _used("tooth_height", "tooth height used")]
+    tooth_stiffness_n_per_um: Annotated[float, _used("tooth_stiffness", "tooth pair stiffness used")]
+
+
+class CouplingProportions(ProportionsInForce, Derived):
     """Proportions and stiffness of the teeth, as used if the request omits them."""
 
 

@@ -8,7 +8,7 @@ from pydantic import BeforeValidator, Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from app.schema.cooling import GearCooling
-from app.schema.coupling import CrownedCoupling
+from app.schema.coupling import CrownedCoupling, ProportionsInForce
 from app.schema.gears import BacklashGears, GearMaterials
 from app.schema.model import Group, Response, Section
 from app.schema.oil import CouplingLubricant, Oil
@@ -25,7 +25,6 @@ from app.schema.scuffing import (
     ScuffingLoad,
     how_well_known,
 )
-from solvers.coupling.inputs import Coupling, CouplingDesign, CouplingOil
 from solvers.drive_train import derived, results, warm_up
 from solvers.drive_train import inputs as si
 from solvers.drive_train.shafts import thrust_budget
@@ -250,10 +249,10 @@ class DriveTrainRequest(MeshInOil):
         """The solver's couplings; an oil that none can be is that of its own coupling."""
         for k, unit in enumerate(self.couplings):
             try:
-                lubricant = unit.lubricant.si(CouplingOil).lubricant()
+                lubricant = unit.lubricant.at_teeth()
             except InvalidInput as error:
                 raise InvalidInput(error.code, error.message, f"couplings.{k}.{error.field}") from error
-            yield unit.si(si.UnitCoupling, coupling=unit.coupling.si(CouplingDesign).coupling(), lubricant=lubricant)
+            yield unit.si(si.UnitCoupling, lubricant=lubricant)
 
     def options(self) -> dict[str, Any]:
         """The model section, the number of slices filled in."""
@@ -382,10 +381,6 @@ class ShaftSummary(Group, of=results.ShaftResult, without=("curves",)):
 
 class ShaftState(ShaftSummary, of=results.ShaftResult):
     """A shaft with its displaced axis."""
-
-
-class ProportionsInForce(Group, of=Coupling, only=("face_width", "tooth_height", "tooth_stiffness")):
-    """A coupling's proportions and the stiffness of its teeth."""
 
 
 class CouplingInForce(Group, of=derived.DerivedCoupling):

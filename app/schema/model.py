@@ -157,9 +157,9 @@ def kinds(annotation: Any, lists: int = 0) -> Iterator[tuple[Any, int]]:
 class Member:
     """A field of a model: what it means and holds, and the field of a solver's dataclass that it fills or is read from.
 
-    `record` is that dataclass, None where it may be any. `kinds` are the types of single values, `group` the section or
-    group among them, alone, optional or as the items of a list. `dimensions` is 0 for a scalar, 1 for a list, 2 for a
-    matrix.
+    `record` is that dataclass, None where it may be any; `solver_name` is then the name without its unit. `kinds` are
+    the types of single values, `group` the section or group among them, alone, optional or as the items of a list.
+    `dimensions` is 0 for a scalar, 1 for a list, 2 for a matrix.
     """
 
     name: str
@@ -179,7 +179,7 @@ def members(model: type[BaseModel]) -> tuple[Member, ...]:
     found = []
     for name, info in model.model_fields.items():
         if meaning := meaning_of(info.metadata):
-            record, solver_name = meaning.origin or (None, name)
+            record, solver_name = meaning.origin or (None, name.removesuffix(f"_{meaning.unit}"))
             unit = UNITS[meaning.unit] if meaning.unit else None
             allowed, lists = zip(*kinds(info.annotation), strict=True)
             groups = (kind for kind in allowed if isinstance(kind, type) and issubclass(kind, Documented))

@@ -1,14 +1,16 @@
 """Oils: by grade, by data sheet, or by the viscosity where they enter."""
 
-from typing import Any, ClassVar, Self
+from typing import Annotated, Any, ClassVar, Self
 
 from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
 from app.schema.model import Derived, Section
-from solvers.coupling.inputs import CouplingOil
+from app.schema.quantities import Input
+from solvers.coupling.inputs import Lubricant as OilAtTeeth
 from solvers.lubricants import Lubricant, OilInUse
 from solvers.oils import SQUARE_MILLIMETRE, OilBySheet, OilChoice
+from solvers.quantity import UNITS
 
 _PAPERS = Lubricant()
 
@@ -111,8 +113,24 @@ class Oil(SheetOil, of=OilChoice):
 _WITH_VISCOSITY = [name for name, field in Oil.model_fields.items() if isinstance(field.default, float)]
 
 
-class CouplingLubricant(SheetOil, of=CouplingOil):
+class CouplingLubricant(SheetOil):
     """Oil at the teeth."""
+
+    viscosity_pa_s: Annotated[
+        float | None,
+        Input.of(OilAtTeeth, "viscosity", default_text="by grade or data sheet", assumed="ISO VG 46 near 50 °C"),
+    ] = OilAtTeeth().viscosity
+    temperature_c: Annotated[
+        float,
+        Input.of(
+            OilAtTeeth,
+            "temperature",
+            default=50.0,
+            text="temperature at which the viscosity is taken from grade or data sheet",
+            assumed="50 °C",
+        ),
+    ] = 50.0
+    reference_film_um: Annotated[float, Input.of(OilAtTeeth, "reference_film")] = 1.0
 
     @model_validator(mode="before")
     @classmethod
@@ -126,6 +144,14 @@ class CouplingLubricant(SheetOil, of=CouplingOil):
         if not self.by_sheet and self.viscosity_pa_s is None:
             raise PydanticCustomError("missing_property", "give viscosity_pa_s, or the oil by its grade or data sheet")
         return self
+
+    def at_teeth(self) -> OilAtTeeth:
+        """The solver's oil; grade or data sheet count before the viscosity."""
+        sheet = self.si(OilBySheet).sheet()
+        if sheet is None:
+            return self.si(OilAtTeeth, temperature=None)
+        viscosity = sheet.viscosity(UNITS["c"].to_si(self.temperature_c))
+        return self.si(OilAtTeeth, viscosity=viscosity, viscosity_index=sheet.viscosity_index)
 
     def unused(self) -> dict[str, bool]:
         """What this way of giving the oil leaves out of a result."""
