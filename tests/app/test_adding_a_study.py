@@ -6,8 +6,10 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from fastapi import FastAPI
 from jinja2 import ChoiceLoader, FileSystemLoader, PackageLoader
 
+from app.http.routes import studies
 from app.pages import study_kinds, templating
 from app.pages.query import split_views
 from app.pages.study_links import study_links
@@ -115,6 +117,16 @@ def test_it_has_its_link_behind_the_others_and_its_controls_are_no_fields_of_a_c
     case = asked("pahl-heavily-crowned")
     assert [each.name for each in study_links(case.calculation)][-1] == page.link.name == "twice"
     assert split_views([*case.pairs, ("doubled", "operation.speed_rpm")])[1] == {"doubled": "operation.speed_rpm"}
+
+
+def test_its_endpoint_is_made_of_its_kind(page: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    service = FastAPI()
+    monkeypatch.setattr(studies, "router", service.router)
+    studies._add(page)
+    operation = service.openapi()["paths"]["/v1/twice"]["post"]
+    assert (operation["operationId"], operation["summary"]) == ("twice", "One input doubled")
+    assert "parameters" not in operation
+    assert list(operation["responses"]["200"]["content"]) == ["application/x-ndjson"]
 
 
 def test_it_is_solved_and_drawn_by_its_template(page: Any) -> None:
