@@ -10,7 +10,8 @@ import numpy as np
 from solvers.compiled import kernel
 from solvers.errors import InvalidInput
 from solvers.notices import Notice, unusual_value
-from solvers.quantity import quantity
+from solvers.quantity import quantity, record
+from solvers.sources import XUE
 
 PressureViscosityLaw = Literal["roelands", "barus"]
 OilKind = Literal["mineral", "pao", "ester", "polyglycol"]
@@ -26,26 +27,82 @@ ROELANDS_LOG_VISCOSITY = 9.67  # -ln of the viscosity 6.31e-5 Pa s at the pole
 ROELANDS_POLE_TEMPERATURE = 138.0  # K
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Lubricant:
     """A lubricating oil; the default is the oil of Xue, Zhang and Wang (second Table 2), its values at 360 K.
 
-    Units: viscosity, at reference_temperature and zero pressure [Pa s], reference_temperature [K],
-    pressure_viscosity (Barus coefficient) [1/Pa], temperature_viscosity (Reynolds coefficient) [1/K],
-    density, at reference_temperature [kg/m^3], specific_heat [J/(kg K)], thermal_conductivity [W/(m K)].
     An incompressible oil keeps its density at every pressure and temperature. `kind` is its base oil, which only the
     lubricant factors of the friction laws and of the scuffing test depend on. `viscosity_index` is told, not used.
     """
 
-    viscosity: float = 0.08
-    reference_temperature: float = 360.0
-    pressure_viscosity: float = 21.9e-9
-    temperature_viscosity: float = 0.042
-    density: float = 870.0
-    specific_heat: float = 2000.0
-    thermal_conductivity: float = 0.14
-    pressure_viscosity_law: PressureViscosityLaw = "roelands"
-    compressible: bool = True
+    viscosity: float = quantity(
+        "oil viscosity",
+        "η_0",
+        f"{XUE}, Table 2",
+        unit="pa_s",
+        default=0.08,
+        ge=1e-5,
+        le=100,
+        text="viscosity at the reference temperature and no pressure",
+    )
+    reference_temperature: float = quantity(
+        "oil reference temperature",
+        "θ_0",
+        f"{XUE}, Eq. 20",
+        unit="c",
+        default=86.85,
+        ge=-50,
+        le=300,
+        tolerance=1,
+        text="temperature of viscosity and density",
+        assumed="86.85 °C, 360 K, at which the paper's viscosity gives its film thickness; give that of yours",
+    )
+    pressure_viscosity: float = quantity(
+        "pressure-viscosity coefficient", "α", f"{XUE}, Table 2", unit="per_gpa", default=21.9, ge=1, le=60
+    )
+    temperature_viscosity: float = quantity(
+        "temperature-viscosity coefficient",
+        "β",
+        f"{XUE}, Table 2",
+        unit="per_k",
+        default=0.042,
+        ge=0,
+        le=0.2,
+        tolerance=0.001,
+    )
+    density: float = quantity(
+        "oil density",
+        "ρ_0",
+        f"{XUE}, Table 2",
+        unit="kg_per_m3",
+        default=870.0,
+        ge=100,
+        le=5000,
+        text="density at the reference temperature",
+        assumed="the paper's oil",
+    )
+    specific_heat: float = quantity(
+        "oil specific heat", "c_oil", f"{XUE}, Table 2", unit="j_per_kg_k", default=2000.0, ge=100, le=10000
+    )
+    thermal_conductivity: float = quantity(
+        "oil thermal conductivity", "λ_oil", f"{XUE}, Table 2", unit="w_per_m_k", default=0.14, ge=0.01, le=10
+    )
+    pressure_viscosity_law: PressureViscosityLaw = quantity(
+        "pressure-viscosity law",
+        None,
+        f"{XUE}, Table 2",
+        default="roelands",
+        text="how viscosity depends on pressure and temperature",
+        advanced=True,
+    )
+    compressible: bool = quantity(
+        "compressible oil",
+        None,
+        f"{XUE}, Table 2",
+        default=True,
+        text="whether density follows pressure and temperature (Dowson and Higginson)",
+        advanced=True,
+    )
     kind: OilKind = "mineral"
     viscosity_index: float | None = None
 

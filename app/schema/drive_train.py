@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 from functools import partial
-from typing import Annotated, Any, ClassVar, Self
+from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import BeforeValidator, Field, model_validator
 from pydantic_core import PydanticCustomError
@@ -34,6 +34,7 @@ from solvers.heat_balance.warm_up import WarmUp
 from solvers.heat_balance.warm_up import WarmUpCurves as CurvesOfNodes
 from solvers.lubricants import OilInUse
 from solvers.pumping import inputs as pumping
+from solvers.quantity import UNITS
 from solvers.scuffing import inputs as mesh
 
 
@@ -87,18 +88,94 @@ Matrix = Annotated[list[Pair], Field(min_length=2, max_length=2)]
 Stiffness = Annotated[Matrix, BeforeValidator(_isotropic, json_schema_input_type=float | Matrix)]
 
 
-class CylindricalSection(Section, of=si.SectionDesign):
+class CylindricalSection(Section, of=si.ShaftSection):
     """A cylinder of a shaft."""
 
+    outer_diameter_mm: Annotated[
+        float | None,
+        Input.of(
+            si.ShaftSection,
+            "outer_diameter",
+            text="under the teeth the diameter that carries torsion",
+            default_text="under the teeth d - m_n h_fP*; required elsewhere",
+            assumed="under the teeth d - m_n h_fP*, the root circle and a third of the tooth; the reference diameter "
+            "twists too little",
+        ),
+    ] = None
 
-class ShaftBearing(Section, of=si.ShaftBearing):
+
+class ShaftBearing(Section):
     """A radial bearing: a plain one, one by its stiffness, or a rigid one."""
 
-    stiffness_n_per_um: Stiffness | None
+    position_mm: Annotated[float, Input.of(si.RadialBearing, "position")]
+    type: Annotated[
+        Literal["journal", "linear", "rigid"],
+        Input("bearing type", text="short plain bearing; stiffness given; rigid"),
+    ] = "journal"
+    offset_um: Annotated[Pair, Input.of(si.RadialBearing, "offset")] = Field(
+        default_factory=partial(list[float], (0.0, 0.0))
+    )
+    diameter_mm: Annotated[
+        float | None, Input.of(si.JournalBearing, "diameter", default_text="required of plain bearings")
+    ] = None
+    width_mm: Annotated[
+        float | None, Input.of(si.JournalBearing, "width", default_text="required of plain bearings")
+    ] = None
+    radial_clearance_um: Annotated[float | None, Input.of(si.JournalBearing, "radial_clearance")] = None
+    viscosity_pa_s: Annotated[
+        float | None,
+        Input.of(
+            si.JournalBearing,
+            "viscosity",
+            default_text="the gears' oil at the film temperature",
+            assumed=f"the gears' oil at the film temperature: that of the heat balance if there is one, else "
+            f"{si.FILM_ABOVE_OIL:.0f} K above the oil's unless given",
+        ),
+    ] = None
+    film_temperature_c: Annotated[
+        float | None,
+        Input(
+            "film temperature of the bearing",
+            "θ_B",
+            unit="c",
+            ge=-50,
+            le=300,
+            tolerance=5,
+            text="temperature at which the oil's viscosity is taken where none is given",
+            default_text=f"by the heat balance if there is one, else oil temperature and {si.FILM_ABOVE_OIL:.0f} K",
+        ),
+    ] = None
+    oil_flow_l_per_min: Annotated[float | None, Input.of(si.JournalBearing, "oil_flow")] = None
+    stiffness_n_per_um: Annotated[
+        Stiffness | None, Input.of(si.LinearBearing, "stiffness", default_text="required of linear bearings")
+    ] = None
 
     def unused(self) -> dict[str, bool]:
         """Clearance and oil belong to plain bearings."""
         return dict.fromkeys(("radial_clearance_um", "viscosity_pa_s"), self.type != "journal")
+
+    def bearing(self, mesh_in_oil: mesh.ScuffingInputs) -> si.Bearing:
+        """The solver's bearing; without a viscosity of its own it runs in the gears' oil.
+
+        Raises InvalidInput no_oil where there is none, bearing_data where data of its type are missing.
+        """
+        if self.type == "rigid":
+            return self.si(si.RigidBearing)
+        if self.type == "linear":
+            if self.stiffness_n_per_um is None:
+                raise InvalidInput("bearing_data", "A linear bearing needs its stiffness", "stiffness")
+            return self.si(si.LinearBearing)
+        if self.diameter_mm is None or self.width_mm is None:
+            missing = "diameter" if self.diameter_mm is None else "width"
+            raise InvalidInput("bearing_data", "A journal bearing needs diameter and width", missing)
+        if self.viscosity_pa_s is not None:
+            return self.si(si.JournalBearing)
+        if mesh_in_oil.oil is None:
+            message = "without an oil of the gears a plain bearing needs its own viscosity; give it, or the oil"
+            raise InvalidInput("no_oil", message, "viscosity")
+        film = None if self.film_temperature_c is None else UNITS["c"].to_si(self.film_temperature_c)
+        viscosity = si.gear_oil_viscosity(mesh_in_oil.oil, mesh_in_oil.temperatures.oil, film)
+        return self.si(si.JournalBearing, viscosity=viscosity, in_gear_oil=film is None)
 
 
 class ThrustBearing(Section):
@@ -110,9 +187,41 @@ class ThrustBearing(Section):
 class UnitShaft(Section, of=si.Shaft, without=("ultimate_thrust",)):
     """A shaft in two bearings."""
 
-    sections: list[CylindricalSection]
     bearings: list[ShaftBearing]
     thrust_bearing: Annotated[ThrustBearing, Input("thrust bearing")] = ThrustBearing()
+
+    def shaft(self, name: str, mesh_in_oil: mesh.ScuffingInputs, face_start: float) -> si.Shaft:
+        """The solver's shaft, named "pinion_shaft" or "wheel_shaft"; the face starts at `face_start` [m].
+
+        Raises InvalidInput with the full name of the field at fault.
+        """
+        sections = tuple(self._sections(name, mesh_in_oil.distribution.gears, face_start))
+        bearings = []
+        for k, bearing in enumerate(self.bearings):
+            try:
+                bearings.append(bearing.bearing(mesh_in_oil))
+            except InvalidInput as error:
+                raise InvalidInput(error.code, error.message, f"{name}.bearings.{k}.{error.field}") from error
+        return self.si(si.Shaft, self.thrust_bearing, bearings=tuple(bearings), sections=sections)
+
+    def _sections(self, name: str, gears: GearPairInputs, face_start: float) -> Iterator[si.ShaftSection]:
+        """The solver's sections; those under the face that have no diameter take that which carries torsion.
+
+        Raises InvalidInput section_diameter where another has none.
+        """
+        teeth = gears.pinion if name == "pinion_shaft" else gears.wheel
+        position = UNITS["mm"].to_si(self.start_mm)
+        for k, cylinder in enumerate(self.sections):
+            left_out = cylinder.outer_diameter_mm is None
+            known = {"outer_diameter": si.torsion_diameter(gears, teeth)} if left_out else {}
+            section = cylinder.si(si.ShaftSection, **known)
+            end = position + section.length
+            beside = position > face_start + gears.face_width - si.COINCIDENT or end < face_start + si.COINCIDENT
+            if left_out and beside:
+                message = f"section {k} is not under the teeth and needs its diameter"
+                raise InvalidInput("section_diameter", message, f"{name}.sections.{k}.outer_diameter")
+            yield section
+            position = end
 
 
 class ShaftAlignment(Section, of=si.Alignment):
@@ -215,7 +324,7 @@ class DriveTrainRequest(MeshInOil):
 
     def inputs(self) -> si.DriveTrainInputs:
         """The solver's inputs. Raises InvalidInput no_oil where a plain bearing has neither a viscosity nor an oil."""
-        scuffing = self.scuffing_inputs(*self.running())
+        scuffing, face_start = self.scuffing_inputs(*self.running()), UNITS["mm"].to_si(self.face_start_mm)
         return self.si(
             si.DriveTrainInputs,
             self.model,
@@ -223,27 +332,12 @@ class DriveTrainRequest(MeshInOil):
             self.thrust_collar,
             mesh=scuffing,
             pumping=self.si(pumping.PumpingSetup, self.gears, gears=self.gears.pair(GROUND_FILLET)),
-            pinion_shaft=self._shaft("pinion_shaft", scuffing),
-            wheel_shaft=self._shaft("wheel_shaft", scuffing),
+            pinion_shaft=self.pinion_shaft.shaft("pinion_shaft", scuffing, face_start),
+            wheel_shaft=self.wheel_shaft.shaft("wheel_shaft", scuffing, face_start),
             arrangement=self.operation.si(si.Arrangement, self.gears),
             couplings=tuple(self._couplings()),
             bulk_given=self.temperatures.bulk_c is not None,
         )
-
-    def _shaft(self, name: str, scuffing: mesh.ScuffingInputs) -> si.Shaft:
-        """The solver's shaft; plain bearings without viscosity run in the gears' oil."""
-        shaft, gears, start = getattr(self, name), scuffing.distribution.gears, self.face_start_mm * 1e-3
-        teeth = gears.pinion if name == "pinion_shaft" else gears.wheel
-        sections = si.sections_of(
-            name,
-            shaft.start_mm * 1e-3,
-            tuple(section.si(si.SectionDesign) for section in shaft.sections),
-            (start, start + gears.face_width),
-            si.torsion_diameter(gears, teeth),
-        )
-        described = tuple(bearing.si(si.ShaftBearing) for bearing in shaft.bearings)
-        bearings = si.bearings_of(name, described, scuffing.oil, scuffing.temperatures.oil)
-        return shaft.si(si.Shaft, shaft.thrust_bearing, bearings=bearings, sections=sections)  # type: ignore[no-any-return]
 
     def _couplings(self) -> Iterator[si.UnitCoupling]:
         """The solver's couplings; an oil that none can be is that of its own coupling."""

@@ -9,7 +9,7 @@ from app.schema.quantities import Input, View
 from solvers.contact import ehl
 from solvers.contact.ehl import results
 from solvers.errors import InvalidInput
-from solvers.oils import OilChoice, lubricant_at
+from solvers.oils import lubricant_at
 
 
 class LineContact(Section, of=ehl.Contact):
@@ -61,7 +61,7 @@ class LineContactRequest(Request):
 
         Raises InvalidInput no_oil without one.
         """
-        oil = self.lubricant.si(OilChoice).resolve()
+        oil = self.lubricant.resolve()
         if oil is None:
             message = "there is no film without an oil: give iso_vg, kinematic_viscosity_40 or viscosity_pa_s"
             raise InvalidInput("no_oil", message, "lubricant")

@@ -99,7 +99,8 @@ class Documented(BaseModel):
             if name in without or (field in inherited and field not in own):
                 continue
             kind = own.get(field) or _published(type_of(record, name), each, cls._declares)
-            if meaning_of(getattr(kind, "__metadata__", ())):  # brings its own declaration
+            if meaning_of(getattr(kind, "__metadata__", ())):  # brings its own declaration, and has its place here
+                filled[field] = kind
                 continue
             filled[field], default = cls._filled(kind, record, name, names, nullable=record is not records[0])
             if field not in vars(cls):
@@ -288,18 +289,22 @@ class Section(Documented):
                 raise PydanticCustomError(self.choice_missing, "give {names}", {"names": " or ".join(group)})
         return self
 
-    def si(self, kind: type[T], *others: "Section", **known: Any) -> T:
+    def si(self, kind: type[T], /, *others: "Section", **known: Any) -> T:
         """The solver's dataclass in SI that these fields fill, then those of other sections.
 
         Sections inside these fill the dataclasses inside it; what is `known` stands for fields of its own.
         """
+        return kind(**self.filling(kind, *others, **known))
+
+    def filling(self, kind: type[Any], /, *others: "Section", **known: Any) -> dict[str, Any]:
+        """What `si` gives the dataclass, by the names of its fields."""
         given: dict[str, Any] = {}
         record: Any = kind
         for section in reversed((self, *others)):
             for name, member, inner in _fillings(type(section), record):
                 if name not in known:
                     given[name] = _in_si(getattr(section, member.name), member.unit, inner)
-        return kind(**given | known)
+        return given | known
 
     def unused(self) -> dict[str, bool]:
         """Whether the values given leave a field or section out of a result, by names dotted below this section."""

@@ -1,5 +1,6 @@
 """Oils: by grade, by data sheet, or by the viscosity where they enter."""
 
+from dataclasses import fields, replace
 from typing import Annotated, Any, ClassVar, Self
 
 from pydantic import model_validator
@@ -8,8 +9,8 @@ from pydantic_core import PydanticCustomError
 from app.schema.model import Derived, Section
 from app.schema.quantities import Input
 from solvers.coupling.inputs import Lubricant as OilAtTeeth
-from solvers.lubricants import Lubricant, OilInUse
-from solvers.oils import SQUARE_MILLIMETRE, OilBySheet, OilChoice
+from solvers.lubricants import Lubricant, OilInUse, OilKind
+from solvers.oils import SQUARE_MILLIMETRE, VISCOSITY_INDICES, IsoGrade, OilSheet, iso_vg, sheet_of_index
 from solvers.quantity import UNITS
 
 _PAPERS = Lubricant()
@@ -20,13 +21,54 @@ def _names_a_sheet(given: dict[str, Any]) -> bool:
     return given.get("iso_vg") is not None or given.get("kinematic_viscosity_40_mm2_per_s") is not None
 
 
-class SheetOil(Section, of=OilBySheet):
+RARELY = "by the kind of oil; a data sheet rarely gives it"
+
+
+def _of_a_sheet(name: str, text: str, assumed: str | None = None) -> Input:
+    """The declaration of a property that follows from grade or data sheet where one of them is given."""
+    return Input.of(
+        Lubricant,
+        name,
+        default_text=f"with grade or data sheet, {text}",
+        assumed=f"the paper's oil; with grade or data sheet, {assumed or text}",
+    )
+
+
+class SheetOil(Section):
     """An oil by its ISO grade or viscosity at 40 °C, and by how it thins, where that is what is known of it."""
 
     exclusive: ClassVar[tuple[tuple[str, ...], ...]] = (
         ("iso_vg", "viscosity_pa_s", "kinematic_viscosity_40_mm2_per_s"),
         ("kinematic_viscosity_100_mm2_per_s", "viscosity_index"),
     )
+
+    iso_vg: Annotated[IsoGrade | None, Input("ISO viscosity grade", "VG", "ISO 3448")] = None
+    kinematic_viscosity_40_mm2_per_s: Annotated[float | None, Input.of(OilSheet, "kinematic_viscosity_40")] = None
+    kinematic_viscosity_100_mm2_per_s: Annotated[
+        float | None,
+        Input.of(
+            OilSheet,
+            "kinematic_viscosity_100",
+            default_text="by the viscosity index, else typical of the kind of oil",
+            assumed="typical of the kind of oil: viscosity index 94 to 102 of mineral oils, 150 of PAO and ester, 210 "
+            "of polyglycols",
+        ),
+    ] = None
+    viscosity_index: Annotated[
+        float | None,
+        Input(
+            "viscosity index",
+            "VI",
+            "ASTM D2270",
+            ge=VISCOSITY_INDICES[0],
+            le=VISCOSITY_INDICES[1],
+            tolerance=5,
+            text="beside the viscosity at 40 °C, instead of that at 100 °C",
+            default_text="by the viscosity at 100 °C, else typical of the kind of oil",
+        ),
+    ] = None
+    kind: Annotated[OilKind, Input.of(OilSheet, "kind")] = "mineral"
+    density_15_kg_per_m3: Annotated[float | None, Input.of(OilSheet, "density_15")] = None
 
     @property
     def by_sheet(self) -> bool:
@@ -49,9 +91,23 @@ class SheetOil(Section, of=OilBySheet):
             )
         return self
 
+    def sheet(self) -> OilSheet | None:
+        """The solver's oil by grade or data sheet; None where neither is given.
+
+        Raises InvalidInput (viscosity_order, viscosity_index) for an oil that none can be.
+        """
+        index, kind, density = self.viscosity_index, self.kind, self.density_15_kg_per_m3
+        if self.iso_vg is not None:
+            return iso_vg(self.iso_vg, kind, index, density)
+        if self.kinematic_viscosity_40_mm2_per_s is None:
+            return None
+        if self.kinematic_viscosity_100_mm2_per_s is None:
+            return sheet_of_index(self.kinematic_viscosity_40_mm2_per_s * SQUARE_MILLIMETRE, index, kind, density)
+        return self.si(OilSheet)
+
     def stands_for_null(self, name: str) -> Any:
         """The viscosity at 100 °C by index or kind, the density of a kind of oil."""
-        sheet = self.si(OilBySheet).sheet()
+        sheet = self.sheet()
         if sheet and name == "kinematic_viscosity_100_mm2_per_s":
             return sheet.kinematic_viscosity_100 / SQUARE_MILLIMETRE
         return sheet.reference_density if sheet and name == "density_15_kg_per_m3" else None
@@ -63,7 +119,7 @@ class SheetOil(Section, of=OilBySheet):
         return by_index if self.by_sheet else dict.fromkeys(of_a_sheet, True)
 
 
-class Oil(SheetOil, of=OilChoice):
+class Oil(SheetOil, of=Lubricant):
     """The oil of a lubricated contact: by grade, by data sheet or by its viscosity; nothing names none."""
 
     exclusive: ClassVar = (
@@ -71,12 +127,34 @@ class Oil(SheetOil, of=OilChoice):
         ("reference_temperature_c", "iso_vg", "kinematic_viscosity_40_mm2_per_s"),
     )
 
-    reference_temperature_c: float | None = 86.85
-    pressure_viscosity_per_gpa: float | None = 21.9
-    temperature_viscosity_per_k: float | None = _PAPERS.temperature_viscosity
-    density_kg_per_m3: float | None = _PAPERS.density
-    specific_heat_j_per_kg_k: float | None = _PAPERS.specific_heat
-    thermal_conductivity_w_per_m_k: float | None = _PAPERS.thermal_conductivity
+    viscosity_pa_s: Annotated[
+        float | None,
+        Input.of(Lubricant, "viscosity", default_text="by grade or data sheet; with neither no oil is known"),
+    ] = None
+    reference_temperature_c: Annotated[
+        float | None,
+        Input.of(
+            Lubricant,
+            "reference_temperature",
+            default_text="with grade or data sheet, where the oil enters the contact",
+        ),
+    ] = 86.85
+    pressure_viscosity_per_gpa: Annotated[
+        float | None, _of_a_sheet("pressure_viscosity", "by kind and viscosity (Gold, secondary source)")
+    ] = 21.9
+    temperature_viscosity_per_k: Annotated[
+        float | None, _of_a_sheet("temperature_viscosity", "the slope of the Walther law")
+    ] = _PAPERS.temperature_viscosity
+    density_kg_per_m3: Annotated[
+        float | None,
+        Input.of(Lubricant, "density", default_text="with grade or data sheet, from the density at 15 °C"),
+    ] = _PAPERS.density
+    specific_heat_j_per_kg_k: Annotated[float | None, _of_a_sheet("specific_heat", "by kind", RARELY)] = (
+        _PAPERS.specific_heat
+    )
+    thermal_conductivity_w_per_m_k: Annotated[float | None, _of_a_sheet("thermal_conductivity", "by kind", RARELY)] = (
+        _PAPERS.thermal_conductivity
+    )
 
     @model_validator(mode="before")
     @classmethod
@@ -99,6 +177,14 @@ class Oil(SheetOil, of=OilChoice):
                 "missing_property", "give {name}, or the oil by its grade or data sheet", {"name": missing[0]}
             )
         return self
+
+    def resolve(self) -> OilSheet | Lubricant | None:
+        """The solver's oil; None where nothing says how viscous it is. Raises what `sheet` raises."""
+        sheet, properties = self.sheet(), self.filling(Lubricant, kind=self.kind)
+        if sheet is not None:
+            beyond = (each.name for each in fields(OilSheet) if each.name in properties)
+            return replace(sheet, **{name: properties[name] for name in beyond})
+        return None if self.viscosity_pa_s is None else Lubricant(**properties)
 
     @property
     def known(self) -> bool:
@@ -147,7 +233,7 @@ class CouplingLubricant(SheetOil):
 
     def at_teeth(self) -> OilAtTeeth:
         """The solver's oil; grade or data sheet count before the viscosity."""
-        sheet = self.si(OilBySheet).sheet()
+        sheet = self.sheet()
         if sheet is None:
             return self.si(OilAtTeeth, temperature=None)
         viscosity = sheet.viscosity(UNITS["c"].to_si(self.temperature_c))

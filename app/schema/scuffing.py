@@ -19,7 +19,6 @@ from solvers.gears.inputs import GearPairInputs
 from solvers.heat_balance.notices import KNOWN_WITHIN
 from solvers.lubricants import OilInUse
 from solvers.materials import Solid
-from solvers.oils import OilChoice
 from solvers.scuffing import inputs as si
 from solvers.scuffing import results, safety_results
 from solvers.scuffing.micropitting import results as film_results
@@ -411,7 +410,7 @@ class MeshInOil(Request):
             self.model,
             distribution=distribution_inputs(self, gears, load),
             lubricant=None,
-            oil=self.lubricant.si(OilChoice).resolve(),
+            oil=self.lubricant.resolve(),
             film=self.model.si(ehl.Model),
         )
 

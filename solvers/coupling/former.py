@@ -1,14 +1,15 @@
 """Former names, which leave with the next minor version: inputs that had the sections of a request.
 
 `Coupling` fills in its proportions itself. `Operation` has the tilt, which `tilt_of_offset` computes from a parallel
-offset. `Lubricant` has the viscosity at the teeth; `OilBySheet.sheet()` knows that of an oil by grade or data sheet.
+offset. `Lubricant` has the viscosity at the teeth; `OilSheet.viscosity` is that of an oil by grade or data sheet.
 """
 
 from dataclasses import dataclass, fields
 
 from solvers.coupling.inputs import Arrangement, Coupling, Lubricant, Operation, tilt_of_offset
 from solvers.errors import InvalidInput
-from solvers.oils import CELSIUS, OilBySheet
+from solvers.former_oils import OilBySheet
+from solvers.oils import CELSIUS
 from solvers.quantity import record
 
 
@@ -65,7 +66,7 @@ class OperatingRange(Load):
 
 @dataclass(frozen=True)
 class CouplingOil(OilBySheet):
-    """Now `Lubricant`, with the viscosity of `OilBySheet.sheet()`."""
+    """Now `Lubricant`, with the viscosity of an `OilSheet`."""
 
     viscosity: float | None = 0.025
     temperature: float = 50.0 + CELSIUS

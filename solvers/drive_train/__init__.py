@@ -8,6 +8,7 @@ equations.
 """
 
 from solvers.drive_train import states, warm_up
+from solvers.drive_train.former import ShaftBearing
 from solvers.drive_train.inputs import (
     Alignment,
     Arrangement,
@@ -18,7 +19,6 @@ from solvers.drive_train.inputs import (
     LinearBearing,
     RigidBearing,
     Shaft,
-    ShaftBearing,
     ShaftSection,
     UnitCoupling,
 )

@@ -4,13 +4,12 @@ The frame: Z along the pinion's axis, X and Y across it; positions along Z are f
 "Pinion" is the driving gear.
 """
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from math import cos
 from typing import Literal
 
 from solvers.coupling.inputs import Coupling, Friction, ModelOptions
 from solvers.coupling.inputs import Lubricant as CouplingLubricant
-from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.lubricants import Lubricant
 from solvers.oils import OilSheet, lubricant_at
@@ -29,30 +28,12 @@ COINCIDENT = 1e-9  # m; places nearer than this are one
 
 
 @record
-class SectionDesign:
-    """A cylinder of a shaft as its user knows it [m]; under the teeth the diameter may be left out."""
+class ShaftSection:
+    """A cylinder of a shaft [m]."""
 
     length: float = quantity("section length", "l", unit="mm", ge=0.1, le=5000)
-    outer_diameter: float | None = quantity(
-        "section outer diameter",
-        "d_o",
-        unit="mm",
-        default=None,
-        ge=5,
-        le=3000,
-        text="under the teeth the diameter that carries torsion",
-        default_text="under the teeth d - m_n h_fP*; required elsewhere",
-        assumed="under the teeth d - m_n h_fP*, the root circle and a third of the tooth; the reference diameter "
-        "twists too little",
-    )
+    outer_diameter: float = quantity("section outer diameter", "d_o", unit="mm", ge=5, le=3000)
     inner_diameter: float = quantity("section bore", "d_i", unit="mm", default=0.0, ge=0, le=3000, tolerance=0.1)
-
-
-@record
-class ShaftSection(SectionDesign):
-    """A cylinder of a shaft with its diameter known [m]."""
-
-    outer_diameter: float = quantity("section outer diameter used", "d_o", unit="mm", ge=5, le=3000)
 
 
 def torsion_diameter(gears: GearPairInputs, teeth: GearTeeth) -> float:
@@ -64,103 +45,37 @@ def torsion_diameter(gears: GearPairInputs, teeth: GearTeeth) -> float:
     return reference - gears.normal_module * teeth.dedendum
 
 
-def sections_of(
-    name: str, start: float, described: tuple[SectionDesign, ...], face: tuple[float, float], diameter: float
-) -> tuple[ShaftSection, ...]:
-    """The sections of a shaft from `start` [m] on; those under the face that have no diameter take this one [m].
-
-    `face` is where the face starts and ends [m]. Raises InvalidInput section_diameter where another has none.
-    """
-    sections, position = [], start
-    for k, section in enumerate(described):
-        outer, end = section.outer_diameter, position + section.length
-        if outer is None:
-            if position > face[1] - COINCIDENT or end < face[0] + COINCIDENT:
-                message = f"section {k} is not under the teeth and needs its diameter"
-                raise InvalidInput("section_diameter", message, f"{name}.sections.{k}.outer_diameter")
-            outer = diameter
-        sections.append(ShaftSection(section.length, outer, section.inner_diameter))
-        position = end
-    return tuple(sections)
-
-
-@dataclass(frozen=True, slots=True)
-class JournalBearing:
-    """A plain bearing; lengths [m], viscosity of its film [Pa s].
-
-    `radial_clearance` None is 1.5e-3 of the journal's radius. `offset` (X, Y) is of the bore against the datum axis.
-    With `in_gear_oil` the viscosity is that of the gears' oil, which follows the film's temperature in a heat balance;
-    `oil_flow` [m^3/s] there takes the place of what leaks at the sides.
-    """
-
-    position: float
-    diameter: float
-    width: float
-    viscosity: float
-    radial_clearance: float | None = None
-    offset: Vector2 = (0.0, 0.0)
-    in_gear_oil: bool = False
-    oil_flow: float | None = None
-
-    @property
-    def clearance(self) -> float:
-        """Radial clearance in force [m]."""
-        return 0.75e-3 * self.diameter if self.radial_clearance is None else self.radial_clearance
-
-
-@dataclass(frozen=True, slots=True)
-class LinearBearing:
-    """A bearing by its `stiffness` ((xx, xy), (yx, yy)) [N/m], which need not be symmetric."""
-
-    position: float
-    stiffness: tuple[Vector2, Vector2]
-    offset: Vector2 = (0.0, 0.0)
-
-
-@dataclass(frozen=True, slots=True)
-class RigidBearing:
-    """A rigid bearing."""
-
-    position: float
-    offset: Vector2 = (0.0, 0.0)
-
-
-Bearing = JournalBearing | LinearBearing | RigidBearing
-
-
 @record
-class ShaftBearing:
-    """A radial bearing as its user knows it: a plain one, one by its stiffness, or a rigid one."""
+class RadialBearing:
+    """What every bearing of a shaft has [m]; `offset` (X, Y) is of the bore against the datum axis."""
 
     position: float = quantity(
         "bearing position", "z_B", unit="mm", ge=-20000, le=20000, tolerance=0.1, text="along the unit's Z"
-    )
-    type: Literal["journal", "linear", "rigid"] = quantity(
-        "bearing type", default="journal", text="short plain bearing; stiffness given; rigid"
     )
     offset: Vector2 = quantity(
         "bore offset",
         "e_B",
         unit="um",
+        kw_only=True,
         default=(0.0, 0.0),
         ge=-5000,
         le=5000,
         tolerance=2,
         text="[X, Y] of the bore against the datum axis",
     )
-    diameter: float | None = quantity(
-        "journal diameter",
-        "D",
-        OCVIRK,
-        unit="mm",
-        default=None,
-        ge=5,
-        le=3000,
-        default_text="required of plain bearings",
-    )
-    width: float | None = quantity(
-        "bearing width", "B", OCVIRK, unit="mm", default=None, ge=1, le=3000, default_text="required of plain bearings"
-    )
+
+
+@record
+class JournalBearing(RadialBearing):
+    """A plain bearing; lengths [m], viscosity of its film [Pa s].
+
+    With `in_gear_oil` the viscosity is that of the gears' oil, which follows the film's temperature in a heat balance;
+    `oil_flow` [m^3/s] there takes the place of what leaks at the sides.
+    """
+
+    diameter: float = quantity("journal diameter", "D", OCVIRK, unit="mm", ge=5, le=3000)
+    width: float = quantity("bearing width", "B", OCVIRK, unit="mm", ge=1, le=3000)
+    viscosity: float = quantity("oil viscosity in the bearing", "η_B", OCVIRK, unit="pa_s", ge=1e-5, le=100)
     radial_clearance: float | None = quantity(
         "radial clearance of the bearing",
         "c",
@@ -173,99 +88,56 @@ class ShaftBearing:
         default_text="1.5e-3 of the journal's radius",
         assumed="1.5e-3 of the journal's radius, usual for high-speed plain bearings",
     )
-    viscosity: float | None = quantity(
-        "oil viscosity in the bearing",
-        "η_B",
-        OCVIRK,
-        unit="pa_s",
-        default=None,
-        ge=1e-5,
-        le=100,
-        default_text="the gears' oil at the film temperature",
-        assumed=f"the gears' oil at the film temperature: that of the heat balance if there is one, else "
-        f"{FILM_ABOVE_OIL:.0f} K above the oil's unless given",
-    )
-    film_temperature: float | None = quantity(
-        "film temperature of the bearing",
-        "θ_B",
-        unit="c",
-        default=None,
-        ge=-50,
-        le=300,
-        tolerance=5,
-        text="temperature at which the oil's viscosity is taken where none is given",
-        default_text=f"by the heat balance if there is one, else oil temperature and {FILM_ABOVE_OIL:.0f} K",
-    )
+    in_gear_oil: bool = field(default=False, kw_only=True)
     oil_flow: float | None = quantity(
         "oil flow to the bearing",
         "Q_B",
         unit="l_per_min",
+        kw_only=True,
         default=None,
         ge=0.01,
         le=1000,
         text="used by the heat balance",
         default_text="what leaks at the sides of the film",
     )
-    stiffness: tuple[Vector2, Vector2] | None = quantity(
+
+    @property
+    def clearance(self) -> float:
+        """Radial clearance in force [m]."""
+        return 0.75e-3 * self.diameter if self.radial_clearance is None else self.radial_clearance
+
+
+@record
+class LinearBearing(RadialBearing):
+    """A bearing by its `stiffness` ((xx, xy), (yx, yy)) [N/m], which need not be symmetric."""
+
+    stiffness: tuple[Vector2, Vector2] = quantity(
         "bearing stiffness",
         "k_B",
         unit="n_per_um",
-        default=None,
         ge=-1e5,
         le=1e5,
         tolerance=1,
         relative_tolerance=0.1,
         text="a number or [[xx, xy], [yx, yy]]",
-        default_text="required of linear bearings",
     )
 
-    def bearing(self, oil: OilSheet | Lubricant | None, oil_temperature: float) -> Bearing:
-        """The bearing of the model; without a viscosity of its own it runs in the gears' oil, at a temperature [K].
 
-        Raises InvalidInput no_oil where there is none, bearing_data where data of its type are missing.
-        """
-        if self.type == "rigid":
-            return RigidBearing(self.position, self.offset)
-        if self.type == "linear":
-            if self.stiffness is None:
-                raise InvalidInput("bearing_data", "A linear bearing needs its stiffness", "stiffness")
-            return LinearBearing(self.position, self.stiffness, self.offset)
-        if self.diameter is None or self.width is None:
-            missing = "diameter" if self.diameter is None else "width"
-            raise InvalidInput("bearing_data", "A journal bearing needs diameter and width", missing)
-        viscosity = self.viscosity
-        if viscosity is None:
-            if oil is None:
-                message = "without an oil of the gears a plain bearing needs its own viscosity; give it, or the oil"
-                raise InvalidInput("no_oil", message, "viscosity")
-            film = oil_temperature + FILM_ABOVE_OIL if self.film_temperature is None else self.film_temperature
-            viscosity = lubricant_at(oil, film).viscosity_at(0.0, film)
-        return JournalBearing(
-            position=self.position,
-            diameter=self.diameter,
-            width=self.width,
-            viscosity=viscosity,
-            radial_clearance=self.radial_clearance,
-            offset=self.offset,
-            in_gear_oil=self.viscosity is None and self.film_temperature is None,
-            oil_flow=self.oil_flow,
-        )
+@record
+class RigidBearing(RadialBearing):
+    """A rigid bearing."""
 
 
-def bearings_of(
-    shaft: str, described: tuple[ShaftBearing, ...], oil: OilSheet | Lubricant | None, oil_temperature: float
-) -> tuple[Bearing, ...]:
-    """The bearings of a shaft, named "pinion_shaft" or "wheel_shaft", as `ShaftBearing.bearing` makes them.
+Bearing = JournalBearing | LinearBearing | RigidBearing
 
-    Raises what it raises, with the full name of the field at fault.
+
+def gear_oil_viscosity(oil: OilSheet | Lubricant, oil_temperature: float, film_temperature: float | None) -> float:
+    """Compute the viscosity [Pa s] of the gears' oil in a plain bearing.
+
+    Temperatures [K] are those of the oil that enters and of the film, which is 15 K warmer where it is not known.
     """
-    found = []
-    for index, each in enumerate(described):
-        try:
-            found.append(each.bearing(oil, oil_temperature))
-        except InvalidInput as error:
-            raise InvalidInput(error.code, error.message, f"{shaft}.bearings.{index}.{error.field}") from error
-    return tuple(found)
+    film = oil_temperature + FILM_ABOVE_OIL if film_temperature is None else film_temperature
+    return lubricant_at(oil, film).viscosity_at(0.0, film)
 
 
 @record
