@@ -12,7 +12,7 @@ from solvers.scuffing import OilChoice
     [
         (OilChoice(), None),
         (OilChoice(iso_vg=220), iso_vg(220)),
-        (OilChoice(iso_vg=220, viscosity_index=120.0), sheet_of_index(220e-6, 120.0)),
+        (OilChoice(iso_vg=220, viscosity_index=120.0), sheet_of_index(220 * 1e-6, 120.0)),
         (OilChoice(kinematic_viscosity_40=100e-6, kind="pao"), sheet_of_index(100e-6, kind="pao")),
         (
             OilChoice(

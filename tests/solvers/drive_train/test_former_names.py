@@ -40,4 +40,4 @@ def test_a_former_bearing_without_its_data_is_refused() -> None:
 
 
 def test_the_film_is_warmer_than_the_oil() -> None:
-    assert gear_oil_viscosity(OIL, WARM, None) == OIL.lubricant(WARM + 15.0).viscosity
+    assert gear_oil_viscosity(OIL, WARM, None) == pytest.approx(OIL.viscosity(WARM + 15.0), rel=1e-12)
