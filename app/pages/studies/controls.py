@@ -1,6 +1,7 @@
 """The controls of a study's form and the parts of its body that they set: one list, read in both directions.
 
-`body_of` makes the body of what was typed; `control_at` finds the control at which a fault of the body is shown.
+`body_of` makes the body of what was typed, `texts_of` what to type for a body; `control_at` finds the control at which
+a fault of the body is shown.
 """
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -8,7 +9,7 @@ from itertools import groupby
 from typing import Any, NamedTuple
 
 from app.calculations import Calculation
-from app.pages.typed import number_of
+from app.pages.typed import number_of, text_of
 from app.pages.typesetting import shown
 from app.schema.fields import Leaf, leaves, tree
 from app.studies.fields import NUMBERS, indexed, value_at
@@ -70,6 +71,12 @@ def _put(place: Any, parts: list[str], value: Any) -> None:
         elif not isinstance(place, list):
             place.setdefault(key, inner)
         place = place[key]
+
+
+def texts_of(controls: Iterable[Control], body: Any) -> dict[str, str]:
+    """What to type so that `body_of` makes this body, or its parts, by the controls; defaults are left out."""
+    values = ((control, value_at(body, control.path)) for control in controls if control.sets)
+    return {control.name: text_of(value) for control, value in values if value is not None and value != control.default}
 
 
 def control_at(controls: Sequence[Control], path: str) -> str:

@@ -19,7 +19,7 @@ from app.pages.studies.controls import Choice, Control, Menu, Options, body_of, 
 from app.pages.study_kinds import StudyLink, control_names
 from app.pages.study_links import Starter, StudyExample
 from app.pages.templating import examples_of, rendered
-from app.pages.typed import as_typed, number_of, question, text_of
+from app.pages.typed import as_typed, question, text_of
 from app.pages.views import report as case_report
 from app.schema.fields import ITEM, Leaf, headlines, leaf_at, leaves, tree
 from app.sources import SHORT_SOURCES
@@ -190,11 +190,6 @@ class StudyPage(ABC):
         if output.kind not in NUMBERS:
             raise Unprocessable("unknown_output", f"{output.title} is no number", "outputs.0")
         return output
-
-    def number(self, control: str, usual: float | None = None) -> Any:
-        """The number typed at a control, or `usual` where it is empty; other text is returned as it is."""
-        text = self.views.get(control)
-        return number_of(text) if text else usual
 
     def menu(self, name: str, label: str, empty: str, choices: list[Choice]) -> Menu:
         """A menu of these choices; one that the query names and that is not among them is added."""

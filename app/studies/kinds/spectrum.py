@@ -21,7 +21,7 @@ from app.figures.units import axis_of
 from app.figures.wording import difference_unit, number, percent
 from app.pages.form import FieldView
 from app.pages.query import CASES, Pairs, link, pairs_of
-from app.pages.studies.controls import Control, field_choices, is_number
+from app.pages.studies.controls import Control, field_choices, is_number, texts_of
 from app.pages.studies.page import Controls, Link, Number, Result, StudyPage, Table, titled
 from app.pages.study_kinds import StudyLink
 from app.pages.study_links import Starter
@@ -524,26 +524,71 @@ def _heading(calculation: Calculation, path: str) -> str:
     return titled(leaf) if meant == Column(path) else path
 
 
+CONTROLS = (
+    Control(CASES, "cases", "", str),
+    Control("machines", "tolerances.count", int(MACHINES[0][1])),
+    Control("hours", "hours_per_year"),
+    Control("limit", "limit.value"),
+    Control("limit.side", "limit.side", read=str),
+    Control("limit.by", "limit.deviation"),
+)
+TOLERANCE = (
+    Control("", "path", read=str),
+    Control(".law", "distribution", "normal", str),
+    Control(".about", "mean"),
+    Control(".by", "deviation"),
+)
+"""The controls of a tolerance, named behind it, and what they set: the middle and the width of any distribution."""
+STATED = {"normal": ("mean", "deviation"), "lognormal": ("median", "factor")}
+"""What middle and width are of these distributions; of others they lie between `min` and `max`."""
+
+
+def _tolerance(place: int, name: str, about: Any = None, by: Any = None) -> list[Control]:
+    """The controls of a tolerance, around a value and by its width where nothing is typed."""
+    usual = {"mean": about, "deviation": by}
+    return [
+        each._replace(
+            name=f"{name}{each.name}",
+            path=f"tolerances.inputs.{place}.{each.path}",
+            default=usual.get(each.path, each.default),
+        )
+        for each in TOLERANCE
+    ]
+
+
+def _stated(law: str, about: Any, by: Any) -> dict[str, Any]:
+    """What a distribution states of its middle and width; nothing where there is no such distribution."""
+    if names := STATED.get(law):
+        return dict(zip(names, (about, by), strict=True))
+    ends = {"uniform": ("min", "max"), "triangular": ("min", "mode", "max")}.get(law, ())
+    return {end: {"min": about - by, "mode": about, "max": about + by}[end] for end in ends}
+
+
+def _typed(scatter: dict[str, Any]) -> dict[str, Any]:
+    """The middle and width of what a distribution states, for the controls: the inverse of `_stated`."""
+    law = scatter["distribution"]
+    if names := STATED.get(law):
+        about, by = (scatter[name] for name in names)
+    else:
+        about, by = (scatter["min"] + scatter["max"]) / 2, (scatter["max"] - scatter["min"]) / 2
+    return {"path": scatter["path"], "distribution": law, "mean": about, "deviation": by}
+
+
 def address_of(endpoint: Calculation, request: Pairs, body: dict[str, Any]) -> str:
     """The page of a study of the interface, with the first of its limits."""
-    views = {"cases": table_of(endpoint, body["cases"])}
-    for place, each in enumerate((body.get("tolerances") or {"inputs": []})["inputs"]):
-        law, name = each["distribution"], f"t{place}"
-        match each:
-            case {"mean": about, "deviation": by} | {"median": about, "factor": by}:
-                pass
-            case {"min": low, "max": high}:
-                about, by = (low + high) / 2, (high - low) / 2
-        views |= {name: each["path"], f"{name}.about": text_of(about), f"{name}.by": text_of(by)}
-        views |= {} if law == "normal" else {f"{name}.law": law}
+    inputs, views = [_typed(each) for each in (body.get("tolerances") or {"inputs": []})["inputs"]], dict[str, str]()
+    given = {
+        "cases": table_of(endpoint, body["cases"]),
+        "tolerances": {"inputs": inputs},
+        "hours_per_year": body.get("hours_per_year"),
+    }
     for each in (body.get("limits") or ())[:1]:
         (side,) = {"above", "below"} & set(each)
         known = each[side]
-        views |= {"show": each["output"], "limit": text_of(known.get("value", known.get("mean"))), "limit.side": side}
-        views |= {"limit.by": text_of(known["deviation"])} if "deviation" in known else {}
-    if "hours_per_year" in body:
-        views["hours"] = text_of(body["hours_per_year"])
-    return link(f"{page_path(endpoint)}/{SpectrumPage.link.name}", request, **views)
+        views["show"] = each["output"]
+        given["limit"] = {"value": known.get("mean"), **known, "side": side}
+    controls = [*CONTROLS, *(each for place in range(len(inputs)) for each in _tolerance(place, TOLERANCES[place]))]
+    return link(f"{page_path(endpoint)}/{SpectrumPage.link.name}", request, **views, **texts_of(controls, given))
 
 
 class SpectrumPage(StudyPage):
@@ -558,8 +603,7 @@ class SpectrumPage(StudyPage):
     question = "its load spectrum"
     about = "Machines are drawn from the tolerances; each runs every case, and its worst case meets the limit."
     names = frozenset(
-        {f"{name}{part}" for name in TOLERANCES for part in ("", ".law", ".by", ".about")}
-        | {CASES, "hours", "machines", "limit", "limit.by", "limit.side"}
+        {each.name for each in CONTROLS} | {f"{name}{each.name}" for name in TOLERANCES for each in TOLERANCE}
     )
     figures = ("limit", "probability", "decides", "losses")
     outputs = tuple(paths.contact for paths in SCUFFING.values())
@@ -585,7 +629,7 @@ class SpectrumPage(StudyPage):
             "cases": cases_of(calculation, given["cases"]),
             "tolerances": tolerances if inputs else None,
             "outputs": list(dict.fromkeys([output, *LOSSES.get(calculation.path, ())])),
-            "limits": self._limits(),
+            "limits": self._limits(given.get("limit", {})),
             "hours_per_year": given.get("hours_per_year"),
         }
 
@@ -596,21 +640,16 @@ class SpectrumPage(StudyPage):
     def declared(self) -> tuple[Control, ...]:
         """The table of cases, the machines, the hours, and each tolerance around the value of the case, by its own."""
         found = [
-            Control("cases", "cases", "", str),
-            Control("machines", "tolerances.count", int(MACHINES[0][1])),
+            *CONTROLS,
             Control("machines", "tolerances", sets=False),
-            Control("hours", "hours_per_year"),
             Control("limit", "limits", sets=False),
         ]
         for place, name in enumerate(self._given()):
-            where, path = f"tolerances.inputs.{place}", self.views[name]
-            leaf = self.field_at(path)
+            path = self.views[name]
+            leaf, where = self.field_at(path), f"tolerances.inputs.{place}"
+            found += _tolerance(place, name, value_at(self.case, path), leaf.declared.tolerance if leaf else None)
             found += (
-                Control(name, f"{where}.path", read=str),
-                Control(f"{name}.law", f"{where}.distribution", "normal", str),
-                Control(f"{name}.about", f"{where}.mean", value_at(self.case, path)),
                 Control(f"{name}.about", f"{where}.median", sets=False),
-                Control(f"{name}.by", f"{where}.deviation", leaf.declared.tolerance if leaf else None),
                 Control(f"{name}.by", where, sets=False),
             )
         return (*found, *(Control(name, "tolerances.inputs", sets=False) for name in self._given()[:1]))
@@ -624,13 +663,7 @@ class SpectrumPage(StudyPage):
             if not is_number(value):
                 raise Unprocessable("missing", f"{leaf.title}: say {lacks}", where)
         law = given["distribution"]
-        known = {
-            "normal": {"mean": about, "deviation": by},
-            "lognormal": {"median": about, "factor": by},
-            "uniform": {"min": about - by, "max": about + by},
-            "triangular": {"min": about - by, "mode": about, "max": about + by},
-        }
-        return {"path": leaf.path, "distribution": law, **known.get(law, {})}
+        return {"path": leaf.path, "distribution": law, **_stated(law, about, by)}
 
     @property
     def _assumes_limit(self) -> bool:
@@ -638,16 +671,16 @@ class SpectrumPage(StudyPage):
         scuffing = SCUFFING.get(self.calculation.path)
         return scuffing is not None and (self.views.get("show") or self.usual_output.path) == scuffing.contact
 
-    def _limits(self) -> list[dict[str, Any]] | None:
+    def _limits(self, given: dict[str, Any]) -> list[dict[str, Any]] | None:
         """The limit typed, or else the usual limit of the output; None if the scuffing temperature is the limit."""
-        view, scatter, value = self.output.view, self.number("limit.by"), self.number("limit")
+        view, scatter, value = self.output.view, given.get("deviation"), given.get("value")
         if value is None and view.bound and isinstance(view.limit, int | float) and not self._assumes_limit:
             value = view.limit
         if value is None and scatter is not None:
             raise Unprocessable("missing", "give the limit whose deviation this is", "limits.0.above")
         if value is None:
             return None if self._assumes_limit else []
-        side = self.views.get("limit.side") or ("below" if view.greatest_is_best else "above")
+        side = given.get("side") or ("below" if view.greatest_is_best else "above")
         threshold = {"value": value} if scatter is None else {"mean": value, "deviation": scatter}
         return [{"output": self.output.path, side: threshold}]
 
