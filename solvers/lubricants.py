@@ -33,6 +33,7 @@ class Lubricant:
 
     An incompressible oil keeps its density at every pressure and temperature. `kind` is its base oil, which only the
     lubricant factors of the friction laws and of the scuffing test depend on. `viscosity_index` is told, not used.
+    No range is declared here: this is also what an oil becomes at a temperature.
     """
 
     viscosity: float = quantity(
@@ -41,8 +42,6 @@ class Lubricant:
         f"{XUE}, Table 2",
         unit="pa_s",
         default=0.08,
-        ge=1e-5,
-        le=100,
         text="viscosity at the reference temperature and no pressure",
     )
     reference_temperature: float = quantity(
@@ -51,14 +50,12 @@ class Lubricant:
         f"{XUE}, Eq. 20",
         unit="c",
         default=86.85,
-        ge=-50,
-        le=300,
         tolerance=1,
         text="temperature of viscosity and density",
         assumed="86.85 °C, 360 K, at which the paper's viscosity gives its film thickness; give that of yours",
     )
     pressure_viscosity: float = quantity(
-        "pressure-viscosity coefficient", "α", f"{XUE}, Table 2", unit="per_gpa", default=21.9, ge=1, le=60
+        "pressure-viscosity coefficient", "α", f"{XUE}, Table 2", unit="per_gpa", default=21.9
     )
     temperature_viscosity: float = quantity(
         "temperature-viscosity coefficient",
@@ -66,8 +63,6 @@ class Lubricant:
         f"{XUE}, Table 2",
         unit="per_k",
         default=0.042,
-        ge=0,
-        le=0.2,
         tolerance=0.001,
     )
     density: float = quantity(
@@ -76,16 +71,12 @@ class Lubricant:
         f"{XUE}, Table 2",
         unit="kg_per_m3",
         default=870.0,
-        ge=100,
-        le=5000,
         text="density at the reference temperature",
         assumed="the paper's oil",
     )
-    specific_heat: float = quantity(
-        "oil specific heat", "c_oil", f"{XUE}, Table 2", unit="j_per_kg_k", default=2000.0, ge=100, le=10000
-    )
+    specific_heat: float = quantity("oil specific heat", "c_oil", f"{XUE}, Table 2", unit="j_per_kg_k", default=2000.0)
     thermal_conductivity: float = quantity(
-        "oil thermal conductivity", "λ_oil", f"{XUE}, Table 2", unit="w_per_m_k", default=0.14, ge=0.01, le=10
+        "oil thermal conductivity", "λ_oil", f"{XUE}, Table 2", unit="w_per_m_k", default=0.14
     )
     pressure_viscosity_law: PressureViscosityLaw = quantity(
         "pressure-viscosity law",

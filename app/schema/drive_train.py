@@ -127,6 +127,8 @@ class ShaftBearing(Section):
         Input.of(
             si.JournalBearing,
             "viscosity",
+            ge=1e-5,
+            le=100,
             default_text="the gears' oil at the film temperature",
             assumed=f"the gears' oil at the film temperature: that of the heat balance if there is one, else "
             f"{si.FILM_ABOVE_OIL:.0f} K above the oil's unless given",

@@ -24,11 +24,13 @@ def _names_a_sheet(given: dict[str, Any]) -> bool:
 RARELY = "by the kind of oil; a data sheet rarely gives it"
 
 
-def _of_a_sheet(name: str, text: str, assumed: str | None = None) -> Input:
+def _of_a_sheet(name: str, ge: float, le: float, text: str, assumed: str | None = None) -> Input:
     """The declaration of a property that follows from grade or data sheet where one of them is given."""
     return Input.of(
         Lubricant,
         name,
+        ge=ge,
+        le=le,
         default_text=f"with grade or data sheet, {text}",
         assumed=f"the paper's oil; with grade or data sheet, {assumed or text}",
     )
@@ -129,32 +131,42 @@ class Oil(SheetOil, of=Lubricant):
 
     viscosity_pa_s: Annotated[
         float | None,
-        Input.of(Lubricant, "viscosity", default_text="by grade or data sheet; with neither no oil is known"),
+        Input.of(
+            Lubricant,
+            "viscosity",
+            ge=1e-5,
+            le=100,
+            default_text="by grade or data sheet; with neither no oil is known",
+        ),
     ] = None
     reference_temperature_c: Annotated[
         float | None,
         Input.of(
             Lubricant,
             "reference_temperature",
+            ge=-50,
+            le=300,
             default_text="with grade or data sheet, where the oil enters the contact",
         ),
     ] = 86.85
     pressure_viscosity_per_gpa: Annotated[
-        float | None, _of_a_sheet("pressure_viscosity", "by kind and viscosity (Gold, secondary source)")
+        float | None, _of_a_sheet("pressure_viscosity", 1, 60, "by kind and viscosity (Gold, secondary source)")
     ] = 21.9
     temperature_viscosity_per_k: Annotated[
-        float | None, _of_a_sheet("temperature_viscosity", "the slope of the Walther law")
+        float | None, _of_a_sheet("temperature_viscosity", 0, 0.2, "the slope of the Walther law")
     ] = _PAPERS.temperature_viscosity
     density_kg_per_m3: Annotated[
         float | None,
-        Input.of(Lubricant, "density", default_text="with grade or data sheet, from the density at 15 °C"),
+        Input.of(
+            Lubricant, "density", ge=100, le=5000, default_text="with grade or data sheet, from the density at 15 °C"
+        ),
     ] = _PAPERS.density
-    specific_heat_j_per_kg_k: Annotated[float | None, _of_a_sheet("specific_heat", "by kind", RARELY)] = (
+    specific_heat_j_per_kg_k: Annotated[float | None, _of_a_sheet("specific_heat", 100, 10000, "by kind", RARELY)] = (
         _PAPERS.specific_heat
     )
-    thermal_conductivity_w_per_m_k: Annotated[float | None, _of_a_sheet("thermal_conductivity", "by kind", RARELY)] = (
-        _PAPERS.thermal_conductivity
-    )
+    thermal_conductivity_w_per_m_k: Annotated[
+        float | None, _of_a_sheet("thermal_conductivity", 0.01, 10, "by kind", RARELY)
+    ] = _PAPERS.thermal_conductivity
 
     @model_validator(mode="before")
     @classmethod

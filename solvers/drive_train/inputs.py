@@ -75,7 +75,7 @@ class JournalBearing(RadialBearing):
 
     diameter: float = quantity("journal diameter", "D", OCVIRK, unit="mm", ge=5, le=3000)
     width: float = quantity("bearing width", "B", OCVIRK, unit="mm", ge=1, le=3000)
-    viscosity: float = quantity("oil viscosity in the bearing", "η_B", OCVIRK, unit="pa_s", ge=1e-5, le=100)
+    viscosity: float = quantity("oil viscosity in the bearing", "η_B", OCVIRK, unit="pa_s")
     radial_clearance: float | None = quantity(
         "radial clearance of the bearing",
         "c",
