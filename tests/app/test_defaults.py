@@ -350,6 +350,7 @@ def test_examples_of_the_paper_assume_nothing_of_oil_bulk_and_friction(name: str
 LEFT_OPEN = {
     ("Load", "pinion_torque"): "torque or power",
     ("Lubricant", "viscosity"): "without one, a grade or a data sheet no oil is known",
+    ("Lubricant", "temperature"): "of a coupling's oil, told where a grade or a data sheet names it",
     ("LoadDistributionInputs", "friction_coefficient"): "scuffing takes the law of friction instead",
 }
 """Inputs of the solvers whose default the service cannot have, and why."""
