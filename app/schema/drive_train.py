@@ -156,7 +156,7 @@ class ShaftBearing(Section):
         """Clearance and oil belong to plain bearings."""
         return dict.fromkeys(("radial_clearance_um", "viscosity_pa_s"), self.type != "journal")
 
-    def bearing(self, mesh_in_oil: mesh.ScuffingInputs) -> si.Bearing:
+    def bearing(self, scuffing: mesh.ScuffingInputs) -> si.Bearing:
         """The solver's bearing; without a viscosity of its own it runs in the gears' oil.
 
         Raises InvalidInput no_oil where there is none, bearing_data where data of its type are missing.
@@ -172,11 +172,11 @@ class ShaftBearing(Section):
             raise InvalidInput("bearing_data", "A journal bearing needs diameter and width", missing)
         if self.viscosity_pa_s is not None:
             return self.si(si.JournalBearing)
-        if mesh_in_oil.oil is None:
+        if scuffing.oil is None:
             message = "without an oil of the gears a plain bearing needs its own viscosity; give it, or the oil"
             raise InvalidInput("no_oil", message, "viscosity")
         film = None if self.film_temperature_c is None else UNITS["c"].to_si(self.film_temperature_c)
-        viscosity = si.gear_oil_viscosity(mesh_in_oil.oil, mesh_in_oil.temperatures.oil, film)
+        viscosity = si.gear_oil_viscosity(scuffing.oil, scuffing.temperatures.oil, film)
         return self.si(si.JournalBearing, viscosity=viscosity, in_gear_oil=film is None)
 
 
@@ -192,16 +192,16 @@ class UnitShaft(Section, of=si.Shaft, without=("ultimate_thrust",)):
     bearings: list[ShaftBearing]
     thrust_bearing: Annotated[ThrustBearing, Input("thrust bearing")] = ThrustBearing()
 
-    def shaft(self, name: str, mesh_in_oil: mesh.ScuffingInputs, face_start: float) -> si.Shaft:
+    def shaft(self, name: str, scuffing: mesh.ScuffingInputs, face_start: float) -> si.Shaft:
         """The solver's shaft, named "pinion_shaft" or "wheel_shaft"; the face starts at `face_start` [m].
 
         Raises InvalidInput with the full name of the field at fault.
         """
-        sections = tuple(self._sections(name, mesh_in_oil.distribution.gears, face_start))
+        sections = tuple(self._sections(name, scuffing.distribution.gears, face_start))
         bearings = []
         for k, bearing in enumerate(self.bearings):
             try:
-                bearings.append(bearing.bearing(mesh_in_oil))
+                bearings.append(bearing.bearing(scuffing))
             except InvalidInput as error:
                 raise InvalidInput(error.code, error.message, f"{name}.bearings.{k}.{error.field}") from error
         return self.si(si.Shaft, self.thrust_bearing, bearings=tuple(bearings), sections=sections)

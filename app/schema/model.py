@@ -4,11 +4,11 @@
         \"\"\"Choices where the paper leaves room.\"\"\"
 
 has a field for each declaration on `si.ModelOptions`, named with the suffix of its unit, and without the underscore at
-its end where it would be a word of Python (`from_`). What stands in the class
-itself is an ordinary field of pydantic: under the name of a filled field it changes the type or the default, and with
-`Input` or `Output` beside the type it replaces the declaration; `Input.of(Record, "field", text=...)` changes part of
-one. Requests give the solver's dataclasses in SI
-(`Section.si`), responses are read from them (`from_si`), by names and units looked up once a model (`members`).
+its end where it would be a word of Python (`from_`). What stands in the class itself is an ordinary field of pydantic:
+under the name of a filled field it changes the type or the default, and with `Input` or `Output` beside the type it
+replaces the declaration; `Input.of(Record, "field", text=...)` changes part of one. Requests give the solver's
+dataclasses in SI (`Section.si`), responses are read from them (`from_si`), by names and units looked up once a model
+(`members`).
 """
 
 from abc import abstractmethod
