@@ -16,6 +16,7 @@ _WORDS = {
     "angular": "angular misalignment",
     "barus": "Barus",
     "closed_form": "closed form",
+    "cubic": "Rabinowitsch",
     "dip": "dip lubrication",
     "elastic_plastic": "elastic, then plastic",
     "full_film": "full film",

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from solvers.arrays import BoolArray
 from solvers.contact.ehl.grid import Grid
 from solvers.contact.ehl.problem import Problem
-from solvers.contact.ehl.rheology import NEWTONIAN
+from solvers.contact.ehl.rheology import CUBIC, NEWTONIAN
 from solvers.lubricants import ROELANDS_POLE_TEMPERATURE, ROELANDS_PRESSURE, FluidLaws
 
 Numbers = NDArray[Any]
@@ -133,6 +133,8 @@ def effective_fluidity(problem: Problem, tau: Numbers, eta: Numbers) -> Numbers:
     """
     if problem.rheology == NEWTONIAN:
         return np.asarray(1.0 / eta)
+    if problem.rheology == CUBIC:
+        return np.asarray((1.0 + (tau / problem.eyring_stress) ** 2) / eta)
     return np.asarray(_sinh_ratio(tau / problem.eyring_stress) / eta)
 
 
@@ -162,6 +164,11 @@ def mid_film_stress(problem: Problem, eta: Numbers, g: Numbers, h: Numbers) -> N
     if problem.rheology == NEWTONIAN:
         return np.asarray((slide - g * (zeta / eta).sum(axis=1) * dz) / ((1.0 / eta).sum(axis=1) * dz))
     tau0 = problem.eyring_stress
+    if problem.rheology == CUBIC:
+        zeroth, first, second, third = ((zeta**k / eta).sum(axis=1) * dz for k in range(4))
+        c = first / zeroth
+        about_c = second / zeroth - c**2, third / zeroth - 3.0 * c * second / zeroth + 2.0 * c**3
+        return _cubic_root(tau0**2 + 3.0 * g**2 * about_c[0], tau0**2 * slide / zeroth - g**3 * about_c[1]) - g * c
     c_plus = (np.exp(g[:, None] * zeta / tau0) / eta).sum(axis=1) * dz
     c_minus = (np.exp(-g[:, None] * zeta / tau0) / eta).sum(axis=1) * dz
     d = slide / tau0
@@ -243,6 +250,9 @@ def uniform_columns(problem: Problem, p: Numbers, g: Numbers, h: Numbers) -> tup
     if problem.rheology == NEWTONIAN:
         return rho / (12.0 * eta), b
     tau0 = problem.eyring_stress
+    if problem.rheology == CUBIC:
+        tau_m = _cubic_root(tau0**2 + g**2 / 4.0, tau0**2 * eta * (problem.speed_2 - problem.speed_1) / h)
+        return rho / (12.0 * eta) * (1.0 + (3.0 * tau_m**2 + 0.15 * g**2) / tau0**2), b
     s = g / (2.0 * tau0)
     near = np.abs(s) < 0.5
     far = np.where(near, 1.0, s)
@@ -641,3 +651,9 @@ def _sinh_ratio(s: Numbers) -> Numbers:
     far = np.where(near, 1.0, s)
     series = 1.0 + s**2 / 6.0 * (1.0 + s**2 / 20.0 * (1.0 + s**2 / 42.0 * (1.0 + s**2 / 72.0)))
     return np.asarray(np.where(near, series, np.sinh(far) / far))
+
+
+def _cubic_root(p: Numbers, q: Numbers) -> Numbers:
+    """Return the real root of x^3 + p x = q for p > 0."""
+    scale = np.sqrt(p / 3.0)
+    return np.asarray(2.0 * scale * np.sinh(np.arcsinh(q / (2.0 * scale**3)) / 3.0))

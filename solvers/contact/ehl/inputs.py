@@ -8,7 +8,7 @@ from solvers.materials import Solid
 from solvers.quantity import quantity, record
 from solvers.sources import XUE
 
-Rheology = Literal["ree_eyring", "newtonian"]
+Rheology = Literal["ree_eyring", "newtonian", "cubic"]
 
 
 @record

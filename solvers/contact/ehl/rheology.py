@@ -12,14 +12,14 @@ from solvers.compiled import inlined_kernel, kernel
 from solvers.contact.ehl.problem import Problem
 from solvers.contact.ehl.shear import Shear
 
-REE_EYRING, NEWTONIAN = range(2)  # in the order of `inputs.Rheology`
+REE_EYRING, NEWTONIAN, CUBIC = range(3)  # in the order of `inputs.Rheology`
 STRESS_LIMIT = 300.0  # of |h dp/dx| / (2 tau0): exp(300)^2 does not overflow
 
 
 @kernel
 def limited_gradient(problem: Problem, g: float) -> float:
     """Return G = h dp/dx, limited so that exp(G/(2 tau0)) does not overflow; a solution never reaches the limit."""
-    if problem.rheology == NEWTONIAN:
+    if problem.rheology != REE_EYRING:
         return g
     bound = 2.0 * STRESS_LIMIT * problem.eyring_stress
     return min(max(g, -bound), bound)
@@ -53,6 +53,8 @@ def mid_film_stress(problem: Problem, i: int, g: float, h: float, shear: Shear) 
     """
     if problem.rheology == NEWTONIAN:
         return _newtonian_mid_stress(problem, i, g, h, shear)
+    if problem.rheology == CUBIC:
+        return _cubic_mid_stress(problem, i, g, h, shear)
     return _eyring_mid_stress(problem, i, g, h, shear)
 
 
@@ -87,6 +89,37 @@ def _eyring_mid_stress(problem: Problem, i: int, g: float, h: float, shear: Shea
 
 
 @inlined_kernel
+def _cubic_mid_stress(problem: Problem, i: int, g: float, h: float, shear: Shear) -> float:
+    """Solve x^3 + p x = q for the stress x at the centroid zeta_c of fluidity; the cubic rises, so it has one root.
+
+    With the second and third moments V and W about zeta_c per fluidity F: p = tau0^2 + 3 G^2 V, q = tau0^2 du/(h F) -
+    G^3 W.
+    """
+    m = shear.fluidity.shape[1]
+    dz, zeroth, first, second, third = 1.0 / m, 0.0, 0.0, 0.0, 0.0
+    for j in range(m):
+        zeroth += shear.fluidity[i, j] * dz
+        first += shear.fluidity[i, j] * ((j + 0.5) * dz - 0.5) * dz
+    centroid = first / zeroth
+    for j in range(m):
+        arm = (j + 0.5) * dz - 0.5 - centroid
+        weight = shear.fluidity[i, j] * dz * arm * arm / zeroth
+        second += weight
+        third += weight * arm
+    tau0_squared = problem.eyring_stress * problem.eyring_stress
+    q = tau0_squared * (problem.speed_2 - problem.speed_1) / (h * zeroth) - g * g * g * third
+    return _root(tau0_squared + 3.0 * g * g * second, q) - g * centroid
+
+
+@inlined_kernel
+def _root(p: float, q: float) -> float:
+    """Return the real root of x^3 + p x = q for p > 0."""
+    scale = np.sqrt(p / 3.0)
+    root: float = 2.0 * scale * np.sinh(np.arcsinh(0.5 * q / (scale * scale * scale)) / 3.0)
+    return root
+
+
+@inlined_kernel
 def shear_rates(problem: Problem, i: int, g: float, tau_m: float, shear: Shear) -> None:
     """Compute stress, shear rate and effective fluidity of column i and their derivatives by the stress, in place.
 
@@ -109,6 +142,8 @@ def shear_rates(problem: Problem, i: int, g: float, tau_m: float, shear: Shear) 
     """
     if problem.rheology == NEWTONIAN:
         _newtonian_rates(i, g, tau_m, shear)
+    elif problem.rheology == CUBIC:
+        _cubic_rates(problem, i, g, tau_m, shear)
     else:
         _eyring_rates(problem, i, g, tau_m, shear)
 
@@ -145,6 +180,18 @@ def _eyring_rates(problem: Problem, i: int, g: float, tau_m: float, shear: Shear
 
 
 @inlined_kernel
+def _cubic_rates(problem: Problem, i: int, g: float, tau_m: float, shear: Shear) -> None:
+    """Compute the rate (tau/eta) (1 + s^2) with s = tau/tau0."""
+    m, per_tau0 = shear.fluidity.shape[1], 1.0 / problem.eyring_stress
+    for j in range(m):
+        tau, fluidity = tau_m + g * ((j + 0.5) / m - 0.5), shear.fluidity[i, j]
+        s = tau * per_tau0
+        effective = fluidity * (1.0 + s * s)
+        shear.stress[i, j], shear.rate[i, j], shear.stiffness[i, j] = tau, tau * effective, fluidity * (1.0 + 3.0 * s * s)
+        shear.effective[i, j], shear.effective_slope[i, j] = effective, 2.0 * fluidity * s * per_tau0
+
+
+@inlined_kernel
 def uniform_shear(problem: Problem, log_eta: float, g: float, h: float) -> tuple[float, float, float, float, float]:
     """Compute the effect of shear on a film at one temperature.
 
@@ -173,6 +220,8 @@ def uniform_shear(problem: Problem, log_eta: float, g: float, h: float) -> tuple
     du = problem.speed_2 - problem.speed_1
     if problem.rheology == NEWTONIAN:
         return 0.0, 0.0, 0.0, 0.0, float(np.exp(log_eta) * du / h)
+    if problem.rheology == CUBIC:
+        return _cubic_uniform_shear(problem, np.exp(log_eta) * du / h, g, h)
     tau0 = problem.eyring_stress
     s = min(abs(g) / (2.0 * tau0), STRESS_LIMIT)
     q = s * s
@@ -193,3 +242,22 @@ def uniform_shear(problem: Problem, log_eta: float, g: float, h: float) -> tuple
     share = sinh_a * sinh_a / (1.0 + sinh_a * sinh_a)
     by_g = (share * sigma_slope + phi_slope) * np.sign(g) / (2.0 * tau0)
     return 0.5 * np.log1p(sinh_a * sinh_a) + np.log(phi), share, by_g, -share / h, float(tau0 * np.arcsinh(sinh_a))
+
+
+@inlined_kernel
+def _cubic_uniform_shear(
+    problem: Problem, newtonian_stress: float, g: float, h: float
+) -> tuple[float, float, float, float, float]:
+    """Return as `uniform_shear`: 12 eta A/rho = 1 + (3 tau_m^2 + 3 G^2/20)/tau0^2, with tau_m^3 + p tau_m = q.
+
+    p = tau0^2 + G^2/4, q = tau0^2 eta du/h.
+    """
+    tau0_squared = problem.eyring_stress * problem.eyring_stress
+    p, q = tau0_squared + 0.25 * g * g, tau0_squared * newtonian_stress
+    tau_m = _root(p, q)
+    factor = 1.0 + (3.0 * tau_m * tau_m + 0.15 * g * g) / tau0_squared
+    by_stress = 6.0 * tau_m / (tau0_squared * factor)
+    rise = 3.0 * tau_m * tau_m + p
+    by_eta = by_stress * q / rise
+    by_g = 0.3 * g / (tau0_squared * factor) - by_stress * tau_m * 0.5 * g / rise
+    return np.log(factor), by_eta, by_g, -by_eta / h, tau_m

@@ -32,7 +32,7 @@ from solvers.contact.ehl.temperature import inlet_step
 from solvers.lubricants import Lubricant
 from tests.support.line_contacts import at_pressure, random_contacts
 
-THERMAL = {name: Model(rheology=name, nodes=61, film_nodes=11) for name in ("ree_eyring", "newtonian")}
+THERMAL = {name: Model(rheology=name, nodes=61, film_nodes=11) for name in ("ree_eyring", "newtonian", "cubic")}
 ISOTHERMAL = {name: replace(model, thermal=False) for name, model in THERMAL.items()}
 STATES = 20
 STEP = 1e-30  # of the complex step: far below rounding, far above the smallest number
