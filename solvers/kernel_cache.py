@@ -78,7 +78,7 @@ class KernelLocator:
 
 @contextmanager
 def located() -> Iterator[None]:
-    """Let `KernelLocator` choose the cache folder of every kernel that is decorated in this context."""
+    """Use `KernelLocator` to choose the cache folder of all kernels that are decorated in this context."""
     config: Any = numba.config  # fills its attributes from the environment
     before = config.CACHE_LOCATOR_CLASSES
     config.CACHE_LOCATOR_CLASSES = f"{KernelLocator.__module__}.{KernelLocator.__qualname__}"

@@ -187,22 +187,22 @@ def _limit(grid: Grid) -> list[Level]:
 
 
 class Crossing(NamedTuple):
-    """Where a curve crosses its limit between two points, and how uncertain that place is."""
+    """Crossing of a curve and its limit: the abscissa and the error of this abscissa."""
 
     place: float
     error: float
 
     def named(self, axis: Axis) -> str:
-        """The place with the digits that are known."""
+        """Return the abscissa with its unit and as many digits as its error permits."""
         glue = "" if axis.unit in {None, "", "°"} else " "
         return f"{to_digits(self.place, self.error)}{glue}{axis.unit or ''}"
 
 
 def _crossings(grid: Grid) -> list[Crossing]:
-    """Where a curve crosses its limit, on straight lines between its points.
+    """Return the crossings of a curve and its limit by linear interpolation between points.
 
-    The error is that of the straight line by the curvature there, the second divided difference of three points; with
-    two points alone it is the distance between them.
+    The error is that of linear interpolation, estimated with the second divided difference of three points. If there
+    are only two points, the error is their distance.
     """
     if grid.limit is None or grid.x.words:
         return []
@@ -220,7 +220,7 @@ def _crossings(grid: Grid) -> list[Crossing]:
 
 
 def _second_difference(x: Values, y: Values) -> float:
-    """The second divided difference of three points."""
+    """Return the second divided difference of three points."""
     slopes = np.diff(y) / np.diff(x)
     return float((slopes[1] - slopes[0]) / (x[2] - x[0]))
 

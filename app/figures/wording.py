@@ -63,7 +63,7 @@ def signed(value: float, unit: str | None = None, digits: int = 3) -> str:
 
 
 def to_digits(value: float, error: float, most: int = 3) -> str:
-    """Round a value to the digit that its error reaches; keep at most `most` significant digits."""
+    """Round a value to the leading digit of its error, and to at most `most` significant digits."""
     if value == 0.0:
         return number(value)
     size = floor(log10(abs(value)))
@@ -73,5 +73,5 @@ def to_digits(value: float, error: float, most: int = 3) -> str:
 
 
 def listed(names: list[str]) -> str:
-    """Names in a sentence."""
+    """Return names as an enumeration in a sentence."""
     return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"

@@ -116,7 +116,7 @@ def _whole(send: Send) -> Send:
 
 
 class _Request:
-    """What is known of a request until it is answered."""
+    """State of a request from its arrival to its answer."""
 
     def __init__(self, limits: Settings, most_bytes: int, scope: Scope, receive: Receive, send: Send) -> None:
         self._limits = limits

@@ -115,7 +115,7 @@ class LimitedProtocol(HttpToolsProtocol):
         super().on_body(body)
 
     def on_message_complete(self) -> None:
-        """Stop the deadline of a body that has arrived whole."""
+        """Stop the deadline of the body: all of the request has arrived."""
         self._in_body = False
         self._unparsed = 0
         super().on_message_complete()

@@ -1,4 +1,4 @@
-"""Folder with every compiled kernel, which tests copy; they damage the copy."""
+"""A folder with all compiled kernels. Tests copy the folder and damage the copy."""
 
 import shutil
 from functools import cache

@@ -43,7 +43,7 @@ class Flow(NamedTuple):
 
 
 MOMENTS = floats("density", "f0", "f1", "n0", "n1")
-"""Integrals across the film from `flow.flow_moments`: the mean density R, and F0, F1, N0 and N1."""
+"""Results of `flow.flow_moments`: the mean density R and the integrals F0, F1, N0 and N1 across the film."""
 
 
 class MidFilm(NamedTuple):
@@ -90,7 +90,7 @@ def viscosities(problem: Problem, i: int, temperature: FloatArray, p: float, she
 
 @inlined_kernel
 def stress_response(problem: Problem, i: int, h: float, film: Film) -> None:
-    """Derive the mid-film stress by temperatures, p, G and h at constant sliding speed; holds for any fluid law."""
+    """Compute in place how the mid-film stress varies with temperatures, p, G and h at constant sliding speed."""
     shear, mid, m = film.shear, film.mid, film.shear.stress.shape[1]
     height, total, by_p, by_g = 1.0 / m, 0.0, 0.0, 0.0
     for j in range(m):
