@@ -24,7 +24,7 @@ from solvers.contact.ehl.continuation import Resolution, price
 
 
 class Cost(NamedTuple):
-    """Seconds on one core, and the field that is to be made smaller."""
+    """Estimated time on one core [s], and the field to make smaller if the time is too long."""
 
     seconds: float
     field: str
@@ -34,8 +34,8 @@ class Cost(NamedTuple):
 class Stage:
     """Kernels that are compiled and loaded together, before the endpoints that need them answer.
 
-    The `examples` between them call every kernel of these endpoints that no stage before has compiled; `kernels` is
-    about how many.
+    Together the `examples` call all kernels of these endpoints that no earlier stage has compiled. `kernels` is their
+    approximate number.
     """
 
     name: str
@@ -47,8 +47,8 @@ class Stage:
 class Calculation:
     """One endpoint.
 
-    It answers as soon as the kernels of its `stage` are compiled. `figures` are drawn from its answers. `cost`
-    estimates the time of a request on one core, where the schema allows requests that take too long.
+    The endpoint answers as soon as the kernels of its `stage` are compiled. `figures` are drawn from its answers. If
+    the schema allows requests that take too long, `cost` estimates their time.
     """
 
     path: str
@@ -64,7 +64,11 @@ class Calculation:
 
 
 def _thermal_path(request: Any) -> Cost:
-    """Contacts of the path: 4 to 8 ms each at 121 x 21 nodes, a Newtonian film up to 20; the least counts."""
+    """Estimate the time of the contacts along the path.
+
+    A contact with 121 x 21 nodes takes 4 to 8 ms, one with a Newtonian film up to 20 ms. The estimate uses the least
+    time, so that no possible request is rejected.
+    """
     model = request.model
     if model.lubrication == "closed_form":
         return Cost(0.0, "model.path_points")
@@ -73,21 +77,22 @@ def _thermal_path(request: Any) -> Cost:
 
 
 def _checked_lines(request: Any) -> Cost:
-    """The film along the feature line, and along the hottest profile where the whole flank is checked."""
-    one = _thermal_path(request)
-    return Cost((2 if request.model.line == "flank" else 1) * one.seconds, one.field)
+    """Estimate the time of the film along the feature line, and along the hottest profile if the flank is checked."""
+    path = _thermal_path(request)
+    return Cost((2 if request.model.line == "flank" else 1) * path.seconds, path.field)
 
 
 def _two_thermal_paths(request: Any) -> Cost:
-    """A drive train's films along two lines, in each of its states."""
-    one = _thermal_path(request)
-    return Cost(2 * len({*request.states}) * one.seconds, one.field)
+    """Estimate the time of a drive train's films along two lines in all its states."""
+    path = _thermal_path(request)
+    return Cost(2 * len({*request.states}) * path.seconds, path.field)
 
 
 def _choking_search(request: Any) -> Cost:
-    """Chains of the search over both gears' spaces: 0.7, 2.6, 6.2, 16 s with 10, 40, 80, 160 pockets.
+    """Estimate the time of the pocket chains in the search over both gears' spaces.
 
-    Gas dynamics bounds its steps itself.
+    Measured were 0.7, 2.6, 6.2 and 16 s with 10, 40, 80 and 160 pockets. Gas dynamics limits its number of steps
+    itself.
     """
     pockets = request.model.slices or 0
     if request.model.flow != "pocket_chain":
@@ -95,7 +100,7 @@ def _choking_search(request: Any) -> Cost:
     return Cost(0.05 * pockets + 3e-4 * pockets**2, "model.slices")
 
 
-# Numbers of kernels as counted at a start from an empty cache.
+# The numbers of kernels were counted at a start from an empty cache.
 COUPLING = Stage("coupling", 7, ("pahl-axial-displacement",))
 SLEEVE = Stage("coupling sleeve", 55, ("pahl-sleeve-orbit", "pahl-z-arrangement"))
 LOADS = Stage("load distribution", 101, ("fzg-type-a",))

@@ -1,4 +1,4 @@
-"""A client of the service, for scripts and notebooks; it needs httpx alone.
+"""A client of the service for scripts and notebooks; it needs only httpx.
 
     from app.client import Tribodrive
 
@@ -6,8 +6,9 @@
     answer = service.coupling({"coupling": {...}, "operation": {...}})
     table = service.sweep({"endpoint": "/v1/coupling", "request": {...}, "vary": [...]}).frame()
 
-Requests and answers are the JSON of the interface, as dictionaries. `AsyncTribodrive` has the same methods to be
-awaited. A request that the service is too busy for is sent again after the time that it names (`Retry-After`).
+Requests and answers are the JSON of the interface as dictionaries. `AsyncTribodrive` has the same methods as
+coroutines. If the service is too busy for a request, the client sends the request again after the time that the service
+states in `Retry-After`.
 """
 
 import asyncio
@@ -15,6 +16,8 @@ import json
 import time
 from abc import ABC, abstractmethod
 from collections.abc import AsyncIterator, Awaitable, Iterator
+from contextlib import contextmanager
+from math import inf
 from typing import TYPE_CHECKING, Any, Generic, Self, TypeVar
 
 import httpx
@@ -29,117 +32,156 @@ Http = TypeVar("Http", bound=httpx.Client | httpx.AsyncClient)
 
 ADDRESS = "http://127.0.0.1:8000"
 OPTIONS: dict[str, Any] = {
-    "timeout": 60.0,  # s: beyond the default deadline of a calculation, 30 s
+    "timeout": 60.0,  # s: longer than the default deadline of a calculation, 30 s
     "limits": httpx.Limits(keepalive_expiry=3.0),  # s: the service closes idle connections after 5 s
 }
-PATIENCE_S = 120.0  # in all for an answer, chosen: four times the service's deadline
+PATIENCE_S = 120.0  # longest wait for an answer; chosen: four times the service's deadline
+LEAST_WAIT_S = 0.25  # before a busy service is asked again; chosen
 
 
-class ProblemError(Exception):
-    """An answer other than 200.
+class ServiceError(Exception):
+    """The service gave no answer: a problem, a study that ended early, or an answer that is not of its interface."""
+
+
+class ProblemError(ServiceError):
+    """An answer with a status other than 200.
 
     Attributes
     ----------
-    status
+    status : int
         HTTP status.
-    code
+    code : str
         Stable name of the problem, the last part of its type.
-    errors
-        A dictionary per field at fault with `pointer` (JSON Pointer into the request), `code` and `message`.
-
+    errors : list of dict
+        Errors of the fields, with `pointer` (JSON Pointer into the request), `code` and `message`.
     """
 
     def __init__(self, response: httpx.Response) -> None:
         try:
-            content = response.json()
-        except ValueError:  # of a proxy
-            content = None
-        document: Json = content if isinstance(content, dict) else {}
+            document = _json_of(response)
+        except ServiceError:  # an answer of a proxy
+            document = {}
         self.status = response.status_code
         self.code = str(document.get("type", "")).rpartition(":")[2]
-        self.errors: list[Json] = document.get("errors") or []
-        faults = "; ".join(f"{each['pointer'] or 'request'}: {each['message']}" for each in self.errors)
+        errors = document.get("errors")
+        self.errors: list[Json] = (
+            [error for error in errors if isinstance(error, dict)] if isinstance(errors, list) else []
+        )
+        faults = "; ".join(f"{error.get('pointer') or 'request'}: {error.get('message', '')}" for error in self.errors)
         super().__init__(f"{self.status} {self.code}: {faults or document.get('detail', '')}")
 
 
-class StudyError(Exception):
-    """A study that ended before its last line: by its deadline, in the service, or with its connection."""
+class StudyError(ServiceError):
+    """A study that ended before its last line: at its deadline, by an error, or with its connection."""
 
 
 class _Endpoints(ABC, Generic[Answer, Stream]):
-    """One method an endpoint; `request` is the body of the interface."""
+    """One method per endpoint; `request` is the body that the interface describes."""
 
     @abstractmethod
     def solve(self, endpoint: str, request: Json) -> Answer:
-        """Post a request to an endpoint and return its answer; raises `ProblemError`."""
+        """Post a request to an endpoint and return the answer.
+
+        Parameters
+        ----------
+        endpoint : str
+            Address of the calculation, such as "/v1/coupling".
+        request : dict
+            Body of the request.
+
+        Returns
+        -------
+        dict
+            The answer.
+
+        Raises
+        ------
+        ProblemError
+            If the service answers with a problem.
+        """
 
     @abstractmethod
     def study(self, endpoint: str, request: Json, *, progress: bool = False) -> Stream:
-        """Open a study, which runs while its lines are read."""
+        """Open a study, which runs while its lines are read.
+
+        Parameters
+        ----------
+        endpoint : str
+            Address of the study, such as "/v1/sweep".
+        request : dict
+            Body of the request.
+        progress : bool
+            True to show a progress bar.
+
+        Returns
+        -------
+        Study or AsyncStudy
+            The study; iterate over its results, or ask for its table.
+        """
 
     def coupling(self, request: Json) -> Answer:
-        """Load, lubrication, friction, axial thrust and losses of a gear coupling."""
+        """Calculate load, lubrication, friction, axial thrust and losses of a gear coupling."""
         return self.solve("/v1/coupling", request)
 
     def sleeve_orbit(self, request: Json) -> Answer:
-        """Path and inertia force of a floating sleeve."""
+        """Calculate path and inertia force of a floating sleeve."""
         return self.solve("/v1/coupling/sleeve-orbit", request)
 
     def recommendation(self, request: Json) -> Answer:
-        """The crowning with the best film over a range of misalignment."""
+        """Find the crowning with the best film over a range of misalignment."""
         return self.solve("/v1/coupling/recommendation", request)
 
     def pumping(self, request: Json) -> Answer:
-        """Air and mist pumped between the teeth."""
+        """Calculate the pumping of air and mist between the teeth."""
         return self.solve("/v1/pumping", request)
 
     def choking_speed(self, request: Json) -> Answer:
-        """Speeds at which the flow out of the tooth spaces becomes sonic."""
+        """Find the speeds at which the flow out of the tooth spaces becomes sonic."""
         return self.solve("/v1/pumping/choking-speed", request)
 
     def load_distribution(self, request: Json) -> Answer:
-        """Load, pressure, transmission error and loss of a modified gear pair."""
+        """Calculate load, pressure, transmission error and loss of a modified gear pair."""
         return self.solve("/v1/scuffing/load-distribution", request)
 
     def scuffing(self, request: Json) -> Answer:
-        """Flash temperature, film thickness and safety factor against scuffing of a gear pair."""
+        """Calculate flash temperature, film thickness and safety factor against scuffing of a gear pair."""
         return self.solve("/v1/scuffing", request)
 
     def line_contact(self, request: Json) -> Answer:
-        """One thermal elastohydrodynamic line contact."""
+        """Calculate a thermal elastohydrodynamic line contact."""
         return self.solve("/v1/scuffing/line-contact", request)
 
     def drive_train(self, request: Json) -> Answer:
-        """A complete gear unit: couplings, shafts, bearings, mesh."""
+        """Calculate a complete gear unit: couplings, shafts, bearings, mesh."""
         return self.solve("/v1/drive-train", request)
 
     def warm_up(self, request: Json) -> Answer:
-        """How a gear unit warms up: temperatures over time, load and safety meanwhile."""
+        """Calculate the warm-up of a gear unit: temperatures, load and safety over time."""
         return self.solve("/v1/drive-train/warm-up", request)
 
     def sweep(self, request: Json, *, progress: bool = False) -> Stream:
-        """One endpoint at many points: a grid, a list of cases or a random sample."""
+        """Solve one endpoint at many points: a grid, a list of cases or a random sample."""
         return self.study("/v1/sweep", request, progress=progress)
 
     def spectrum(self, request: Json, *, progress: bool = False) -> Stream:
-        """A machine with its tolerances over its load spectrum; the probabilities are in the last line."""
+        """Solve a machine with its tolerances over its load spectrum; the last line has the probabilities."""
         return self.study("/v1/spectrum", request, progress=progress)
 
     def sensitivity(self, request: Json, *, progress: bool = False) -> Stream:
-        """Which input moves each output most."""
+        """Rank the inputs by their influence on the outputs."""
         return self.study("/v1/sensitivity", request, progress=progress)
 
     def corners(self, request: Json, *, progress: bool = False) -> Stream:
-        """A gear unit at every combination of its uncertain inputs."""
+        """Solve a gear unit at all combinations of its uncertain inputs."""
         return self.study("/v1/drive-train/corners", request, progress=progress)
 
     def design(self, request: Json, *, progress: bool = False) -> Stream:
-        """The correction of a gear unit whose worst corner is best."""
+        """Find the correction of a gear unit with the best result at its worst corner."""
         return self.study("/v1/drive-train/design", request, progress=progress)
 
 
 class _Study(Generic[Http]):
-    """The lines of a study sorted into header, results, progress and end."""
+    """The lines of a study, divided into header, results, progress and end."""
 
     def __init__(self, http: Http, endpoint: str, request: Json, patience_s: float, *, progress: bool) -> None:
         self.header: Json = {}
@@ -152,17 +194,22 @@ class _Study(Generic[Http]):
         self._bar: Any = None
 
     def _begin(self) -> float:
-        """Begin anew; when to give up if the service is busy."""
+        """Begin the study again. Return the time at which to give up if the service is busy [s]."""
         self.header, self.end = {}, {}
         if self._progress:
-            from tqdm.auto import tqdm  # noqa: PLC0415  only who asks for a bar needs it
+            from tqdm.auto import tqdm  # noqa: PLC0415  only progress bars need it
 
             self._bar = tqdm()
         return time.monotonic() + self._patience_s
 
     def _results(self, text: str) -> Iterator[Json]:
-        """The line, if it is a result; raises `StudyError` for one that ends the study early."""
-        line: Json = json.loads(text)
+        """Yield the line if it is a result. Raises `StudyError` if it ends the study early or is not a study's."""
+        try:
+            yield from self._process(json.loads(text))
+        except (ValueError, LookupError, TypeError) as error:
+            raise StudyError(f"the service sent a line that does not belong to a study: {text[:100]}") from error
+
+    def _process(self, line: Json) -> Iterator[Json]:
         match line["type"]:
             case "error":
                 raise StudyError(f"{line['code']}: {line['message']}")
@@ -198,56 +245,94 @@ class _Study(Generic[Http]):
         if "axes" not in self.header:
             return DataFrame(results)
         points = [line for line in results if line["type"] == "point"]
-        columns = [each["path"] for each in self.header["axes"] + self.header["outputs"]]
+        columns = [column["path"] for column in self.header["axes"] + self.header["outputs"]]
         rows = [[*line["at"], *line["out"], line["status"]] for line in points]
         return DataFrame(rows, columns=[*columns, "status"], index=[line["index"] for line in points])
 
 
 class Study(_Study[httpx.Client]):
-    """A study: iterate over its results, or ask for all of them as a table.
+    """A study: iterate over its results, or ask for all results as a table.
 
-    `header` and `end` are its first and last line once they have been read; they are empty before.
+    `header` and `end` are its first and last line. They are empty until these lines have been read.
     """
 
     def __iter__(self) -> Iterator[Json]:
-        """Run the study and yield its results as they come; raises `ProblemError` and `StudyError`."""
+        """Run the study and yield its results as they come.
+
+        Yields
+        ------
+        dict
+            A line of the study.
+
+        Raises
+        ------
+        ProblemError
+            If the service answers with a problem.
+        StudyError
+            If the study ends before its last line.
+        """
         give_up = self._begin()
         while True:
             with self._http.stream("POST", self._endpoint, json=self._request) as response:
                 if response.is_success:
-                    for text in response.iter_lines():
-                        yield from self._results(text)
+                    with _whole():
+                        for text in response.iter_lines():
+                            yield from self._results(text)
                     return self._finish()
                 response.read()
             time.sleep(_wait_s(response, give_up))
 
     def frame(self) -> "DataFrame":
-        """All results as a pandas table, a row each; those of a sweep with a column for each input and output.
+        """Run the study and return its results as a table.
 
-        A spectrum has a row for each case, unless its points are asked for.
+        Returns
+        -------
+        pandas.DataFrame
+            One row per result. A sweep has one column per input and output. A spectrum has one row per case, unless its
+            points are asked for.
         """
         return self._table(list(self))
 
 
 class AsyncStudy(_Study[httpx.AsyncClient]):
-    """A study: iterate over its results with `async for`, or await all of them as a table."""
+    """A study: iterate over its results with `async for`, or await all results as a table."""
 
     async def __aiter__(self) -> AsyncIterator[Json]:
-        """Run the study and yield its results as they come; raises `ProblemError` and `StudyError`."""
+        """Run the study and yield its results as they come.
+
+        Yields
+        ------
+        dict
+            A line of the study.
+
+        Raises
+        ------
+        ProblemError
+            If the service answers with a problem.
+        StudyError
+            If the study ends before its last line.
+        """
         give_up = self._begin()
         while True:
             async with self._http.stream("POST", self._endpoint, json=self._request) as response:
                 if response.is_success:
-                    async for text in response.aiter_lines():
-                        for line in self._results(text):
-                            yield line
+                    with _whole():
+                        async for text in response.aiter_lines():
+                            for line in self._results(text):
+                                yield line
                     self._finish()
                     return
                 await response.aread()
             await asyncio.sleep(_wait_s(response, give_up))
 
     async def frame(self) -> "DataFrame":
-        """All results as a pandas table, a row each, as `Study.frame` gives them."""
+        """Run the study and return its results as a table, in the same form as `Study.frame`.
+
+        Returns
+        -------
+        pandas.DataFrame
+            One row per result.
+        """
         return self._table([line async for line in self])
 
 
@@ -256,13 +341,12 @@ class Tribodrive(_Endpoints[Json, Study]):
 
     Parameters
     ----------
-    url
+    url : str
         Address of the service, with its path prefix if it has one.
-    patience_s
-        How long a request is sent again while the service is busy or warming up [s].
-    options
-        Of `httpx.Client`: `auth`, `headers`, `verify`, `timeout`, `transport`.
-
+    patience_s : float
+        Longest time for repeated requests while the service is busy or warming up [s].
+    **options : Any
+        Options of `httpx.Client`, such as `auth`, `headers`, `verify`, `timeout` or `transport`.
     """
 
     def __init__(self, url: str = ADDRESS, *, patience_s: float = PATIENCE_S, **options: Any) -> None:
@@ -280,13 +364,12 @@ class Tribodrive(_Endpoints[Json, Study]):
         self._http.close()
 
     def solve(self, endpoint: str, request: Json) -> Json:
-        """Post a request to an endpoint and return its answer; raises `ProblemError`."""
+        """Post a request to an endpoint and return the answer. Raises `ProblemError`."""
         give_up = time.monotonic() + self._patience_s
         while True:
             response = self._http.post(endpoint, json=request)
             if response.is_success:
-                answer: Json = response.json()
-                return answer
+                return _json_of(response)
             time.sleep(_wait_s(response, give_up))
 
     def study(self, endpoint: str, request: Json, *, progress: bool = False) -> Study:
@@ -294,12 +377,23 @@ class Tribodrive(_Endpoints[Json, Study]):
         return Study(self._http, endpoint, request, self._patience_s, progress=progress)
 
     def example(self, name: str) -> Json:
-        """The request of a ready example."""
+        """Return the request of a ready example.
+
+        Parameters
+        ----------
+        name : str
+            Name of the example.
+
+        Returns
+        -------
+        dict
+            Body of the request.
+        """
         return _request_of(self._http.get(f"/v1/examples/{name}"))
 
 
 class AsyncTribodrive(_Endpoints[Awaitable[Json], AsyncStudy]):
-    """The service at `url` for asyncio; parameters as those of `Tribodrive`."""
+    """The service at `url` for asyncio; the parameters are those of `Tribodrive`."""
 
     def __init__(self, url: str = ADDRESS, *, patience_s: float = PATIENCE_S, **options: Any) -> None:
         self._http = httpx.AsyncClient(base_url=url, **OPTIONS | options)
@@ -316,13 +410,12 @@ class AsyncTribodrive(_Endpoints[Awaitable[Json], AsyncStudy]):
         await self._http.aclose()
 
     async def solve(self, endpoint: str, request: Json) -> Json:
-        """Post a request to an endpoint and return its answer; raises `ProblemError`."""
+        """Post a request to an endpoint and return the answer. Raises `ProblemError`."""
         give_up = time.monotonic() + self._patience_s
         while True:
             response = await self._http.post(endpoint, json=request)
             if response.is_success:
-                answer: Json = response.json()
-                return answer
+                return _json_of(response)
             await asyncio.sleep(_wait_s(response, give_up))
 
     def study(self, endpoint: str, request: Json, *, progress: bool = False) -> AsyncStudy:
@@ -330,20 +423,54 @@ class AsyncTribodrive(_Endpoints[Awaitable[Json], AsyncStudy]):
         return AsyncStudy(self._http, endpoint, request, self._patience_s, progress=progress)
 
     async def example(self, name: str) -> Json:
-        """The request of a ready example."""
+        """Return the request of a ready example.
+
+        Parameters
+        ----------
+        name : str
+            Name of the example.
+
+        Returns
+        -------
+        dict
+            Body of the request.
+        """
         return _request_of(await self._http.get(f"/v1/examples/{name}"))
+
+
+@contextmanager
+def _whole() -> Iterator[None]:
+    """Raise StudyError if the connection breaks off while lines are read."""
+    try:
+        yield
+    except httpx.RequestError as error:
+        raise StudyError(f"the connection was closed before the study's end: {error}") from error
+
+
+def _json_of(response: httpx.Response) -> Json:
+    """Return the JSON object of an answer. Raises `ServiceError` if the answer is not a JSON object."""
+    try:
+        content = response.json()
+    except ValueError:
+        content = None
+    if not isinstance(content, dict):
+        raise ServiceError(f"{response.status_code}: the answer is not a JSON object: {response.text[:100]}")
+    return content
 
 
 def _request_of(example: httpx.Response) -> Json:
     if not example.is_success:
         raise ProblemError(example)
-    request: Json = example.json()["request"]
+    request = _json_of(example).get("request")
+    if not isinstance(request, dict):
+        raise ServiceError("the example has no request")
     return request
 
 
 def _wait_s(response: httpx.Response, give_up: float) -> float:
-    """Seconds to wait before a busy service is asked again; raises `ProblemError` for every other answer."""
-    named = response.headers.get("Retry-After", "")
-    if not named.isdecimal() or time.monotonic() + int(named) > give_up:
+    """Return the time before a busy service is asked again [s]. Raises `ProblemError` for every other answer."""
+    stated = response.headers.get("Retry-After", "")
+    seconds = max(float(stated), LEAST_WAIT_S) if stated.isdecimal() else inf
+    if time.monotonic() + seconds > give_up:
         raise ProblemError(response)
-    return float(named)
+    return seconds

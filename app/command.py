@@ -1,24 +1,25 @@
-"""The command line: start the service, or solve one request; --help lists every setting."""
+"""The command line: it starts the service, or solves a request; --help lists all settings."""
 
 import argparse
 import gc
 import json
 import os
-import socket
 import sys
+import threading
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 from app.settings import MEBIBYTE, Settings, settings
-from app.workers.processes import Template
 
-EXIT_STATUS = {"ok": 0, "ok_with_warnings": 3, "no_solution": 4}  # 1: refused or not written, 2: wrong arguments
+PROGRESS_S = 1.0  # between two lines of progress
+EXIT_STATUS = {"ok": 0, "ok_with_warnings": 3, "no_solution": 4}  # 1: rejected or not written, 2: wrong arguments
 
 
 def main() -> None:
-    """Serve until told to stop, or print what a command asks for."""
+    """Serve until a signal stops the service, or run a command."""
     open_standard_streams()
-    os.environ.pop("WEB_CONCURRENCY", None)  # which is for servers of several processes, whatever it says
+    os.environ.pop("WEB_CONCURRENCY", None)  # it is meant for servers with several processes
     parser = argparse.ArgumentParser(
         prog="python -m app",
         description="Serve the tribodrive calculations.",
@@ -31,44 +32,49 @@ def main() -> None:
     solve = commands.add_parser("solve", help="print the answer to a request instead of serving")
     solve.add_argument("endpoint", help="address of the calculation, such as /v1/coupling")
     solve.add_argument("file", type=Path, help="the request as JSON; - reads the standard input")
-    asked = parser.parse_args()
-    match asked.command:
+    compiling = commands.add_parser("compile", help="compile the kernels and keep them on disk instead of serving")
+    compiling.add_argument("stages", nargs="*", help="names of stages, such as coupling; by default all")
+    arguments = parser.parse_args()
+    match arguments.command:
         case "rexs":
-            print_unit(asked.file)
+            print_unit(arguments.file)
         case "solve":
-            print_answer(asked.endpoint, asked.file)
+            print_answer(arguments.endpoint, arguments.file)
+        case "compile":
+            compile_kernels(arguments.stages)
         case _:
             serve("app.main:app")
 
 
 def print_unit(file: Path) -> None:
-    """Print what /v1/rexs answers to a file; exits with the reason where the file cannot be read."""
+    """Print the answer of /v1/rexs to a file. Exit with the reason if the file cannot be read."""
     from app.errors import Unprocessable  # noqa: PLC0415  the service starts without this
     from app.rexs.answer import unit_of  # noqa: PLC0415
 
     try:
-        found = unit_of(file.read_bytes(), settings().rexs_mb * MEBIBYTE)
+        unit = unit_of(file.read_bytes(), settings().rexs_mb * MEBIBYTE)
     except OSError as error:
         sys.exit(f"tribodrive: {file}: {error.strerror}")
     except Unprocessable as error:
         sys.exit(f"tribodrive: {file}: {error.message}")
-    _print_json(found)
+    _print_json(unit)
 
 
 def print_answer(endpoint: str, file: Path) -> None:
-    """Print the answer of an endpoint to the request in a file, and exit with the status of `EXIT_STATUS`.
+    """Print the answer of an endpoint to the request in a file, and exit with its status of `EXIT_STATUS`.
 
-    Exits with the reason where the request is refused.
+    If the request is rejected, exit with the reason.
     """
     from app.calculations import BY_PATH  # noqa: PLC0415
     from app.errors import InvalidBody, Unprocessable, Unreadable, faults_of  # noqa: PLC0415
     from app.evaluate import answer, content_of  # noqa: PLC0415
 
+    gc.enable()
     if endpoint not in BY_PATH:
         sys.exit(f"tribodrive: there is no {endpoint}; there are {', '.join(BY_PATH)}")
     try:
         body = sys.stdin.buffer.read() if file == Path("-") else file.read_bytes()
-        found = answer(endpoint, content_of(body))
+        content = answer(endpoint, content_of(body))
     except OSError as error:
         sys.exit(f"tribodrive: {file}: {error.strerror}")
     except Unreadable as error:
@@ -76,12 +82,51 @@ def print_answer(endpoint: str, file: Path) -> None:
     except (InvalidBody, Unprocessable) as error:
         faults = (f"{fault['pointer'] or 'request'}: {fault['message']}" for fault in faults_of(error))
         sys.exit("\n".join(f"tribodrive: {fault}" for fault in faults))
-    _print_json(found)
-    sys.exit(EXIT_STATUS[found["status"]])
+    _print_json(content)
+    sys.exit(EXIT_STATUS[content["status"]])
+
+
+def compile_kernels(names: Sequence[str]) -> None:
+    """Compile stages, by default all, and print their progress every second; at 100 % a stage is on disk."""
+    from numba.core import event  # noqa: PLC0415
+
+    from app.workers.stages import STAGES, warm  # noqa: PLC0415
+    from solvers.kernel_cache import FOLDER  # noqa: PLC0415
+
+    gc.enable()
+    stages = {stage.name: stage for stage in STAGES}
+    if unknown := set(names) - set(stages):
+        sys.exit(f"tribodrive: there is no {', '.join(sorted(unknown))}; there are {', '.join(stages)}")
+    if FOLDER is None:
+        sys.exit("tribodrive: the folder for compiled kernels cannot be written")
+    for stage in [stages[name] for name in names or stages]:
+        done = threading.Event()
+        with event.install_recorder("numba:compile") as recorder:  # an event at each begin and end
+            arguments = (stage.name, stage.kernels, recorder.buffer, done)
+            showing = threading.Thread(target=_show, args=arguments, daemon=True)
+            showing.start()
+            warm(stage)
+            done.set()
+            showing.join()
+        _tell(stage.name, 100)
+    os._exit(0)  # the usual end with all kernels would take a second
+
+
+def _show(name: str, kernels: int, events: Sequence[object], done: threading.Event) -> None:
+    while not done.wait(PROGRESS_S):
+        _tell(name, min(99, 50 * len(events) // kernels))
+
+
+def _tell(name: str, percent: int) -> None:
+    """Print the progress of a stage; end the process if nobody can read it any more."""
+    try:
+        print(f"{name}: {percent} %", flush=True)  # noqa: T201
+    except OSError:
+        os._exit(1)
 
 
 def _print_json(content: dict[str, Any]) -> None:
-    """Print JSON, with escapes if the standard output has no bytes for a character; exits if it cannot be written."""
+    """Print JSON, with escapes if the standard output cannot encode a character. Exit if it cannot be written."""
     text = json.dumps(content, indent=1, ensure_ascii=False)
     try:
         text.encode(sys.stdout.encoding)
@@ -90,52 +135,42 @@ def _print_json(content: dict[str, Any]) -> None:
     try:
         print(text, flush=True)  # noqa: T201  a command's output
     except OSError as error:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # for what is flushed at the end
-        if not isinstance(error, BrokenPipeError):  # whoever reads a pipe has seen enough
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # for the flush at the end
+        if not isinstance(error, BrokenPipeError):  # the reader of a pipe has closed it
             sys.exit(f"tribodrive: cannot write the answer: {error.strerror}")
 
 
 def serve(application: str) -> None:
-    """Run the application at `application` ("module:attribute") with the template process of its workers.
-
-    The port is open before anything is loaded, and the template loads what it needs beside the service.
-    """
+    """Serve the application at `application` ("module:attribute") with uvicorn until a signal stops it."""
     limits = settings()
-    try:
-        listeners = _listeners(limits)
-    except OSError as error:
-        reason = error.strerror if isinstance(error, socket.gaierror) else os.strerror(error.errno or 0)
-        sys.exit(f"tribodrive: cannot listen on port {limits.port} of {limits.host}: {reason}")
-    gc.disable()  # `run` enables it: imports leave no garbage, and looking for it takes a third of their time
-    template = Template(application.partition(":")[0])
-    try:
-        from app.http.server import run  # noqa: PLC0415  seconds of imports, for which port and template need not wait
+    import uvicorn  # noqa: PLC0415  the other commands need no server
 
-        run(application, listeners, template)
-    finally:
-        template.close()
+    uvicorn.run(
+        application,
+        host="" if limits.host == "::" else limits.host,  # IPv4 and IPv6; IPv4 addresses of clients keep their form
+        port=limits.port,
+        http="h11",
+        h11_max_incomplete_event_size=limits.max_header_bytes,
+        limit_concurrency=limits.limit_concurrency,
+        timeout_graceful_shutdown=limits.shutdown_s,
+        log_config=None,  # `app.log` writes the log
+        log_level=limits.log_level,
+        access_log=False,
+        server_header=False,
+    )
 
 
 def open_standard_streams() -> None:
-    """Open the null device where the standard streams are closed: a socket would get the number of one of them."""
+    """Open the null device for closed standard streams; otherwise a socket would get the number of one of them."""
     for name in ("stdin", "stdout", "stderr"):
         if getattr(sys, name) is None:
-            stream = Path(os.devnull).open("r+")  # noqa: SIM115  the lowest free number, and these are 0 to 2
+            stream = Path(os.devnull).open("r+")  # noqa: SIM115  gets the lowest free number, 0 to 2
             os.set_inheritable(stream.fileno(), True)
             setattr(sys, name, stream)
 
 
-def _listeners(limits: Settings) -> list[socket.socket]:
-    """The open ports; `::` has one for each family, so that addresses of IPv4 clients look as they do elsewhere."""
-    found = []
-    for host in ("::", "0.0.0.0") if limits.host == "::" else (limits.host,):  # noqa: S104
-        family, _, _, _, address = socket.getaddrinfo(host, limits.port, type=socket.SOCK_STREAM)[0]
-        found.append(socket.create_server(address[:2], family=family, backlog=1024))
-    return found
-
-
 def _documentation() -> str:
-    """The settings, one line each."""
+    """Return the documentation of the settings, one line per setting."""
     rows = ["environment variables:"]
     for name, field in Settings.model_fields.items():
         default = field.get_default(call_default_factory=True)

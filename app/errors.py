@@ -1,16 +1,16 @@
 """The exceptions of the service: reasons why a request has no answer.
 
-`PROBLEMS` is the one table from exception to status, code and title.
+The table `PROBLEMS` gives their status, code and title.
 """
 
 from collections.abc import Iterable
 from typing import NamedTuple
 
-LONGEST_POINTER_PART = 100  # characters; no field has as many
+LONGEST_POINTER_PART = 100  # characters; all fields are shorter
 
 
 class Fault(NamedTuple):
-    """One field at fault: JSON Pointer into the request, stable code, what to change."""
+    """The error of one field: JSON Pointer into the request, stable code, what to change."""
 
     pointer: str
     code: str
@@ -18,13 +18,17 @@ class Fault(NamedTuple):
 
 
 def pointer(location: Iterable[str | int]) -> str:
-    """RFC 6901 pointer of a location, safe to send whatever the request's keys were."""
-    parts = (str(part).encode(errors="replace").decode()[:LONGEST_POINTER_PART] for part in location)
-    return "".join("/" + part.replace("~", "~0").replace("/", "~1") for part in parts)
+    """Return the RFC 6901 pointer of a location."""
+    return "".join("/" + printable(part).replace("~", "~0").replace("/", "~1") for part in location)
+
+
+def printable(name: str | int) -> str:
+    """Return a name of the request as text that can be sent and read, even if the name is very long or not valid."""
+    return str(name).encode(errors="replace").decode()[:LONGEST_POINTER_PART]
 
 
 class ServiceError(Exception):
-    """An exception of `PROBLEMS`; `detail` says what happened this time, where that is known."""
+    """An exception of `PROBLEMS`; `detail` describes the present case, if more is known about it."""
 
     def __init__(self, detail: str = "") -> None:
         super().__init__(detail)
@@ -32,7 +36,7 @@ class ServiceError(Exception):
 
 
 class Unreadable(ServiceError):
-    """The body is no JSON that can be read."""
+    """The body cannot be read as JSON."""
 
 
 class ContentTooLarge(ServiceError):
@@ -40,7 +44,7 @@ class ContentTooLarge(ServiceError):
 
 
 class InvalidBody(Exception):
-    """The body is no request; the faults are a hundred at most."""
+    """The body is not a valid request; at most a hundred faults are listed."""
 
     def __init__(self, faults: list[Fault]) -> None:
         super().__init__(faults)
@@ -48,7 +52,7 @@ class InvalidBody(Exception):
 
 
 class Unprocessable(Exception):
-    """Input that the schema allows and physics does not; `path` is the dotted request field at fault."""
+    """Input that the schema allows but physics does not; `path` is the dotted field of the request."""
 
     def __init__(self, code: str, message: str, path: str | None = None) -> None:
         super().__init__(code, message, path)
@@ -58,7 +62,7 @@ class Unprocessable(Exception):
 
 
 def faults_of(error: InvalidBody | Unprocessable) -> list[dict[str, str]]:
-    """Pointer, code and message of every field at fault."""
+    """Return pointer, code and message of the errors of all fields."""
     if isinstance(error, Unprocessable):
         parts = error.path.split(".") if error.path else ()
         return [{"pointer": pointer(parts), "code": error.code, "message": error.message}]
@@ -66,7 +70,7 @@ def faults_of(error: InvalidBody | Unprocessable) -> list[dict[str, str]]:
 
 
 class QueueFull(ServiceError):
-    """More requests wait than the settings allow."""
+    """As many requests wait as the settings allow."""
 
 
 class StudiesFull(ServiceError):
@@ -74,7 +78,7 @@ class StudiesFull(ServiceError):
 
 
 class StudyEnded(ServiceError):
-    """A study ended before the figure that was asked for could be drawn."""
+    """A study ended before its figure could be drawn."""
 
 
 class SchedulerUnavailable(ServiceError):
@@ -82,7 +86,7 @@ class SchedulerUnavailable(ServiceError):
 
 
 class DeadlineExceeded(ServiceError):
-    """The calculation took longer than the settings allow; its worker was ended."""
+    """The calculation took longer than the settings allow."""
 
 
 class WorkerLost(ServiceError):
@@ -93,12 +97,16 @@ class WarmingUp(ServiceError):
     """The kernels of this calculation are still being compiled."""
 
 
+class Stopping(ServiceError):
+    """The service stops and does not wait for the calculation."""
+
+
 class ClientGone(ServiceError):
-    """The client closed the connection; its calculation was ended."""
+    """The client closed the connection; its calculation is given up."""
 
 
 class Kind(NamedTuple):
-    """Status, code and title of a problem, and how long to wait before trying again."""
+    """Status, code and title of a problem, and the time after which to try again [s]."""
 
     status: int
     code: str
@@ -107,7 +115,7 @@ class Kind(NamedTuple):
 
     @property
     def headers(self) -> dict[str, str]:
-        """When to try again."""
+        """Headers that state when to try again."""
         return {} if self.retry_after_s is None else {"Retry-After": str(self.retry_after_s)}
 
 
@@ -120,6 +128,7 @@ PROBLEMS: dict[type[Exception], Kind] = {
     StudyEnded: Kind(503, "study_ended", "The study ended before its figure could be drawn"),
     SchedulerUnavailable: Kind(503, "scheduler_unavailable", "The cluster for studies cannot be used; try later", 10),
     WorkerLost: Kind(503, "worker_lost", "The calculation was lost with its process; try again", 1),
+    Stopping: Kind(503, "shutting_down", "The service stops", 5),
     MemoryError: Kind(503, "memory_limit", "The calculation needs more memory than a worker may use; make it smaller"),
     DeadlineExceeded: Kind(504, "deadline_exceeded", "The calculation took too long; make it smaller"),
     ClientGone: Kind(499, "client_gone", "The client closed the connection"),
@@ -127,5 +136,5 @@ PROBLEMS: dict[type[Exception], Kind] = {
 
 
 def kind_of(error: Exception) -> Kind:
-    """The kind of problem that an exception of the table, or of a class derived from one, is."""
+    """Return the kind of problem of an exception whose class, or base class, is in the table."""
     return next(PROBLEMS[base] for base in type(error).__mro__ if base in PROBLEMS)

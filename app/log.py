@@ -1,7 +1,7 @@
 """Log and metrics of the service.
 
-A thread of its own writes the log, so that a reader of it that stops never delays a request; lines that do not fit into
-the queue are dropped and counted. Lines of answered requests go to the standard output, all others to the standard
+A separate thread writes the log, so that a reader of the log that stops never delays a request. Lines that do not fit
+into the queue are dropped and counted. Lines of answered requests go to the standard output, all others to the standard
 error.
 """
 
@@ -16,9 +16,8 @@ from logging.handlers import QueueHandler, QueueListener
 
 from prometheus_client import Counter, Gauge, Histogram
 
-LINES_KEPT = 10_000  # for a reader that stalls; lines beyond are counted, not kept
-PAUSE_S = 0.05  # of the writing thread
-LAST_LINES_S = 1.0  # for what is left to be written at the end
+LINES_KEPT = 10_000  # for a reader that stalls; further lines are dropped and counted
+LAST_LINES_S = 1.0  # to write the remaining lines at the end
 REQUEST_LOG = "tribodrive.requests"
 
 # At /metrics, in the Prometheus text format.
@@ -27,7 +26,6 @@ DURATION = Histogram("tribodrive_request_duration_seconds", "From first byte to 
 CALCULATIONS = Gauge("tribodrive_calculations", "Calculations running or waiting")
 WAITING = Gauge("tribodrive_calculations_waiting", "Calculations waiting for a worker")
 REFUSED = Counter("tribodrive_calculations_refused", "Calculations refused because the queue was full")
-INTERRUPTED = Counter("tribodrive_calculations_interrupted", "Calculations interrupted for others, made again later")
 STUDIES = Gauge("tribodrive_studies", "Studies running")
 STUDIES_UNFINISHED = Counter("tribodrive_studies_unfinished", "Studies that ended with an error, as by their deadline")
 WORKERS_LOST = Counter("tribodrive_workers_lost", "Worker processes that died while they computed")
@@ -36,26 +34,18 @@ LINES_DROPPED = Counter("tribodrive_log_lines_dropped", "Log lines dropped becau
 
 
 class _Handler(QueueHandler):
-    """Puts records into the queue; those that find no room or cannot be formatted are counted."""
+    """Handler that counts records without room in the queue or with a wrong format, instead of writing about them."""
 
     def handleError(self, record: logging.LogRecord) -> None:  # noqa: N802  logging's name
-        """Count a record as lost."""
         del record
         LINES_DROPPED.inc()
 
 
-class _Listener(QueueListener):
-    """The thread that writes; it has no handler of logging's, for which the end of the process would wait."""
+class _Writer(logging.Handler):
+    """Handler that writes records without the locks of logging, for which the end of the process would wait."""
 
-    def dequeue(self, block: bool) -> logging.LogRecord:
-        """The next record, after a pause if there is none: to wake the thread for each costs a tenth of a request."""
-        with suppress(queue.Empty):
-            return super().dequeue(block=False)
-        time.sleep(PAUSE_S)
-        return super().dequeue(block)
-
-    def handle(self, record: logging.LogRecord) -> None:
-        """Write one record; no failure ends the thread."""
+    def handle(self, record: logging.LogRecord) -> bool:
+        """Write a record. A failure does not end the thread."""
         try:
             stream = sys.stdout if record.name == REQUEST_LOG else sys.stderr
             line = f"{record.getMessage()}\n".encode(errors="replace")
@@ -66,31 +56,32 @@ class _Listener(QueueListener):
                     time.sleep(0.01)
         except Exception:  # noqa: BLE001
             LINES_DROPPED.inc()
-
-    def stop(self) -> None:
-        """Let the thread end, if anybody reads what it writes; it has a second for what is left."""
-        with suppress(queue.Full):
-            self.enqueue_sentinel()
-        if self._thread is not None:
-            self._thread.join(LAST_LINES_S)
+        return True
 
 
 @contextmanager
 def running(level: str) -> Iterator[None]:
-    """Send log records through the queue while the context is open, except the root logger's if it has handlers."""
+    """Send log records through the queue while the context is open.
+
+    The root logger is left alone if it has handlers.
+    """
     lines: queue.Queue[logging.LogRecord] = queue.Queue(LINES_KEPT)
-    handler, listener = _Handler(lines), _Listener(lines)
+    handler, listener = _Handler(lines), QueueListener(lines, _Writer())
     logger = logging.getLogger("tribodrive")
     logger.setLevel(level.upper())
     logger.propagate = False
     loggers = [logger, *([logging.root] if not logging.root.handlers else [])]
-    for each in loggers:
-        each.addHandler(handler)
+    for own_logger in loggers:
+        own_logger.addHandler(handler)
     listener.start()
     try:
         yield
     finally:
         logger.propagate = True
-        for each in loggers:
-            each.removeHandler(handler)
-        listener.stop()
+        for own_logger in loggers:
+            own_logger.removeHandler(handler)
+        with suppress(queue.Full):
+            listener.enqueue_sentinel()
+        end = time.monotonic() + LAST_LINES_S
+        while not lines.empty() and time.monotonic() < end:
+            time.sleep(0.01)

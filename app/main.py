@@ -1,6 +1,7 @@
-"""Creates the FastAPI application."""
+"""The FastAPI application."""
 
 import asyncio
+import gc
 import logging
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
@@ -20,61 +21,55 @@ from app.schema.model import MODEL_VERSION
 from app.settings import MEBIBYTE, settings, unknown_variables
 from app.studies.admission import StudyAdmission
 from app.workers.pool import Pool
-from app.workers.processes import Template
 from app.workers.start_up import StartUp
 
 DESCRIPTION = """Tribology of high-speed drive trains: gear couplings (Pahl), air-oil pumping between gear teeth
 (Milian, Distretti, Leoni, Velex), load distribution and scuffing of helical gears (Xue, Zhang, Wang).
 Units are in the field names; every example below runs as it stands."""
 
+MODULES = ("app.pages.views", "app.pages.studies.page", "app.rexs.answer")
+"""Modules that workers load when they start."""
 COMPRESSED_FROM = 4096  # bytes
-# What is compressed already, and studies, whose lines are to arrive one by one.
+# Content that is compressed already, and studies, whose lines have to arrive one by one.
 NOT_COMPRESSED = (*DEFAULT_EXCLUDED_CONTENT_TYPES, "application/pdf", "application/x-ndjson", "text/csv")
 
 logger = logging.getLogger("tribodrive")
 
 
 def create_app() -> FastAPI:
-    """The service; settings come from the environment."""
+    """Create the application with the settings of the environment."""
     limits = settings()
 
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
-        served_by_another = not hasattr(app.state, "template")
-        template = Template(__name__) if served_by_another else app.state.template
-        app.state.pool = pool = Pool(limits, template)
-        app.state.start_up = StartUp(pool)
+        gc.freeze()  # imported objects stay
+        gc.enable()
         app.state.settings = limits
+        app.state.pool = pool = Pool(limits, MODULES)
+        app.state.start_up = start_up = StartUp()
         app.state.studies = StudyAdmission(limits, pool)
         app.state.answers = LRUCache(limits.answers_mb * MEBIBYTE, getsizeof=len)
         with log.running(limits.log_level):
             for line in unknown_variables():
                 logger.warning(line)
-            if served_by_another:
-                logger.warning(
-                    "served by another server with %d workers: limits of headers, connections and unread answers are "
-                    "its own",
-                    limits.workers,
-                )
-            workers = (pool.keep_worker() for _ in range(limits.workers))
+            logger.info("tribodrive: %d workers", limits.workers)
             async with app.state.studies.open(), asyncio.TaskGroup() as group:
-                tasks = [group.create_task(each) for each in (*workers, pool.supervise(), app.state.start_up.run())]
+                works = [pool.keep_workers(), start_up.run(), *(pool.serve() for _ in range(limits.workers))]
+                tasks = [group.create_task(work) for work in works]
                 try:
                     yield
                 finally:
                     for task in tasks:
                         task.cancel()
-                    pool.template.close()
 
     app = FastAPI(
         title="tribodrive",
         description=DESCRIPTION,
         version=MODEL_VERSION,
         lifespan=lifespan,
-        openapi_url=None,  # app.http.routes.service has the document and the page of it
-        docs_url=None,
+        docs_url=None,  # app.http.routes.service has this page
         redoc_url=None,
-        redirect_slashes=False,  # its redirects would name the host that the client claims to ask
+        redirect_slashes=False,  # redirects would repeat the host that the client names
     )
     app.include_router(calculations.router)
     app.include_router(calculations.figures)

@@ -1,7 +1,6 @@
-"""Every limit of the service: one environment variable each, `TRIBODRIVE_` and the name in capitals."""
+"""Limits and addresses of the service. Each is an environment variable: `TRIBODRIVE_` and the name in capitals."""
 
 import os
-import resource
 import sys
 from argparse import ArgumentParser
 from difflib import get_close_matches
@@ -13,12 +12,14 @@ from pydantic_core import ErrorDetails
 from pydantic_settings import BaseSettings, NoDecode, SettingsConfigDict
 
 MEBIBYTE = 2**20  # bytes
-CLUSTER_POINTS = 100_000  # of a study that other machines solve, chosen
-RESERVED_DESCRIPTORS = 96  # for workers, files and sockets of the service itself
+CLUSTER_POINTS = 100_000  # per study that other machines solve; chosen
 
 
 def _share_of_cores() -> int:
-    """Cores for each process of the server: uvicorn and gunicorn have their number in the same places."""
+    """Return the number of cores per process of the server.
+
+    uvicorn and gunicorn take the number of processes from the same argument and variable.
+    """
     number = ArgumentParser(add_help=False, allow_abbrev=False)
     number.add_argument("-w", "--workers", type=int, default=os.environ.get("WEB_CONCURRENCY", "1"))
     processes: int = number.parse_known_args()[0].workers
@@ -26,7 +27,7 @@ def _share_of_cores() -> int:
 
 
 class Settings(BaseSettings):
-    """Limits and addresses; each field's description is its documentation."""
+    """Limits and addresses; the description of a field is its documentation."""
 
     model_config = SettingsConfigDict(env_prefix="TRIBODRIVE_", frozen=True)
 
@@ -58,20 +59,11 @@ class Settings(BaseSettings):
     worker_memory_mb: int = Field(2048, ge=512, description="memory a worker may allocate, MiB")
     max_body_bytes: int = Field(384 * 1024, ge=1024, description="largest request body; beyond it 413")
     rexs_mb: int = Field(20, ge=1, le=100, description="largest gear unit from a file, unpacked, MiB; beyond it 413")
-    body_deadline_s: float = Field(10.0, gt=0, description="longest time for a request body to arrive; then 408")
     answers_mb: int = Field(64, ge=0, description="memory for answers just computed, for other views of them, MiB")
-    max_header_bytes: int = Field(16384, ge=1024, description="largest sum of request headers; beyond it 431")
-    header_deadline_s: float = Field(10.0, gt=0, description="longest time for request headers to arrive; then 408")
-    send_deadline_s: float = Field(
-        60.0, gt=0, description="longest time in which a client reads nothing of an answer that waits for it"
+    max_header_bytes: int = Field(
+        16384, ge=1024, description="bytes of unfinished request headers, beside one read of 256 KiB; beyond it 400"
     )
-    max_connections: int = Field(
-        default_factory=lambda: max(
-            16, min(10_000, resource.getrlimit(resource.RLIMIT_NOFILE)[0] - RESERVED_DESCRIPTORS)
-        ),
-        ge=1,
-        description="open connections; one more is answered 503",
-    )
+    limit_concurrency: int = Field(500, ge=1, description="open connections; a request on one more is answered 503")
     shutdown_s: int = Field(30, ge=0, description="time for requests in flight to finish at shutdown")
     log_level: str = Field("info", pattern="^(debug|info|warning|error)$", description="least level that is logged")
     log_clients: bool = Field(True, description="whether the log names the address of the client of each request")
@@ -83,13 +75,13 @@ class Settings(BaseSettings):
 
     @property
     def most_study_points(self) -> int:
-        """The limit in force."""
+        """Most points of one study: as set, else more for a cluster."""
         return CLUSTER_POINTS if self.scheduler and "study_points" not in self.model_fields_set else self.study_points
 
 
 @lru_cache(maxsize=1)
 def settings() -> Settings:
-    """The settings of this process, read from the environment once; those that are wrong end it with a line each."""
+    """Return the settings of this process, read from the environment once. Wrong settings end it with a line each."""
     try:
         return Settings()
     except ValidationError as error:
@@ -97,12 +89,12 @@ def settings() -> Settings:
 
 
 def unknown_variables() -> list[str]:
-    """A line for each variable of the environment that looks like a setting and is none."""
-    known = [f"TRIBODRIVE_{name.upper()}" for name in Settings.model_fields]
+    """Return a line for each variable of the environment that looks like a setting but is not one."""
+    variables = [f"TRIBODRIVE_{name.upper()}" for name in Settings.model_fields]
     lines = []
     for name in sorted(os.environ):
-        if name.startswith("TRIBODRIVE_") and name not in known:
-            nearest = get_close_matches(name, known, 1)
+        if name.startswith("TRIBODRIVE_") and name not in variables:
+            nearest = get_close_matches(name, variables, 1)
             meant = f"; did you mean {nearest[0]}?" if nearest else ""
             lines.append(f"tribodrive: there is no setting {name}{meant}")
     return lines

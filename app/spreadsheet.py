@@ -1,4 +1,4 @@
-"""Rows as CSV that spreadsheets open without running anything."""
+"""Rows as CSV, such that spreadsheets do not run any of their cells as a formula."""
 
 import csv
 import re
@@ -7,18 +7,21 @@ from io import StringIO
 from typing import Any
 
 FORMULA_SIGNS = ("=", "+", "-", "@", "\t", "\r", "\n")
-_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)  # whose sign begins no formula
+_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)  # its sign does not begin a formula
 
 
 def csv_of(rows: Iterable[Iterable[Any]], digits: int | None = None) -> bytes:
-    """Comma-separated values; None is an empty cell, numbers have so many significant digits, else all."""
+    """Return rows as comma-separated values.
+
+    None is an empty cell. Numbers have `digits` significant digits, or all digits if `digits` is None.
+    """
     text = StringIO(newline="")
     csv.writer(text).writerows([_cell(cell, digits) for cell in row] for row in rows)
     return text.getvalue().encode()
 
 
 def _cell(value: Any, digits: int | None) -> Any:
-    """A cell that no spreadsheet takes for a formula."""
+    """Return a cell that no spreadsheet takes for a formula."""
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, float) and digits is not None:

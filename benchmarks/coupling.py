@@ -22,12 +22,12 @@ UNEVEN = replace(DESIGN, coupling=replace(DESIGN.coupling, pitch_errors=PITCH_ER
 
 
 def offset(inputs: CouplingInputs) -> CouplingInputs:
-    """The same coupling between parallel shafts."""
+    """Return the same coupling between parallel shafts."""
     return replace(inputs, operation=replace(inputs.operation, arrangement="parallel_offset"))
 
 
 def at(inputs: CouplingInputs, misalignment_deg: float, speed: float) -> CouplingInputs:
-    """The same coupling at another misalignment and speed [rad/s]."""
+    """Return the same coupling at another misalignment and speed [rad/s]."""
     return replace(inputs, operation=replace(inputs.operation, misalignment=radians(misalignment_deg), speed=speed))
 
 

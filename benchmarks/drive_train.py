@@ -30,7 +30,7 @@ USUAL = list(usual_corners(BY_PATH["/v1/drive-train"].request.model_validate(REQ
 
 
 def best(run: Callable[[], object], repeats: int = REPEATS) -> float:
-    """Shortest of the repeats [s], after one to warm the kernels: other work on the machine only adds."""
+    """Return the shortest of the repeats [s], after one run that warms the kernels: other work only adds time."""
     run()
     times = []
     for _ in range(repeats):
@@ -40,14 +40,14 @@ def best(run: Callable[[], object], repeats: int = REPEATS) -> float:
     return min(times)
 
 
-def pumped() -> None:
-    """The gas anew."""
+def solve_gas() -> None:
+    """Solve the pumped gas again, without its cache."""
     gas_heat.cache_clear()
     gas_heat(INPUTS.pumping, SPEED)
 
 
 def corners() -> None:
-    """256 runs, one after another: the usual corners and two heights of tip relief."""
+    """Solve 256 runs, one after another: the usual corners and two heights of tip relief."""
     ranges = [
         *(axis.model_dump(exclude_none=True) for axis in USUAL),
         {"path": "modifications.tip_relief_um", "values": [12, 18]},
@@ -56,7 +56,7 @@ def corners() -> None:
 
 
 def search() -> None:
-    """The example's design search: 12 corners, 3 variables."""
+    """Run the example's design search: 12 corners, 3 variables."""
     run(Design, {**EXAMPLES["/v1/drive-train/design"]["robust"]["value"], "request": REQUEST})
 
 
@@ -76,7 +76,7 @@ def main() -> None:
     start = outcome(INPUTS).gap
     print(f"{'figure':<52}{'measured':>12}{'target':>12}")
     rows: list[tuple[str, Callable[[], object], int, float, str]] = [
-        ("pumped gas", pumped, 3, 1e3, "ms"),
+        ("pumped gas", solve_gas, 3, 1e3, "ms"),
         ("answer without thermal film, gas known", lambda: solve(INPUTS), REPEATS, 1e3, "ms"),
         ("figures of a study, cold start", lambda: outcome(INPUTS), REPEATS, 1e3, "ms"),
         ("figures of a study, from a neighbour", lambda: outcome(INPUTS, start), REPEATS, 1e3, "ms"),

@@ -23,7 +23,7 @@ ISOTHERMAL = Model(thermal=False, rheology="newtonian")
 
 
 def path(model: Model, points: int = 50) -> list[LineContactInputs]:
-    """Gear pair 1 from A to E at 273 N/mm."""
+    """Return gear pair 1 from A to E at 273 N/mm."""
     pair = gear_pair(
         GearPairInputs(
             GearTeeth(23),
@@ -47,7 +47,7 @@ def path(model: Model, points: int = 50) -> list[LineContactInputs]:
 
 
 def figures() -> Iterator[Figure | MedianFigure]:
-    """The rows of the table."""
+    """Yield the rows of the table."""
     for name, model, target in (
         ("isothermal Newtonian point, 121 nodes", ISOTHERMAL, 6.0),
         ("isothermal Ree-Eyring point, 121 nodes", replace(EYRING, thermal=False), 6.0),

@@ -6,7 +6,7 @@ COLUMNS = ("statement", "source", "printed", "computed", "unit", "deviation", "r
 
 
 def main() -> None:
-    """Print one table a model."""
+    """Print one table per model."""
     for model, statements in STATEMENTS.items():
         print(f"\n## {model}\n")
         print("| " + " | ".join(COLUMNS) + " |")

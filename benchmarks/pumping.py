@@ -21,13 +21,13 @@ ONE_SET = PumpingModel(spaces=Spaces.PINION)
 
 
 def operating_point(gears: GearPairInputs, rpm: float, model: PumpingModel) -> Callable[[], object]:
-    """A solution of one set of spaces."""
+    """Return a function that solves one set of spaces."""
     inputs = PumpingInputs(PumpingSetup(gears, model=model), rpm * pi / 30)
     return lambda: solve(inputs)
 
 
 def figures() -> tuple[Figure, ...]:
-    """The rows of the table."""
+    """Return the rows of the table."""
     space = tooth_space(gear_pair(CASE_1), 0.3e-3, Gap.CONTACT, of_pinion=True)
     chain = replace(ONE_SET, flow=Flow.POCKET_CHAIN)
     search = ChokingInputs(PumpingSetup(CASE_1, model=ONE_SET), 60000 * pi / 30)

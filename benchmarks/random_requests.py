@@ -1,8 +1,8 @@
-"""Random valid requests to every endpoint, range ends included: no exception, no number that is none, none too late.
+"""Random valid requests to every endpoint, ends of ranges included: no exception, no NaN or infinity, no late answer.
 
-In process, one seed a request, printed where something is found and enough to repeat it:
-python -m benchmarks.random_requests --count 100000; with --seed and --count 1, one request again.
-Endpoints that take a hundred times longer are asked more rarely: they would take all the time.
+The requests are solved in this process: python -m benchmarks.random_requests --count 100000. Each request has its own
+seed, which is printed if the request fails; --seed with --count 1 repeats this request. Endpoints that take a hundred
+times longer are asked more rarely, because they would take all the time.
 """
 
 import argparse
@@ -46,13 +46,13 @@ class Draw:
         self._choice = choice
 
     def resolved(self, schema: Schema) -> Schema:
-        """The schema behind a reference."""
+        """Return the schema behind a reference."""
         while "$ref" in schema:
             schema = self._document["$defs"][schema["$ref"].rsplit("/", 1)[1]]
         return schema
 
     def value(self, schema: Schema) -> Any:
-        """One value."""
+        """Draw one value."""
         schema = self.resolved(schema)
         if "anyOf" in schema:
             return self.value(self._choice.choice(schema["anyOf"]))
@@ -110,7 +110,7 @@ class Draw:
 
 
 def leaves(schema: Schema, draw: Draw, path: tuple[str, ...] = ()) -> list[tuple[tuple[str, ...], Schema]]:
-    """Every field of a request that is no section, with its schema."""
+    """Return the path and schema of every field of a request that is not a section."""
     schema = draw.resolved(schema)
     if schema.get("type") != "object":
         return [(path, schema)]
@@ -119,17 +119,17 @@ def leaves(schema: Schema, draw: Draw, path: tuple[str, ...] = ()) -> list[tuple
 
 @cache
 def schema_of(calculation: Calculation) -> Schema:
-    """What the endpoint takes."""
+    """Return the schema of the endpoint's requests."""
     return calculation.request.model_json_schema()
 
 
 def request(seed: int) -> tuple[str, dict[str, Any]]:
-    """The endpoint and body that belong to a seed: an example with some fields drawn anew, or all drawn."""
+    """Return the endpoint and body of a seed: an example with some random fields, or a random body."""
     choice = random.Random(seed)
-    calculation = choice.choices(CALCULATIONS, [SHARES.get(each.path, 1.0) for each in CALCULATIONS])[0]
+    calculation = choice.choices(CALCULATIONS, [SHARES.get(listed.path, 1.0) for listed in CALCULATIONS])[0]
     document = schema_of(calculation)
     draw = Draw(document, choice)
-    similar = [each for each in examples().values() if each.endpoint == calculation.path]
+    similar = [example for example in examples().values() if example.endpoint == calculation.path]
     if not similar or choice.random() < FROM_NOTHING:
         return calculation.path, draw.value(document)
     body = copy.deepcopy(choice.choice(similar).request)
@@ -143,14 +143,14 @@ def request(seed: int) -> tuple[str, dict[str, Any]]:
 
 
 def refuse(constant: str) -> float:
-    """Called for NaN and Infinity in an answer."""
+    """Reject NaN and Infinity in an answer."""
     raise ValueError(f"{constant} in the answer")
 
 
-def tried(seed: int) -> tuple[str, str, float]:
-    """The endpoint; what became of a request: its status, "refused", or what went wrong; its CPU time [s]."""
+def solve_random(seed: int) -> tuple[str, str, float]:
+    """Solve the request of a seed; return endpoint, outcome (status, refusal or failure) and CPU time [s]."""
     path, body = request(seed)
-    began = time.process_time()  # what others do on the machine does not count
+    began = time.process_time()  # other processes on the machine do not count
     try:
         wanted = validated(BY_PATH[path].request, body)
         refuse_endless(BY_PATH[path], wanted, settings().deadline_s)
@@ -160,20 +160,20 @@ def tried(seed: int) -> tuple[str, str, float]:
         outcome = f"refused: {refusal.code}"
     except InvalidBody as refusal:
         outcome = f"invalid: {refusal.faults[0].code}"
-    except Exception:  # noqa: BLE001  that is what is looked for
+    except Exception:  # noqa: BLE001  any exception is a failure to report
         print(f"seed {seed}: {path} {json.dumps(body)}\n{traceback.format_exc()}", flush=True)
         outcome = "FAILED"
     return path, outcome, time.process_time() - began
 
 
 def main(first: int, count: int) -> None:
-    """Try them and print what was found."""
+    """Solve the requests of `count` seeds and print the outcomes."""
     outcomes: Counter[str] = Counter()
     asked: Counter[str] = Counter()
     late: list[tuple[float, int]] = []
     print(f"seeds {first} to {first + count - 1}")
     for seed in range(first, first + count):
-        path, outcome, seconds = tried(seed)
+        path, outcome, seconds = solve_random(seed)
         asked[path] += 1
         outcomes[outcome] += 1
         late.append((seconds, seed))

@@ -1,4 +1,4 @@
-"""What the service survives: a mixed load while workers are killed and stopped and clients leave, faults, random input.
+"""Reliability of the service: a mixed load while workers and clients fail, scenarios of faults, random input.
 
 Prints the table of the README's section "Reliability". Run from the project's root: python -m benchmarks.reliability
 (a minute of load), or with --seconds 600 --faults 2000 for the long one.
@@ -39,7 +39,7 @@ MIX = (
     "milian-case-1",
 )
 CLIENTS = 3
-LEAVING = "127.0.0.9"  # where clients that leave come from
+LEAVING = "127.0.0.9"  # address of the clients that leave
 JSON = {"Content-Type": "application/json"}
 
 
@@ -66,18 +66,18 @@ class Case:
 
 
 def cases(address: str) -> list[Case]:
-    """The mixed load with the answers of the service at rest."""
-    found = []
+    """Return the mixed load with the answers of the service at rest."""
+    load_cases = []
     for name in MIX:
         example = examples()[name]
         body = json.dumps({**example.request, "detail": "summary"}).encode()
         response = httpx.post(address + example.endpoint, content=body, headers=JSON, timeout=60).raise_for_status()
-        found.append(Case(example.endpoint, body, response.content))
-    return found
+        load_cases.append(Case(example.endpoint, body, response.content))
+    return load_cases
 
 
 def outcome(connection: http.client.HTTPConnection, case: Case) -> str:
-    """Right, wrong, or the code of the problem."""
+    """Send a request; return "right", "wrong" or the code of the problem."""
     connection.request("POST", case.path, case.body, JSON)
     response = connection.getresponse()
     content = response.read()
@@ -87,7 +87,7 @@ def outcome(connection: http.client.HTTPConnection, case: Case) -> str:
 
 
 def load(netloc: str, mix: list[Case], seed: int, watch: Watch, done: threading.Event) -> None:
-    """One client, with an address of its own, that asks and checks."""
+    """Send random requests as one client, with an address of its own, and check the answers."""
     choice = random.Random(seed)
     connection = http.client.HTTPConnection(netloc, timeout=60, source_address=(f"127.0.0.{2 + seed}", 0))
     while not done.is_set():
@@ -100,7 +100,7 @@ def load(netloc: str, mix: list[Case], seed: int, watch: Watch, done: threading.
 
 
 def leave(netloc: str, case: Case) -> None:
-    """A client that asks for something long and leaves."""
+    """Send a long request as a client that leaves before the answer."""
     host, port = netloc.split(":")
     with socket.create_connection((host, int(port)), timeout=10, source_address=(LEAVING, 0)) as connection:
         head = f"POST {case.path} HTTP/1.1\r\nHost: {netloc}\r\nContent-Type: application/json\r\n"
@@ -119,7 +119,7 @@ def health(netloc: str, watch: Watch, done: threading.Event) -> None:
 
 
 def disturb(process: subprocess.Popen[str], mix: list[Case], netloc: str, watch: Watch) -> None:
-    """One fault: a worker killed, a worker stopped, or a client that leaves, in turn; and a look at the processes."""
+    """Cause one fault and record the processes: kill a worker, stop a worker or leave as a client, in turn."""
     long = next(case for case in mix if case.path == "/v1/scuffing")
     kind = ("killed", "left", "stopped", "left")[sum(watch.faults.values()) % 4]
     alive = workers(process)
@@ -136,7 +136,7 @@ def disturb(process: subprocess.Popen[str], mix: list[Case], netloc: str, watch:
 
 
 def under_load(seconds: int, faults: int) -> Iterator[tuple[str, str]]:
-    """Rows of the table: a mixed load while workers and clients fail."""
+    """Yield the rows of the table about a mixed load while workers and clients fail."""
     watch, done = Watch(), threading.Event()
     with (
         TemporaryDirectory() as folder,
@@ -146,20 +146,20 @@ def under_load(seconds: int, faults: int) -> Iterator[tuple[str, str]]:
         mix = cases(address)
         threads = [threading.Thread(target=load, args=(netloc, mix, seed, watch, done)) for seed in range(CLIENTS)]
         threads.append(threading.Thread(target=health, args=(netloc, watch, done)))
-        for each in threads:
-            each.start()
+        for thread in threads:
+            thread.start()
         began = time.monotonic()
         for number in range(faults):
             time.sleep(max(0.0, began + (number + 1) * seconds / faults - time.monotonic()))
             disturb(process, mix, netloc, watch)
         done.set()
-        for each in threads:
-            each.join()
+        for thread in threads:
+            thread.join()
         time.sleep(1)
         recovered = httpx.get(f"{address}/readyz", timeout=60).is_success
         left_over = len(descendants(process.pid))
-        lost = [int(each) for each in re.findall(r"worker (\d+) was lost while", log.read_text("utf-8"))]
-    known = Counter(watch.signalled[worker] for worker in lost if worker in watch.signalled)
+        lost = [int(number) for number in re.findall(r"worker (\d+) was lost while", log.read_text("utf-8"))]
+    lost_by_signal = Counter(watch.signalled[worker] for worker in lost if worker in watch.signalled)
     unknown = [f"worker {worker}" for worker in lost if worker not in watch.signalled]
     unknown += ["not in the log"] * (watch.outcomes["worker_lost"] - len(lost))
     other = {name: count for name, count in watch.outcomes.items() if name not in {"right", "wrong", "worker_lost"}}
@@ -172,7 +172,7 @@ def under_load(seconds: int, faults: int) -> Iterator[tuple[str, str]]:
     yield "wrong answers", str(watch.outcomes["wrong"])
     yield (
         "requests lost (503) with a worker that was killed, stopped",
-        ", ".join(str(known[kind]) for kind in ("killed", "stopped")),
+        ", ".join(str(lost_by_signal[kind]) for kind in ("killed", "stopped")),
     )
     yield "requests lost without a signal to their worker", f"{len(unknown)} {', '.join(unknown)}".strip()
     yield "any other failure", ", ".join(f"{count} {name}" for name, count in other.items()) or "0"
@@ -187,7 +187,7 @@ def under_load(seconds: int, faults: int) -> Iterator[tuple[str, str]]:
 
 
 def under_faults() -> Iterator[tuple[str, str]]:
-    """Rows of the table: every scenario of the fault suite."""
+    """Yield the rows of the table about the scenarios of the fault suite."""
     suites = ["tests/service/test_faults.py", "tests/service/test_floods.py", "tests/service/test_log.py"]
     command = [sys.executable, "-m", "pytest", "-q", "-m", "service", "-rA", *suites, "tests/service/test_start.py"]
     report = subprocess.run(command, cwd=ROOT, check=False, capture_output=True, text=True).stdout
@@ -196,7 +196,7 @@ def under_faults() -> Iterator[tuple[str, str]]:
 
 
 def under_generated_inputs(examples_per_operation: int) -> Iterator[tuple[str, str]]:
-    """Rows of the table: schemathesis with every check over the whole OpenAPI document."""
+    """Yield the rows of the table about schemathesis, with every check over the whole OpenAPI document."""
     command = [Path(sys.executable).with_name("schemathesis"), "run", "--checks", "all"]
     command += ["--max-examples", str(examples_per_operation)]
     with running_server(log_level="error") as (_, address):

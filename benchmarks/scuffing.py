@@ -31,13 +31,13 @@ SWEEP = Resolution(roll_positions=60, slices=40, profile_points=41, face_points=
 
 
 def paper_pair(width: float, helix: float, model: Model, modifications: Modifications) -> LoadDistributionInputs:
-    """A pair of Xue, Zhang and Wang at 50 kW and 2000 1/min."""
+    """Return a pair of Xue, Zhang and Wang at 50 kW and 2000 1/min."""
     gears = GearPairInputs(GearTeeth(23), GearTeeth(30), 3e-3, width, helix_angle=radians(helix), rack_tip_radius=0.38)
     return LoadDistributionInputs(gears, Load(50e3 / SPEED, SPEED), modifications, model=model, resolution=MAP)
 
 
 def relief_designs() -> Iterator[Modifications]:
-    """5^4 designs of tip relief, its length, profile crowning and lead crowning."""
+    """Yield 5^4 designs of tip relief, its length, profile crowning and lead crowning."""
     for relief, length, profile, lead in product(range(5), range(1, 6), range(5), range(5)):
         yield Modifications(
             tip_relief=relief * 5e-6,
@@ -55,7 +55,7 @@ def sweep(model: Model) -> None:
 
 
 def figures() -> Iterator[Figure]:
-    """The rows of the table."""
+    """Yield the rows of the table."""
     models = (("linear", Model(contact="linear"), 3.0), ("half-space", Model(), 6.0))
     for name, model, target in models:
         for width, helix in ((20e-3, 9.8), (40e-3, 20.2)):

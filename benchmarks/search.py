@@ -36,29 +36,29 @@ def main() -> None:
     seed = randbits(32) if given.seed is None else given.seed
     print(f"seed {seed}")
     checks = {name: check for name, check in CHECKS.items() if given.only in name}
-    found = search(checks, seed, 60.0 * given.minutes)
+    counts = search(checks, seed, 60.0 * given.minutes)
     print("\n| check | cases | failures |\n|---|---|---|")
     for name in checks:
-        print(f"| {name} | {found[name, 'cases']} | {found[name, 'failures']} |")
-    raise SystemExit(any(count for (_, kind), count in found.items() if kind == "failures"))
+        print(f"| {name} | {counts[name, 'cases']} | {counts[name, 'failures']} |")
+    raise SystemExit(any(count for (_, kind), count in counts.items() if kind == "failures"))
 
 
 def search(checks: dict[str, Check], seed: int, seconds: float) -> Counter[tuple[str, str]]:
-    """Cases and failures of each check; the one that had the least time so far is next."""
-    found: Counter[tuple[str, str]] = Counter()
+    """Count cases and failures of each check; the check with the least time so far is next."""
+    counts: Counter[tuple[str, str]] = Counter()
     spent = dict.fromkeys(checks, 0.0)
     while sum(spent.values()) < seconds:
         name = min(spent, key=spent.__getitem__)
         started = time.perf_counter()
-        number = found[name, "cases"]
+        number = counts[name, "cases"]
         try:
             checks[name](np.random.default_rng([seed, sum(name.encode()), number]))
         except Exception:  # noqa: BLE001  an exception is a finding like any other
-            found[name, "failures"] += 1
+            counts[name, "failures"] += 1
             print(f"\n{name}: seed {seed}, case {number}\n{traceback.format_exc(limit=-3)}", flush=True)
-        found[name, "cases"] += 1
+        counts[name, "cases"] += 1
         spent[name] += time.perf_counter() - started
-    return found
+    return counts
 
 
 if __name__ == "__main__":

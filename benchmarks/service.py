@@ -31,19 +31,19 @@ EXAMPLE = {**examples()["pahl-axial-displacement"].request, "detail": "summary"}
 
 
 def with_empty_endpoint(app: FastAPI) -> FastAPI:
-    """The application with an endpoint that validates a coupling and does nothing."""
+    """Add to the application an endpoint that validates a coupling and does nothing."""
 
     @app.post("/empty")
     async def empty(_body: CouplingRequest) -> Health:
         return Health()
 
     routes = app.router.routes
-    routes.insert(0, routes.pop())  # the same way to it, however many other routes there are
+    routes.insert(0, routes.pop())  # first, so that the number of other routes does not matter
     return app
 
 
 def bare() -> FastAPI:
-    """FastAPI and nothing of ours around it."""
+    """Return FastAPI without the layers of the service."""
     app = with_empty_endpoint(FastAPI())
 
     @app.get("/readyz")
@@ -54,7 +54,7 @@ def bare() -> FastAPI:
 
 
 def __getattr__(name: str) -> FastAPI:
-    """The two applications, made when uvicorn asks for one."""
+    """Return one of the two applications, created at uvicorn's request."""
     match name:
         case "bare_app":
             return bare()
@@ -66,7 +66,7 @@ def __getattr__(name: str) -> FastAPI:
 
 @contextmanager
 def served(factory: str) -> Iterator[subprocess.Popen[bytes]]:
-    """A server process of one of the applications above."""
+    """Run a server process of one of the applications above."""
     environment = {**os.environ, "TRIBODRIVE_PORT": str(PORT)}
     command = [sys.executable, "-m", "benchmarks.service", "--serve", factory]
     process = subprocess.Popen(command, env=environment, stdout=subprocess.DEVNULL)
@@ -83,7 +83,7 @@ def served(factory: str) -> Iterator[subprocess.Popen[bytes]]:
 
 
 def load(path: str, body: object | None, seconds: int, connections: int = 8) -> tuple[float, float]:
-    """Requests per second and 99th percentile [ms] under wrk."""
+    """Measure requests per second and the 99th percentile [ms] under wrk."""
     with tempfile.NamedTemporaryFile("w", suffix=".lua") as script:
         if body is not None:
             content = json.dumps(json.dumps(body))
@@ -102,14 +102,14 @@ def load(path: str, body: object | None, seconds: int, connections: int = 8) -> 
 
 
 def milliseconds(client: httpx.Client, example: Example) -> float:
-    """How long one request takes, seen by its client."""
+    """Measure the time of one request [ms], as its client sees it."""
     start = time.perf_counter()
     client.post(example.endpoint, json=example.request).raise_for_status()
     return 1e3 * (time.perf_counter() - start)
 
 
 def first_requests() -> None:
-    """The first request of every endpoint after start-up beside later ones, and what the workers then hold."""
+    """Print the time of each endpoint's first request and of later requests, and the memory of the workers."""
     first_of = {example.endpoint: example for example in reversed(examples().values())}
     with served("ours") as process, httpx.Client(base_url=ADDRESS, timeout=120) as client:
         print(f"\n{'endpoint':<40}{'first ms':>12}{'later ms':>10}")
@@ -130,7 +130,7 @@ MEASURED = {
 
 
 def best_loads(seconds: int, rounds: int) -> dict[tuple[str, str], tuple[float, float]]:
-    """Highest rate and lowest percentile of several rounds, in which the two applications take turns."""
+    """Measure the highest rate and lowest percentile of several rounds, in which the two applications take turns."""
     loads: dict[tuple[str, str], list[tuple[float, float]]] = {case: [] for case in MEASURED}
     for _ in range(rounds):
         for factory in ("bare", "ours"):
@@ -139,7 +139,7 @@ def best_loads(seconds: int, rounds: int) -> dict[tuple[str, str], tuple[float, 
                     if case[0] == factory:
                         body = None if case[1] == "/healthz" else EXAMPLE
                         loads[case].append(load(case[1], body, seconds))
-    return {case: (max(rate for rate, _ in each), min(late for _, late in each)) for case, each in loads.items()}
+    return {case: (max(rate for rate, _ in rounds), min(late for _, late in rounds)) for case, rounds in loads.items()}
 
 
 def main(seconds: int, rounds: int) -> None:

@@ -28,7 +28,7 @@ FORKS = 50
 
 
 def wait_until(client: httpx.Client, method: str, path: str, body: object = None) -> None:
-    """Ask until the answer is one."""
+    """Repeat a request until it succeeds."""
     while True:
         with suppress(httpx.TransportError):
             if client.request(method, path, json=body).is_success:
@@ -37,7 +37,7 @@ def wait_until(client: httpx.Client, method: str, path: str, body: object = None
 
 
 def start(cache: str) -> dict[str, float]:
-    """Seconds from the command to open, to a coupling, to everything warm."""
+    """Measure the times from the command until the port is open, a coupling is solved and everything is warm [s]."""
     began = time.perf_counter()
     with (
         started_server(environment={"NUMBA_CACHE_DIR": cache}, log_level="error") as (process, address),
@@ -54,7 +54,11 @@ def start(cache: str) -> dict[str, float]:
 
 
 def new_workers(cache: str) -> tuple[list[float], float, float, float]:
-    """Milliseconds until a killed worker is replaced; private memory of a new and of a used worker, all of one [MB]."""
+    """Measure the replacement of killed workers.
+
+    Returns the times until a killed worker is replaced [ms], the private memory of a new and of a used worker, and the
+    resident memory of a worker [MB].
+    """
     with started_server(environment={"NUMBA_CACHE_DIR": cache}, workers=1, log_level="error") as (process, address):
         wait_until_warm(process, address)
         source = template(process)

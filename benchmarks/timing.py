@@ -20,8 +20,6 @@ from pathlib import Path
 from statistics import median
 from time import process_time
 
-from solvers.kernel_cache import roots
-
 ROOT = Path(__file__).resolve().parent.parent
 ROUND_S = 0.15
 LEAST_RUNS = 3  # of a round
@@ -32,32 +30,32 @@ ANSWERS_FOR = "--answers-for-another-process"
 
 @dataclass(frozen=True, slots=True)
 class Figure:
-    """A name, what is timed, and the time aimed at [ms]."""
+    """Name of a figure, the function that is timed, and its target time [ms]."""
 
     name: str
     run: Callable[[], object]
     target: float
 
     def seconds(self) -> float:
-        """What a run takes."""
+        """Measure the time of a run [s]."""
         return best(self.run)
 
 
 @dataclass(frozen=True, slots=True)
 class MedianFigure:
-    """A name, the many things of which the median is timed, and the time aimed at [ms]."""
+    """Name of a figure, the functions whose median time is taken, and its target time [ms]."""
 
     name: str
     runs: Sequence[Callable[[], object]]
     target: float
 
     def seconds(self) -> float:
-        """What half of the runs take at most, each timed once."""
+        """Measure the median time of the runs [s], each timed once."""
         return median(_duration(run) for run in self.runs)
 
 
 def best(run: Callable[[], object]) -> float:
-    """Shortest CPU time of a run [s], after one that warms up: whatever else happens only adds."""
+    """Return the shortest CPU time of a run [s], after one that warms up: other work only adds time."""
     run()
     times: list[float] = []
     while len(times) < LEAST_RUNS or sum(times) < ROUND_S:
@@ -66,14 +64,14 @@ def best(run: Callable[[], object]) -> float:
 
 
 def _duration(run: Callable[[], object]) -> float:
-    """CPU time of one run [s]."""
+    """Measure the CPU time of one run [s]."""
     began = process_time()
     run()
     return process_time() - began
 
 
 def print_times(benchmark: str, figures: Sequence[Figure | MedianFigure]) -> None:
-    """Print the table of a benchmark, a module's name, as its command line asks for it."""
+    """Print the table of a benchmark (the name of its module), with the options of the command line."""
     parser = argparse.ArgumentParser()
     other = parser.add_mutually_exclusive_group()
     other.add_argument("--against", metavar="REVISION", help="print the times of a previous version too")
@@ -100,7 +98,7 @@ def _print_ratios(
     revision: str | None,
     processor: str | None,
 ) -> None:
-    """Best times of both versions, and the median of the ratios of what was measured side by side."""
+    """Print the best times of both versions, and the median of the ratios of times measured side by side."""
     print(f"| figure | measured | {revision or processor} | ratio | aim |\n|---|---|---|---|---|")
     target = {"NUMBA_CPU_NAME": processor, "NUMBA_CPU_FEATURES": ""} if processor else {}
     with (
@@ -110,7 +108,7 @@ def _print_ratios(
     ):
         for index in wanted:
             figure = figures[index]
-            pairs = [(_asked(now, index), _asked(before, index)) for _ in range(ROUNDS)]
+            pairs = [(_ask_time(now, index), _ask_time(before, index)) for _ in range(ROUNDS)]
             ours, theirs = (1e3 * min(times) for times in zip(*pairs, strict=True))
             ratio = median(old / new for new, old in pairs)
             print(
@@ -120,7 +118,7 @@ def _print_ratios(
 
 @contextmanager
 def _sources_of(revision: str) -> Iterator[Path]:
-    """A folder with a revision's sources and the benchmarks of today."""
+    """Create a folder with a revision's sources and today's benchmarks."""
     archive = subprocess.run(["git", "archive", revision], cwd=ROOT, capture_output=True, check=True).stdout
     with tempfile.TemporaryDirectory() as folder:
         with tarfile.open(fileobj=BytesIO(archive)) as sources:
@@ -132,9 +130,9 @@ def _sources_of(revision: str) -> Iterator[Path]:
 
 @contextmanager
 def _process(benchmark: str, folder: Path, **variables: str) -> Iterator[subprocess.Popen[str]]:
-    """A process that answers for the sources in a folder; its kernels are kept where ours are, by what they are of."""
+    """Start a process that times the sources in a folder; both versions share the cache of kernels."""
     command = [sys.executable, "-m", benchmark, ANSWERS_FOR]
-    environment = {**os.environ, **ONE_THREAD, "NUMBA_CACHE_DIR": str(roots()[0]), **variables}
+    environment = {**os.environ, **ONE_THREAD, **variables}
     with subprocess.Popen(
         command, cwd=folder, env=environment, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
     ) as process:
@@ -144,8 +142,8 @@ def _process(benchmark: str, folder: Path, **variables: str) -> Iterator[subproc
             process.terminate()
 
 
-def _asked(process: subprocess.Popen[str], index: int) -> float:
-    """The best time of a figure [s] by a process that answers."""
+def _ask_time(process: subprocess.Popen[str], index: int) -> float:
+    """Return the best time of a figure [s], measured by the process."""
     assert process.stdin is not None
     assert process.stdout is not None
     print(index, file=process.stdin, flush=True)
@@ -153,6 +151,6 @@ def _asked(process: subprocess.Popen[str], index: int) -> float:
 
 
 def _answer(figures: Sequence[Figure | MedianFigure]) -> None:
-    """Time the figures asked for by number on standard input."""
+    """Time the figures whose numbers arrive on standard input."""
     for line in sys.stdin:
         print(figures[int(line)].seconds(), flush=True)

@@ -1,4 +1,4 @@
-"""Array types, the rule that a result's arrays are read-only, and sums without their rounding."""
+"""Array types, read-only results, and sums without their rounding."""
 
 from typing import Any
 
@@ -19,26 +19,26 @@ ROUNDING = 1e-12
 
 
 def frozen(values: ArrayLike) -> NDArray[Any]:
-    """The values as a read-only array (a view where they are an array already)."""
+    """Return the values as a read-only array; an array is not copied."""
     array = np.asarray(values).view()
     array.flags.writeable = False
     return array
 
 
 def without_rounding(value: float, scale: float) -> float:
-    """The value, or zero where it is below 1e-12 of what its parts may add up to: the rounding of their sum."""
+    """Return the value, or zero if it is below 1e-12 of `scale`, the sum of its parts without their signs."""
     return 0.0 if abs(value) < ROUNDING * abs(scale) else value
 
 
 def records(shape: int | tuple[int, ...], fields: Fields) -> RecordArray:
-    """A record array of zeros.
+    """Return a record array of zeros.
 
-    Kernels share their arrays as records because numba counts references to every array in a group that is handed
-    over: with one array a field instead, a march of the pocket chain took 3.3 times as long, one of gas dynamics 1.4.
+    Kernels share their arrays as records because numba counts references to every array of a group in a call. With one
+    array per field, a march of the pocket chain took 3.3 times as long, and a march of the gas dynamics 1.4 times.
     """
     return np.zeros(shape, fields).view(np.recarray)
 
 
 def floats(*names: str) -> Fields:
-    """Fields that are all numbers."""
+    """Return fields of these names that are all numbers."""
     return [(name, np.float64) for name in names]

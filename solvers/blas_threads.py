@@ -1,7 +1,8 @@
-"""One thread of the BLAS for systems of a few hundred unknowns, where starting more takes longer than they save.
+"""Limit the BLAS to one thread for systems of a few hundred unknowns, for which more threads only cost time.
 
-The workers of the service are started with one thread. A notebook has as many as the machine has cores, and what else
-runs in it may want them, so a solver asks for one thread around its calls and gives back what was there.
+The workers of the service are started with one thread. A notebook has as many threads as the machine has cores, and
+other code in the notebook may need them. A solver therefore asks for one thread around its calls and then restores the
+limit.
 """
 
 from contextlib import AbstractContextManager
@@ -12,11 +13,11 @@ from threadpoolctl import ThreadpoolController
 
 @cache
 def libraries() -> ThreadpoolController:
-    """Return the libraries of the BLAS that this process has loaded when it is first asked."""
+    """Return the BLAS libraries that this process has loaded at the first call."""
     return ThreadpoolController().select(user_api="blas")
 
 
 def one_blas_thread() -> AbstractContextManager[object]:
-    """Let every BLAS of this process use one thread until the end of a block."""
+    """Limit every BLAS of this process to one thread inside a `with` block."""
     limits: AbstractContextManager[object] = libraries().limit(limits=1)
     return limits

@@ -1,7 +1,7 @@
-"""The two decorators with which every kernel of this package is compiled by numba.
+"""The two decorators with which numba compiles every kernel of this package.
 
-A kernel is typed by its first call, its machine code is kept on disk (see `solvers.kernel_cache`), and a division by
-zero gives infinity or NaN as IEEE 754 says instead of an exception.
+A kernel is compiled for the types of its first call. Its machine code is kept on disk (see `solvers.kernel_cache`). A
+division by zero gives infinity or NaN, as in IEEE 754, instead of an exception.
 """
 
 from collections.abc import Callable
@@ -9,7 +9,7 @@ from typing import ParamSpec, TypeVar, cast
 
 import numba
 
-from solvers.kernel_cache import cache_folder, located
+from solvers.kernel_cache import FOLDER
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -21,16 +21,15 @@ def kernel(function: Callable[P, R]) -> Callable[P, R]:
 
 
 def inlined_kernel(function: Callable[P, R]) -> Callable[P, R]:
-    """Compile a kernel that is copied into the kernels that call it, in place of a call.
+    """Compile a kernel whose code is copied into the kernels that call it.
 
-    A call counts references to every array handed over. For a step of a loop that takes groups of arrays, as for one
-    column of a film, that can cost twice the work itself.
+    A call counts references to every array that is passed. For a step of a loop that takes groups of arrays, for
+    example one column of a film, this can cost twice the work of the step.
     """
     return _compiled(function, forceinline=True)
 
 
 def _compiled(function: Callable[P, R], *, forceinline: bool = False) -> Callable[P, R]:
-    keep = cache_folder(function.__code__.co_filename) is not None
-    with located():
-        compiled = numba.njit(cache=keep, error_model="numpy", nogil=True, forceinline=forceinline)(function)
+    keep = FOLDER is not None
+    compiled = numba.njit(cache=keep, error_model="numpy", nogil=True, forceinline=forceinline)(function)
     return cast("Callable[P, R]", compiled)

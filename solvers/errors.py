@@ -8,7 +8,7 @@ Exception
 
 
 class SolverError(Exception):
-    """Base of everything the solvers raise on purpose."""
+    """Base class of all exceptions that the solvers raise on purpose."""
 
     def __init__(self, code: str, message: str, *details: object) -> None:
         super().__init__(code, message, *details)  # all arguments, so that the exception survives pickling
@@ -22,8 +22,8 @@ class SolverError(Exception):
 class InvalidInput(SolverError):
     """Physically impossible or unsupported input.
 
-    `code` is stable and meant for programs; `message` says what to change; `field` is the dotted name of the
-    input at fault, without unit ("pinion.teeth"), or None where no single input is.
+    `code` is stable and meant for programs. `message` says what to change. `field` is the dotted name of the wrong
+    input without its unit ("pinion.teeth"), or None if no single input is wrong.
     """
 
     def __init__(self, code: str, message: str, field: str | None = None) -> None:
@@ -32,7 +32,7 @@ class InvalidInput(SolverError):
 
 
 class NoSolution(SolverError):
-    """An iteration that ended without meeting its criteria; `residuals` says by how much."""
+    """An iteration that ended before it met its criteria; `residuals` holds the remaining errors by name."""
 
     def __init__(self, code: str, message: str, residuals: dict[str, float] | None = None) -> None:
         super().__init__(code, message, residuals)

@@ -8,7 +8,7 @@ import numpy as np
 
 from solvers.compiled import kernel
 from solvers.errors import InvalidInput
-from solvers.quantity import quantity
+from solvers.quantity import described, quantity, record
 
 PressureViscosityLaw = Literal["roelands", "barus"]
 OilKind = Literal["mineral", "pao", "ester", "polyglycol"]
@@ -20,32 +20,30 @@ ROELANDS_LOG_VISCOSITY = 9.67  # -ln of the viscosity 6.31e-5 Pa s at the pole
 ROELANDS_POLE_TEMPERATURE = 138.0  # K
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Lubricant:
     """A lubricating oil; the default is the oil of Xue, Zhang and Wang (second Table 2), its values at 360 K.
 
-    Units: viscosity, at reference_temperature and zero pressure [Pa s], reference_temperature [K],
-    pressure_viscosity (Barus coefficient) [1/Pa], temperature_viscosity (Reynolds coefficient) [1/K],
-    density, at reference_temperature [kg/m^3], specific_heat [J/(kg K)], thermal_conductivity [W/(m K)].
-    An incompressible oil keeps its density at every pressure and temperature. `kind` is its base oil, which only the
-    lubricant factors of the friction laws and of the scuffing test depend on. `viscosity_index` is told, not used.
+    An incompressible oil has the same density at every pressure and temperature.
     """
 
-    viscosity: float = 0.08
-    reference_temperature: float = 360.0
-    pressure_viscosity: float = 21.9e-9
-    temperature_viscosity: float = 0.042
-    density: float = 870.0
-    specific_heat: float = 2000.0
-    thermal_conductivity: float = 0.14
-    pressure_viscosity_law: PressureViscosityLaw = "roelands"
-    compressible: bool = True
-    kind: OilKind = "mineral"
-    viscosity_index: float | None = None
+    viscosity: float = described("Viscosity at the reference temperature and zero pressure [Pa s].", default=0.08)
+    reference_temperature: float = described("Reference temperature [K].", default=360.0)
+    pressure_viscosity: float = described("Pressure-viscosity coefficient of Barus [1/Pa].", default=21.9e-9)
+    temperature_viscosity: float = described("Temperature-viscosity coefficient of Reynolds [1/K].", default=0.042)
+    density: float = described("Density at the reference temperature [kg/m^3].", default=870.0)
+    specific_heat: float = described("Specific heat [J/(kg K)].", default=2000.0)
+    thermal_conductivity: float = described("Thermal conductivity [W/(m K)].", default=0.14)
+    pressure_viscosity_law: PressureViscosityLaw = described("Law of the viscosity over pressure.", default="roelands")
+    compressible: bool = described("Whether the density depends on pressure and temperature.", default=True)
+    kind: OilKind = described(
+        "Base oil; only the lubricant factors of friction laws and scuffing test depend on it.", default="mineral"
+    )
+    viscosity_index: float | None = described("Viscosity index; reported, not used [-].", default=None)
 
     @property
     def laws(self) -> "FluidLaws":
-        """The constants of the laws, as the compiled functions take them."""
+        """Constants of the viscosity and density laws, for the compiled functions."""
         a1 = log(self.viscosity) + ROELANDS_LOG_VISCOSITY
         return FluidLaws(
             log_viscosity=log(self.viscosity),
@@ -66,29 +64,32 @@ class Lubricant:
         )
 
     def viscosity_at(self, pressure: float, temperature: float) -> float:
-        """Viscosity [Pa s] at pressure [Pa] and temperature [K].
+        """Return the viscosity [Pa s] at pressure [Pa] and temperature [K].
 
-        Raises InvalidInput viscosity_range where the law makes it thicker than any oil without pressure.
+        Raises
+        ------
+        InvalidInput
+            `viscosity_range` if the law makes the oil thicker than any oil is without pressure.
         """
         laws = self.laws
         logarithm = float(log_viscosity(laws, pressure_part(laws, 0.0)[0], temperature)[0])
         if not logarithm < log(HIGHEST_VISCOSITY):
             message = (
                 f"the oil's law gives it 10^{logarithm / log(10.0):.2g} Pa s at {temperature:g} K, beyond "
-                f"{HIGHEST_VISCOSITY:g}; temperatures must lie nearer to the reference temperature, or the "
-                "temperature-viscosity coefficient be smaller"
+                f"{HIGHEST_VISCOSITY:g}; bring the temperatures nearer to the reference temperature, or lower the "
+                "temperature-viscosity coefficient"
             )
             raise InvalidInput("viscosity_range", message, "lubricant.temperature_viscosity")
         return float(np.exp(log_viscosity(laws, pressure_part(laws, pressure)[0], temperature)[0]))
 
     def density_at(self, pressure: float, temperature: float) -> float:
-        """Density [kg/m^3] at pressure [Pa] and temperature [K]."""
+        """Return the density [kg/m^3] at pressure [Pa] and temperature [K]."""
         return float(density(self.laws, pressure, temperature)[0])
 
 
 @dataclass(frozen=True, kw_only=True)
 class OilInUse:
-    """The properties of a lubricant that a result reports; units as in `Lubricant`."""
+    """The properties of a lubricant that a result reports."""
 
     viscosity: float = quantity("oil viscosity used", "η_0", unit="pa_s", text="at the reference temperature")
     reference_temperature: float = quantity("oil reference temperature used", "θ_0", unit="c")
@@ -103,12 +104,12 @@ class OilInUse:
 
 
 def oil_in_use(lubricant: Lubricant) -> dict[str, Any]:
-    """The fields of `OilInUse`."""
+    """Return the fields of `OilInUse` by name."""
     return {item.name: getattr(lubricant, item.name) for item in fields(OilInUse)}
 
 
 class FluidLaws(NamedTuple):
-    """Constants of the viscosity and density laws; the symbols are those of the functions below."""
+    """Constants of the viscosity and density laws of one oil, in SI units."""
 
     log_viscosity: float
     reference_temperature: float
@@ -125,10 +126,23 @@ class FluidLaws(NamedTuple):
 
 @kernel
 def pressure_part(laws: FluidLaws, pressure: float) -> tuple[float, float]:
-    """What pressure [Pa] contributes to the logarithm of viscosity, and its derivative [1/Pa].
+    """Compute the pressure term of the logarithm of the viscosity and its derivative.
 
-    Roelands: A1 (1 + 5.1e-9 p)^Z with Z = alpha / (5.1e-9 A1), A1 = ln eta0 + 9.67 (Eq. 20); Barus: alpha p.
-    Suction counts as no pressure: it occurs on the way to a solution only.
+    Parameters
+    ----------
+    laws : FluidLaws
+        Constants of the oil.
+    pressure : float
+        Pressure p [Pa]; a negative pressure counts as zero, because it only occurs during the iteration.
+
+    Returns
+    -------
+    tuple of float
+        Pressure term [-] and its derivative by pressure [1/Pa].
+
+    Notes
+    -----
+    Eq. 20 by Roelands: A1 (1 + 5.1e-9 p)^Z with Z = alpha/(5.1e-9 A1) and A1 = ln eta_0 + 9.67. By Barus: alpha p.
     """
     p = max(pressure, 0.0)
     if laws.roelands == 1:
@@ -145,11 +159,28 @@ def pressure_part(laws: FluidLaws, pressure: float) -> tuple[float, float]:
 
 @kernel
 def log_viscosity(laws: FluidLaws, pressure_term: float, temperature: float) -> tuple[float, float, float]:
-    """ln(eta / Pa s), its derivative by the pressure term of `pressure_part` and by temperature [1/K].
+    """Compute the logarithm of the viscosity and its derivatives.
 
-    Roelands (Eq. 20): A1 {-1 + (1 + 5.1e-9 p)^Z [(t - 138)/(t0 - 138)]^-S0} with S0 = beta (t0 - 138)/A1. The paper
-    prints S0 = beta/(A1 (t0 - 138)), which is no number and would leave the viscosity independent of temperature;
-    only the form here has -d ln eta/dt = beta at t0. Barus and Reynolds: alpha p - beta (t - t0).
+    Parameters
+    ----------
+    laws : FluidLaws
+        Constants of the oil.
+    pressure_term : float
+        Pressure term by `pressure_part` [-].
+    temperature : float
+        Temperature t [K].
+
+    Returns
+    -------
+    tuple of float
+        ln(eta/Pa s) [-], its derivative by the pressure term [-] and its derivative by temperature [1/K].
+
+    Notes
+    -----
+    Eq. 20 by Roelands: ln eta = ln eta_0 + A1 {-1 + (1 + 5.1e-9 p)^Z [(t - 138)/(t_0 - 138)]^-S0} with S0 = beta (t_0 -
+    138)/A1. The paper prints S0 = beta/(A1 (t_0 - 138)), which has the wrong unit and would make the viscosity almost
+    independent of temperature; only the form here gives -d ln eta/dt = beta at t_0. By Barus and Reynolds: ln eta = ln
+    eta_0 + alpha p - beta (t - t_0).
     """
     if laws.roelands == 1:
         above_pole = temperature - ROELANDS_POLE_TEMPERATURE
@@ -164,7 +195,26 @@ def log_viscosity(laws: FluidLaws, pressure_term: float, temperature: float) -> 
 
 @kernel
 def density(laws: FluidLaws, pressure: float, temperature: float) -> tuple[float, float, float]:
-    """Density [kg/m^3], its derivatives by pressure and temperature (Dowson and Higginson, Eq. 19)."""
+    """Compute the density of the oil and its derivatives by Dowson and Higginson.
+
+    Parameters
+    ----------
+    laws : FluidLaws
+        Constants of the oil.
+    pressure : float
+        Pressure p [Pa]; a negative pressure counts as zero.
+    temperature : float
+        Temperature [K].
+
+    Returns
+    -------
+    tuple of float
+        Density [kg/m^3], its derivative by pressure [kg/(m^3 Pa)] and by temperature [kg/(m^3 K)].
+
+    Notes
+    -----
+    Eq. 19.
+    """
     p = max(pressure, 0.0)
     base = 1.0 + 1.7e-9 * p
     heating = temperature - laws.reference_temperature

@@ -1,4 +1,4 @@
-"""Solids."""
+"""Elastic and thermal properties of solids."""
 
 from solvers.quantity import quantity, record
 from solvers.sources import XUE
@@ -6,7 +6,7 @@ from solvers.sources import XUE
 
 @record
 class Solid:
-    """An isotropic solid; steel by default."""
+    """An isotropic solid; the default is steel."""
 
     youngs_modulus: float = quantity(
         "Young's modulus", "E", f"{XUE}, Table 2", unit="gpa", default=206.0, ge=1, le=2000

@@ -16,7 +16,11 @@ RANKS: tuple[Rank, ...] = get_args(Rank)
 
 @dataclass(frozen=True, slots=True)
 class Notice:
-    """One warning: a stable `code`, a `message` that names the range, the dotted input `field` without unit."""
+    """A warning about the validity of a result.
+
+    `code` is stable and meant for programs. `message` names the exceeded range. `field` is the dotted name of an input
+    without its unit.
+    """
 
     code: str
     message: str

@@ -1,7 +1,7 @@
-"""Oils as their users know them: by ISO grade, by data sheet, or by the viscosity at one temperature.
+"""Oils as users know them: by ISO grade, by data sheet, or by the viscosity at one temperature.
 
-A data sheet has two kinematic viscosities, which also give the viscosity index (ASTM D2270, ISO 2909); where the oil
-enters a contact it becomes a lubricant of the models.
+A data sheet has two kinematic viscosities, which also give the viscosity index (ASTM D2270, ISO 2909). At the
+temperature at which the oil enters a contact, a data sheet gives a `Lubricant` of the models.
 """
 
 from dataclasses import dataclass, fields, replace
@@ -42,10 +42,24 @@ of the oils of index 0 and 100 with that Y (ASTM D2270, Table X2.1; read in a pu
 
 
 def viscosity_index(viscosity_40: float, viscosity_100: float) -> float:
-    """Viscosity index of an oil of kinematic viscosities U at 40 C and Y at 100 C [m^2/s] (Eq. R2).
+    """Compute the viscosity index of an oil.
 
-    100 (L - U)/(L - H) up to an index of 100, beyond it 100 + (10^N - 1)/0.00715 with N = log(H/U)/log Y. Below
-    Y = 2 mm^2/s, where the standard defines none, the first formula is used with the first of the reference oils.
+    Parameters
+    ----------
+    viscosity_40 : float
+        Kinematic viscosity U at 40 C [m^2/s].
+    viscosity_100 : float
+        Kinematic viscosity Y at 100 C [m^2/s].
+
+    Returns
+    -------
+    float
+        Viscosity index [-].
+
+    Notes
+    -----
+    Eq. R2: 100 (L - U)/(L - H) up to an index of 100, above it 100 + (10^N - 1)/0.00715 with N = log(H/U)/log Y. The
+    standard defines no index below Y = 2 mm^2/s; the first formula is used there with the first reference oils.
     """
     u, y = viscosity_40 / SQUARE_MILLIMETRE, viscosity_100 / SQUARE_MILLIMETRE
     _, low, high = max((row for row in REFERENCE_OILS if row[0] <= y), default=REFERENCE_OILS[0])
@@ -56,9 +70,28 @@ def viscosity_index(viscosity_40: float, viscosity_100: float) -> float:
 
 
 def viscosity_of_index(viscosity_40: float, index: float) -> float:
-    """Kinematic viscosity at 100 C [m^2/s] of an oil of this viscosity at 40 C [m^2/s] and this index (Eq. R2).
+    """Find the kinematic viscosity at 100 C of an oil of a given viscosity index.
 
-    Raises InvalidInput viscosity_index if no viscosity from 2 mm^2/s on has that index.
+    Parameters
+    ----------
+    viscosity_40 : float
+        Kinematic viscosity at 40 C [m^2/s].
+    index : float
+        Viscosity index [-].
+
+    Returns
+    -------
+    float
+        Kinematic viscosity at 100 C [m^2/s].
+
+    Raises
+    ------
+    InvalidInput
+        `viscosity_index` if no viscosity of at least 2 mm^2/s has this index.
+
+    Notes
+    -----
+    Eq. R2.
     """
     thick = viscosity_40 / SQUARE_MILLIMETRE
 
@@ -79,9 +112,9 @@ CELSIUS = 273.15  # K
 WALTHER_SHIFT = 0.7  # mm^2/s
 DENSITY_TEMPERATURE = 15.0 + CELSIUS  # K
 THERMAL_EXPANSION = 0.00065  # 1/K
-LEAST_VISCOSITY_100 = 1e-6  # m^2/s; ASTM D341 has further terms for oils as thin as that
+LEAST_VISCOSITY_100 = 1e-6  # m^2/s; ASTM D341 has further terms for thinner oils
 VISCOSITY_INDICES = (-100.0, 500.0)  # naphthenic and aromatic oils reach -100, silicone oils 400
-LARGEST_VISCOSITY = 0.1  # m^2/s; an oil that thick hardly flows, and the law does not know where it sets
+LARGEST_VISCOSITY = 0.1  # m^2/s; an oil this thick hardly flows, and the law does not contain its pour point
 
 TYPICAL_INDEX: dict[OilKind, float] = {"mineral": 95.0, "pao": 150.0, "ester": 150.0, "polyglycol": 210.0}
 MINERAL_VISCOSITY_100 = {
@@ -100,7 +133,11 @@ MINERAL_VISCOSITY_100 = {
 
 @dataclass(frozen=True, slots=True)
 class KindOfOil:
-    """What a data sheet rarely says: Gold's s [1/GPa at 1 mm^2/s] and t, density at 15 C, heat, conductivity (SI)."""
+    """Properties typical of a kind of oil, which a data sheet rarely gives.
+
+    `pressure_viscosity_scale` is Gold's s [1/GPa at 1 mm^2/s] and `pressure_viscosity_exponent` is Gold's t. Density at
+    15 C, specific heat and thermal conductivity are in SI units.
+    """
 
     pressure_viscosity_scale: float
     pressure_viscosity_exponent: float
@@ -123,9 +160,10 @@ _THICK, _THIN = "lubricant.kinematic_viscosity_40", "lubricant.kinematic_viscosi
 
 @dataclass(frozen=True, slots=True)
 class OilSheet:
-    """An oil by its data sheet; what is None follows from the kind of oil or from the viscosities.
+    """An oil by its data sheet; a property that is None follows from the kind of oil or from the viscosities.
 
-    Units: kinematic viscosities at 40 C and 100 C [m^2/s], density at 15 C [kg/m^3]; the others as in `Lubricant`.
+    Kinematic viscosities at 40 C and 100 C are in m^2/s, the density at 15 C is in kg/m^3; the other units are those of
+    `Lubricant`.
     """
 
     kinematic_viscosity_40: float
@@ -140,7 +178,13 @@ class OilSheet:
     compressible: bool = True
 
     def __post_init__(self) -> None:
-        """Raise InvalidInput for viscosities that no oil has: out_of_range, viscosity_order, viscosity_index."""
+        """Refuse viscosities that no oil has.
+
+        Raises
+        ------
+        InvalidInput
+            `out_of_range`, `viscosity_order` or `viscosity_index`.
+        """
         thick, thin, field = self.kinematic_viscosity_40, self.kinematic_viscosity_100, _THIN
         if not thin >= LEAST_VISCOSITY_100:
             raise InvalidInput("out_of_range", "the oil needs at least 1 mm²/s at 100 °C", field)
@@ -155,9 +199,26 @@ class OilSheet:
             raise InvalidInput("viscosity_index", message, field)
 
     def kinematic_viscosity(self, temperature: float) -> float:
-        """Kinematic viscosity [m^2/s] at a temperature [K] by the Walther law through both points (ASTM D341) (Eq. R1).
+        """Compute the kinematic viscosity by the Walther law through both given points (ASTM D341).
 
-        Raises InvalidInput oil_too_thick beyond 10^5 mm^2/s.
+        Parameters
+        ----------
+        temperature : float
+            Temperature [K].
+
+        Returns
+        -------
+        float
+            Kinematic viscosity [m^2/s].
+
+        Raises
+        ------
+        InvalidInput
+            `oil_too_thick` above 10^5 mm^2/s.
+
+        Notes
+        -----
+        Eq. R1.
         """
         logarithm = self._logarithm(temperature)
         if logarithm > log10(LARGEST_VISCOSITY / SQUARE_MILLIMETRE):
@@ -170,26 +231,68 @@ class OilSheet:
 
     @property
     def reference_density(self) -> float:
-        """Density at 15 C [kg/m^3], that of the kind where the sheet does not give it."""
+        """Density at 15 C [kg/m^3]; a typical one of the kind of oil if the data sheet does not give it."""
         return KINDS[self.kind].density_15 if self.density_15 is None else self.density_15
 
     @property
     def viscosity_index(self) -> float:
-        """By its two viscosities (ASTM D2270)."""
+        """Viscosity index by both viscosities (ASTM D2270) [-]."""
         return viscosity_index(self.kinematic_viscosity_40, self.kinematic_viscosity_100)
 
     def density(self, temperature: float) -> float:
-        """Rho_15 [1 - 0.00065 (t - 15 C)] [kg/m^3] (Eq. R3)."""
+        """Compute the density at a temperature.
+
+        Parameters
+        ----------
+        temperature : float
+            Temperature t [K].
+
+        Returns
+        -------
+        float
+            Density [kg/m^3].
+
+        Notes
+        -----
+        Eq. R3: rho = rho_15 [1 - 0.00065 (t - 15 C)].
+        """
         return self.reference_density * (1.0 - THERMAL_EXPANSION * (temperature - DENSITY_TEMPERATURE))
 
     def viscosity(self, temperature: float) -> float:
-        """Eta = nu rho [Pa s] (Eq. R3)."""
+        """Compute the dynamic viscosity at a temperature.
+
+        Parameters
+        ----------
+        temperature : float
+            Temperature [K].
+
+        Returns
+        -------
+        float
+            Viscosity [Pa s].
+
+        Notes
+        -----
+        Eq. R3: eta = nu rho.
+        """
         return self.kinematic_viscosity(temperature) * self.density(temperature)
 
     def temperature_coefficient(self, temperature: float) -> float:
-        """Beta = -d ln eta/dt [1/K]: what the Walther law and the density say there, unless the sheet gives it.
+        """Compute the temperature-viscosity coefficient, unless the data sheet gives it.
 
-        Eq. R4.
+        Parameters
+        ----------
+        temperature : float
+            Temperature t [K].
+
+        Returns
+        -------
+        float
+            Coefficient beta [1/K].
+
+        Notes
+        -----
+        Eq. R4: beta = -d ln eta/dt of the Walther law and of the density.
         """
         if self.temperature_viscosity is not None:
             return self.temperature_viscosity
@@ -200,7 +303,22 @@ class OilSheet:
         return float(thinning + expansion)
 
     def pressure_coefficient(self, temperature: float) -> float:
-        """Alpha = s nu^t [1/Pa], nu in mm^2/s (Gold), unless the sheet gives it (Eq. R4)."""
+        """Compute the pressure-viscosity coefficient by Gold, unless the data sheet gives it.
+
+        Parameters
+        ----------
+        temperature : float
+            Temperature [K].
+
+        Returns
+        -------
+        float
+            Coefficient alpha [1/Pa].
+
+        Notes
+        -----
+        Eq. R4: alpha = s nu^t in 1/GPa, with nu in mm^2/s.
+        """
         if self.pressure_viscosity is not None:
             return self.pressure_viscosity
         kind = KINDS[self.kind]
@@ -208,7 +326,7 @@ class OilSheet:
         return float(kind.pressure_viscosity_scale * thickness**kind.pressure_viscosity_exponent) * 1e-9
 
     def lubricant(self, temperature: float) -> Lubricant:
-        """The lubricant with this temperature [K] as its reference."""
+        """Return the lubricant whose reference temperature is this temperature [K]."""
         kind = KINDS[self.kind]
         return Lubricant(
             viscosity=self.viscosity(temperature),
@@ -235,20 +353,23 @@ class OilSheet:
         return thick + slope * log10(cold), slope
 
     def _logarithm(self, temperature: float) -> float:
-        """log10 (nu + 0.7) at a temperature [K]."""
+        """Return log10 (nu + 0.7) at a temperature [K], with nu in mm^2/s."""
         intercept, slope = self.walther()
         return float(10.0 ** (intercept - slope * log10(temperature)))
 
 
 def iso_vg(grade: int, kind: OilKind = "mineral") -> OilSheet:
-    """A typical oil of an ISO 3448 grade (its viscosity at 40 C in mm^2/s) and kind."""
+    """Return a typical oil of an ISO 3448 grade (its kinematic viscosity at 40 C in mm^2/s) and kind."""
     thick = grade * SQUARE_MILLIMETRE
-    known = MINERAL_VISCOSITY_100.get(grade) if kind == "mineral" else None
-    return OilSheet(thick, known or viscosity_of_index(thick, TYPICAL_INDEX[kind]), kind)
+    typical = MINERAL_VISCOSITY_100.get(grade) if kind == "mineral" else None
+    return OilSheet(thick, typical or viscosity_of_index(thick, TYPICAL_INDEX[kind]), kind)
 
 
 def lubricant_at(oil: Lubricant | OilSheet, temperature: float) -> Lubricant:
-    """The lubricant of a contact that the oil enters at this temperature [K]; one given by its viscosity stays."""
+    """Return the lubricant of a contact that the oil enters at this temperature [K].
+
+    An oil given by its viscosity at one temperature is returned unchanged.
+    """
     return oil.lubricant(temperature) if isinstance(oil, OilSheet) else oil
 
 
@@ -262,7 +383,7 @@ GRADES: tuple[int, ...] = get_args(IsoGrade)
 
 @record
 class OilBySheet:
-    """An oil by its ISO grade or viscosity at 40 °C, and by how it thins, where that is what is known of it."""
+    """An oil by its ISO grade or its viscosity at 40 °C, and by its viscosity at 100 °C or its viscosity index."""
 
     iso_vg: IsoGrade | None = quantity("ISO viscosity grade", "VG", "ISO 3448", default=None)
     kinematic_viscosity_40: float | None = quantity(
@@ -306,9 +427,12 @@ class OilBySheet:
     )
 
     def sheet(self) -> OilSheet | None:
-        """The oil by grade or data sheet; None where neither is given.
+        """Return the oil by grade or data sheet; None if neither is given.
 
-        Raises InvalidInput (viscosity_order, viscosity_index) for an oil that none can be.
+        Raises
+        ------
+        InvalidInput
+            `viscosity_order` or `viscosity_index` for viscosities that no oil has.
         """
         thick, thin = self.kinematic_viscosity_40, self.kinematic_viscosity_100
         if self.iso_vg is not None:
@@ -325,10 +449,10 @@ class OilBySheet:
 
 @record
 class OilChoice(OilBySheet):
-    """What is known of an oil; one of `iso_vg`, `kinematic_viscosity_40` and `viscosity` names it.
+    """The oil as the user gives it: `iso_vg`, `kinematic_viscosity_40` or `viscosity` is needed.
 
-    `reference_temperature` and `density` belong to `viscosity`; a property that is None is that of the kind of oil with
-    a grade or data sheet, and that of `Lubricant` otherwise.
+    `reference_temperature` and `density` belong to `viscosity`. With a grade or data sheet, a property that is None is
+    typical of the kind of oil; otherwise it is that of the default `Lubricant`.
     """
 
     viscosity: float | None = quantity(
@@ -430,9 +554,12 @@ class OilChoice(OilBySheet):
     )
 
     def resolve(self) -> OilSheet | Lubricant | None:
-        """The oil of the models; None where nothing says how viscous it is.
+        """Return the oil for the models; None if no viscosity is given.
 
-        Raises InvalidInput (viscosity_order) where it would not thin as it warms.
+        Raises
+        ------
+        InvalidInput
+            `viscosity_order` if the oil would not thin as it warms.
         """
         sheet = self.sheet()
         if sheet is not None:

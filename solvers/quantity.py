@@ -1,4 +1,4 @@
-"""Declarations of quantities (title, symbol, source, unit, range) on the dataclass fields that hold them.
+"""Declarations of quantities (title, symbol, source, unit, range), each at the dataclass field of the quantity.
 
     @record
     class Coupling:
@@ -7,64 +7,71 @@
 The attribute is in SI; range, default and tolerance of the declaration are in the unit in which the quantity is shown.
 """
 
+import re
 from collections.abc import Callable
 from dataclasses import dataclass, field, fields, is_dataclass
 from functools import cache
+from inspect import cleandoc, formatannotation
 from math import pi
-from typing import Any, Literal, NamedTuple, TypeVar, dataclass_transform, get_type_hints, overload
+from typing import Any, Literal, NamedTuple, TypeVar, dataclass_transform, get_args, get_type_hints, overload
 
 import numpy as np
 
 Detail = Literal["summary", "curves", "fields"]
 T = TypeVar("T")
-_KEY = "quantity"
+_KEY, _TEXT = "quantity", "text"
+_LEFT_OUT_OF_TYPES = re.compile(r"\b(?:[a-z_]\w*\.)+|(?<=ndarray)\[.*?\]\]|^'|'$")  # modules, element types, quotes
 
 
 class Unit(NamedTuple):
-    """A unit in which a quantity is shown: SI value = scale × value + offset; `symbol` is how it is written."""
+    """A unit in which a quantity is shown, written as `symbol`: SI value = scale × value + offset.
+
+    `si` is the symbol of the SI unit, or None if the quantity is shown in its SI unit.
+    """
 
     symbol: str
     scale: float
     offset: float = 0.0
+    si: str | None = None
 
 
 UNITS = {
-    "mm": Unit("mm", 1e-3),
-    "mm2": Unit("mm²", 1e-6),
-    "mm2_per_s": Unit("mm²/s", 1e-6),
+    "mm": Unit("mm", 1e-3, si="m"),
+    "mm2": Unit("mm²", 1e-6, si="m²"),
+    "mm2_per_s": Unit("mm²/s", 1e-6, si="m²/s"),
     "m2": Unit("m²", 1.0),
-    "l_per_min": Unit("l/min", 1e-3 / 60),
-    "um": Unit("µm", 1e-6),
-    "um_per_million": Unit("µm per million turns", 1e-12),
-    "mm3_per_n_m": Unit("mm³/(N m)", 1e-9),
-    "deg": Unit("°", pi / 180),
-    "mrad": Unit("mrad", 1e-3),
+    "l_per_min": Unit("l/min", 1e-3 / 60, si="m³/s"),
+    "um": Unit("µm", 1e-6, si="m"),
+    "um_per_million": Unit("µm per million turns", 1e-12, si="m per turn"),
+    "mm3_per_n_m": Unit("mm³/(N m)", 1e-9, si="m³/(N m)"),
+    "deg": Unit("°", pi / 180, si="rad"),
+    "mrad": Unit("mrad", 1e-3, si="rad"),
     "s": Unit("s", 1.0),
-    "rpm": Unit("1/min", pi / 30),
+    "rpm": Unit("1/min", pi / 30, si="rad/s"),
     "hz": Unit("Hz", 1.0),
     "m_per_s": Unit("m/s", 1.0),
-    "mm_per_s": Unit("mm/s", 1e-3),
+    "mm_per_s": Unit("mm/s", 1e-3, si="m/s"),
     "kg": Unit("kg", 1.0),
-    "g_per_s": Unit("g/s", 1e-3),
-    "g_per_mol": Unit("g/mol", 1e-3),
+    "g_per_s": Unit("g/s", 1e-3, si="kg/s"),
+    "g_per_mol": Unit("g/mol", 1e-3, si="kg/mol"),
     "n": Unit("N", 1.0),
     "n_m": Unit("N m", 1.0),
-    "n_per_mm": Unit("N/mm", 1e3),
-    "n_per_um": Unit("N/µm", 1e6),
-    "n_per_mm_um": Unit("N/(mm µm)", 1e9),
+    "n_per_mm": Unit("N/mm", 1e3, si="N/m"),
+    "n_per_um": Unit("N/µm", 1e6, si="N/m"),
+    "n_per_mm_um": Unit("N/(mm µm)", 1e9, si="N/m²"),
     "n_m_per_rad": Unit("N m/rad", 1.0),
-    "mpa": Unit("MPa", 1e6),
-    "kpa": Unit("kPa", 1e3),
-    "gpa": Unit("GPa", 1e9),
-    "per_gpa": Unit("1/GPa", 1e-9),
+    "mpa": Unit("MPa", 1e6, si="Pa"),
+    "kpa": Unit("kPa", 1e3, si="Pa"),
+    "gpa": Unit("GPa", 1e9, si="Pa"),
+    "per_gpa": Unit("1/GPa", 1e-9, si="1/Pa"),
     "per_k": Unit("1/K", 1.0),
     "pa_s": Unit("Pa s", 1.0),
     "w": Unit("W", 1.0),
-    "kw": Unit("kW", 1e3),
+    "kw": Unit("kW", 1e3, si="W"),
     "j": Unit("J", 1.0),
-    "w_per_mm": Unit("W/mm", 1e3),
-    "w_per_mm2": Unit("W/mm²", 1e6),
-    "c": Unit("°C", 1.0, 273.15),
+    "w_per_mm": Unit("W/mm", 1e3, si="W/m"),
+    "w_per_mm2": Unit("W/mm²", 1e6, si="W/m²"),
+    "c": Unit("°C", 1.0, 273.15, si="K"),
     "k": Unit("K", 1.0),
     "kg_per_m3": Unit("kg/m³", 1.0),
     "j_per_kg_k": Unit("J/(kg K)", 1.0),
@@ -72,7 +79,7 @@ UNITS = {
     "w_per_m2_k": Unit("W/(m² K)", 1.0),
     "w_per_k": Unit("W/K", 1.0),
 }
-"""By the suffix that names of the HTTP interface carry."""
+"""Units by the suffix of field names in the API."""
 
 
 @dataclass(frozen=True)
@@ -81,42 +88,41 @@ class Quantity:
 
     Parameters
     ----------
-    title
-        Label that stands alone.
-    symbol, source
-        Of the field's literature.
-    text
-        Description, where the title does not suffice.
-    unit
-        Key of `UNITS`; None for what has no unit.
-    ge, gt, le, lt
+    title : str
+        Label that can be read alone.
+    symbol, source : str, optional
+        Symbol of the quantity and the literature that uses it.
+    text : str, optional
+        Description, if the title is not enough.
+    unit : str, optional
+        Key of `UNITS`; None if the quantity has no unit.
+    ge, gt, le, lt : float, optional
         Range of an input.
-    default
-        Of an input or of an option; `...` where there is none.
-    default_text
-        What None stands for.
-    assumed
-        Reason behind a default that is ours and not the paper's; a result that rests on the default lists it.
-    advanced
-        An option of model or resolution.
-    folded
-        An input that few users know: a form shows it on demand.
-    tolerance, relative_tolerance
-        What manufacture or measurement usually leaves open, in the shown unit; and as a share of the value where that
-        is more. Every input that may be zero has a tolerance, by which a sensitivity moves it.
-    if_above, if_negative
-        What to give instead of a value above the range, or of text; and instead of a negative one.
-    length
+    default : Any
+        Default of an input or of an option; `...` if there is none.
+    default_text : str, optional
+        What None means.
+    assumed : str, optional
+        Reason for a default that is our own and not that of the paper; a result that depends on the default lists it.
+    advanced : bool
+        Whether the field is an option of model or resolution.
+    folded : bool
+        Whether a form shows the input on demand only, because few users know it.
+    tolerance, relative_tolerance : float, optional
+        Usual uncertainty from manufacture or measurement, in the shown unit and as a share of the value; the larger one
+        counts. Every input that may be zero has a tolerance, by which a sensitivity varies it.
+    if_above, if_negative : str, optional
+        What to give instead of text or of a value above the range, and instead of a negative value.
+    length : tuple of (int, int), optional
         Least and largest number of values of a list.
-    detail
-        Least level of detail at which a result holds the field.
-    axis
-        Field over which a curve runs, or the two of a map; a dotted name starts at the whole result.
-    index
-        What the places of a list mean where no field says it.
-    gaps
-        NaN inside an array marks a point without a value.
-
+    detail : str
+        Lowest level of detail at which a result contains the field.
+    axis : str or tuple of (str, str), optional
+        Field along which a curve runs, or both fields of a map; a dotted name starts at the whole result.
+    index : str, optional
+        What the positions in a list mean, if no field says it.
+    gaps : bool
+        Whether NaN in an array marks a point without a value.
     """
 
     title: str
@@ -145,18 +151,18 @@ class Quantity:
 
     @property
     def bounds(self) -> dict[str, float]:
-        """The ends of the range by name, those there are."""
+        """Ends of the range by name, without those that are not given."""
         return {name: end for name in ("ge", "gt", "le", "lt") if (end := getattr(self, name)) is not None}
 
     def to_si(self, value: Any) -> Any:
-        """A number, or a list of them, in SI; what is no number passes unchanged."""
+        """Return a number or a list of numbers in SI; return any other value unchanged."""
         unit = UNITS[self.unit] if self.unit else None
-        return value if unit is None else _each(lambda number: number * unit.scale + unit.offset, value)
+        return value if unit is None else _convert(lambda number: number * unit.scale + unit.offset, value)
 
     def from_si(self, value: Any) -> Any:
-        """A number, or a list of them, in the shown unit."""
+        """Return a number or a list of numbers in the shown unit; return any other value unchanged."""
         unit = UNITS[self.unit] if self.unit else None
-        return value if unit is None else _each(lambda number: (number - unit.offset) / unit.scale, value)
+        return value if unit is None else _convert(lambda number: (number - unit.offset) / unit.scale, value)
 
 
 def quantity(
@@ -167,10 +173,10 @@ def quantity(
     default: Any = ...,
     default_factory: Callable[[], Any] | None = None,
     kw_only: bool = False,
-    **known: Any,
+    **details: Any,
 ) -> Any:
-    """A dataclass field with its `Quantity`; the default is given in the shown unit and held in SI."""
-    declared = Quantity(title, symbol, source, default=default, **known)
+    """Return a dataclass field with its `Quantity`; the default is given in the shown unit and held in SI."""
+    declared = Quantity(title, symbol, source, default=default, **details)
     options: dict[str, Any] = {"metadata": {_KEY: declared}}
     if kw_only:
         options["kw_only"] = True
@@ -178,15 +184,20 @@ def quantity(
         options["default_factory"] = default_factory
     elif default is not ...:
         options["default"] = declared.to_si(default)
-    made: Any = field(**options)
-    return made
+    declared_field: Any = field(**options)
+    return declared_field
 
 
-def computed(title: str, symbol: str | None = None, source: str | None = None, **known: Any) -> Callable[[T], T]:
-    """Declare a value that a dataclass computes when asked: stands between `property` or `cached_property` and it."""
+def described(text: str, **options: Any) -> Any:
+    """Return a dataclass field without a `Quantity`; the docstring of the class describes the field by `text`."""
+    return field(metadata={_TEXT: text}, **options)
+
+
+def computed(title: str, symbol: str | None = None, source: str | None = None, **details: Any) -> Callable[[T], T]:
+    """Declare a value that a dataclass computes; the decorator stands directly above the function, below `property`."""
 
     def declare(function: T) -> T:
-        setattr(function, _KEY, Quantity(title, symbol, source, **known))
+        setattr(function, _KEY, Quantity(title, symbol, source, **details))
         return function
 
     return declare
@@ -196,41 +207,44 @@ def computed(title: str, symbol: str | None = None, source: str | None = None, *
 def record(cls: type[T], /) -> type[T]: ...
 @overload
 def record(*, kw_only: bool = False, slots: bool = True) -> Callable[[type[T]], type[T]]: ...
-@dataclass_transform(frozen_default=True, field_specifiers=(quantity, field))
+@dataclass_transform(frozen_default=True, field_specifiers=(quantity, described, field))
 def record(cls: Any = None, /, *, kw_only: bool = False, slots: bool = True) -> Any:
-    """Make a frozen dataclass, whose fields may be declared by `quantity` and print with their units.
+    """Make a frozen dataclass whose fields may be declared by `quantity`; it prints its values with their units.
 
-    Without slots it can keep what it computes (`cached_property`).
+    The docstring of the class gets numpydoc's sections on its fields. A dataclass without slots can keep what it
+    computes (`cached_property`).
     """
 
-    def made(kind: Any) -> Any:
+    def make(kind: Any) -> Any:
         if "__repr__" not in vars(kind):
             kind.__repr__ = _summary
-        return dataclass(frozen=True, slots=slots, kw_only=kw_only, repr=False)(kind)
+        data: Any = dataclass(frozen=True, slots=slots, kw_only=kw_only, repr=False)(kind)
+        data.__doc__ = _Docstring(data.__doc__)
+        return data
 
-    return made if cls is None else made(cls)
+    return make if cls is None else make(cls)
 
 
 @cache
 def quantities(kind: Any) -> dict[str, Quantity]:
-    """The declarations of a dataclass by name: of its fields in their order, then of what it computes."""
-    found = {each.name: each.metadata[_KEY] for each in fields(kind) if _KEY in each.metadata}
+    """Return the declarations of a dataclass by name: of its fields in their order, then of its computed values."""
+    declared = {item.name: item.metadata[_KEY] for item in fields(kind) if _KEY in item.metadata}
     for base in reversed(kind.__mro__):
         for name, member in vars(base).items():
             function = _function_of(member)
             if hasattr(function, _KEY):
-                found[name] = getattr(function, _KEY)
-    return found
+                declared[name] = getattr(function, _KEY)
+    return declared
 
 
 def type_of(kind: Any, name: str) -> Any:
-    """The type of a declared field or computed value."""
+    """Return the type of a declared field or computed value."""
     function = _function_of(getattr(kind, name, None))
     return _hints(kind)[name] if function is None else get_type_hints(function)["return"]
 
 
 def _function_of(member: Any) -> Callable[[Any], Any] | None:
-    """What computes a property; None of another member."""
+    """Return the function that computes a property; None for any other member."""
     return member.fget if isinstance(member, property) else getattr(member, "func", None)
 
 
@@ -240,7 +254,7 @@ def _hints(kind: Any) -> dict[str, Any]:
 
 
 def allowed(declared: Quantity) -> str:
-    """The range in words, in the shown unit but without it."""
+    """Return the range in words, in the shown unit but without its symbol."""
     ends = declared.bounds
     if {"ge", "le"} <= set(ends):
         return f"{ends['ge']:.12g} to {ends['le']:.12g}"
@@ -249,35 +263,36 @@ def allowed(declared: Quantity) -> str:
 
 
 def advice(declared: Quantity, value: Any) -> str:
-    """Say what to give instead of text or a value outside the range, in the shown unit; empty if nothing is known."""
+    """Return what to give instead of text or of a value outside the range, in the shown unit; may be empty."""
     is_number = isinstance(value, int | float) and not isinstance(value, bool)
     if is_number and value < 0:
-        said = declared.if_negative
+        text = declared.if_negative
     elif is_number:
         most = declared.bounds.get("le", declared.bounds.get("lt"))
-        said = declared.if_above if most is not None and value > most else None
+        text = declared.if_above if most is not None and value > most else None
     else:
-        said = declared.if_above if isinstance(value, str) else None
-    return f"; {said}" if said else ""
+        text = declared.if_above if isinstance(value, str) else None
+    return f"; {text}" if text else ""
 
 
 def to_dict(data: Any) -> dict[str, Any]:
-    """The declared values of a dataclass in the units shown, named as in the interface: `module` as `module_mm`.
+    """Return the declared values of a dataclass in the shown units, named as in the API: `module` as `module_mm`.
 
-    Arrays become lists, dataclasses inside it dictionaries; NaN, which marks a point without a value, becomes None.
+    Arrays become lists, and inner dataclasses become dictionaries. NaN, which marks a point without a value, becomes
+    None.
     """
     return _plain(data, None)  # type: ignore[no-any-return]
 
 
 def _plain(value: Any, outer: Quantity | None) -> Any:
-    """A value as JSON can hold it; `outer` declares the values of a dataclass that have no unit of their own."""
+    """Return a value as JSON can hold it; `outer` declares the inner values that have no unit of their own."""
     if is_dataclass(value):
         kind: Any = type(value)
         named = {}
         for name, declared in quantities(kind).items():
-            known = outer if outer and declared.unit is None else declared
+            counting = outer if outer and declared.unit is None else declared
             own = f"{name}_{declared.unit}" if declared.unit else name
-            named[own] = _plain(getattr(value, name), known)
+            named[own] = _plain(getattr(value, name), counting)
         return named
     if isinstance(value, np.ndarray):
         return _plain(value.tolist(), outer)
@@ -288,16 +303,64 @@ def _plain(value: Any, outer: Quantity | None) -> Any:
     return outer.from_si(value) if outer else value
 
 
+class _Docstring:
+    """Docstring of a dataclass that is completed when it is read, so that the import does not take longer."""
+
+    def __init__(self, text: str) -> None:
+        self.text = text
+
+    def __get__(self, data: Any, kind: Any) -> str:
+        """Return the docstring with numpydoc's sections on the fields of `kind` and on what it computes."""
+        declared = quantities(kind)
+        given = [item.name for item in sorted(fields(kind), key=lambda item: bool(item.kw_only)) if item.init]
+        names = {
+            "Parameters": given,
+            "Attributes": [name for name in declared if name not in kind.__dataclass_fields__],
+        }
+        sections = [
+            "\n".join([title, "-" * len(title), *(_entry(kind, name, declared.get(name)) for name in names[title])])
+            for title in names
+            if names[title]
+        ]
+        return "\n\n".join([cleandoc(self.text), *sections])
+
+
+def _entry(kind: Any, name: str, declared: Quantity | None) -> str:
+    """Return numpydoc's entry on one field: type, description with the SI unit; then symbol, source, range, default."""
+    item = kind.__dataclass_fields__.get(name)
+    annotation = item.type if item else _function_of(getattr(kind, name)).__annotations__["return"]
+    head = f"{name} : {_LEFT_OUT_OF_TYPES.sub('', formatannotation(annotation))}"
+    if declared is None:
+        texts = (str(part.__doc__) for part in (annotation, *get_args(annotation)) if is_dataclass(part))
+        text = item.metadata.get(_TEXT) or next(texts, "").partition("\n")[0]
+        return f"{head}\n    {text}"
+    title, text = declared.title, declared.text or declared.title
+    text = text if title in text else f"{title}: {text}"
+    si, shown = "", ""
+    if declared.unit:
+        unit = UNITS[declared.unit]
+        si, shown = f" [{unit.si or unit.symbol}]", f" {unit.symbol}"
+    default = None if declared.default in {None, ...} else f"{_brief(declared.default)}{shown}"
+    facts = {
+        "symbol": declared.symbol,
+        "source": declared.source,
+        "range": declared.bounds and f"{allowed(declared)}{shown}",
+        "default": default or declared.default_text,
+    }
+    rest = "; ".join(f"{word} {fact}" for word, fact in facts.items() if fact)
+    sentences = (f"{words[0].upper()}{words[1:].removesuffix('.')}." for words in (f"{text}{si}", rest) if words)
+    return "\n    ".join([head, *sentences])
+
+
 def _summary(data: Any) -> str:
-    """One line: numbers with their units, lists and arrays by their shape, dataclasses by their class."""
+    """Return one line: numbers with their units, lists and arrays by their shape, dataclasses by their class."""
     kind: Any = type(data)
     declared = quantities(kind)
     parts = []
-    for name in dict.fromkeys([*(each.name for each in fields(data) if each.repr), *declared]):
-        known = declared.get(name)
-        value = getattr(data, name)
-        shown = known.from_si(value) if known and not is_dataclass(value) else value
-        parts.append(f"{name}={_brief(shown)}{_symbol(known, value)}")
+    for name in dict.fromkeys([*(item.name for item in fields(data) if item.repr), *declared]):
+        own, value = declared.get(name), getattr(data, name)
+        shown = own.from_si(value) if own and not is_dataclass(value) else value
+        parts.append(f"{name}={_brief(shown)}{_symbol(own, value)}")
     return f"{type(data).__name__}({', '.join(parts)})"
 
 
@@ -323,12 +386,12 @@ def _brief(value: Any) -> str:
             return str(value)
 
 
-def _each(convert: Callable[[Any], Any], value: Any) -> Any:
-    """Convert a number, an array or each member of a list; leave text, booleans and None."""
+def _convert(convert: Callable[[Any], Any], value: Any) -> Any:
+    """Convert a number, an array or all members of a list; leave text, booleans and None."""
     match value:
         case None | bool() | str():
             return value
         case list() | tuple():
-            return tuple(_each(convert, item) for item in value)
+            return tuple(_convert(convert, item) for item in value)
         case _:
             return convert(value)

@@ -7,7 +7,6 @@ import httpx
 import pytest
 from hypothesis import HealthCheck, settings
 
-from solvers.kernel_cache import is_complete
 from tests.support.server import running_server
 
 # The first example of a property may compile a kernel; the same examples every time, searches live in benchmarks.
@@ -28,13 +27,9 @@ def without_images(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.fixture(scope="session")
 def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
-    from app.workers.stages import content  # noqa: PLC0415  tests of solvers alone need no application
-
-    # While kernels have to be compiled, processes of one test run start theirs in turn: the next one finds them.
+    # Processes of one test run start theirs in turn: where kernels have to be compiled, the next one finds them.
     with (tmp_path_factory.getbasetemp().parent / "server.lock").open("w") as turn:
         flock(turn, LOCK_EX)
-        if is_complete(content()):
-            flock(turn, LOCK_UN)
         with running_server(log_level="error") as (_, address):
             flock(turn, LOCK_UN)
             yield address

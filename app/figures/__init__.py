@@ -1,7 +1,7 @@
-"""Figures: a declaration turns a request and its answer into data, one place draws the data.
+"""Figures: a declaration turns a request and its answer into data, and one package draws the data.
 
-Order: data, wording, units -> declaration, parts, sketches -> models of the endpoints, studies, spectrum; drawing and
-tables make bytes of any of them; comparison puts two cases into one figure.
+Order: data, wording, units -> declaration, parts, sketches -> models of the endpoints, studies, spectrum. `drawing` and
+`tables` turn the data of any figure into bytes, `comparison` puts two cases into one figure.
 """
 
 from typing import Literal
@@ -19,9 +19,24 @@ MEDIA_TYPES: dict[Format, str] = {
 
 
 def written(figure: Figure, image_format: Format, theme: ThemeName) -> bytes:
-    """The figure as an image, or its numbers as a table."""
+    """Draw a figure as an image, or write its numbers as a table.
+
+    Parameters
+    ----------
+    figure : Figure
+        The data of the figure.
+    image_format : {"svg", "png", "pdf", "csv"}
+        Format of the image, or CSV for the table.
+    theme : {"light", "dark"}
+        Colours of the image.
+
+    Returns
+    -------
+    bytes
+        Content of the file.
+    """
     if image_format == "csv":
         return table(figure)
-    from app.figures.drawing.image import draw  # noqa: PLC0415  only workers draw: half a second and 70 MB
+    from app.figures.drawing.image import draw  # noqa: PLC0415  only workers draw; the import takes half a second and 70 MB
 
     return draw(figure, image_format, theme)

@@ -1,4 +1,4 @@
-"""Two cases in one figure: what the second one shows is dashed in the hues of the first."""
+"""Two cases in one figure: the curves of the second case are dashed, in the hues of the first."""
 
 from collections.abc import Iterator
 from dataclasses import replace
@@ -12,7 +12,7 @@ OWN = "this case"
 
 
 def compared(figure: Figure, variant: Figure, name: str) -> Figure:
-    """The figure with all that the same figure of another case shows; maps of both stand beside each other."""
+    """Return the figure with the curves of the same figure of another case; maps of both cases stand side by side."""
     unsolved = figure.unsolved + variant.unsolved
     if any(panel.map is not None for panel in figure.panels):
         maps = _maps({OWN: figure, name: variant})
@@ -31,9 +31,9 @@ def _key(panel: Panel) -> tuple[str, str | None]:
 
 
 def _overlaid(panel: Panel, other: Panel, name: str) -> Panel:
-    """The panel with what differs in the other one: curves, edges of what is filled, limits, its point on a plane."""
-    known = {(level.name, level.value) for level in panel.levels}
-    levels = (level for level in other.levels if (level.name, level.value) not in known)
+    """Return the panel with the parts of the other panel that differ: curves, edges of fills, limits, points."""
+    own = {(level.name, level.value) for level in panel.levels}
+    levels = (level for level in other.levels if (level.name, level.value) not in own)
     added: dict[str, list[Any]] = {
         "lines": _lines(panel, other, name),
         "bars": _bars(panel, other),
@@ -48,21 +48,24 @@ def _overlaid(panel: Panel, other: Panel, name: str) -> Panel:
 
 
 def _lines(panel: Panel, other: Panel, name: str) -> list[Line]:
-    """Curves and edges that this panel lacks, each in the hue of its namesake; one without a namesake is named."""
+    """Return the curves and edges of the other panel that this panel lacks.
+
+    A curve has the hue of the curve with the same title in this panel. Without such a curve it gets a name of its own.
+    """
     own = [*panel.lines, *_edges(panel)]
     hues = {line.title: line.hue for line in own}
-    known = {(line.x.tobytes(), line.y.tobytes()) for line in own}
+    present = {(line.x.tobytes(), line.y.tobytes()) for line in own}
     return [
         replace(line, role=Role.VARIANT, hue=hues[line.title], named=False)
         if line.title in hues
         else replace(line, role=Role.VARIANT, title=f"{line.title}, {name}")
         for line in (*other.lines, *_edges(other))
-        if (line.x.tobytes(), line.y.tobytes()) not in known
+        if (line.x.tobytes(), line.y.tobytes()) not in present
     ]
 
 
 def _edges(panel: Panel) -> Iterator[Line]:
-    """The outlines of polygons and bands."""
+    """Yield the outlines of polygons and bands."""
     for shape in panel.shapes:
         yield replace(shape, x=np.append(shape.x, shape.x[:1]), y=np.append(shape.y, shape.y[:1]))
     for ribbon in panel.ribbons:
@@ -70,7 +73,7 @@ def _edges(panel: Panel) -> Iterator[Line]:
 
 
 def _bars(panel: Panel, other: Panel) -> list[Line]:
-    """All bars if some of them differ, because their widths depend on how many stand beside each other."""
+    """Return all bars of the other panel if some of them differ, because widths depend on the number of bars."""
     if [bars.y.tobytes() for bars in panel.bars] == [bars.y.tobytes() for bars in other.bars]:
         return []
     hues = {bars.title: bars.hue for bars in panel.bars}
@@ -78,10 +81,10 @@ def _bars(panel: Panel, other: Panel) -> list[Line]:
 
 
 def _rows(panel: Panel, other: Panel, name: str) -> list[Row]:
-    """Rows that differ, each over its namesake; one without a namesake is a row of its own."""
-    known, rows = {row.name: row for row in panel.rows}, []
+    """Return the rows that differ. They lie over the row of the same name; without one they are new rows."""
+    own_rows, rows = {row.name: row for row in panel.rows}, []
     for row in other.rows:
-        own = known.get(row.name)
+        own = own_rows.get(row.name)
         if own is None:
             rows.append(replace(row, name=f"{row.name}, {name}"))
         elif repr((own.value, own.parts, own.bounds)) != repr((row.value, row.parts, row.bounds)):  # NaN equals NaN
@@ -90,7 +93,7 @@ def _rows(panel: Panel, other: Panel, name: str) -> list[Row]:
 
 
 def _maps(figures: dict[str, Figure]) -> tuple[Panel, ...]:
-    """The maps of every case in the same colours."""
+    """Return the maps of all cases on one scale of colours."""
     panels = [(name, panel) for name, figure in figures.items() for panel in figure.panels]
     ends = [panel.map.ends for _, panel in panels if panel.map is not None]
     common = min(low for low, _ in ends), max(high for _, high in ends)

@@ -1,7 +1,7 @@
-"""What a figure shows, without how it looks: panels of lines, bars, rows and maps with their limits and marks.
+"""The content of a figure without its style: panels of lines, bars, rows and maps with their limits and marks.
 
-Every number is in the unit of its axis and equals the answer's; NaN is a point without a value, and a gap. Sequences
-are not changed once they are part of a figure.
+Numbers are in the unit of their axis and equal those of the answer. NaN is a point without a value and leaves a gap.
+Sequences are not changed after they have become part of a figure.
 """
 
 import re
@@ -21,7 +21,7 @@ ThemeName = Literal["light", "dark"]
 
 
 class Hue(StrEnum):
-    """Colours of Okabe and Ito in the order in which curves take them, as matplotlib names those of a style's cycle."""
+    """Colours of Okabe and Ito in the order of the curves, with matplotlib's names for the colours of a style."""
 
     BLUE = "C0"
     VERMILLION = "C1"
@@ -36,7 +36,7 @@ ORDER = tuple(Hue)
 
 
 class Role(StrEnum):
-    """Why a line is there: the result, something known to hold it against, or another case."""
+    """Meaning of a line: the result, a reference for comparison, or another case."""
 
     RESULT = "result"
     REFERENCE = "reference"
@@ -44,7 +44,7 @@ class Role(StrEnum):
 
 
 def values(items: Sequence[float | None] | Values) -> Values:
-    """A read-only copy as an array; None, a point without a value, becomes NaN."""
+    """Return a read-only copy as an array; None becomes NaN, a point without a value."""
     array = np.array([np.nan if item is None else item for item in items], dtype=np.float64)
     array.flags.writeable = False
     return array
@@ -52,7 +52,7 @@ def values(items: Sequence[float | None] | Values) -> Values:
 
 @dataclass(frozen=True, slots=True)
 class Axis:
-    """A quantity along an axis; a magnitude's axis starts at zero where its values allow."""
+    """A quantity along an axis; the axis of a magnitude starts at zero if its values allow it."""
 
     title: str
     unit: str | None = None
@@ -64,14 +64,14 @@ class Axis:
 
     @property
     def label(self) -> str:
-        """Title, symbol and unit as they stand at the axis; the symbol before what explains the title."""
+        """Text at the axis: title, symbol and unit; the symbol stands before a comma or parenthesis in the title."""
         title = re.sub(r"(?=,| \(|$)", f" {self.symbol}", self.title, count=1) if self.symbol else self.title
         return f"{title},{NO_BREAK}{self.unit}" if self.unit else title
 
 
 @dataclass(frozen=True, slots=True)
 class Mark:
-    """A point with a text, usually the extreme with its value."""
+    """A point with a text, usually an extreme with its value."""
 
     x: float
     y: float
@@ -83,7 +83,7 @@ class Mark:
 class Line:
     """Points over an abscissa: a curve, bars or the outline of a polygon.
 
-    One that is not named needs no label, because its axis says what it is. Polygons of one title are named once.
+    A line is not `named` in the legend if its axis names it. Polygons with the same title are named once.
     """
 
     title: str
@@ -94,7 +94,7 @@ class Line:
     named: bool = True
 
     def mark(self, index: int, text: str) -> Mark:
-        """A mark at one of the points, in the hue of the line."""
+        """Return a mark at one of the points, in the hue of the line."""
         return Mark(float(self.x[index]), float(self.y[index]), text, self.hue)
 
 
@@ -111,10 +111,9 @@ class Ribbon:
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """A named value drawn as a horizontal bar, with its bounds where it is indeterminate; or the sum of its `parts`.
+    """A named value drawn as a horizontal bar, or as the sum of its `parts`; an indeterminate value has bounds.
 
-    NaN is a value that was not calculated, and is said to be that. Instead of the bar `dots` are points on a line, each
-    with its name.
+    The text of the value NaN is "not calculated". If the row has `dots`, named points on a line replace the bar.
     """
 
     name: str
@@ -127,7 +126,7 @@ class Row:
 
 
 class Scale(StrEnum):
-    """How a map is coloured: from its least value up, around 1 by ratio, or around 0."""
+    """Scale of colours of a map: upwards from its least value, by ratio around 1, or around 0."""
 
     MAGNITUDE = "magnitude"
     RATIO = "ratio"
@@ -136,7 +135,7 @@ class Scale(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Level:
-    """A straight line across the panel: a limit, or a reference; `vertical` stands at an abscissa."""
+    """A straight line across the panel: a limit or a reference; a `vertical` level is a value of the abscissa."""
 
     value: float
     name: str
@@ -146,9 +145,9 @@ class Level:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Map:
-    """Values over two coordinates, `[y][x]`; `critical` are values at which something happens.
+    """Values over two coordinates, `[y][x]`, with contours at the `critical` values.
 
-    Maps that are compared share the `range` of the colours, and the last of them shows the `bar`.
+    Maps of a comparison share the `range` of the colours; only the last of them shows the colour `bar`.
     """
 
     title: str
@@ -163,7 +162,7 @@ class Map:
 
     @property
     def ends(self) -> tuple[float, float]:
-        """Least and greatest value that has a colour of its own: those of the range if there is one."""
+        """Values at both ends of the scale of colours: those of the range if there is one."""
         if self.range is not None:
             return self.range
         finite = self.values[np.isfinite(self.values)]
@@ -203,7 +202,7 @@ class Area:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Panel:
-    """One pair of axes and all that is drawn in it; `shapes` are polygons; `equal` axes distort nothing."""
+    """A pair of axes with its contents; `shapes` are polygons; `equal` axes have the same scale."""
 
     x: Axis
     y: Axis
@@ -223,10 +222,10 @@ class Panel:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Figure:
-    """Panels under a title that says what and a finding that says what of it; `beside` puts them in a row.
+    """Panels under a title, which names the figure, and a finding, which states its result.
 
-    Title and source are those of the declaration, unless the case calls for a title of its own. A `narrow` figure is
-    laid out for a column of a report.
+    `beside` puts the panels in a row. Title and source come from the declaration, but a case may have a title of its
+    own. A `narrow` figure fits into a column of a report.
     """
 
     finding: str
@@ -245,4 +244,4 @@ class Figure:
 
 
 class NoFigure(Unprocessable):
-    """The case lacks what the figure shows; `path` is the dotted request field that decides it."""
+    """The case does not have the content of the figure; `path` is the dotted field of the request that decides it."""

@@ -1,4 +1,4 @@
-"""What a figure is before there is a case: its name, and the function that makes its data."""
+"""Declaration of a figure without a case: its name, and the function that makes its data."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -17,11 +17,13 @@ Build = Callable[..., Figure]
 class Declaration:
     """One figure of an endpoint.
 
-    `build` makes the data of the solver's inputs, in SI, and of its result with every quantity in the unit in which it
-    is shown. Where the result does not hold what the figure shows, `compute` finds it from both, and `build` takes it
-    as a third argument. A page leaves out what is `shown_at` the page of another calculation, given by its path, and
-    what a request without the section or value `asked_by`, or with another value there than `asked_value`, does not ask
-    for.
+    `build` makes the data from the solver's inputs, in SI, and from its result with all quantities in the units in
+    which they are shown. If the figure needs more than the result, `compute` calculates it from both, and `build` takes
+    it as a third argument.
+
+    A page leaves out a figure that is `shown_at` the page of another calculation, given by its path. It also leaves out
+    a figure whose section or value `asked_by` is absent from the request, or differs from `asked_value` if that is
+    given.
     """
 
     name: str
@@ -41,7 +43,7 @@ class Declaration:
         return value == self.asked_value if self.asked_value else value is not None
 
     def figure(self, request: Request, response: Response) -> Figure:
-        """The figure of a case. Raises NoFigure where there is nothing to show."""
+        """Return the figure of a case. Raises NoFigure if there is nothing to show."""
         if response.status == "no_solution":
             raise NoFigure("no_solution", "The calculation has no solution, so there is nothing to draw")
         if not self.is_asked(request):
@@ -58,7 +60,7 @@ class Declaration:
 
 
 def present(part: T | None) -> T:
-    """A part of a result that a solved case has."""
+    """Return a part of a result. Raises NoFigure if it is None, that is, if the case has no solution."""
     if part is None:
         raise NoFigure("no_solution", "The answer lacks what this figure shows, so there is nothing to draw")
     return part

@@ -1,4 +1,4 @@
-"""Sketches of machine parts, to scale: the transverse section of a gear pair, the shafts of a unit."""
+"""Sketches of machine parts to scale: the transverse section of a gear pair, the shafts of a unit."""
 
 from itertools import pairwise
 from math import cos, pi, sin
@@ -13,15 +13,15 @@ from solvers.gears.gear import Gear, fillet_point, root_profile
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.gears.pair import PathOfContact, meshing_path
 
-WINDOW = 4.2, 3.6  # transverse modules to either side of the pitch point, across and along the line of centres
-POINTS = 25  # of a fillet or a flank
+WINDOW = 4.2, 3.6  # transverse modules on either side of the pitch point, across and along the line of centres
+POINTS = 25  # per fillet or flank
 
 
 def transverse_section(inputs: GearPairInputs) -> Figure:
-    """Teeth in contact at the pitch point, the path of contact with its points, the usable flanks.
+    """Draw teeth in contact at the pitch point, the path of contact with its points, and the usable flanks.
 
-    The pitch point is the origin, the pinion lies below it and drives towards positive abscissae. Where the path has no
-    pitch point the contact is in its middle.
+    The pitch point is the origin. The pinion lies below it and drives towards positive abscissae. If the pitch point is
+    not on the path, the teeth are in contact at the middle of the path.
     """
     path = meshing_path(inputs)
     pair, angle = path.pair, path.pair.working_pressure_angle
@@ -39,7 +39,7 @@ def transverse_section(inputs: GearPairInputs) -> Figure:
         outline = _placed(*_outline(inputs, teeth, gear, tooth, reach[0]), centre)
         shapes.append(Line(f"{name}, {gear.teeth} teeth", *outline, hue))
         radius = np.hypot(gear.base_radius, np.linspace(gear.usable_roll_length, gear.tip_roll_length, POINTS))
-        flank = _placed(radius, tooth - np.array([gear.half_tooth_angle(each) for each in radius]), centre)
+        flank = _placed(radius, tooth - np.array([gear.half_tooth_angle(at) for at in radius]), centre)
         lines.append(Line("usable flanks", *flank, Hue.GREEN, named=side > 0.0))
     for title, ends, hue, role in (
         ("line of action", (0.0, pair.line_of_action), Hue.GREY, Role.REFERENCE),
@@ -65,10 +65,11 @@ def transverse_section(inputs: GearPairInputs) -> Figure:
 
 
 def points_of_contact(path: PathOfContact) -> dict[str, float]:
-    """The points A to E of the path by their roll lengths on the pinion [m].
+    """Return the roll lengths of the points A to E of the path on the pinion [m].
 
-    A and E are its ends. Between B and D, each one transverse base pitch from the other end, one pair of teeth meshes
-    in a transverse section (with a contact ratio up to 2); C is the pitch point, where the path has one.
+    A and E are the ends of the path. B lies one transverse base pitch before E, and D one behind A; with a contact
+    ratio up to 2, a single pair of teeth meshes between B and D in a transverse section. C is the pitch point. Points
+    that are not on the path are left out.
     """
     pitch = path.pair.transverse_base_pitch
     points = {"A": path.start, "B": path.end - pitch, "C": path.pitch_point, "D": path.start + pitch, "E": path.end}
@@ -76,12 +77,12 @@ def points_of_contact(path: PathOfContact) -> dict[str, float]:
 
 
 def _outline(inputs: GearPairInputs, teeth: GearTeeth, gear: Gear, tooth: float, width: float) -> tuple[Values, Values]:
-    """Radius [m] and polar angle [rad] of the teeth as wide as the window to both sides of one at an angle."""
+    """Return radius [m] and polar angle [rad] of the tooth at the angle `tooth` and its neighbours in the window."""
     root = root_profile(inputs, teeth, gear)
     fillet = np.array([fillet_point(root.fillet, t) for t in np.linspace(0.0, root.fillet.end, POINTS)])
     flank = np.hypot(gear.base_radius, np.linspace(root.involute_roll, gear.tip_roll_length, POINTS))
     half = pi / gear.teeth
-    space = np.array([half - gear.half_tooth_angle(each) for each in flank])
+    space = np.array([half - gear.half_tooth_angle(at) for at in flank])
     radius, angle = np.concatenate([fillet[:, 0], flank]), np.concatenate([fillet[:, 1], space]) - half
     one = np.concatenate([radius, radius[::-1]]), np.concatenate([angle, -angle[::-1]])
     count = min(int(width / (half * gear.root_radius)) + 1, gear.teeth // 2)
@@ -92,12 +93,12 @@ def _outline(inputs: GearPairInputs, teeth: GearTeeth, gear: Gear, tooth: float,
 
 
 def _placed(radius: Values, angle: Values, centre: float) -> tuple[Values, Values]:
-    """Polar coordinates [m] about a centre on the ordinate as x and y [mm]."""
+    """Convert polar coordinates [m] about a centre on the ordinate to x and y [mm]."""
     return radius * np.cos(angle) / MM, (centre + radius * np.sin(angle)) / MM
 
 
 def shafts(inputs: DriveTrainInputs, _: object) -> Figure:
-    """Shafts with their gears, bearings and coupling hubs in the plane of both axes."""
+    """Draw the shafts with their gears, bearings and coupling hubs in the plane of both axes."""
     gears = inputs.mesh.distribution.gears
     pair = meshing_path(gears).pair
     face_end, distance = inputs.face_start + gears.face_width, pair.centre_distance
@@ -105,21 +106,22 @@ def shafts(inputs: DriveTrainInputs, _: object) -> Figure:
     for name, height, shaft, gear in zip(
         ("pinion", "wheel"), (0.0, distance), inputs.shafts, (pair.pinion, pair.wheel), strict=True
     ):
-        ends = shaft.start + np.cumsum([0.0, *(each.length for each in shaft.sections)])
-        for (start, end), each in zip(pairwise(ends), shaft.sections, strict=True):
-            shapes.append(_box("shafts", start, end, height, each.outer_diameter / 2.0, Hue.GREY))
+        ends = shaft.start + np.cumsum([0.0, *(section.length for section in shaft.sections)])
+        for (start, end), section in zip(pairwise(ends), shaft.sections, strict=True):
+            shapes.append(_box("shafts", start, end, height, section.outer_diameter / 2.0, Hue.GREY))
         shapes.append(_box("gears", inputs.face_start, face_end, height, gear.tip_radius, Hue.SKY))
-        hubs = [each for each in inputs.couplings if each.shaft == name]
+        hubs = [coupling for coupling in inputs.couplings if coupling.shaft == name]
         for hub in hubs:
             design, place, half = hub.coupling, hub.position, hub.coupling.face_width / 2.0
             radius = design.teeth * design.module / 2.0
             shapes.append(_box("coupling hubs", place - half, place + half, height, radius, Hue.ORANGE))
-        shapes += [_bearing(each, shaft, height) for each in shaft.bearings]
-        marks += [Mark(each.position / MM, height / MM, f"{place}") for place, each in enumerate(shaft.bearings, 1)]
+        shapes += [_bearing(bearing, shaft, height) for bearing in shaft.bearings]
+        bearings = enumerate(shaft.bearings, 1)
+        marks += [Mark(bearing.position / MM, height / MM, f"{number_}") for number_, bearing in bearings]
         machines = [
-            each.position + each.coupling.hub_distance * (1.0 if each.machine_side == "plus" else -1.0) for each in hubs
+            hub.position + hub.coupling.hub_distance * (1.0 if hub.machine_side == "plus" else -1.0) for hub in hubs
         ]
-        marks += [Mark(each / MM, height / MM, "machine", Hue.ORANGE) for each in machines]
+        marks += [Mark(machine / MM, height / MM, "machine", Hue.ORANGE) for machine in machines]
         far = values([min(shaft.start, shaft.end, *machines) / MM, max(shaft.start, shaft.end, *machines) / MM])
         lines.append(Line("axis", far, values([height / MM] * 2), Hue.GREY, Role.REFERENCE, named=False))
     panel = Panel(
@@ -134,18 +136,18 @@ def shafts(inputs: DriveTrainInputs, _: object) -> Figure:
 
 
 def _box(title: str, start: float, end: float, height: float, radius: float, hue: Hue) -> Line:
-    """A cylinder seen from the side; lengths [m]."""
+    """Return the outline of a cylinder seen from the side; lengths [m]."""
     x, y = np.array([start, end, end, start]) / MM, (height + radius * np.array([-1.0, -1.0, 1.0, 1.0])) / MM
     return Line(title, x, y, hue)
 
 
 def _bearing(bearing: Bearing, shaft: Shaft, height: float) -> Line:
-    """A plain bearing as long as it is; another one a triangle under the shaft."""
+    """Return the outline of a plain bearing, or a triangle under the shaft for another bearing."""
     place = bearing.position
     if isinstance(bearing, JournalBearing):
         start, end = place - bearing.width / 2.0, place + bearing.width / 2.0
         return _box("plain bearings", start, end, height, 0.65 * bearing.diameter, Hue.BLUE)
-    ends = shaft.start + np.cumsum([each.length for each in shaft.sections])
+    ends = shaft.start + np.cumsum([section.length for section in shaft.sections])
     diameter = shaft.sections[min(int(np.searchsorted(ends, place)), len(ends) - 1)].outer_diameter
     x, y = place + diameter * np.array([-0.5, 0.5, 0.0]), height - diameter * np.array([1.4, 1.4, 0.5])
     return Line("bearings", x / MM, y / MM, Hue.BLUE)

@@ -1,7 +1,7 @@
-"""Figures of a load spectrum: the output of every case against its limit, probabilities, what decides, mean losses.
+"""Figures of a load spectrum: the output of every case against its limit, probabilities, deciding cases, mean losses.
 
-A probability is a part of the study's lines: its `bounds`, which are equal where every draw is solved, and its
-`interval`.
+A probability is a dictionary from the lines of the study. Its `bounds` are equal if all draws are solved; `interval` is
+its confidence interval.
 """
 
 from dataclasses import replace
@@ -13,18 +13,18 @@ from app.figures.data import ORDER, Axis, Figure, Hue, Level, Line, NoFigure, Pa
 from app.figures.wording import number, percent
 
 BAND = 1.6448536  # deviations from 5 to 50 %
-REACH = 3.5  # deviations of a limit that are drawn
+REACH = 3.5  # deviations drawn on both sides of a limit
 CURVE_POINTS = 141  # of a bell curve, chosen: it looks smooth
 SPECTRUM = "whole spectrum"
-NAMED = 8  # tolerances
-LEAST = 1e-5  # a probability below it says nothing more: the tails that make it are not known so far out
+NAMED = 8  # tolerances in a figure
+LEAST = 1e-5  # smaller probabilities are not stated, because the tails of the distributions are not known so far out
 
 
 class SpectrumCase(NamedTuple):
     """A case of the spectrum.
 
-    `quantiles` are those of its limited output, 5, 50 and 95 %, None where none is solved; `chance` is its probability
-    as if alone, `decides` the share of machines of which it is the worst case.
+    `quantiles` of the limited output are at 5, 50 and 95 %, None if no draw is solved. `chance` is the probability of
+    the case as if it were alone, `decides` the share of machines whose worst case it is.
     """
 
     name: str
@@ -36,9 +36,9 @@ class SpectrumCase(NamedTuple):
 class Limited(NamedTuple):
     """A limited output over the spectrum.
 
-    `found` is what the study says of the limit: its side, mean and deviation, the probability, and the histogram of the
-    worst case, empty where that does not vary. `influences` are the rank correlations of the worst case with the fields
-    that scatter, by their titles.
+    `found` is the study's result for the limit: side, mean and deviation of the limit, the probability, and the
+    histogram of the worst case, empty if the worst case does not vary. `influences` are the rank correlations of the
+    worst case with the fields that scatter, by title.
     """
 
     output: Axis
@@ -48,48 +48,48 @@ class Limited(NamedTuple):
 
 
 def is_tiny(chance: dict[str, Any]) -> bool:
-    """Whether a probability is too small to be distinguished from zero, but not exactly zero."""
+    """Return True if a probability is too small to be distinguished from zero, but not exactly zero."""
     most: float = max(*chance["bounds"], *(chance["interval"] or ()))
     return 0.0 < most < LEAST
 
 
 def chance_text(chance: dict[str, Any]) -> str:
-    """A probability in per cent, or its bounds where they differ."""
+    """Return a probability in per cent, or its bounds if they differ."""
     if is_tiny(chance):
         return f"below {percent(LEAST)}"
     low, high = chance["bounds"]
     return percent(low) if low == high else f"{percent(low)} to {percent(high)}"
 
 
-def sentence(found: dict[str, Any]) -> str:
-    """A sentence that states the probability of being above or below a limit."""
-    interval = None if is_tiny(found) else found["interval"]
+def sentence(limit: dict[str, Any]) -> str:
+    """Return a sentence that states the probability of being above or below a limit."""
+    interval = None if is_tiny(limit) else limit["interval"]
     reach = f", 90 % interval {percent(interval[0])} to {percent(interval[1])}" if interval else ""
-    return f"probability of being {found['side']} the limit {chance_text(found)}{reach}: {found['risk']} risk"
+    return f"probability of being {limit['side']} the limit {chance_text(limit)}{reach}: {limit['risk']} risk"
 
 
 def overlap(limited: Limited) -> Figure:
-    """The densities of the worst case and of the limit, and below them the band of every case."""
-    found, axis, rows = limited.found, replace(limited.output, magnitude=False), []
-    for each in limited.cases:
-        if each.quantiles is not None:
-            low, middle, high = each.quantiles
-            rows.append(Row(each.name, middle, Hue.BLUE, (low, high)))
+    """Draw the densities of the worst case and of the limit, and below them the bands of all cases."""
+    limit, axis, rows = limited.found, replace(limited.output, magnitude=False), []
+    for case in limited.cases:
+        if case.quantiles is not None:
+            low, middle, high = case.quantiles
+            rows.append(Row(case.name, middle, Hue.BLUE, (low, high)))
     if not rows:
         raise NoFigure("no_solution", "no case has a solution")
-    mean, reach = found["mean"], BAND * (found["deviation"] or 0.0)
-    panels = [_densities(found, axis)] if reach or found["histogram"]["edges"] else []
+    mean, reach = limit["mean"], BAND * (limit["deviation"] or 0.0)
+    panels = [_densities(limit, axis)] if reach or limit["histogram"]["edges"] else []
     levels = [Level(mean, f"limit {number(mean, axis.unit)}", limit=True, vertical=True)]
     spans = [Span(mean - reach, mean + reach, "")] if reach else []
     panels.append(Panel(x=axis, y=Axis("case"), rows=rows, spans=spans, levels=levels))
     title = f"{axis.title[0].upper()}{axis.title[1:]} against its limit"
-    return Figure(f"{sentence(found)}; bars to the median, lines and shade from 5 to 95 %", panels, title=title)
+    return Figure(f"{sentence(limit)}; bars to the median, lines and shade from 5 to 95 %", panels, title=title)
 
 
-def _densities(found: dict[str, Any], axis: Axis) -> Panel:
-    """What the worst case reaches and what the limit is, as densities scaled to one height."""
+def _densities(limit: dict[str, Any], axis: Axis) -> Panel:
+    """Return the densities of the worst case and of the limit, scaled to the same height."""
     curves, levels = list[tuple[str, Values, Values, Hue]](), list[Level]()
-    mean, deviation, histogram = found["mean"], found["deviation"], found["histogram"]
+    mean, deviation, histogram = limit["mean"], limit["deviation"], limit["histogram"]
     if edges := histogram["edges"]:
         height = np.repeat(np.array(histogram["density"]) / max(histogram["density"]), 2)
         curves.append(("worst case", np.repeat(edges, 2), np.pad(height, 1), Hue.BLUE))
@@ -108,29 +108,29 @@ def _densities(found: dict[str, Any], axis: Axis) -> Panel:
 
 
 def chances(limited: Limited) -> Figure:
-    """The probability of each case as if it were alone, and of the spectrum."""
-    found = limited.found
-    if is_tiny(found):
-        raise NoFigure("tiny", f"the probability is {chance_text(found)} in every case")
-    known = [*((each.name, each.chance, Hue.BLUE) for each in limited.cases), (SPECTRUM, found, Hue.VERMILLION)]
+    """Draw the probability of each case as if it were alone, and that of the spectrum."""
+    limit = limited.found
+    if is_tiny(limit):
+        raise NoFigure("tiny", f"the probability is {chance_text(limit)} in every case")
+    cases = ((case.name, case.chance, Hue.BLUE) for case in limited.cases)
     rows = []
-    for name, chance, hue in known:
+    for name, chance, hue in (*cases, (SPECTRUM, limit, Hue.VERMILLION)):
         low, high = chance["interval"] or chance["bounds"]
         rows.append(Row(name, 100.0 * chance["bounds"][1], hue, (100.0 * low, 100.0 * high)))
-    panel = Panel(x=Axis(f"probability of being {found['side']} the limit", "%"), y=Axis("case"), rows=rows)
+    panel = Panel(x=Axis(f"probability of being {limit['side']} the limit", "%"), y=Axis("case"), rows=rows)
     finding = "each case as if it were alone; of the spectrum the worst case of each machine counts"
-    return Figure(finding, [panel], title=f"Probability: {limited.output.title} {found['side']} its limit")
+    return Figure(finding, [panel], title=f"Probability: {limited.output.title} {limit['side']} its limit")
 
 
 def deciding(limited: Limited) -> Figure:
-    """Share of machines for which each case is the worst, and how strongly each tolerance correlates with it."""
-    rows = [Row(each.name, 100.0 * each.decides) for each in limited.cases if each.decides is not None]
+    """Draw the shares of machines by their worst case, and the rank correlations of the tolerances with it."""
+    rows = [Row(case.name, 100.0 * case.decides) for case in limited.cases if case.decides is not None]
     if not rows:
         raise NoFigure("no_solution", "no machine is solved in every case")
     panels = [Panel(x=Axis("machines whose worst case it is", "%"), y=Axis("case"), rows=rows)]
     most = max(rows, key=lambda row: row.value)
     finding = f"{most.name} in {number(most.value, '%')} of the machines"
-    strongest = sorted(limited.influences.items(), key=lambda each: -abs(each[1]))[:NAMED]
+    strongest = sorted(limited.influences.items(), key=lambda title_and_rank: -abs(title_and_rank[1]))[:NAMED]
     if strongest:
         axis = Axis("rank correlation with the worst case")
         panels.append(Panel(x=axis, y=Axis("tolerance"), rows=[Row(name, value) for name, value in strongest]))
@@ -139,7 +139,7 @@ def deciding(limited: Limited) -> Figure:
 
 
 def losses(cases: dict[str, dict[str, float]], mean: dict[str, float], energy: float | None) -> Figure:
-    """Mean losses [kW] by their kinds, of every case and over the operating time; with the energy of a year [MWh]."""
+    """Draw the mean losses by kind [kW], of every case and over the operating time; `energy` is per year [MWh]."""
     hues = {kind: ORDER[place % len(ORDER)] for place, kind in enumerate(mean)}
     rows = []
     for name, own in (*cases.items(), (SPECTRUM, mean)):

@@ -28,18 +28,19 @@ from app.figures.data import (
 )
 from app.figures.wording import NO_BREAK, difference_unit, listed, number, to_digits
 
-MOST_CURVES = 6  # beyond it two fields make a map
-FLAT = 0.5  # of the largest value: an output that stays above it is not drawn from zero
-MOST_ROWS = 12  # of bars that can be read at once
-NAMED = 3  # in the finding
+MOST_CURVES = 6  # with more curves, two fields make a map
+FLAT = 0.5  # share of the largest value: the axis of an output that stays above it does not start at zero
+MOST_ROWS = 12  # bars in a figure
+NAMED = 3  # inputs in the finding
 STAR = f"{NO_BREAK}*"
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Coordinate:
-    """A varied field: its values in rising order, or its words; `own` is the value of the case itself.
+    """A varied field with its values in rising order, or its words; `own` is the value of the case itself.
 
-    `scatters` says that manufacture or measurement leaves it open, so that a design has to forgive it.
+    A field `scatters` if manufacture or measurement leaves its value open, so that a design has to tolerate the
+    scatter.
     """
 
     axis: Axis
@@ -49,16 +50,16 @@ class Coordinate:
     scatters: bool = False
 
     def named(self, index: int) -> str:
-        """A value as people read it."""
+        """Return a value as text."""
         return self.words[index] if self.words else number(float(self.values[index]), self.axis.unit)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Grid:
-    """An output over one field or two, `[x]` or `[x][y]`; NaN where there is no value, or none yet.
+    """An output over one or two fields, `[x]` or `[x][y]`; NaN is a point without a value, or without one so far.
 
-    `greatest` says which end is the better one; `limit` bounds the output. `invalid` says for each value of a single
-    field why the output does not hold there, if so; `doubtful` whether it is outside a limit of validity.
+    If `greatest`, greater values are better. `limit` bounds the output. For each value of a single field, `invalid` is
+    the reason why the output is not valid there, or None; `doubtful` is True if it is outside a limit of validity.
     """
 
     x: Coordinate
@@ -73,7 +74,7 @@ class Grid:
 
     @property
     def best(self) -> tuple[int, ...] | None:
-        """Index of the best value, of the first one if several are equal; None if no value is finite."""
+        """Index of the best value, or of the first of several equal ones; None if no value is finite."""
         if not np.isfinite(self.values).any():
             return None
         flat = np.nanargmax(self.values) if self.greatest else np.nanargmin(self.values)
@@ -81,7 +82,7 @@ class Grid:
 
 
 def figures_of(grid: Grid) -> dict[str, Figure]:
-    """The figures of a sweep by name."""
+    """Return the figures of a sweep by name."""
     if grid.y is None:
         return {"curve": curve(grid)}
     if grid.y.words or grid.y.values.size <= MOST_CURVES:
@@ -91,7 +92,7 @@ def figures_of(grid: Grid) -> dict[str, Figure]:
 
 
 def curve(grid: Grid) -> Figure:
-    """The output along the field; shaded where it does not hold, with rings where it is doubtful."""
+    """Draw the output over the field, with shades where it is not valid and rings where it is doubtful."""
     x, own = grid.x, grid.x.own
     line = Line(grid.output.title, x.values, grid.values, named=False)
     levels, spans, start = _limit(grid), list[Span](), 0
@@ -104,19 +105,19 @@ def curve(grid: Grid) -> Figure:
         start = stop
     doubtful = [at for at, doubt in enumerate(grid.doubtful) if doubt and np.isfinite(grid.values[at])]
     rings = [replace(line.mark(at, ""), hue=Hue.ORANGE) for at in doubtful]
-    crossings = [Mark(each.place, grid.limit or 0.0, each.named(x.axis)) for each in _crossings(grid)]
+    crossings = [Mark(at.place, grid.limit or 0.0, at.named(x.axis)) for at in _crossings(grid)]
     finding = _finding(grid)
     if grid.best is not None and any(grid.doubtful):
         finding += "; orange rings: doubtful, outside a limit of validity"
     if grid.best is not None and crossings:
-        finding = f"crosses its limit at {listed([each.text for each in crossings])}; {finding}"
+        finding = f"crosses its limit at {listed([mark.text for mark in crossings])}; {finding}"
     marks = [*rings, *crossings, *parts.extreme([line], grid.output.unit, least=not grid.greatest)]
     panel = Panel(x=x.axis, y=_ordinate(grid), lines=[line], levels=levels, spans=spans, marks=marks)
     return _figure(grid, f"{grid.output.title} over {x.axis.title}", panel, finding)
 
 
 def family(grid: Grid, y: Coordinate) -> Figure:
-    """A curve for each value of the second field."""
+    """Draw a curve for each value of the second field."""
     lines = [
         Line(y.named(index), grid.x.values, grid.values[:, index], ORDER[index % len(ORDER)])
         for index in range(y.values.size)
@@ -128,7 +129,7 @@ def family(grid: Grid, y: Coordinate) -> Figure:
 
 
 def chart(grid: Grid, y: Coordinate) -> Figure:
-    """The output over both fields as a map with its best point."""
+    """Draw the output over both fields as a map with its best point."""
     x, output = grid.x, grid.output
     finite = grid.values[np.isfinite(grid.values)]
     low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
@@ -143,7 +144,7 @@ def chart(grid: Grid, y: Coordinate) -> Figure:
 
 
 def worst(grid: Grid, y: Coordinate) -> Figure:
-    """For each value of the second field the worst along the first; unknown where a point of it is."""
+    """Draw the worst output along the first field over the second; it is unknown if one of its points is unknown."""
     x, finding = grid.x, ""
     reached = grid.values.min(axis=0) if grid.greatest else grid.values.max(axis=0)
     lines = [Line("worst", y.values, reached, ORDER[1])]
@@ -164,7 +165,7 @@ def _figure(grid: Grid, title: str, panel: Panel, finding: str) -> Figure:
 
 
 def _finding(grid: Grid) -> str:
-    """The best value and where it is."""
+    """Return the best value and its place as text."""
     if grid.best is None:
         return ""
     fields = [grid.x] if grid.y is None else [grid.x, grid.y]
@@ -174,7 +175,7 @@ def _finding(grid: Grid) -> str:
 
 
 def _ordinate(grid: Grid) -> Axis:
-    """From zero, unless the output changes by little of itself."""
+    """Return the axis of the output; it starts at zero unless the output changes little."""
     finite = np.abs(grid.values[np.isfinite(grid.values)])
     flat = finite.size > 0 and finite.min() > FLAT * finite.max()
     return replace(grid.output, magnitude=not flat)
@@ -187,36 +188,36 @@ def _limit(grid: Grid) -> list[Level]:
 
 
 class Crossing(NamedTuple):
-    """Crossing of a curve and its limit: the abscissa and the error of this abscissa."""
+    """Place at which a curve crosses its limit between two points, and the error of this place."""
 
     place: float
     error: float
 
     def named(self, axis: Axis) -> str:
-        """Return the abscissa with its unit and as many digits as its error permits."""
+        """Return the place with as many digits as its error allows."""
         glue = "" if axis.unit in {None, "", "°"} else " "
         return f"{to_digits(self.place, self.error)}{glue}{axis.unit or ''}"
 
 
 def _crossings(grid: Grid) -> list[Crossing]:
-    """Return the crossings of a curve and its limit by linear interpolation between points.
+    """Return the crossings of a curve with its limit, on straight lines between its points.
 
-    The error is that of linear interpolation, estimated with the second divided difference of three points. If there
-    are only two points, the error is their distance.
+    The error is that of the straight line, estimated from the second divided difference of three points. If there are
+    only two points, the error is the distance between them.
     """
     if grid.limit is None or grid.x.words:
         return []
     x, beyond = grid.x.values, grid.values - grid.limit
-    found = []
+    crossings = []
     for before in np.flatnonzero(beyond[:-1] * beyond[1:] < 0.0).tolist():
         start, stop = float(x[before]), float(x[before + 1])
         slope = (beyond[before + 1] - beyond[before]) / (stop - start)
         place = start - float(beyond[before] / slope)
         triples = [slice(first, first + 3) for first in (before - 1, before) if 0 <= first <= x.size - 3]
         curvatures = [_second_difference(x[three], beyond[three]) for three in triples]
-        errors = [abs(each / slope) * (place - start) * (stop - place) for each in curvatures if isfinite(each)]
-        found.append(Crossing(place, max(errors, default=stop - start)))
-    return found
+        errors = [abs(bend / slope) * (place - start) * (stop - place) for bend in curvatures if isfinite(bend)]
+        crossings.append(Crossing(place, max(errors, default=stop - start)))
+    return crossings
 
 
 def _second_difference(x: Values, y: Values) -> float:
@@ -226,7 +227,7 @@ def _second_difference(x: Values, y: Values) -> float:
 
 
 def answer(grid: Grid) -> str:
-    """Answer the question of a sweep in a sentence: how the output stands to its limit, or how far it runs."""
+    """Return the answer to the question of a sweep: the output against its limit, or its range."""
     finite = np.isfinite(grid.values)
     if grid.best is None:
         return ""
@@ -241,7 +242,7 @@ def answer(grid: Grid) -> str:
     side, limit = ("above", "below")[not grid.greatest], number(grid.limit or 0.0, unit)
     crossings = _crossings(grid) if grid.y is None else []
     if crossings:
-        places = listed([each.named(grid.x.axis) for each in crossings])
+        places = listed([crossing.named(grid.x.axis) for crossing in crossings])
         good = grid.x.named(int(np.flatnonzero(kept)[0]))
         return f"The {name} crosses its limit {limit} at about {places}; it is {side} the limit at {good}; {best}."
     span = "at every point" if kept.sum() == finite.sum() else f"at {kept.sum()} of {finite.sum()} points"
@@ -249,14 +250,14 @@ def answer(grid: Grid) -> str:
 
 
 class Lead(NamedTuple):
-    """Slope and crowning of a helix [um], or what they may be off."""
+    """Slope and crowning of a helix [um], or their tolerances [um]."""
 
     slope: float
     crowning: float
 
 
 class Influence(NamedTuple):
-    """The change of an output by one step of an input, and whether the slopes below and above the value differ."""
+    """The change of an output by one step of an input; `kink` if the slopes below and above the value differ."""
 
     name: str
     step: str
@@ -264,26 +265,26 @@ class Influence(NamedTuple):
     kink: bool
 
 
-def influence(output: Axis, value: float, found: list[Influence]) -> Figure:
-    """Horizontal bars in the hue of their sign, the most influential input first; a star where the sides differ."""
-    moving = [each for each in found if each.change][:MOST_ROWS]
+def influence(output: Axis, value: float, influences: list[Influence]) -> Figure:
+    """Draw horizontal bars in the hue of their sign, the most influential input first; a star marks a kink."""
+    moving = [item for item in influences if item.change][:MOST_ROWS]
     title = f"What moves the {output.title} most"
     if not moving:
         return Figure("nothing does", [], title=title)
     rows = []
-    for each in moving:
-        name = f"{each.name}, {each.step.replace(' ', NO_BREAK)}{STAR if each.kink else ''}"
-        rows.append(Row(name, each.change, Hue.BLUE if each.change > 0.0 else Hue.VERMILLION))
-    kinks = f";{STAR} a step down changes it by another amount" if any(each.kink for each in moving) else ""
-    finding = f"{number(value, output.unit)} now; {listed([each.name for each in moving[:NAMED]])} first{kinks}"
+    for item in moving:
+        name = f"{item.name}, {item.step.replace(' ', NO_BREAK)}{STAR if item.kink else ''}"
+        rows.append(Row(name, item.change, Hue.BLUE if item.change > 0.0 else Hue.VERMILLION))
+    kinks = f";{STAR} a step down changes it by another amount" if any(item.kink for item in moving) else ""
+    finding = f"{number(value, output.unit)} now; {listed([item.name for item in moving[:NAMED]])} first{kinks}"
     axis = Axis(f"change of the {output.title} by one step up, from the steeper side", difference_unit(output.unit))
     return Figure(finding, [Panel(x=axis, y=axis, rows=rows)], title=title)
 
 
 def corners(output: Axis, rows: list[Row], nominal: float | None) -> Figure:
-    """A row for each uncertain input: a dot for each of its values, at the worst output found with that value.
+    """Draw a row for each uncertain input, with a dot for each of its values at the worst output with this value.
 
-    The value of a row is the output at the worst corner, whose dot is red; `nominal` is the output of the case as
+    The value of a row is the output at the worst corner, whose dot is red. `nominal` is the output of the case as
     described.
     """
     levels = []
@@ -297,15 +298,14 @@ def corners(output: Axis, rows: list[Row], nominal: float | None) -> Figure:
 def lead_chart(
     position: Values, face_fraction: Values, wanted: Lead, before: Lead, tolerance: Lead, ends: tuple[str, str]
 ) -> Figure:
-    """The helix trace to grind with its tolerances, as a lead chart shows it: removed material points downwards.
+    """Draw the helix trace to grind with its tolerances as a lead chart; removed material points downwards.
 
-    `position` is on the axis of the unit [mm], `before` the lead as described, `ends` what the ends of the face are
-    called.
+    `position` is on the axis of the unit [mm], `before` the lead as described, `ends` the names of the face's ends.
     """
     eta = face_fraction - 0.5
 
     def depth(slope: float, crowning: float) -> Values:
-        """Material to remove below the plain helix at the middle of the face [um]."""
+        """Return the material to remove, measured from the unmodified helix [um]."""
         return slope * eta + 4.0 * crowning * eta**2
 
     ground = -depth(*wanted)
@@ -325,7 +325,7 @@ def lead_chart(
 
 
 def search(output: Axis, objectives: Sequence[float | None], *, greatest: bool) -> Figure:
-    """The objective at the worst corner of each correction, in the order tried; None if a corner has no solution."""
+    """Draw the objective at the worst corner of all corrections tried; None is a correction without a solution."""
     reached = values(objectives)
     so_far = np.fmax.accumulate(reached) if greatest else np.fmin.accumulate(reached)
     order = np.arange(1, reached.size + 1, dtype=np.float64)

@@ -1,4 +1,4 @@
-"""A figure's numbers as CSV, a column each, units in the header."""
+"""The numbers of a figure as CSV, with units in the header."""
 
 from collections.abc import Iterable, Iterator
 from itertools import zip_longest
@@ -14,31 +14,42 @@ Item = float | str | None
 
 
 class Column(NamedTuple):
-    """A header and what stands below it: names, or numbers; None where one is missing."""
+    """A header with names or numbers below it; None is a missing value."""
 
     header: str
     content: tuple[Item, ...]
 
 
 def table(figure: Figure) -> bytes:
-    """All columns beside each other; a missing value is an empty cell."""
+    """Write the numbers of a figure as CSV; a missing value is an empty cell.
+
+    Parameters
+    ----------
+    figure : Figure
+        The data of the figure.
+
+    Returns
+    -------
+    bytes
+        Content of the file.
+    """
     columns = columns_of(figure)
     return csv_of([[column.header for column in columns], *zip_longest(*(column.content for column in columns))])
 
 
 def columns_of(figure: Figure) -> list[Column]:
-    """Every column; an abscissa that several series share stands once."""
+    """Return all columns; an abscissa that several series share appears once."""
     columns = dict[Column, None]()
     for panel in figure.panels:
         prefix = f"{panel.title}: " if panel.title else ""
         for header, items in _columns(panel):
-            known = (None if isinstance(item, float) and isnan(item) else item for item in items)
-            columns[Column(prefix + header, tuple(known))] = None
+            content = (None if isinstance(item, float) and isnan(item) else item for item in items)
+            columns[Column(prefix + header, tuple(content))] = None
     return list(columns)
 
 
 def _columns(panel: Panel) -> Iterator[tuple[str, Iterable[Item]]]:
-    """Abscissa and ordinate of each line, bar and polygon; names and values of rows; maps point by point; limits."""
+    """Yield abscissa and ordinate of all lines, bars and polygons, the rows, the points of a map, and the limits."""
     abscissa = _header(panel.x.title, panel.x)
     for line in (*panel.bars, *panel.lines, *panel.shapes):
         name = line.title if line.title == panel.y.title else f"{line.title}: {panel.y.title}"
@@ -78,5 +89,5 @@ def _row_columns(panel: Panel) -> Iterator[tuple[str, Iterable[Item]]]:
 
 
 def _header(title: str, axis: Axis) -> str:
-    """A title with the unit of an axis."""
+    """Return a title with the unit of an axis."""
     return f"{title} [{axis.unit or '-'}]"

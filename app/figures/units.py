@@ -1,4 +1,4 @@
-"""Dataclasses of the solvers with their quantities in the units in which they are shown."""
+"""Results of the solvers with their quantities in the units in which they are shown."""
 
 from dataclasses import fields, is_dataclass
 from functools import cache
@@ -12,33 +12,33 @@ from solvers.quantity import UNITS, Quantity, quantities
 
 T = TypeVar("T")
 MM, UM, RPM = (UNITS[name].scale for name in ("mm", "um", "rpm"))
-"""In SI."""
+"""These units in SI."""
 
 
 def shown(data: T) -> T:
-    """A copy of a solver's dataclass, and of those inside it, whose declared values are in the units shown.
+    """Return a copy of a solver's dataclass, and of dataclasses inside it, with quantities in the units shown.
 
-    Computed values that are declared are converted as well; other methods of the copy must not be used, because they
-    would compute from values that are not in SI. What is not declared, and None, stays as it is.
+    Declared computed values are converted as well. Other methods of the copy must not be used, because they would
+    compute from values that are not in SI. Undeclared values and None are copied as they are.
     """
-    converted: T = _converted(data, None)
-    return converted
+    copy: T = _converted(data, None)
+    return copy
 
 
-def axis(data: Any, name: str, title: str = "", **known: Any) -> Axis:
-    """The axis of a quantity that a dataclass declares: its unit, its symbol, its title unless another is given."""
+def axis(data: Any, name: str, title: str = "", **options: Any) -> Axis:
+    """Return the axis of a quantity that a dataclass declares, with its unit, symbol and title, or another title."""
     declared = quantities(data if isinstance(data, type) else type(data))[name]
     unit = UNITS[declared.unit].symbol if declared.unit else None
-    return Axis(title or declared.title, unit, **{"symbol": declared.symbol or "", **known})
+    return Axis(title or declared.title, unit, **{"symbol": declared.symbol or "", **options})
 
 
-def axis_of(leaf: Leaf, **known: Any) -> Axis:
-    """The axis of a field of a request or of an answer."""
-    return Axis(leaf.title, leaf.unit, symbol=leaf.declared.symbol or "", **known)
+def axis_of(leaf: Leaf, **options: Any) -> Axis:
+    """Return the axis of a field of a request or of an answer."""
+    return Axis(leaf.title, leaf.unit, symbol=leaf.declared.symbol or "", **options)
 
 
 def _converted(value: Any, declared: Quantity | None) -> Any:
-    """A value in its unit; `declared` is that of the field that holds it, which counts where one inside has none."""
+    """Return a value in its unit; `declared` belongs to the outer field and holds for inner fields without a unit."""
     if is_dataclass(value) and not isinstance(value, type):
         kind: Any = type(value)
         known = quantities(kind)
@@ -57,6 +57,6 @@ def _converted(value: Any, declared: Quantity | None) -> Any:
 
 @cache
 def _plain(kind: Any) -> Any:
-    """A subclass with slots for what the dataclass computes."""
-    computed = quantities(kind).keys() - {each.name for each in fields(kind)}
+    """Return a subclass with slots for the computed values of the dataclass."""
+    computed = quantities(kind).keys() - {item.name for item in fields(kind)}
     return type(kind.__name__, (kind,), {"__slots__": tuple(computed), "__doc__": kind.__doc__})

@@ -1,4 +1,4 @@
-"""Numbers, counts and symbols as they stand in titles, marks and at ticks."""
+"""Numbers, lists and symbols as texts for titles, marks and ticks."""
 
 import re
 from collections.abc import Callable
@@ -7,21 +7,24 @@ from math import floor, log10
 NO_BREAK = "\u00a0"  # a space
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 PLAIN = (1e-3, 1e6)  # magnitudes written without a power of ten
-NOISE = 1e-9  # of a whole: a smaller part is rounding error
-UNCERTAIN = 0.2  # of a number by its resolution, chosen: no verdict on it is firm
+NOISE = 1e-9  # share of a whole; a smaller part is a rounding error
+UNCERTAIN = 0.2  # chosen: a number whose relative error by resolution is larger has no firm verdict
 DIFFERENCES = {"°C": "K", "K": "K", "°": "°", "%": "percentage points"}
-"""Units of quantities whose changes are differences, and the units of these differences: ratios mean nothing there."""
+"""Units of quantities whose changes are stated as differences, not ratios, and the units of these differences."""
 # A letter or two, an underscore, letters and digits with commas between them.
 _SUBSCRIPT = re.compile(r"(?<!\w)([^\W\d_²³]{1,2})_([^\W_²³]+(?:,[^\W_²³]+)*)")
 
 
 def subscripts(text: str, typeset: Callable[[str, str], str]) -> str:
-    """The text with every symbol such as `h_a` as `typeset` writes it of its letter and its subscript."""
-    return _SUBSCRIPT.sub(lambda found: typeset(*found.groups()), text)
+    """Replace every symbol such as `h_a` in a text by the result of `typeset` for its letter and its subscript."""
+    return _SUBSCRIPT.sub(lambda match: typeset(*match.groups()), text)
 
 
 def number(value: float, unit: str | None = None, digits: int = 3) -> str:
-    """The value with so many significant digits, a true minus sign and its unit; integers keep all their digits."""
+    """Return a value as text with a number of significant digits, a true minus sign and its unit.
+
+    Integer digits are never dropped.
+    """
     value += 0.0  # no negative zero
     if value != 0.0 and not PLAIN[0] <= abs(value) < PLAIN[1]:
         mantissa, exponent = f"{value:.{digits - 1}e}".split("e")
@@ -37,17 +40,17 @@ def number(value: float, unit: str | None = None, digits: int = 3) -> str:
 
 
 def without_rounding(value: float, whole: float) -> float:
-    """The value for display: zero where it is below 1e-9 of the whole."""
+    """Return a value for display: zero if it is below 1e-9 of the whole."""
     return 0.0 if abs(value) < NOISE * abs(whole) else value
 
 
 def percent(fraction: float) -> str:
-    """A fraction in per cent; zero where it is rounding error."""
+    """Return a fraction in per cent; zero if it is a rounding error."""
     return number(100.0 * without_rounding(fraction, 1.0), "%")
 
 
 def ratio(value: float, unit: str | None = None) -> str:
-    """A ratio around 1, with as many digits as show how far from it."""
+    """Return a ratio as text, with more digits if it is close to 1."""
     return number(value, unit, digits=3 if abs(value - 1.0) > 0.01 else 6)
 
 
@@ -57,21 +60,21 @@ def difference_unit(unit: str | None) -> str | None:
 
 
 def signed(value: float, unit: str | None = None, digits: int = 3) -> str:
-    """The value with its sign, a plus too."""
+    """Return a value as text with its sign, even if it is a plus."""
     text = number(value, unit, digits)
     return text if text.startswith("−") else f"+{text}"
 
 
 def to_digits(value: float, error: float, most: int = 3) -> str:
-    """Round a value to the leading digit of its error, and to at most `most` significant digits."""
+    """Return a value rounded to the digit of its error, with at most `most` significant digits."""
     if value == 0.0:
         return number(value)
     size = floor(log10(abs(value)))
-    known = most if error <= 0.0 else size - floor(log10(error)) + 1
-    digits = min(max(known, 1), most)
+    reliable = most if error <= 0.0 else size - floor(log10(error)) + 1
+    digits = min(max(reliable, 1), most)
     return number(round(value, digits - 1 - size), digits=most)
 
 
 def listed(names: list[str]) -> str:
-    """Return names as an enumeration in a sentence."""
+    """Return names as a list in a sentence."""
     return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"

@@ -1,4 +1,4 @@
-"""A route whose JSON body is read strictly, before FastAPI validates it against the handler's signature."""
+"""A route that reads its JSON body strictly, before FastAPI validates it against the signature of the handler."""
 
 from collections.abc import Callable, Coroutine
 from typing import Any, cast
@@ -20,15 +20,14 @@ class _ReadRequest(Request):
     content: Any
 
     async def json(self) -> Any:
-        """What the body says."""
         return self.content
 
 
 class JsonRoute(APIRoute):
-    """A route with a JSON body: 415 for other types, 400 where a name occurs twice, messages by `schema.reading`."""
+    """A route with a JSON body: 415 for other types, 400 if a name occurs twice, messages by `schema.reading`."""
 
     def get_route_handler(self) -> Callable[[Request], Coroutine[Any, Any, Response]]:
-        """What answers a request."""
+        """Return the function that answers a request."""
         answer = super().get_route_handler()
         assert self.body_field is not None
         model = cast("type[BaseModel]", self.body_field.field_info.annotation)
@@ -44,7 +43,7 @@ class JsonRoute(APIRoute):
                 return await answer(read)
             except RequestValidationError as error:
                 in_body = [item | {"loc": item["loc"][1:]} for item in error.errors() if item["loc"][0] == "body"]
-                if len(in_body) < len(error.errors()):  # the address comes first
+                if len(in_body) < len(error.errors()):  # errors of the address come first
                     raise
                 raise InvalidBody(faults(model, in_body)) from None
 

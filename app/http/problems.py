@@ -1,4 +1,4 @@
-"""Errors as RFC 9457 problem documents. The input is never echoed."""
+"""Errors as RFC 9457 problem documents. Values of the input are never repeated in them."""
 
 import logging
 from http import HTTPStatus
@@ -21,9 +21,9 @@ logger = logging.getLogger("tribodrive")
 
 
 class FieldError(BaseModel):
-    """What is wrong with one field."""
+    """The error of one field."""
 
-    pointer: Annotated[str, Output("JSON Pointer into the request; empty: the whole of it")]
+    pointer: Annotated[str, Output("JSON Pointer into the request; empty for the whole request")]
     code: Annotated[str, Output("stable name of the error, meant for programs")]
     message: Annotated[str, Output("what to change")]
 
@@ -34,7 +34,7 @@ class Problem(BaseModel):
     type: Annotated[str, Output("URI that names the kind of problem")]
     title: Annotated[str, Output("the kind of problem in words")]
     status: Annotated[int, Output("the HTTP status")]
-    detail: Annotated[str, Output("what happened this time")]
+    detail: Annotated[str, Output("what happened in this case")]
     instance: Annotated[str, Output("the request id, as in the X-Request-ID header and the log")]
     errors: Annotated[list[FieldError] | None, Output("with 422: the fields at fault, at most a hundred")] = None
 
@@ -42,10 +42,8 @@ class Problem(BaseModel):
 MEANINGS = {
     400: "the request cannot be read",
     404: "there is nothing of this name",
-    408: "the request body took too long to arrive",
     413: "the request body is too large",
     422: "the input cannot be computed; `errors` names the fields",
-    431: "the request headers are too large",
     500: "something went wrong in the service",
     415: "the Content-Type header does not say application/json",
     503: "too many calculations are waiting, kernels are being compiled, or the calculation was lost with its process",
@@ -54,13 +52,13 @@ MEANINGS = {
 
 
 def documented(*statuses: int) -> dict[int | str, dict[str, Any]]:
-    """The OpenAPI responses of these statuses."""
+    """Return the OpenAPI responses of these statuses."""
     content = {MEDIA_TYPE: {"schema": {"$ref": "#/components/schemas/Problem"}}}
     return {status: {"description": MEANINGS[status], "content": content} for status in statuses}
 
 
 def install(app: FastAPI) -> None:
-    """Answer every exception with a problem document, of which the OpenAPI document has the schema."""
+    """Answer all exceptions with problem documents, and add their schema to the OpenAPI document."""
     for kind in (RequestValidationError, InvalidBody, Unprocessable, HTTPException, *PROBLEMS):
         app.add_exception_handler(kind, answer)
     openapi = app.openapi
@@ -87,7 +85,7 @@ def problem(
     errors: list[dict[str, str]] | None = None,
     headers: dict[str, str] | None = None,
 ) -> JSONResponse:
-    """A response that carries a problem document."""
+    """Return a response with a problem document."""
     document: dict[str, Any] = {
         "type": f"urn:tribodrive:problem:{code}",
         "title": title,
@@ -101,15 +99,15 @@ def problem(
 
 
 def code_of(phrase: str) -> str:
-    """The code of a problem that is known by its HTTP status only, from the status's phrase."""
+    """Return the code of a problem that has only an HTTP status, from the phrase of this status."""
     return phrase.lower().replace(" ", "_").replace("-", "_")
 
 
 def answer(request: Request, error: Exception) -> JSONResponse:
-    """The problem document of an exception."""
+    """Return the problem document of an exception."""
     instance = str(request.state.request_id)
     match error:
-        case RequestValidationError():  # of an address: the faults of a body are InvalidBody
+        case RequestValidationError():  # faults of an address; those of a body are InvalidBody
             items = error.errors()[:MOST_FAULTS]
             faults = [Fault(pointer(item["loc"][1:]), item["type"], _message(item)) for item in items]
             return answer(request, InvalidBody(faults))
@@ -137,6 +135,6 @@ def _message(item: dict[str, Any]) -> str:
 
 
 def internal_error(instance: str, error: Exception) -> JSONResponse:
-    """The problem document of an unexpected exception, which is logged."""
+    """Log an unexpected exception and return its problem document."""
     logger.error("request %s failed", instance, exc_info=error)
     return problem(instance, 500, "internal_error", "Something went wrong in the service; the log has the cause")

@@ -1,7 +1,7 @@
 """Links to other calculations of the same gears or coupling.
 
-The view `pair` carries the values for which the other page has no field. A link from the other page to a third page,
-or back, therefore loses no value.
+What the other page has no field for goes along in the view `pair`, so that a link from there to a third page, or back,
+loses nothing. The REXS file from which the case was read goes along too.
 """
 
 from collections.abc import Iterable, Iterator
@@ -16,7 +16,7 @@ from app.schema.fields import ITEM, Branch, Leaf, branches, leaf_at, tree
 from app.schema.model import Documented
 
 SUBJECTS = {"gears": "pair", "coupling": "coupling"}
-"""Sections that several calculations share, with the word for their subject: a gear pair or a coupling."""
+"""Sections that several calculations share, each with what it describes: gears or a coupling."""
 LOAD, OPERATION = "load.", "operation."
 """Scuffing calls the operation of the gears their load; names in `pair` are those of scuffing."""
 
@@ -49,9 +49,10 @@ def _use(asked: Asked, other: Calculation) -> Use:
     there = {name: _there(other, name) for name in known}
     taken: Pairs = [(there[name], text) for name, text in known.items() if _has(other.request, there[name])]
     left: Pairs = [(name, text) for name, text in known.items() if not _has(other.request, there[name])]
-    address = link(page_path(other), taken, theme=asked.theme, pair=urlencode(left, safe=",:", errors="replace"))
+    views = {"theme": asked.theme, **asked.file}
+    address = link(page_path(other), taken, **views, pair=urlencode(left, safe=",:", errors="replace"))
     if len(address) > LONGEST_QUERY:
-        address = link(page_path(other), taken, theme=asked.theme)
+        address = link(page_path(other), taken, **views)
     return Use(other.title, address, [*_missing(tree(other.request), {name for name, _ in taken})])
 
 

@@ -141,7 +141,7 @@ class Asked:
 
     def study(self, name: str) -> str:
         """The address of the page of a study of the case."""
-        return self.view(name, theme=self.theme, title=self.title)
+        return self.view(name, theme=self.theme, title=self.title, **self.file)
 
     def image(self, figure: str, image_format: str, theme: ThemeName | None = None) -> str:
         """One figure as a file."""

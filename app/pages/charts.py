@@ -2,6 +2,7 @@
 
 import base64
 import json
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from itertools import zip_longest
 from typing import Any
@@ -112,11 +113,21 @@ def data_address(figure: Figure, theme: ThemeName = "light") -> str:
     return "data:image/svg+xml;base64," + base64.b64encode(written(figure, "svg", theme)).decode()
 
 
-def in_column(figure: Figure) -> Figure:
-    """Return the figure for a report's column; a figure that needs the whole width stays as it is."""
-    from app.figures.drawing.image import narrowed  # noqa: PLC0415  only workers draw
+def in_columns(figures: Iterable[Figure]) -> list[Figure]:
+    """Return the figures in the order in which a report in two columns sets them.
 
-    return narrowed(figure)
+    Beside a figure that fits into a column stands the one of the nearest height. A figure that needs the whole width
+    stays as it is; such figures come last.
+    """
+    from app.figures.drawing.image import narrowed, size  # noqa: PLC0415  only workers draw
+
+    placed = [narrowed(figure) for figure in figures]
+    left, ordered = [(size(figure)[1], figure) for figure in placed if figure.narrow], list[Figure]()
+    while left:
+        height, figure = left.pop(0)
+        nearest = min(range(len(left)), key=lambda place: abs(left[place][0] - height), default=None)
+        ordered += [figure] if nearest is None else [figure, left.pop(nearest)[1]]
+    return ordered + [figure for figure in placed if not figure.narrow]
 
 
 def values_of(figure: Figure) -> bytes:

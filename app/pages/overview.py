@@ -50,13 +50,14 @@ def _entry(calculations: list[Calculation]) -> dict[str, Any]:
     }
 
 
-def unit_page(root: str, unit: dict[str, Any], sha256: str = "") -> str:
-    """The page of the answer of /v1/rexs: the stages of a gear unit, and a link to every calculation of each.
+def unit_page(root: str, unit: dict[str, Any], name: str = "", sha256: str = "") -> str:
+    """Return the page of the answer of /v1/rexs: the stages of a gear unit, each with links to its calculations.
 
-    `sha256` is that of the file; links to calculations carry it.
+    The links carry the name of the file and its SHA-256 to the reports.
     """
-    stages = [_stage(stage, {"rexs_sha256": sha256, "rexs_stage": str(stage["id"])}) for stage in unit["stages"]]
-    return rendered("rexs.html", root, unit=unit, stages=stages, sha256=sha256)
+    file = {"rexs_file": name, "rexs_sha256": sha256}
+    stages = [_stage(stage, file | {"rexs_stage": str(stage["id"])}) for stage in unit["stages"]]
+    return rendered("rexs.html", root, unit=unit, stages=stages, name=name, sha256=sha256)
 
 
 def _titled(field: str, asked: Iterable[str]) -> str:
@@ -100,7 +101,7 @@ def _stage(stage: dict[str, Any], file: dict[str, str]) -> dict[str, Any]:
                 for path, body in requests.items()
             ],
             "spectra": [
-                (BY_PATH[path].title, address_of(BY_PATH[path], pairs_of(requests[path]), {"cases": lines}))
+                (BY_PATH[path].title, address_of(BY_PATH[path], pairs_of(requests[path]), {"cases": lines}, file))
                 for path, lines in stage["spectra"].items()
                 if path in SPECTRA
             ],

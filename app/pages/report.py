@@ -28,7 +28,7 @@ LABELS = {name: name for name in REPORT_NAMES} | {
 }
 """What the fields of the form are called."""
 MOST_SHORT = 4  # figures of the short form, two beside each other
-LONGEST_LINK = 240  # as text; what it leads to is the whole
+LONGEST_LINK = 160  # as text; what it leads to is the whole
 _element = re.compile(r"(\.\d+){1,2}$")  # of a list or a matrix of numbers
 
 
@@ -37,6 +37,26 @@ class Cell(NamedTuple):
 
     value: str
     origin: str
+
+
+class Row(NamedTuple):
+    """An input of a section, or the same input of each item of a section by the item's index."""
+
+    leaf: Leaf
+    cells: dict[int, Cell]
+
+
+class Section(NamedTuple):
+    """A section of the request: its title, the indices of its items, and its inputs."""
+
+    title: str
+    items: list[int]
+    rows: list[Row]
+
+
+GIVEN = frozenset({"given"})
+STATED = GIVEN | {"assumed", "derived"}
+"""Origins of the inputs that tables show; the others follow as text."""
 
 
 def context(asked: Asked, case: Case, host: str) -> dict[str, Any]:
@@ -52,8 +72,8 @@ def context(asked: Asked, case: Case, host: str) -> dict[str, Any]:
         "names": {name: _said(name, views.get(name, ""), longest) for name, longest in REPORT_NAMES.items()},
         "paper": "letter" if views.get("paper") == "letter" else "A4",
         "date": datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC"),
-        "inputs": inputs,
-        "given": [each for each in inputs if any(_is_given(cells) for _, cells in each[2])],
+        "inputs": _with_origin(inputs, GIVEN if views.get("extent") == "short" else STATED),
+        "defaults": _left(inputs),
         "labels": LABELS,
         "short": views.get("extent") == "short",
         "most": MOST_SHORT,
@@ -66,8 +86,33 @@ def context(asked: Asked, case: Case, host: str) -> dict[str, Any]:
     }
 
 
-def _is_given(cells: dict[int, Cell]) -> bool:
-    return any(cell.origin == "given" for cell in cells.values())
+def _with_origin(sections: list[Section], origins: frozenset[str]) -> list[Section]:
+    """Return the sections that have inputs with one of these origins, and those inputs."""
+    chosen = (
+        section._replace(rows=[row for row in section.rows if not origins.isdisjoint(_origins(row.cells))])
+        for section in sections
+    )
+    return [section for section in chosen if section.rows]
+
+
+def _left(sections: list[Section]) -> list[tuple[str, list[tuple[Leaf, str, bool]]]]:
+    """Return the inputs left to their defaults by the title of their section: value used, and whether it is a number.
+
+    What stands for an empty input without a number is a text, such as what it is estimated from.
+    """
+    left = []
+    for title, _, rows in sections:
+        inputs = [
+            (leaf, ", ".join(dict.fromkeys(cell.value for cell in cells.values())), "default" in _origins(cells))
+            for leaf, cells in rows
+            if STATED.isdisjoint(_origins(cells))
+        ]
+        left += [(title, inputs)] if inputs else []
+    return left
+
+
+def _origins(cells: dict[int, Cell]) -> set[str]:
+    return {cell.origin for cell in cells.values()}
 
 
 def _chapters_behind(case: Case) -> list[Chapter]:
@@ -104,24 +149,21 @@ def for_python(address: str, case: Case) -> str:
 
 
 def body_of(case: Case) -> str:
-    """Return the fields that the user has given as a JSON text."""
+    """Return the given fields of the request as JSON."""
     return json.dumps(_given(case))
 
 
 def _given(case: Case) -> dict[str, Any]:
-    """Return the fields that the user has given; all others have their default."""
+    """Return the given fields of the request, without those left at their default."""
     return case.request.model_dump(exclude_unset=True, exclude={"detail"})
 
 
-def _inputs(case: Case, pairs: Pairs) -> list[tuple[str, list[int], list[tuple[Leaf, dict[int, Cell]]]]]:
-    """Every input with the value used and where it comes from, by section: title, indices of its items, and rows.
-
-    A row has the same input of each item by its index.
-    """
+def _inputs(case: Case, pairs: Pairs) -> list[Section]:
+    """Return every input with the value used and where it comes from, by section."""
     typed = {_element.sub("", name) for name, _ in pairs}
     assumed = {each.field: each.value for each in case.response.assumptions}
     used = resolved(case.response) | assumed
-    sections: dict[str, dict[str, tuple[Leaf, dict[int, Cell]]]] = {}
+    sections: dict[str, dict[str, Row]] = {}
     for path, stated in flattened(case.response.inputs).items():
         leaf, value = leaf_at(type(case.request), path), used[path]
         if leaf is None or (value is None and (leaf.exclusive or not leaf.declared.default_text)):
@@ -138,9 +180,8 @@ def _inputs(case: Case, pairs: Pairs) -> list[tuple[str, list[int], list[tuple[L
             " · ".join(str(int(part) + 1) if part.isdecimal() else part.replace("_", " ") for part in section)
             or "general"
         )
-        _, cells = sections.setdefault(title, {}).setdefault(name, (leaf, {}))
-        cells[index] = cell
+        sections.setdefault(title, {}).setdefault(name, Row(leaf, {})).cells[index] = cell
     return [
-        (title, sorted({index for _, cells in rows.values() for index in cells}), [*rows.values()])
+        Section(title, sorted({index for row in rows.values() for index in row.cells}), [*rows.values()])
         for title, rows in sections.items()
     ]

@@ -78,12 +78,17 @@ def studies_of(calculation: Calculation) -> list[StudyExample]:
 
 
 def studies_of_case(
-    calculation: Calculation, pairs: Pairs, case: Any, derived: Mapping[str, Any] = MappingProxyType({})
+    calculation: Calculation,
+    pairs: Pairs,
+    case: Any,
+    derived: Mapping[str, Any] = MappingProxyType({}),
+    file: Mapping[str, str | None] = MappingProxyType({}),
 ) -> list[Starter]:
     """The same studies asked of a case, each around the values of the case.
 
-    `derived` are values by path that the case does not state, such as the power of a given torque. A study of a number
-    that the case does not have at all is left out; options and lengths of zero keep the range of the example.
+    `derived` are values by path that the case does not state, such as the power of a given torque; `file` names the
+    REXS file from which the case was read. A study of a number that the case does not have at all is left out; options
+    and lengths of zero keep the range of the example.
     """
     address, starters = f"{page_path(calculation)}/vary", []
     for each in studies_of(calculation):
@@ -99,5 +104,5 @@ def studies_of_case(
             elif value is None and not getattr(leaf_at(calculation.request, path), "options", ()):
                 break
         else:
-            starters.append(Starter(each.title, "", link(address, pairs, **study)))
+            starters.append(Starter(each.title, "", link(address, pairs, **study, **file)))
     return starters

@@ -54,7 +54,7 @@ def page(asked: Asked) -> Shown:
         keep=_keep(asked, case, variant),
         **found,
         charts=[linked(each, figure, asked) for each, figure in found["figures"]],
-        ready=studies_of_case(asked.calculation, asked.pairs, response.inputs, resolved(response)),
+        ready=studies_of_case(asked.calculation, asked.pairs, response.inputs, resolved(response), asked.file),
         curves=csv.curves(response),
         sent=reports.body_of(case),
         code={

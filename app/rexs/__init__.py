@@ -1,14 +1,14 @@
-"""Gear units from REXS files: read, turned into requests, and given their results back.
+"""Gear units from REXS files: the files are read, turned into requests, and completed with results.
 
 model          components, relations and load cases of a file
-document       the bytes of a file to a model and back
+document       conversion between the bytes of a file and a model
 table          the names of REXS: units, attributes, fields of requests
-reading        attributes as numbers, and the draft of a request with what is missing or assumed
+reading        attributes as numbers, and the draft of a request with its missing and assumed fields
 power          speeds and torques of all shafts
 stages         requests of one mesh
-lubrication    its oil, temperatures and friction
-modifications  what is taken off its flanks
+lubrication    oil, temperatures and friction of a mesh
+modifications  modifications of its flanks
 drive_train    the request of a stage with its shafts and bearings
-unit           a whole file: its stages, load cases and findings
-answer         what the endpoints and the page send
+unit           a whole file: stages, load cases and findings
+answer         the answers of the endpoints and the page
 """

@@ -1,4 +1,4 @@
-"""What a worker does with a gear unit's file: the answer of /v1/rexs, its page, and the file with results in it."""
+"""A worker's answers to the file of a gear unit: the answer of /v1/rexs, its page, and the file with results."""
 
 import json
 from hashlib import sha256
@@ -33,9 +33,7 @@ class Case(BaseModel):
 
     name: Annotated[str, Output("name in the file")]
     share: Annotated[float, Output("share of the operating time")]
-    overrides: Annotated[
-        dict[str, float | str], Output("what it changes in the request of /v1/scuffing, by dotted path")
-    ]
+    overrides: Annotated[dict[str, float | str], Output("its changes of the request of /v1/scuffing, by dotted path")]
 
 
 class SpectrumCase(BaseModel):
@@ -43,7 +41,7 @@ class SpectrumCase(BaseModel):
 
     name: Annotated[str, Output("name in the file")]
     share: Annotated[float, Output("share of the operating time")]
-    set: Annotated[dict[str, float | str], Output("what it changes in the request of the endpoint, by dotted path")]
+    set: Annotated[dict[str, float | str], Output("its changes of the request of the endpoint, by dotted path")]
 
 
 class Stage(BaseModel):
@@ -52,72 +50,75 @@ class Stage(BaseModel):
     id: Annotated[int, Output("component in the file")]
     name: Annotated[str, Output("its name there")]
     pinion: Annotated[
-        int, Output("driving gear, the pinion of the requests; the smaller one where none is known to drive")
+        int, Output("pinion of the requests: the driving gear, or the smaller gear if no gear is known to drive")
     ]
     wheel: Annotated[int, Output("the other gear")]
-    driver: Annotated[int | None, Output("driving gear; null where power and speed do not follow from the file")]
+    driver: Annotated[int | None, Output("driving gear; null if power and speed do not follow from the file")]
     hand: Annotated[str | None, Output("hand of the pinion's helix")]
-    requests: Annotated[dict[str, dict[str, Any]], Output("a request for each endpoint that can be asked")]
+    requests: Annotated[dict[str, dict[str, Any]], Output("requests by the address of their endpoint")]
     cases: Annotated[list[Case], Output("load spectrum of the file")]
-    spectra: Annotated[dict[str, list[SpectrumCase]], Output("the same as `cases` of /v1/spectrum, for each endpoint")]
-    missing: Annotated[list[MissingValue], Output("what has to be filled in")]
-    assumed: Annotated[list[AssumedValue], Output("what was put in its place")]
-    ignored: Annotated[list[Unused], Output("what could not be used")]
+    spectra: Annotated[
+        dict[str, list[SpectrumCase]], Output("the same in the form of `cases` of /v1/spectrum, by endpoint")
+    ]
+    missing: Annotated[list[MissingValue], Output("fields that have to be filled in")]
+    assumed: Annotated[list[AssumedValue], Output("values used for fields that the file does not give")]
+    ignored: Annotated[list[Unused], Output("attributes that are not used")]
 
 
 class GearUnit(BaseModel):
     """A gear unit read from a file; nothing is solved."""
 
     version: Annotated[str, Output("version of REXS that the file states")]
-    application: Annotated[str, Output("program that wrote it")]
+    application: Annotated[str, Output("program that wrote the file")]
     name: Annotated[str, Output("name of the unit")]
     shafts: Annotated[list[Shaft], Output("shafts")]
     stages: Annotated[list[Stage], Output("stages")]
-    findings: Annotated[list[Fault], Output("what is wrong in the file")]
+    findings: Annotated[list[Fault], Output("faults of the file")]
 
 
 def unit_of(content: bytes, most_bytes: int) -> dict[str, Any]:
-    """The answer of /v1/rexs; raises Unprocessable where the file is no REXS that can be read."""
+    """Return the answer of /v1/rexs. Raises Unprocessable if the file is not a readable REXS file."""
     return gear_unit(read(content, most_bytes).model)
 
 
 def unit_json(content: bytes, most_bytes: int) -> bytes:
-    """The answer as JSON."""
+    """Return the answer as JSON."""
     return json.dumps(unit_of(content, most_bytes), allow_nan=False, ensure_ascii=False).encode()
 
 
-def unit_html(root: str, content: bytes, most_bytes: int) -> bytes:
-    """The answer as a page; `root` is the prefix of its links."""
-    return unit_page(root, unit_of(content, most_bytes), sha256(content).hexdigest()).encode()
+def unit_html(root: str, content: bytes, most_bytes: int, name: str = "") -> bytes:
+    """Return the answer as a page; `root` is the prefix of its links, `name` the name of the file."""
+    return unit_page(root, unit_of(content, most_bytes), name, sha256(content).hexdigest()).encode()
 
 
 def with_results(content: bytes, most_bytes: int, stage: int, request: bytes | None, deadline_s: float) -> File:
-    """The file with the answer of a stage written into it.
+    """Calculate a stage and return the file with the answer in it.
 
-    `request` is the stage's request as edited, else the one of the file is solved: of the drive train where it can be
-    formed, else of /v1/scuffing. Raises Unprocessable, and what reading a request raises.
+    `request` is the stage's request as the user edited it. If it is None, the request from the file is solved: that of
+    the drive train if the file describes one, else that of /v1/scuffing. Raises Unprocessable if the file is not
+    readable or has no such stage, and the errors of reading a request.
     """
     document = read(content, most_bytes)
-    found = next((each for each in gear_unit(document.model)["stages"] if each["id"] == stage), None)
-    if found is None:
+    row = next((row for row in gear_unit(document.model)["stages"] if row["id"] == stage), None)
+    if row is None:
         raise Unprocessable("unknown_stage", f"the file has no stage {stage} that can be calculated", None)
     if request is None:
-        endpoint = "/v1/drive-train" if "/v1/drive-train" in found["requests"] else "/v1/scuffing"
-        request = json.dumps(found["requests"][endpoint]).encode()
+        endpoint = "/v1/drive-train" if "/v1/drive-train" in row["requests"] else "/v1/scuffing"
+        request = json.dumps(row["requests"][endpoint]).encode()
     else:
         endpoint = "/v1/drive-train" if b'"pinion_shaft"' in request else "/v1/scuffing"
     calculation = BY_PATH[endpoint]
-    asked = validated(calculation.request, content_of(request))
-    refuse_endless(calculation, asked, deadline_s)
-    answer = evaluate(calculation, asked).model_dump(mode="json", exclude_unset=True)
+    inputs = validated(calculation.request, content_of(request))
+    refuse_endless(calculation, inputs, deadline_s)
+    answer = evaluate(calculation, inputs).model_dump(mode="json", exclude_unset=True)
     return with_answer(document, stage, endpoint, answer)
 
 
 def with_answer(document: Document, stage: int, endpoint: str, answer: dict[str, Any]) -> File:
-    """The file with the numbers of an answer, its status and its case at the stage's component.
+    """Return the file with the numbers of an answer, its status and its case as attributes of the stage.
 
-    A quantity for which the file's version has an attribute is written under that name; every other one under a name
-    of our own that begins with `custom_tribodrive_`, as REXS provides for programs.
+    A quantity has the attribute of the standard if the file's version has one. Other quantities have names that begin
+    with `custom_tribodrive_`; REXS reserves such names for programs.
     """
     major, written = int(document.model.version.split(".")[0]), []
     for path, name, unit in table.RESULTS[endpoint]:

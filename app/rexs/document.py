@@ -1,7 +1,7 @@
-"""A REXS file as bytes: XML, JSON or a zip archive of one of them; read into a `Model`, and written with additions.
+"""REXS files as bytes: XML, JSON or a zip archive of one of them, read into a `Model` and written with new attributes.
 
-The file may come from anybody. XML is parsed by lxml without entities, external files or deep nesting, and what a
-parser would turn into many small objects is counted before it is parsed.
+The file may come from anybody. lxml parses XML without entities, external files or deep nesting. Tags and attributes
+are counted before the parser turns them into objects.
 """
 
 import base64
@@ -21,18 +21,18 @@ from lxml import etree
 from app.errors import Unprocessable
 from app.rexs.model import Attribute, Component, LoadCase, Model, Relation
 
-MOST_ELEMENTS = 1_500_000  # tags and attributes of XML, containers of JSON: at 200 bytes each 300 MB
+MOST_ELEMENTS = 1_500_000  # tags and attributes of XML, containers of JSON: 300 MB at 200 bytes per element
 VERSIONS = ("1", "2")
 SUFFIXES = (".rexs", ".rexsj", ".rexs.json", ".rexs.xml")
 MODELS = ", ".join(SUFFIXES)
-PACKINGS = {zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED}  # others may ask for gigabytes of memory
+PACKINGS = {zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED}  # other methods may need gigabytes of memory
 CODES = {"float32": "<f4", "float64": "<f8", "int32": "<i4"}
 SAFE = {"resolve_entities": False, "load_dtd": False, "no_network": True, "huge_tree": False, "remove_pis": False}
-"""No entities, no other files, libxml2's limits of depth and length."""
+"""Options of lxml: no entities, no other files, and the limits of libxml2 on depth and length."""
 
 
 def not_rexs(message: str) -> Unprocessable:
-    """The refusal of a file that is no REXS model that can be read; the message says where and why."""
+    """Return the error for a file that is not a readable REXS model; the message says where and why."""
     return Unprocessable("not_rexs", message, None)
 
 
@@ -45,14 +45,14 @@ class File(NamedTuple):
 
 
 class Document(NamedTuple):
-    """A file, unpacked, and the model in it."""
+    """An unpacked file and the model in it."""
 
     file: File
     model: Model
 
 
 def read(content: bytes, most_bytes: int) -> Document:
-    """Read a REXS file of at most `most_bytes` (unpacked), whichever of the formats it has; raises Unprocessable."""
+    """Read a REXS file in any of its formats. Raises Unprocessable, also if it has more than `most_bytes` unpacked."""
     if content.startswith(b"PK"):
         content = _unpacked(content, most_bytes)
     if len(content) > most_bytes:
@@ -66,31 +66,33 @@ def read(content: bytes, most_bytes: int) -> Document:
 
 
 def with_attributes(file: File, component: int, attributes: Iterable[Attribute]) -> File:
-    """The file with attributes of a component in place of those of the same names; everything else as it was."""
+    """Return the file with new attributes of a component. They replace attributes of the same names."""
     write = _json_with if file.suffix == ".rexsj" else _xml_with
     return file._replace(content=write(file.content, component, attributes))
 
 
 def _unpacked(content: bytes, most_bytes: int) -> bytes:
-    """The one model in a zip archive, read no further than allowed whatever the archive says of its size."""
+    """Return the model in a zip archive, but not more than one byte beyond the limit.
+
+    The size that the archive states is not trusted.
+    """
     try:
         with zipfile.ZipFile(io.BytesIO(content)) as archive:
             models = [entry for entry in archive.infolist() if _is_model(entry.filename)]
             if len(models) != 1:
-                names = (
-                    ": " + ", ".join(PurePosixPath(each.filename).name[:40] for each in models[:5]) if models else ""
-                )
-                raise not_rexs(f"the archive holds {len(models)} models ({MODELS}); it must hold one{names}")
+                names = ", ".join(PurePosixPath(entry.filename).name[:40] for entry in models[:5])
+                listed = f": {names}" if names else ""
+                raise not_rexs(f"the archive holds {len(models)} models ({MODELS}); it must hold one{listed}")
             if models[0].compress_type not in PACKINGS:
-                raise not_rexs("the archive is packed in a way that is not read; pack it by deflate, as usual")
+                raise not_rexs("the compression of the archive is not supported; use deflate, the usual one")
             with archive.open(models[0]) as packed:
                 return packed.read(most_bytes + 1)
     except (zipfile.BadZipFile, zlib.error, NotImplementedError, RuntimeError, OSError, EOFError, ValueError) as error:
-        raise not_rexs("the archive is damaged, encrypted or packed in a way that cannot be read") from error
+        raise not_rexs("the archive is damaged, encrypted or compressed by a method that is not supported") from error
 
 
 def _is_model(name: str) -> bool:
-    """Whether a file of an archive is a model: not what an operating system puts beside it, nor any other file."""
+    """Return True if a file in an archive is a model, and not a hidden file that an operating system added."""
     path = PurePosixPath(name.replace("\\", "/"))
     hidden = "__MACOSX" in path.parts[:-1] or path.name.startswith(".")
     return not hidden and not name.endswith("/") and path.name.lower().endswith(SUFFIXES)
@@ -109,13 +111,13 @@ def _model(
     by_id: dict[int, Component] = {}
     for component in components:
         if component.id in by_id:
-            raise not_rexs(f"component {component.id} is there twice")
+            raise not_rexs(f"component {component.id} occurs twice")
         by_id[component.id] = component
     return Model(version[:20], " ".join(filter(None, application)), by_id, tuple(relations), tuple(load_cases))
 
 
 def _numbers(code: object, text: object) -> list[Any] | None:
-    """The numbers of an array in base64 (little-endian), or None where it is damaged."""
+    """Return the numbers of an array in base64 (little-endian), or None if it is damaged."""
     try:
         raw = base64.b64decode(str(text or "").strip(), validate=True)
         numbers: list[Any] = np.frombuffer(raw, dtype=CODES[str(code)]).tolist() if raw else []
@@ -125,19 +127,19 @@ def _numbers(code: object, text: object) -> list[Any] | None:
 
 
 def _model_of_xml(content: bytes) -> Model:
-    """The model, read part by part, so that the tree of a large file is never there as a whole."""
+    """Read the model part by part, so that the tree of a large file is never in memory as a whole."""
     if content.count(b"<") + content.count(b"=") > MOST_ELEMENTS:
         raise not_rexs(f"the file has more than {MOST_ELEMENTS} tags and attributes")
     readers = {"component": _xml_component, "relation": _xml_relation, "load_case": _xml_load_case}
-    found: dict[str, list[Any]] = {tag: [] for tag in readers}
+    parts: dict[str, list[Any]] = {tag: [] for tag in readers}
     tags = tuple(f"{{*}}{tag}" for tag in readers)
     steps = etree.iterparse(io.BytesIO(content), events=("end",), tag=tags, **SAFE)
     try:
         for _, element in steps:
             tag = _tag(element)
             if tag == "component" and not _is_of_model(element):
-                continue  # of a load case, which is read as a whole
-            found[tag].append(readers[tag](element))
+                continue  # part of a load case, which is read as a whole
+            parts[tag].append(readers[tag](element))
             element.clear(keep_tail=False)
     except etree.XMLSyntaxError as error:
         raise not_rexs(f"line {error.lineno}: {error.msg}") from error
@@ -147,11 +149,11 @@ def _model_of_xml(content: bytes) -> Model:
     if _tag(root) != "model":
         raise not_rexs("the outermost element is not <model>")
     application = root.get("applicationId"), root.get("applicationVersion")
-    return _model(root.get("version"), application, found["component"], found["relation"], found["load_case"])
+    return _model(root.get("version"), application, parts["component"], parts["relation"], parts["load_case"])
 
 
 def _tag(element: Any) -> str:
-    """The name of an element without its namespace; empty for comments."""
+    """Return the name of an element without its namespace; empty for comments."""
     return etree.QName(element).localname if isinstance(element.tag, str) else ""
 
 
@@ -160,23 +162,23 @@ def _children(element: Any, tag: str) -> Iterator[Any]:
 
 
 def _is_of_model(component: Any) -> bool:
-    """Whether a component stands in the list of components, and not in a load case."""
+    """Return True if a component stands in the list of components, False if in a load case."""
     parent = component.getparent()
     return parent is not None and _tag(parent) == "components"
 
 
 def _xml_component(element: Any) -> Component:
     attributes = {}
-    for each in _children(element, "attribute"):
-        name = each.get("id") or ""
-        array = next((child for child in each if _tag(child) in {"array", "matrix", "array_of_arrays"}), None)
-        value = _text_of(each) if array is None else _xml_array(array)
-        attributes[name] = Attribute(name, each.get("unit") or "", value)
+    for attribute in _children(element, "attribute"):
+        name = attribute.get("id") or ""
+        array = next((child for child in attribute if _tag(child) in {"array", "matrix", "array_of_arrays"}), None)
+        value = _text_of(attribute) if array is None else _xml_array(array)
+        attributes[name] = Attribute(name, attribute.get("unit") or "", value)
     return Component(_xml_id(element), element.get("type") or "", element.get("name") or "", attributes)
 
 
 def _xml_array(element: Any) -> list[Any] | None:
-    """An array; matrices and arrays of arrays as lists of their rows."""
+    """Return an array as a list; matrices and arrays of arrays as lists of their rows."""
     if code := element.get("code"):
         return _numbers(code, element.text)
     if _tag(element) == "array":
@@ -191,13 +193,13 @@ def _text_of(element: Any) -> str:
 
 def _xml_relation(element: Any) -> Relation:
     order = None if element.get("order") is None else _xml_id(element, "order")
-    parts = tuple((each.get("role") or "", _xml_id(each)) for each in _children(element, "ref"))
+    parts = tuple((ref.get("role") or "", _xml_id(ref)) for ref in _children(element, "ref"))
     return Relation(element.get("type") or "", order, parts)
 
 
 def _xml_load_case(element: Any) -> LoadCase:
-    parts = [_xml_component(each) for each in _children(element, "component")]
-    return LoadCase(element.get("name") or element.get("id") or "", {each.id: each.attributes for each in parts})
+    parts = [_xml_component(component) for component in _children(element, "component")]
+    return LoadCase(element.get("name") or element.get("id") or "", {part.id: part.attributes for part in parts})
 
 
 def _xml_id(element: Any, attribute: str = "id") -> int:
@@ -209,9 +211,9 @@ def _xml_id(element: Any, attribute: str = "id") -> int:
 
 def _xml_with(content: bytes, component: int, attributes: Iterable[Attribute]) -> bytes:
     root = etree.fromstring(content, etree.XMLParser(**SAFE))
-    components = (each for each in root.iter("{*}component") if _is_of_model(each))
-    element = next(each for each in components if _xml_id(each) == component)
-    present = {each.get("id"): each for each in _children(element, "attribute")}
+    candidates = (element for element in root.iter("{*}component") if _is_of_model(element))
+    element = next(candidate for candidate in candidates if _xml_id(candidate) == component)
+    present = {attribute.get("id"): attribute for attribute in _children(element, "attribute")}
     tag = etree.QName(etree.QName(element).namespace, "attribute")
     for attribute in attributes:
         if (old := present.get(attribute.name)) is not None:
@@ -227,20 +229,20 @@ def _model_of_json(content: bytes) -> Model:
     try:
         document = json.loads(content, parse_constant=_refuse_constant, parse_float=_finite)
         if b"\\ud" in content.lower():
-            json.dumps(document, ensure_ascii=False).encode()  # refuses half a surrogate pair
+            json.dumps(document, ensure_ascii=False).encode()  # raises for half a surrogate pair
     except json.JSONDecodeError as error:
         raise not_rexs(f"line {error.lineno}: {error.msg}") from error
     except (ValueError, RecursionError) as error:  # not UTF-8, a number of thousands of digits, too deep
-        raise not_rexs("the file is not JSON that can be read") from error
+        raise not_rexs("the file is not valid JSON") from error
     model = document.get("model")
     if not isinstance(model, dict):
         raise not_rexs("model is missing or of the wrong kind")
     return _model(
         model.get("version"),
         (str(model.get(name) or "") for name in ("applicationId", "applicationVersion")),
-        [_json_component(each) for each in _objects(model, "components")],
-        (_json_relation(each) for each in _objects(model, "relations")),
-        (_json_load_case(each) for each in _objects(model.get("load_spectrum") or {}, "load_cases")),
+        [_json_component(item) for item in _objects(model, "components")],
+        (_json_relation(item) for item in _objects(model, "relations")),
+        (_json_load_case(item) for item in _objects(model.get("load_spectrum") or {}, "load_cases")),
     )
 
 
@@ -249,55 +251,55 @@ def _refuse_constant(name: str) -> float:
 
 
 def _finite(text: str) -> float:
-    """A number; one beyond every float could not be written again."""
+    """Return a number. A number that is infinite as a float is rejected, because it could not be written again."""
     if not isfinite(number := float(text)):
-        raise not_rexs(f"the number {text[:20]} is beyond any machine")
+        raise not_rexs(f"the number {text[:20]} is too large")
     return number
 
 
 def _objects(of: Any, name: str) -> list[dict[str, Any]]:
-    """The list of objects under a name; none where the name is not there."""
-    found = of.get(name, []) if isinstance(of, dict) else None
-    if not isinstance(found, list) or not all(isinstance(each, dict) for each in found):
+    """Return the list of objects under a name; an empty list without that name."""
+    items = of.get(name, []) if isinstance(of, dict) else None
+    if not isinstance(items, list) or not all(isinstance(item, dict) for item in items):
         raise not_rexs(f"{name} must be a list of objects")
-    return found
+    return items
 
 
 def _json_component(item: dict[str, Any]) -> Component:
     attributes = {}
-    for each in _objects(item, "attributes"):
-        name = str(each.get("id") or "")
-        value = next((each[key] for key in each if key not in {"id", "unit"}), None)  # under the name of its type
+    for attribute in _objects(item, "attributes"):
+        name = str(attribute.get("id") or "")
+        value = next((attribute[key] for key in attribute if key not in {"id", "unit"}), None)  # the key is its type
         if isinstance(value, dict):
             value = _numbers(value.get("code"), value.get("value"))
-        attributes[name] = Attribute(name, str(each.get("unit") or ""), value)
+        attributes[name] = Attribute(name, str(attribute.get("unit") or ""), value)
     return Component(_json_id(item), str(item.get("type") or ""), str(item.get("name") or ""), attributes)
 
 
 def _json_relation(item: dict[str, Any]) -> Relation:
     order = item.get("order")
-    parts = tuple((str(each.get("role") or ""), _json_id(each)) for each in _objects(item, "refs"))
+    parts = tuple((str(ref.get("role") or ""), _json_id(ref)) for ref in _objects(item, "refs"))
     return Relation(str(item.get("type") or ""), order if isinstance(order, int) else None, parts)
 
 
 def _json_load_case(item: dict[str, Any]) -> LoadCase:
-    parts = [_json_component(each) for each in _objects(item, "components")]
-    return LoadCase(str(item.get("name") or item.get("id") or ""), {each.id: each.attributes for each in parts})
+    parts = [_json_component(component) for component in _objects(item, "components")]
+    return LoadCase(str(item.get("name") or item.get("id") or ""), {part.id: part.attributes for part in parts})
 
 
 def _json_id(item: dict[str, Any]) -> int:
-    found = item.get("id")
-    if not isinstance(found, int) or isinstance(found, bool):
+    id_ = item.get("id")
+    if not isinstance(id_, int) or isinstance(id_, bool):
         raise not_rexs("every component, and every ref of a relation, needs a whole number as its id")
-    return found
+    return id_
 
 
 def _json_with(content: bytes, component: int, attributes: Iterable[Attribute]) -> bytes:
     document = json.loads(content)
-    item = next(each for each in document["model"]["components"] if each["id"] == component)
+    item = next(item for item in document["model"]["components"] if item["id"] == component)
     listed = item.setdefault("attributes", [])
     for attribute in attributes:
-        listed[:] = [each for each in listed if each.get("id") != attribute.name]
+        listed[:] = [entry for entry in listed if entry.get("id") != attribute.name]
         kind = "floating_point" if isinstance(attribute.value, float) else "string"
         listed.append({"id": attribute.name, "unit": attribute.unit, kind: attribute.value})
     return json.dumps(document, ensure_ascii=False, indent=1).encode()

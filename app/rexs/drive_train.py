@@ -1,6 +1,6 @@
 """The drive-train request of a stage: its two shafts in their bearings, along the axis of the pinion's shaft.
 
-It is formed where each of the two shafts carries the one gear of this stage and is held by two radial bearings in the
+A stage has such a request if both shafts carry only the gears of this stage and run in two radial bearings in the
 casing. Z is the u axis of the pinion's shaft, X and Y are its v and w axes.
 """
 
@@ -14,10 +14,10 @@ from app.rexs.model import Component
 from app.rexs.reading import Vector
 from app.rexs.stages import StageDraft
 
-MOST_PIECES = 10  # of a cone; a request allows 40 sections of a shaft
-LONGEST_PIECE = 10.0  # mm of a cone that one cylinder stands for
+MOST_PIECES = 10  # per cone; a request allows 40 sections per shaft
+LONGEST_PIECE = 10.0  # mm; a cylinder that replaces a part of a cone
 SHORTEST_SECTION = 0.1  # mm
-RIGID_FROM_N_PER_UM = 1e5  # chosen: some hundred times a plain bearing's stiffness
+RIGID_FROM_N_PER_UM = 1e5  # chosen: some hundred times the stiffness of a plain bearing
 STANDARD_GRAVITY = 9.80665  # m/s^2
 NAMES = ("pinion_shaft", "wheel_shaft")
 
@@ -32,7 +32,10 @@ class Section(NamedTuple):
 
 
 def add_drive_train(stage: StageDraft) -> bool:
-    """Add the fields of the drive train to the draft of a stage; False where it cannot be formed, and why is noted."""
+    """Add the fields of the drive train to the draft of a stage.
+
+    Return False if the file describes no drive train that can be calculated; the draft then says why.
+    """
     reasons = list(_obstacles(stage))
     for component, reason in reasons:
         stage.lacks("/v1/drive-train", component, None, reason)
@@ -40,10 +43,10 @@ def add_drive_train(stage: StageDraft) -> bool:
 
 
 def _obstacles(stage: StageDraft) -> Iterator[tuple[Component, str]]:
-    """The reasons why the file does not describe a drive train that can be calculated."""
+    """Yield the reasons why the file does not describe a drive train that can be calculated."""
     for gear, shaft, place in zip(stage.gears, stage.shafts, (0, 1), strict=True):
         parts = stage.reading.model.parts_of(shaft.id)
-        if any("gear" in each.type.split("_") and each.id != gear.id for each in parts):
+        if any("gear" in part.type.split("_") and part.id != gear.id for part in parts):
             yield shaft, "the shaft carries another gear; a shaft with two meshes is not modelled"
         bearings = bearings_of(stage, shaft)
         if len(bearings) != len(NAMES):
@@ -57,27 +60,27 @@ def _obstacles(stage: StageDraft) -> Iterator[tuple[Component, str]]:
 
 
 def bearings_of(stage: StageDraft, shaft: Component) -> list[Component]:
-    """Radial bearings between the shaft and the casing."""
-    found, model = [], stage.reading.model
+    """Return the radial bearings between the shaft and the casing."""
+    bearings, model = [], stage.reading.model
     for relation in model.relations_of("side", "inner_part", shaft.id):
         bearing, outer = model.part(relation, "assembly"), model.part(relation, "outer_part")
         if bearing is None or bearing.type not in table.RADIAL_BEARINGS or outer is None or outer.type != "gear_casing":
             continue
         if stage.reading.flag(bearing, "radial_force_absorption") is not False:
-            found.append(bearing)
-    return found
+            bearings.append(bearing)
+    return bearings
 
 
 class _DriveTrain:
-    """Fills the fields of one drive train."""
+    """Filler of the fields of one drive train."""
 
     def __init__(self, stage: StageDraft) -> None:
         self._stage, self._reading = stage, stage.reading
-        found = [self._reading.axis(shaft) for shaft in stage.shafts]
-        self._axes = [axis for axis in found if axis is not None]
+        axes = [self._reading.axis(shaft) for shaft in stage.shafts]
+        self._axes = [axis for axis in axes if axis is not None]
         z, y = self._axes[0].direction, self._reading.vector(stage.shafts[0], "w_axis_vector")
         if y is None or abs(_dot(y, z)) > 1e-6 or _dot(y, y) <= 0.0:
-            y = min(((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)), key=lambda each: abs(_dot(each, z)))
+            y = min(((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)), key=lambda axis: abs(_dot(axis, z)))
             y = _cross(_cross(z, y), z)
         size = _dot(y, y) ** 0.5
         self._y = y[0] / size, y[1] / size, y[2] / size
@@ -87,7 +90,7 @@ class _DriveTrain:
         """Fill in the request for a drive train. Return False if the sections do not make a shaft."""
         stage = self._stage
         faces = [stage.face_interval(place) for place in (0, 1)]
-        start = max(each[0] for each in faces if each is not None)
+        start = max(face[0] for face in faces if face is not None)
         stage.put("face_start_mm", start, stage.gears[0], "u_coordinate_on_shaft")
         speed = stage.flow.speed[stage.shafts[0].id]
         rotation = "counterclockwise" if speed > 0.0 else "clockwise"
@@ -116,22 +119,22 @@ class _DriveTrain:
         if unit is None or None in parts or not any(parts):
             self._stage.assume(path, -90.0, "the file gives no direction of gravity")
             return
-        u, v, w = (each or 0.0 for each in parts)
+        u, v, w = (part or 0.0 for part in parts)
         self._stage.put(path, self._angle(self._in_file(unit, (u, v, w))), unit, "direction_vector_gravity_v")
 
     def _temperatures(self) -> None:
-        """Temperature of the drawing and of each gear's teeth."""
+        """Fill in the temperature of the drawing and of the teeth of both gears."""
         stage = self._stage
         stage.take(table.REFERENCE_TEMPERATURE, self._reading.model.first("gear_unit"))
         for gear, row in zip(stage.gears, table.TOOTH_TEMPERATURES, strict=True):
             stage.take(row, gear)
 
     def _angle(self, direction: Vector) -> float:
-        """The angle of a direction from X towards Y [deg]."""
+        """Return the angle of a direction from X towards Y [deg]."""
         return degrees(atan2(_dot(direction, self._y), _dot(direction, self._x)))
 
     def _in_file(self, component: Component, along: Vector) -> Vector:
-        """A vector given along a component's own u, v, w axes, in the coordinates of the file."""
+        """Convert a vector from a component's own u, v, w axes to the coordinates of the file."""
         u = self._reading.vector(component, "u_axis_vector") or (1.0, 0.0, 0.0)
         w = self._reading.vector(component, "w_axis_vector") or (0.0, 0.0, 1.0)
         x, y, z = (_dot(along, axes) for axes in zip(u, _cross(w, u), w, strict=True))
@@ -149,8 +152,8 @@ class _DriveTrain:
             for begin, end, outer, inner in self._under_teeth(place, sections, face_start)
         ]
         stage.put(f"{name}.sections", cylinders, shaft)
-        placed = [(stage.position(each, shaft), each) for each in bearings_of(stage, shaft)]
-        placed.sort(key=lambda each: each[0] or 0.0)
+        placed = [(stage.position(bearing, shaft), bearing) for bearing in bearings_of(stage, shaft)]
+        placed.sort(key=lambda place_and_bearing: place_and_bearing[0] or 0.0)
         bearings = [
             self._bearing(bearing, position, shaft, f"{name}.bearings.{index}")
             for index, (position, bearing) in enumerate(placed)
@@ -163,10 +166,10 @@ class _DriveTrain:
         return True
 
     def _sections(self, shaft: Component) -> list[Section]:
-        """The cylinders of a shaft; cones in pieces of their mean diameter."""
+        """Return the cylinders of a shaft; cones become pieces with the mean diameter of each piece."""
         reading, stage = self._reading, self._stage
         base, sense = stage.position_of_coordinate(shaft, 0.0) or 0.0, stage.along(shaft)
-        found, stacked = [], 0.0
+        cylinders, stacked = [], 0.0
         for part in reading.model.parts_of(shaft.id):
             if part.type != "shaft_section":
                 continue
@@ -183,13 +186,13 @@ class _DriveTrain:
             pieces = min(max(int(-(-length // LONGEST_PIECE)), 1), MOST_PIECES) if cone else 1
             for piece in range(pieces):
                 share = (piece + 0.5) / pieces
-                low, high = sorted(base + sense * (begin + length * each / pieces) for each in (piece, piece + 1))
+                low, high = sorted(base + sense * (begin + length * edge / pieces) for edge in (piece, piece + 1))
                 diameters = outer + share * (end_outer - outer), inner + share * (end_inner - inner)
-                found.append(Section(low, high, *diameters))
-        return self._contiguous(sorted(found), shaft)
+                cylinders.append(Section(low, high, *diameters))
+        return self._contiguous(sorted(cylinders), shaft)
 
     def _contiguous(self, sections: list[Section], shaft: Component) -> list[Section]:
-        """The sections without gaps and overlaps; both are findings."""
+        """Join the sections without gaps and overlaps; both are findings."""
         joined: list[Section] = []
         for section in sections:
             here = joined[-1].end if joined else section.begin
@@ -200,57 +203,59 @@ class _DriveTrain:
         return joined
 
     def _under_teeth(self, place: int, sections: list[Section], face_start: float) -> list[Section]:
-        """Under the teeth the shaft has at least the reference diameter, as ISO 6336-1 counts an integral pinion."""
+        """Enlarge the sections under the teeth to the reference diameter, as ISO 6336-1 does for pinion shafts."""
         gear, width = self._stage.involute(place), self._stage.fields.get(table.FACE_WIDTH.field)
         if gear is None or width is None:
             return sections
         ends = (face_start, face_start + width)
-        changed, found = False, []
+        changed, cylinders = False, []
         for begin, end, outer, inner in sections:
-            cuts = sorted({begin, end, *(each for each in ends if begin < each < end)})
+            cuts = sorted({begin, end, *(face_end for face_end in ends if begin < face_end < end)})
             for low, high in pairwise(cuts):
                 covered = low >= ends[0] - SHORTEST_SECTION and high <= ends[1] + SHORTEST_SECTION
                 grown = covered and outer < gear.reference_diameter
                 changed |= grown
                 if high - low >= SHORTEST_SECTION:
-                    found.append(Section(low, high, gear.reference_diameter if grown else outer, inner))
+                    cylinders.append(Section(low, high, gear.reference_diameter if grown else outer, inner))
         if changed:
             reason = "under the teeth the reference diameter, as in ISO 6336-1"
             self._stage.note(f"{NAMES[place]}.sections", gear.reference_diameter, reason)
-        return found
+        return cylinders
 
     def _bearing(self, bearing: Component, position: float | None, shaft: Component, path: str) -> dict[str, Any]:
         reading, stage = self._reading, self._stage
-        made: dict[str, Any] = {}
+        fields: dict[str, Any] = {}
         if position is None:
             attribute = "u_coordinate_on_shaft_inner_side"
             stage.lacks(f"{path}.position_mm", bearing, attribute, "where the bearing sits")
         else:
-            made["position_mm"] = position
+            fields["position_mm"] = position
         v, w = (reading.number(bearing, f"misalignment_in_{axis}_direction", "um") or 0.0 for axis in "vw")
         if v or w:
             moved = self._in_file(shaft, (0.0, v, w))
-            made["offset_um"] = [_dot(moved, self._x), _dot(moved, self._y)]
+            fields["offset_um"] = [_dot(moved, self._x), _dot(moved, self._y)]
         if bearing.type == "hydrodynamic_radial_plain_bearing":
-            made["type"] = "journal"
+            fields["type"] = "journal"
             for row in table.JOURNAL:
                 if (value := reading.number(bearing, row)) is not None:
-                    made[row.field] = value / 2.0 if row.field == "radial_clearance_um" else value
-            if made.get("oil_flow_l_per_min", 1.0) <= 0.0:  # not known; the balance takes what leaks
-                del made["oil_flow_l_per_min"]
+                    fields[row.field] = value / 2.0 if row.field == "radial_clearance_um" else value
+            if fields.get("oil_flow_l_per_min", 1.0) <= 0.0:  # not known: the heat balance takes the side leakage
+                del fields["oil_flow_l_per_min"]
             relative = reading.number(bearing, "relative_clearance_plain_bearing")
             bore = reading.number(bearing, table.BEARING_BORE)
-            if "radial_clearance_um" not in made and relative is not None and bore is not None:
-                made["radial_clearance_um"] = relative * bore * 500.0  # of the diameter, in mm
-            return made
+            if "radial_clearance_um" not in fields and relative is not None and bore is not None:
+                fields["radial_clearance_um"] = (
+                    relative * bore * 500.0
+                )  # the bore is in mm; half of the diameter's clearance
+            return fields
         stiffness = reading.number(bearing, "radial_stiffness", "N/um")
         if stiffness is not None and stiffness >= RIGID_FROM_N_PER_UM:
-            return made | {"type": "rigid"}
+            return fields | {"type": "rigid"}
         if not stiffness or stiffness < 0.0:
             message = "the file has no radial stiffness of the bearing"
             stage.lacks(f"{path}.stiffness_n_per_um", bearing, "radial_stiffness", message)
-            return made | {"type": "linear"}
-        return made | {"type": "linear", "stiffness_n_per_um": stiffness}
+            return fields | {"type": "linear"}
+        return fields | {"type": "linear", "stiffness_n_per_um": stiffness}
 
     def _torque_position(self, shaft: Component, path: str) -> None:
         for load in self._reading.model.parts_of(shaft.id):

@@ -6,13 +6,12 @@ from app.rexs.stages import SAME, StageDraft
 
 
 class Lubrication:
-    """Fills the fields of `lubricant` and `temperatures`, and the coefficient of friction, in the draft of a stage."""
+    """Filler of `lubricant`, `temperatures` and the coefficient of friction in the draft of a stage."""
 
     def __init__(self, stage: StageDraft) -> None:
         self._stage, self._reading = stage, stage.reading
 
     def fill(self) -> None:
-        """Set all fields."""
         self._oil()
         self._temperatures()
         self._friction()
@@ -35,7 +34,7 @@ class Lubrication:
         self._base_oil(oil)
 
     def _base_oil(self, oil: Component) -> None:
-        """Read the kind of oil from its standard type, else from words. A kind that is not modelled is a finding."""
+        """Read the kind of oil from its standard type, else from other texts. A kind without a model is a finding."""
         path, texts = "lubricant.kind", {}
         for name in (*table.OIL_TYPES, *table.OIL_WORDS):
             texts[name] = self._reading.text(oil, name)
@@ -59,45 +58,48 @@ class Lubrication:
             "oil_kind", oil, None, f"an oil of the kind {vague[:40]} is not modelled; choose the nearest"
         )
         self._stage.lacks(
-            path, oil, None, f"the nearest kind to {vague[:40]}; a mineral oil counts if nothing is chosen"
+            path, oil, None, f"choose the kind nearest to {vague[:40]}; without a choice a mineral oil is used"
         )
 
     def _temperatures(self) -> None:
-        """Temperature and supply of the oil, and the bulk temperature: the mean of both gears, else of the stage."""
+        """Fill in temperature and supply of the oil, and the bulk temperature.
+
+        The bulk temperature is the mean of both gears, or that of the stage if the gears have none.
+        """
         for origin in self._stage.oil_origins:
             if self._stage.take(table.OIL_TEMPERATURE, origin) is not None:
                 break
-        row, gears = table.BULK_TEMPERATURE, self._stage.known(self._stage.gears, table.BULK_TEMPERATURE)
-        if gears:
-            self._stage.put(row.field, sum(value for value, _ in gears) / len(gears), gears[0][1], row.name)
-            if abs(gears[0][0] - gears[-1][0]) > SAME * 100.0:
+        row, bulks = table.BULK_TEMPERATURE, self._stage.values_of(self._stage.gears, table.BULK_TEMPERATURE)
+        if bulks:
+            self._stage.put(row.field, sum(value for value, _ in bulks) / len(bulks), bulks[0][1], row.name)
+            if abs(bulks[0][0] - bulks[-1][0]) > SAME * 100.0:
                 self._stage.note(row.field, self._stage.fields[row.field], "mean of both gears")
         else:
             self._stage.take(row, self._stage.stage)
         for name in table.OIL_SUPPLY:
-            said = self._reading.text(self._stage.stage, name)
-            supply = next((ours for word, ours in table.SUPPLIES.items() if word in said), None)
+            text = self._reading.text(self._stage.stage, name)
+            supply = next((ours for word, ours in table.SUPPLIES.items() if word in text), None)
             if supply is not None:
                 self._stage.put("temperatures.oil_supply", supply, self._stage.stage, name)
                 return
-            if said:
-                message = f"lubrication by {said[:40]} is not modelled; not used"
+            if text:
+                message = f"lubrication by {text[:40]} is not modelled; not used"
                 self._reading.find("oil_supply", self._stage.stage, name, message)
         self._supply_by_factor()
 
     def _supply_by_factor(self) -> None:
-        """The oil supply by the factor that stands for it."""
+        """Fill in the oil supply that belongs to the lubrication factor of the file."""
         factor = self._reading.number(self._stage.stage, table.SUPPLY_FACTOR)
         if factor is None:
             return
         if (supply := table.SUPPLY_FACTORS.get(factor)) is not None:
             self._stage.put("temperatures.oil_supply", supply, self._stage.stage, table.SUPPLY_FACTOR)
         else:
-            message = f"the lubrication factor {factor:.4g} is that of no oil supply that is modelled; not used"
+            message = f"no oil supply of the model has the lubrication factor {factor:.4g}; not used"
             self._reading.find("oil_supply", self._stage.stage, table.SUPPLY_FACTOR, message)
 
     def _friction(self) -> None:
-        """The coefficient of friction, unless the file says that it was calculated."""
+        """Fill in the coefficient of friction, unless the file says that it was calculated."""
         methods = [self._reading.text(self._stage.stage, name) for name in table.FRICTION_METHODS]
         if set(methods) <= {"", "is_given"}:
             self._stage.take(table.FRICTION, self._stage.stage)

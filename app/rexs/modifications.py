@@ -1,7 +1,7 @@
 """Flank modifications of both gears as the gap of the mesh, on the flanks that carry the load.
 
-Tip relief of the pinion and root relief of the wheel act at E, the others at A; a slope's sign follows from the end of
-the face that meshes first.
+Tip relief of the pinion and root relief of the wheel act at E; root relief of the pinion and tip relief of the wheel
+act at A. The sign of a slope depends on the end of the face that meshes first.
 """
 
 from math import sqrt
@@ -13,14 +13,13 @@ from app.rexs.stages import ROLES, Involute, StageDraft
 
 
 class Modifications:
-    """Fills the fields of `modifications` in the draft of a stage."""
+    """Filler of `modifications` in the draft of a stage."""
 
     def __init__(self, stage: StageDraft) -> None:
         self._stage, self._reading = stage, stage.reading
-        self._carried = [(place, each) for place in (0, 1) for each in self._of_working_flank(place)]  # place of gear
+        self._carried = [(place, modification) for place in (0, 1) for modification in self._of_working_flank(place)]
 
     def fill(self) -> None:
-        """Fill in the modifications of the request from the flanks of both gears."""
         self._relief("tip_relief", ("tip_relief", "root_relief"))
         self._relief("root_relief", ("root_relief", "tip_relief"))
         self._crowning("profile_crowning", "profile_crowning_um", ("_at_tip", "_at_root"))
@@ -29,72 +28,74 @@ class Modifications:
         self._end_relief()
 
     def _of_working_flank(self, place: int) -> list[Component]:
-        """Modifications of the flank of pinion (0) or wheel (1) that carries the load."""
-        sides = {side: modifications_of(self._reading, each) for side, each in self._stage.flanks(place).items()}
+        """Return the modifications of the loaded flank of pinion (0) or wheel (1)."""
+        sides = {side: modifications_of(self._reading, flank) for side, flank in self._stage.flanks(place).items()}
         if not any(sides.values()):
             return []
         side = self._working_side(place)
         if side is None:
             side = "right" if sides.get("right") else "left"
             self._stage.note("modifications", side, "which flank carries the load is not known")
-        found = sides.get(side, [])
-        for each in found:
-            if each.type in table.OTHER_MODIFICATIONS:
-                self._reading.find("modification", each, None, f"{table.OTHER_MODIFICATIONS[each.type]}; left out")
-        return [each for each in found if each.type in table.MODIFICATIONS]
+        modifications = sides.get(side, [])
+        for item in modifications:
+            if item.type in table.OTHER_MODIFICATIONS:
+                self._reading.find("modification", item, None, f"{table.OTHER_MODIFICATIONS[item.type]}; left out")
+        return [item for item in modifications if item.type in table.MODIFICATIONS]
 
     def _working_side(self, place: int) -> str | None:
-        """The flank that carries the load: as the file says, else by sense of rotation and driver.
+        """Return the loaded flank: as the file says, else by sense of rotation and driving gear.
 
-        Seen from the end of the shaft where u is least (the datum face), a gear with positive speed turns clockwise:
-        of a driving gear the right flank then leads and pushes, of a driven one the left flank is pushed.
+        Seen from the end of the shaft where u is least (the datum face), a gear with positive speed turns clockwise.
+        Then the right flank of a driving gear is loaded, and the left flank of a driven gear.
         """
         stage = self._stage
-        for each in stage.gear_data(place):
-            if (said := self._reading.text(each, "loaded_tooth_flank")) in {"left", "right"}:
-                return said
+        for data in stage.gear_data(place):
+            if (side := self._reading.text(data, "loaded_tooth_flank")) in {"left", "right"}:
+                return side
         speed = stage.flow.speed.get(stage.shafts[place].id)
         if not speed or stage.driver is None:
             return None
         return "right" if (speed > 0.0) == (place == 0) else "left"
 
     def _crowning(self, kind: str, field: str, ends: tuple[str, str]) -> None:
-        """A crowning: the amounts of both gears add, each the mean of its two ends."""
+        """Fill in a crowning: the sum of both gears. The crowning of a gear is the mean of its amounts at both ends."""
         means, origin = [], None
-        for _, each in self._carried:
-            values = [self._reading.number(each, kind + end, "um") for end in ends] if each.type == kind else []
-            known = [value for value in values if value is not None]
-            if not known:
+        for _, item in self._carried:
+            values = [self._reading.number(item, kind + end, "um") for end in ends] if item.type == kind else []
+            amounts = [value for value in values if value is not None]
+            if not amounts:
                 continue
-            if abs(known[0] - known[-1]) > 0.01:
+            if abs(amounts[0] - amounts[-1]) > 0.01:
                 message = "the amounts at both ends differ; their mean is used"
-                self._reading.find("ends_differ", each, kind + ends[1], message)
-            means.append(sum(known) / len(known))
-            origin = origin or each
+                self._reading.find("ends_differ", item, kind + ends[1], message)
+            means.append(sum(amounts) / len(amounts))
+            origin = origin or item
         if origin is not None:
             self._stage.put(f"modifications.{field}", sum(means), origin, kind + ends[0])
 
     def _relief(self, name: str, kinds: tuple[str, str]) -> None:
-        """A relief at one end of the path: amounts add, length and shape are those of the larger one.
+        """Fill in the relief at one end of the path: the sum of both gears, with length and shape of the larger relief.
 
-        `kinds`: what of the pinion and what of the wheel relieves that end.
+        `kinds` names the reliefs of pinion and wheel that act at this end.
         """
-        found = []
-        for place, each in self._carried:
+        reliefs = []
+        for place, item in self._carried:
             kind = kinds[place]
-            amount = self._reading.number(each, f"{kind}_depth", "um") if each.type == kind else None
+            amount = self._reading.number(item, f"{kind}_depth", "um") if item.type == kind else None
             if amount:
-                found.append((amount, each, kind, place))
-        if not found:
+                reliefs.append((amount, item, kind, place))
+        if not reliefs:
             return
         path = f"modifications.{name}"
-        largest, component, kind, place = max(found, key=lambda each: abs(each[0]))
-        self._stage.put(f"{path}_um", sum(each[0] for each in found), component, f"{kind}_depth")
+        largest, component, kind, place = max(reliefs, key=lambda relief: abs(relief[0]))
+        self._stage.put(f"{path}_um", sum(relief[0] for relief in reliefs), component, f"{kind}_depth")
         length = self._relief_length(component, kind, place)
         if length is not None:
             self._stage.put(f"{path}_length_mm", length, component, f"{kind}_datum_length")
-        if len(found) > 1:
-            reason = "both gears are relieved there; amounts add, length and shape of the larger one"
+        if len(reliefs) > 1:
+            reason = (
+                "both gears have a relief there: the sum of the amounts, with length and shape of the larger relief"
+            )
             self._stage.note(f"{path}_um", largest, reason)
         shape = self._reading.text(component, "shape_of_relief")
         exponent = {"linear": 1.0, "parabolic": 2.0}.get(shape)
@@ -107,7 +108,7 @@ class Modifications:
             self._stage.put(path, exponent, component, "shape_of_relief")
 
     def _relief_length(self, component: Component, kind: str, place: int) -> float | None:
-        """Length of a relief along the line of action [mm]: as given, or found from the diameter where it begins."""
+        """Return the length of a relief along the line of action [mm]: as given or from the diameter at its start."""
         length = self._reading.number(component, f"{kind}_datum_length", "mm")
         if length is not None:
             return length
@@ -126,24 +127,24 @@ class Modifications:
         return begin - (line - self._tip_roll(1 - place, mate))
 
     def _tip_roll(self, place: int, gear: Involute) -> float:
-        """Roll length of a gear's tip [mm]."""
+        """Return the roll length of a gear's tip [mm]."""
         addendum = self._stage.fields.get(f"gears.{ROLES[place]}.addendum", 1.0)
         return gear.roll_length(gear.reference_diameter + 2.0 * gear.module * (addendum + gear.shift))
 
     def _slopes(self) -> None:
-        """Profile and helix slopes; positive amounts take material away at the tip and at the non-datum face."""
+        """Fill in profile and helix slopes; positive amounts remove material at the tip and at the non-datum face."""
         sums, origins = {"profile_slope": 0.0, "helix_slope": 0.0}, {}
-        for place, each in self._carried:
-            amount = self._reading.number(each, each.type, "um") if each.type in sums else None
+        for place, item in self._carried:
+            amount = self._reading.number(item, item.type, "um") if item.type in sums else None
             if not amount:
                 continue
-            sense = (1.0, -1.0)[place] if each.type == "profile_slope" else self._end_sense(place)
+            sense = (1.0, -1.0)[place] if item.type == "profile_slope" else self._end_sense(place)
             if sense is None:
                 message = "left out: its sign needs the direction of rotation and the driver"
-                self._reading.find("modification", each, "helix_slope", message)
+                self._reading.find("modification", item, "helix_slope", message)
                 continue
-            sums[each.type] += sense * amount
-            origins[each.type] = each
+            sums[item.type] += sense * amount
+            origins[item.type] = item
         where = {"profile_slope": "tip", "helix_slope": "face where u is largest (the non-datum face)"}
         for kind, total in sums.items():
             if kind in origins:
@@ -152,10 +153,10 @@ class Modifications:
                 self._stage.note(path, total, f"positive amounts remove material at the {where[kind]}")
 
     def _end_sense(self, place: int) -> float | None:
-        """+1 where u of this gear's shaft grows towards the end that leaves the mesh last.
+        """Return +1 if u of this gear's shaft grows towards the end that leaves the mesh last, else -1.
 
-        Contact begins at the end that follows from sense of rotation and hand of the driver: seen along its u axis
-        y runs against sigma h, sigma the sense of rotation and h +1 for a right-hand helix.
+        The end at which contact begins depends on sense of rotation and hand of the driving gear. Seen along its u
+        axis, y runs in the direction -sigma h, where sigma is the sense of rotation and h is +1 for a right-hand helix.
         """
         stage = self._stage
         speed = stage.flow.speed.get(stage.shafts[0].id)
@@ -165,17 +166,17 @@ class Modifications:
         return -(1.0 if speed > 0.0 else -1.0) * hand * stage.along(stage.shafts[place])
 
     def _end_relief(self) -> None:
-        """Relief of both ends: ours is the same at both, so that the mean of the ends is used."""
+        """Fill in the end relief. The request has one relief for both ends, the mean of the ends in the file."""
         depths, lengths, origins = {"datum_face": 0.0, "non_datum_face": 0.0}, list[float](), list[Component]()
         for end in depths:
-            for _, each in self._carried:
-                if each.type != f"end_relief_{end}":
+            for _, item in self._carried:
+                if item.type != f"end_relief_{end}":
                     continue
-                depth = self._reading.number(each, f"end_relief_depth_{end}", "um")
-                length = self._reading.number(each, f"end_relief_length_{end}", "mm")
+                depth = self._reading.number(item, f"end_relief_depth_{end}", "um")
+                length = self._reading.number(item, f"end_relief_length_{end}", "mm")
                 if depth:
                     depths[end] += depth
-                    origins.append(each)
+                    origins.append(item)
                     lengths += [length] if length else []
         if not origins:
             return
@@ -189,5 +190,5 @@ class Modifications:
 
 
 def modifications_of(reading: Reading, flank: Component) -> list[Component]:
-    """The modifications of a flank, those that are not modelled among them."""
+    """Return the modifications of a flank, including those without a model."""
     return list(reading.model.references_of(flank.id, *table.MODIFICATIONS, *table.OTHER_MODIFICATIONS))

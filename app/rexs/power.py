@@ -1,8 +1,8 @@
-"""Speeds and torques of all shafts from those that the file states, carried through the meshes without losses.
+"""Speeds and torques of all shafts, from those that the file states; losses of the meshes are neglected.
 
-Shafts joined by a coupling turn as one. Each cylindrical stage gives n_1 z_1 = -n_2 z_2 and torques of its mesh on the
-two gears that stand as z_1 : z_2 and have the same sign; on each shaft the torques sum to zero. In a unit without
-power splitting there is always an equation with one unknown left, until all is known.
+Shafts joined by a coupling turn as one. In a cylindrical stage, n_1 z_1 = -n_2 z_2. The mesh puts torques in the ratio
+z_1 : z_2 and with the same sign on its two gears. The torques on a shaft add up to zero. In a unit without power
+splitting the equations can be solved one after another, because one of them always has a single unknown.
 """
 
 from collections import defaultdict
@@ -15,11 +15,11 @@ from app.rexs.reading import Reading
 from app.rexs.table import REVOLUTION_PER_MINUTE
 
 MOST_SHAFTS = 200  # chosen: far beyond any gear unit
-BALANCE = 0.02  # of the largest torque: what files with efficiencies leave unbalanced without being wrong
+BALANCE = 0.02  # of the largest torque: the imbalance of files that include efficiencies
 
 
 class Pair(NamedTuple):
-    """A stage of two external gears, each on its shaft, in the order of the file."""
+    """A stage of two external gears on their shafts, in the order of the file."""
 
     stage: Component
     gears: tuple[Component, Component]
@@ -29,10 +29,10 @@ class Pair(NamedTuple):
 
 @dataclass
 class Flow:
-    """What is known of each shaft and mesh.
+    """Speeds of shafts and torques of meshes, as far as the file determines them.
 
-    `reading`: the model, or a load case of it, that states the load. `speed`: 1/min about the shaft's own u axis, by
-    shaft. `mesh_torque`: N m on gear 1 and gear 2 of a stage about their shafts' own u axes.
+    `reading` is the model, or its load case, that states the load. `speed` [1/min] by shaft is about the shaft's own u
+    axis. `mesh_torque` [N m] by stage acts on gear 1 and gear 2 about their shafts' own u axes.
     """
 
     reading: Reading
@@ -40,11 +40,11 @@ class Flow:
     mesh_torque: dict[int, tuple[float, float]] = field(default_factory=dict)
 
     def knows(self, pair: Pair) -> bool:
-        """Whether torque and speed of a stage are known."""
+        """Return True if torque and speed of a stage are known."""
         return pair.stage.id in self.mesh_torque and pair.shafts[0].id in self.speed
 
     def driver(self, pair: Pair) -> int | None:
-        """0 or 1: the gear that gives power to the other one; None where that is not known."""
+        """Return the place of the driving gear in the pair, 0 or 1; None if it is not known."""
         for place, torque in enumerate(self.mesh_torque.get(pair.stage.id, ())):
             speed = self.speed.get(pair.shafts[place].id)
             if speed and torque:
@@ -59,18 +59,18 @@ class Train:
         self._reading, self._pairs = reading, pairs
         self._shafts = reading.model.by_type["shaft"]
         if len(self._shafts) > MOST_SHAFTS:
-            message = f"speeds and torques of {len(self._shafts)} shafts are not looked for"
+            message = f"speeds and torques are not determined, because the unit has {len(self._shafts)} shafts"
             reading.find("too_many_shafts", None, None, message)
             self._shafts, self._pairs = [], []
         self._group = self._groups()
         self._elsewhere = self._not_modelled()
-        self._at: dict[int, list[tuple[Pair, int]]] = defaultdict(list)  # meshes of a group, and which gear is its own
+        self._at: dict[int, list[tuple[Pair, int]]] = defaultdict(list)  # meshes of a group, and the place of its gear
         for pair in self._pairs:
             for place, shaft in enumerate(pair.shafts):
                 self._at[self._group[shaft.id]].append((pair, place))
 
     def flow(self, case: LoadCase | None = None) -> Flow:
-        """Speeds and torques of the base model or of a load case."""
+        """Return speeds and torques of the base model or of a load case."""
         reading = self._reading.in_case(case)
         speeds = self._speeds(reading)
         flow = Flow(reading)
@@ -87,7 +87,7 @@ class Train:
         return flow
 
     def _groups(self) -> dict[int, int]:
-        """For each shaft one shaft that stands for all that turn with it."""
+        """Map each shaft to the representative of the shafts that turn with it."""
         model = self._reading.model
         group = {shaft.id: shaft.id for shaft in self._shafts}
         for relation in model.relations if group else ():
@@ -100,11 +100,11 @@ class Train:
         return group
 
     def _speeds(self, reading: Reading) -> dict[int, float]:
-        """Speeds of the groups [1/min], seen along the unit's axis."""
+        """Return the speeds of the groups [1/min] about the unit's axis."""
         speeds: dict[int, float] = {}
         stated = [(shaft, reading.number(shaft, "rotational_speed", "1/min")) for shaft in self._shafts]
         restated = {shaft.id for shaft, _ in stated if reading.says(shaft, "rotational_speed")}
-        stated.sort(key=lambda each: (each[0].id not in restated, not reading.flag(each[0], "defines_speed")))
+        stated.sort(key=lambda pair: (pair[0].id not in restated, not reading.flag(pair[0], "defines_speed")))
         for shaft, own in stated:
             if own is None:
                 continue
@@ -112,9 +112,11 @@ class Train:
             if group not in speeds:
                 self._spread(group, speed, speeds)
             elif restated and shaft.id not in restated:
-                continue  # of the model, where the load case states another speed
+                continue  # the model's speed, while the load case states another one
             elif abs(speeds[group] - speed) > BALANCE * max(abs(speed), abs(speeds[group])):
-                message = f"the shaft turns at {speed:.6g} 1/min, by the tooth numbers at {speeds[group]:.6g}; not used"
+                message = (
+                    f"the stated speed is {speed:.6g} 1/min, but {speeds[group]:.6g} by the numbers of teeth; not used"
+                )
                 reading.find("speed_conflict", shaft, "rotational_speed", message)
         return speeds
 
@@ -127,25 +129,25 @@ class Train:
                 self._spread(other, -speed * pair.teeth[place] / pair.teeth[1 - place], speeds)
 
     def _forces(self, speeds: dict[int, float], reading: Reading) -> dict[int, float]:
-        """Torque of each stage's mesh per tooth [N m], where the torques that the file states determine it."""
-        known, opened = self._loads(speeds, reading)
+        """Return the mesh torque per tooth of the stages [N m] for which the torques in the file determine it."""
+        torques, opened = self._loads(speeds, reading)
         forces: dict[int, float] = {}
-        waiting = list(self._at) if known else []
+        waiting = list(self._at) if torques else []
         while waiting:
             group = waiting.pop()
-            unknown = [each for each in self._at[group] if each[0].stage.id not in forces]
+            unknown = [(pair, place) for pair, place in self._at[group] if pair.stage.id not in forces]
             if len(unknown) != 1 or group in opened:
                 continue
             here = ((pair.stage.id, pair.teeth[place]) for pair, place in self._at[group])
             carried = sum(forces[stage] * teeth for stage, teeth in here if stage in forces)
             pair, place = unknown[0]
-            forces[pair.stage.id] = -(known.get(group, 0.0) + carried) / pair.teeth[place]
+            forces[pair.stage.id] = -(torques.get(group, 0.0) + carried) / pair.teeth[place]
             waiting.append(self._group[pair.shafts[1 - place].id])
         return forces
 
     def _loads(self, speeds: dict[int, float], reading: Reading) -> tuple[dict[int, float], set[int]]:
-        """Stated torques by group [N m], and the groups at which a torque that is not stated enters or leaves."""
-        known: dict[int, float] = defaultdict(float)
+        """Return the stated torques by group [N m], and the groups at which an unstated torque enters or leaves."""
+        torques: dict[int, float] = defaultdict(float)
         opened, leaving = set(self._elsewhere), set()
         for shaft in self._shafts:
             group = self._group[shaft.id]
@@ -155,27 +157,29 @@ class Train:
                 transmits = reading.flag(load, "transmits_torque")
                 torque = self._stated_torque(load, shaft, speeds.get(group), reading)
                 if torque is not None:
-                    known[group] += torque
+                    torques[group] += torque
                     if torque * speeds.get(group, 0.0) < 0.0:
                         leaving.add(group)
                 elif transmits is not False:
                     opened.add(group)
-        if known and not opened:
-            opened = {group for group, meshes in self._at.items() if len(meshes) == 1 and group not in known} or leaving
-        return known, opened
+        if torques and not opened:
+            ends = {group for group, meshes in self._at.items() if len(meshes) == 1}
+            opened = (ends - torques.keys()) or leaving
+        return torques, opened
 
     def _not_modelled(self) -> set[int]:
-        """The groups with gears in stages that are not modelled: what passes there is not known."""
+        """Return the groups with gears in stages without a model: the torque there is not known."""
         model, modelled = self._reading.model, {pair.stage.id for pair in self._pairs}
-        others = (each for each in model.relations if each.type == "stage" and each.part("stage") not in modelled)
+        stages = (relation for relation in model.relations if relation.type == "stage")
+        others = (relation for relation in stages if relation.part("stage") not in modelled)
         parts = (part for relation in others for role, part in relation.parts if role != "stage")
         shafts = (model.whole_of(part, "shaft") for part in parts)
         return {self._group[shaft.id] for shaft in shafts if shaft is not None and shaft.id in self._group}
 
     def _stated_torque(self, load: Component, shaft: Component, speed: float | None, reading: Reading) -> float | None:
-        """The torque of a load on a shaft, about the unit's axis [N m], where the load defines it.
+        """Return the torque of a load on a shaft about the unit's axis [N m], if the load defines one.
 
-        A load case that gives power alone has the torque of its power, whatever the model states.
+        If a load case states the power but no torque, the torque follows from this power, even if the model states one.
         """
         if reading.flag(load, "defines_torque") is False:
             return None
@@ -194,7 +198,7 @@ class Train:
             and abs(abs(of_power) - abs(torque)) > BALANCE * max(abs(of_power), abs(torque))
         ):
             message = (
-                f"the torque is {abs(torque):.6g} N m, by power and speed it is {abs(of_power):.6g}; the torque is used"
+                f"the torque is {abs(torque):.6g} N m, but {abs(of_power):.6g} by power and speed; the torque is used"
             )
             reading.find("power_conflict", load, "power", message)
         return torque * reading.sense(shaft)  # the u axis of a load is that of its shaft

@@ -1,6 +1,6 @@
-"""Attributes read as numbers in the units of the requests, and the draft of a request that they fill.
+"""Attributes of a file as numbers in the units of the requests, and the draft of a request that these numbers fill.
 
-Whatever happens on the way is recorded for the answer: what is wrong in the file, missing, assumed or not used.
+Both record for the answer what is wrong in the file, and what is missing, assumed or not used.
 """
 
 import re
@@ -16,11 +16,11 @@ from pydantic import BaseModel
 from app.calculations import BY_PATH
 from app.errors import InvalidBody
 from app.rexs.model import Attribute, Component, LoadCase, Model
-from app.rexs.table import APPLICATION_FACTOR, IGNORED, SCUFFING_FACTOR, Row, converted
+from app.rexs.table import APPLICATION_FACTOR, IGNORED, SCUFFING_FACTOR, Row, convert
 from app.schema.quantities import Output
 from app.schema.reading import validated
 
-LARGEST = 1e30  # in any unit; keeps sums and products of a hostile file finite
+LARGEST = 1e30  # in any unit; keeps sums and products finite if the file is hostile
 DIGITS = 7
 SCUFFING = "/v1/scuffing"
 MESH = {"gears", "load", "materials", "modifications", "friction_coefficient"}
@@ -29,7 +29,7 @@ SECTIONS = {
     SCUFFING: MESH | {"temperatures", "lubricant"},
     "/v1/pumping": {"gears"},
 }
-"""What of a draft is in the requests for a single mesh."""
+"""Sections of a draft that the requests for a single mesh have."""
 Vector = tuple[float, float, float]
 
 
@@ -40,18 +40,18 @@ class Axis(NamedTuple):
     direction: Vector
 
     def along(self, point: Vector) -> float:
-        """Coordinate of a point along the axis [mm]."""
+        """Return the coordinate of a point along the axis [mm]."""
         return sum((a - b) * u for a, b, u in zip(point, self.origin, self.direction, strict=True))
 
     def apart(self, other: "Axis") -> float:
-        """Distance of another axis' origin from this axis [mm]."""
+        """Return the distance of the origin of another axis from this axis [mm]."""
         along = self.along(other.origin)
         across = (a - b - along * u for a, b, u in zip(other.origin, self.origin, self.direction, strict=True))
-        return sqrt(sum(each * each for each in across))
+        return sqrt(sum(part * part for part in across))
 
 
 class Number(NamedTuple):
-    """A number of the file in the unit asked for, and its attribute."""
+    """A number of the file in the requested unit, and the name of its attribute."""
 
     value: float
     attribute: str
@@ -63,7 +63,7 @@ class Fault(BaseModel, frozen=True):
     code: Annotated[str, Output("stable name, meant for programs")]
     component: Annotated[int | None, Output("component in the file")]
     attribute: Annotated[str | None, Output("attribute")]
-    message: Annotated[str, Output("what is wrong, and what was done about it")]
+    message: Annotated[str, Output("what is wrong, and what is used instead")]
 
 
 class MissingValue(BaseModel):
@@ -76,7 +76,7 @@ class MissingValue(BaseModel):
 
 
 class AssumedValue(BaseModel):
-    """What stands in place of something that the file does not give."""
+    """A value used for a field that the file does not give."""
 
     field: Annotated[str, Output("dotted path of the field")]
     value: Annotated[Any, Output("value used")]
@@ -84,20 +84,20 @@ class AssumedValue(BaseModel):
 
 
 class Unused(BaseModel):
-    """What the file says and the models cannot use."""
+    """An attribute or component of the file that the models do not use."""
 
     component: Annotated[int, Output("component in the file")]
     attribute: Annotated[str | None, Output("attribute, or the whole component")]
     reason: Annotated[str, Output("why")]
-    case: Annotated[str | None, Output("load case that says it; null where the model does")] = None
+    case: Annotated[str | None, Output("load case with the attribute; null if it is the model's")] = None
 
 
 @dataclass
 class Reading:
-    """The model, read once: every attribute asked for is noted, and every fault becomes a finding.
+    """A model while it is read: attributes that were asked for are recorded, and faults become findings.
 
-    `case`: the load case whose attributes take the place of the model's. `used`: what was asked for of the model, and
-    `used_of_case` of the load case.
+    The attributes of the load case `case` replace those of the model. `used` and `used_of_case` are the attributes of
+    the model and of the load case that were asked for, as pairs of component and name.
     """
 
     model: Model
@@ -107,17 +107,17 @@ class Reading:
     used_of_case: set[tuple[int, str]] = field(default_factory=set)
 
     def in_case(self, case: LoadCase | None) -> "Reading":
-        """Return a reading of the model with the values of a load case in place of its own."""
-        found = copy(self)  # with what is known of its shafts
-        found.case, found.used_of_case = case, set()
-        return found
+        """Return a reading of the same model in which the values of a load case replace those of the model."""
+        reading = copy(self)  # keeps the cached directions of the shafts
+        reading.case, reading.used_of_case = case, set()
+        return reading
 
     def says(self, component: Component, name: str) -> bool:
-        """Whether the load case itself states an attribute."""
+        """Return True if the load case itself states an attribute."""
         return self.case is not None and name in self.case.attributes.get(component.id, {})
 
     def find(self, code: str, component: Component | None, attribute: str | None, message: str) -> None:
-        """Note a fault, once."""
+        """Record a fault, once."""
         id_ = component.id if component else None
         if (
             component is not None
@@ -129,16 +129,17 @@ class Reading:
         self.findings[Fault(code=code, component=id_, attribute=attribute, message=message)] = None
 
     def number(self, component: Component | None, wanted: Row | str, unit: str = "") -> float | None:
-        """The first of the attributes of a row that is there, in its unit, or an attribute in `unit`; else None.
+        """Return the value of a row in the row's unit, or of an attribute in `unit`; None if the file does not have it.
 
-        A value that is no number or has a unit of another quantity is a finding and not used.
+        Of the attributes of a row, the first that the file has is used. A value that is not a number, or whose unit
+        belongs to another quantity, is a finding and not used.
         """
         names, unit = (wanted.attributes, wanted.unit) if isinstance(wanted, Row) else ((wanted,), unit)
-        found = self.first_of(component, names, unit)
-        return None if found is None else found.value
+        first = self.first_of(component, names, unit)
+        return None if first is None else first.value
 
     def first_of(self, component: Component | None, names: Iterable[str], unit: str) -> "Number | None":
-        """The first of these attributes that is a number of this quantity, and its name."""
+        """Return the first of these attributes that is a number of this quantity, with its name."""
         if component is None:
             return None
         for name in names:
@@ -149,34 +150,34 @@ class Reading:
         return None
 
     def text(self, component: Component, name: str) -> str:
-        """A text in lower case; empty where the attribute is not there."""
+        """Return a text in lower case; empty without the attribute."""
         attribute = self._attribute(component, name)
         return str(attribute.value).lower() if attribute is not None and isinstance(attribute.value, str) else ""
 
     def flag(self, component: Component, name: str) -> bool | None:
-        """A yes or no, or None."""
+        """Return a truth value, or None without one."""
         attribute = self._attribute(component, name)
-        said = "" if attribute is None else str(attribute.value).lower()
-        return {"true": True, "1": True, "false": False, "0": False}.get(said)
+        text = "" if attribute is None else str(attribute.value).lower()
+        return {"true": True, "1": True, "false": False, "0": False}.get(text)
 
     def vector(self, component: Component, name: str) -> Vector | None:
-        """Three numbers (lengths in mm where the attribute is a length), or None."""
+        """Return three numbers, lengths in mm; None without the attribute or if it is not three numbers."""
         attribute = self._attribute(component, name)
         if attribute is None or not isinstance(attribute.value, list) or len(attribute.value) != 3:
             return None
         try:
-            x, y, z = (float("true" if isinstance(each, bool) else each) for each in attribute.value)
+            x, y, z = (float("true" if isinstance(number, bool) else number) for number in attribute.value)
         except (TypeError, ValueError, OverflowError):
             self.find("not_a_number", component, name, "the vector is not three numbers")
             return None
-        if not all(abs(each) <= LARGEST for each in (x, y, z)):
+        if not all(abs(number) <= LARGEST for number in (x, y, z)):
             self.find("not_a_number", component, name, "the vector is not three finite numbers")
             return None
-        scale = converted(1.0, attribute.unit, "mm") or 1.0
+        scale = convert(1.0, attribute.unit, "mm") or 1.0
         return x * scale, y * scale, z * scale
 
     def axis(self, shaft: Component) -> Axis | None:
-        """Where a shaft lies, if the file says so."""
+        """Return the axis of a shaft, or None if the file does not say where the shaft lies."""
         origin, direction = self.vector(shaft, "support_vector"), self.vector(shaft, "u_axis_vector")
         if origin is None:
             return None
@@ -188,7 +189,10 @@ class Reading:
         return Axis(origin, (x / size, y / size, z / size))
 
     def sense(self, shaft: Component) -> float:
-        """+1 where the u axis of a shaft points as that of the first shaft that has one, or is not known; else -1."""
+        """Return -1 if the u axis of a shaft points against that of the first shaft with an axis, else +1.
+
+        A shaft without an axis has +1.
+        """
         return self._senses.get(shaft.id, 1.0)
 
     @cached_property
@@ -199,14 +203,14 @@ class Reading:
         return {id_: 1.0 if cosine >= 0.0 else -1.0 for id_, cosine in cosines.items()}
 
     def ignored(self, components: Iterable[Component]) -> Iterator[Unused]:
-        """What these components say that was not asked for."""
+        """Yield the attributes of these components that were not asked for."""
         for component in components:
             for name in component.attributes:
                 if (component.id, name) not in self.used:
                     yield Unused(component=component.id, attribute=name, reason=why_unused(component.type, name))
 
     def ignored_of_case(self, elsewhere: Collection[int]) -> Iterator[Unused]:
-        """What the load case says that was not asked for, but for what it says of the components `elsewhere`."""
+        """Yield the attributes of the load case that were not asked for, except those of the components `elsewhere`."""
         if (case := self.case) is None:
             return
         for id_, attributes in case.attributes.items():
@@ -216,13 +220,14 @@ class Reading:
                     yield Unused(component=id_, attribute=name, reason=why_unused(type_, name), case=case.name)
 
     def _attribute(self, component: Component, name: str) -> Attribute | None:
-        if self.case is not None and (found := self.case.attributes.get(component.id, {}).get(name)) is not None:
+        of_case = {} if self.case is None else self.case.attributes.get(component.id, {})
+        if (attribute := of_case.get(name)) is not None:
             self.used_of_case.add((component.id, name))
-            return found
-        found = component.attributes.get(name)
-        if found is not None:
+            return attribute
+        attribute = component.attributes.get(name)
+        if attribute is not None:
             self.used.add((component.id, name))
-        return found
+        return attribute
 
     def _in_unit(self, component: Component, attribute: Attribute, unit: str) -> float | None:
         code, name = "not_a_number", attribute.name
@@ -231,23 +236,23 @@ class Reading:
         except (TypeError, ValueError, OverflowError):
             self.find(code, component, name, f"{name} is not a number; not used")
             return None
-        found = converted(value, attribute.unit, unit)
+        result = convert(value, attribute.unit, unit)
         if not isfinite(value):
             fault = "is not finite"
-        elif found is None:
+        elif result is None:
             code, stated = "unit", attribute.unit[:20] or "no unit"
             fault = f"is in {stated}, which is not a unit of its quantity ({unit})"
-        elif abs(found) > LARGEST:
-            fault = "is beyond any machine"
+        elif abs(result) > LARGEST:
+            fault = "is too large"
         else:
-            return found
+            return result
         self.find(code, component, name, f"{name} {fault}; not used")
         return None
 
 
 @dataclass
 class Draft:
-    """Fields by their dotted path in the request of /v1/scuffing, and where in the file they come from."""
+    """Fields by their dotted path in the request of /v1/scuffing, and their origins in the file."""
 
     reading: Reading
     fields: dict[str, Any] = field(default_factory=dict)
@@ -256,7 +261,7 @@ class Draft:
     assumed: dict[str, AssumedValue] = field(default_factory=dict)
 
     def put(self, path: str, value: Any, component: Component, attribute: str | None = None) -> None:
-        """Set a field from the file."""
+        """Set a field to a value of the file."""
         self.fields[path] = value
         self.origins[path] = component, attribute
 
@@ -266,52 +271,52 @@ class Draft:
         self.note(path, value, reason)
 
     def note(self, path: str, value: Any, reason: str) -> None:
-        """Say how the value of a field was chosen, where the file leaves a choice."""
+        """Record how the value of a field was chosen if the file leaves a choice."""
         self.assumed[path] = AssumedValue(field=path, value=value, reason=reason)
 
     def lacks(self, path: str, component: Component | None, attribute: str | None, message: str) -> None:
-        """Record that the file does not contain a field without a default."""
+        """Record that the file does not contain a field that has no default."""
         id_ = component.id if component else None
         self.missing.setdefault(path, MissingValue(field=path, component=id_, attribute=attribute, message=message))
 
     def take(self, row: Row, component: Component | None, prefix: str = "") -> float | None:
-        """Take a number over as it stands."""
-        found = self.reading.first_of(component, row.attributes, row.unit)
-        if component is None or found is None:
+        """Set a field to a number of the file without a change. Return the number, or None without one."""
+        number = self.reading.first_of(component, row.attributes, row.unit)
+        if component is None or number is None:
             return None
-        self.put(prefix + row.field, found.value, component, found.attribute)
-        return found.value
+        self.put(prefix + row.field, number.value, component, number.attribute)
+        return number.value
 
     def request(self, endpoint: str, paths: Iterable[str]) -> dict[str, Any]:
-        """The request of an endpoint from these fields, without those that it does not know or refuses.
+        """Return the request of an endpoint from these fields, without those that it does not know or rejects.
 
-        What the endpoint refuses is a finding with its range where it comes from the file; what it needs and does not
-        get is missing.
+        A value of the file that the endpoint rejects is a finding with the permitted range. A field that the endpoint
+        requires and that has no value is missing.
         """
         replaced = endpoint == SCUFFING and SCUFFING_FACTOR in self.fields
-        known = {
+        places = {
             ours: theirs
             for ours in paths
             if (theirs := path_in(endpoint, ours)) is not None and not (replaced and ours == APPLICATION_FACTOR)
         }
-        own = {ours: theirs for ours, theirs in known.items() if ours in self.fields}
+        own = {ours: theirs for ours, theirs in places.items() if ours in self.fields}
         model = BY_PATH[endpoint].request
         while True:
             request = _nested({theirs: rounded(self.fields[ours]) for ours, theirs in own.items()})
             try:
                 validated(model, request)
             except InvalidBody as error:
-                found = error.faults
+                faults = error.faults
             else:
                 return request
             accepted = len(own)
-            for fault in found:
+            for fault in faults:
                 at = fault.pointer.strip("/").replace("/", ".")
                 if any(_within(path, at) or _within(at, path) for path in self.missing):
-                    continue  # known to be missing
-                ours = next((each for each, theirs in own.items() if _within(at, theirs)), None)
+                    continue  # recorded as missing already
+                ours = next((path for path, theirs in own.items() if _within(at, theirs)), None)
                 if ours is None:
-                    back = next((each for each, theirs in known.items() if theirs == at), at)
+                    back = next((path for path, theirs in places.items() if theirs == at), at)
                     self.lacks(back, None, None, fault.message)
                     continue
                 component, attribute = self.origins.get(ours, (None, None))
@@ -323,7 +328,7 @@ class Draft:
 
 
 def path_in(endpoint: str, path: str) -> str | None:
-    """Where a field of the draft is in the request of an endpoint; None where the endpoint has no such field."""
+    """Return the path of a field of the draft in the request of an endpoint; None if it has no such field."""
     if path == SCUFFING_FACTOR:
         return APPLICATION_FACTOR if endpoint == SCUFFING else None
     if endpoint == "/v1/drive-train" or (endpoint, path) == ("/v1/pumping", "load.pinion_speed_rpm"):
@@ -333,13 +338,13 @@ def path_in(endpoint: str, path: str) -> str | None:
 
 
 def rounded(value: Any) -> Any:
-    """A value with its numbers at the seven digits that a page shows."""
+    """Return a value with its numbers rounded to the seven digits that a page shows."""
     if isinstance(value, float):
         return float(f"{value:.{DIGITS}g}")
     if isinstance(value, list):
-        return [rounded(each) for each in value]
+        return [rounded(item) for item in value]
     if isinstance(value, dict):
-        return {name: rounded(each) for name, each in value.items()}
+        return {name: rounded(item) for name, item in value.items()}
     return value
 
 
@@ -353,7 +358,7 @@ def _within(path: str, section: str) -> bool:
 
 
 def _nested(fields: dict[str, Any]) -> dict[str, Any]:
-    """Sections within sections, from dotted paths."""
+    """Return nested sections from fields with dotted paths."""
     request: dict[str, Any] = {}
     for path, value in fields.items():
         *sections, name = path.split(".")

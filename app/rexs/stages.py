@@ -1,4 +1,4 @@
-"""The stages of a gear unit as requests: gears, load, oil and material of one mesh."""
+"""The stages of a gear unit as requests: gears, load and materials of one mesh."""
 
 from collections.abc import Iterable, Iterator
 from math import acos, asin, atan, cos, degrees, pi, radians, sin, sqrt, tan
@@ -12,15 +12,15 @@ from solvers.gears.pair import inverse_involute
 
 ISO_53_A = {"addendum": 1.0, "dedendum": 1.25, "gears.rack_tip_radius": 0.38}  # in modules
 SAME = 1e-6  # chosen: numbers stated twice that differ by less are equal
-OFF_CENTRE = 1e-3  # chosen: of the centre distance; positions are often rounded
-MOST_INVOLUTE = 1e8  # its inverse is known up to 1e9; a larger one comes from a profile shift that no gear has
+OFF_CENTRE = 1e-3  # chosen: share of the centre distance; positions in files are often rounded
+MOST_INVOLUTE = 1e8  # the inverse works up to 1e9; only absurd profile shifts give larger values
 NORMAL_ANGLE = 20.0  # deg, ISO 53
 ROLES = ("pinion", "wheel")
 TORQUE, SPEED = "load.pinion_torque_n_m", "load.pinion_speed_rpm"
 
 
 def pairs(reading: Reading) -> Iterator[Pair]:
-    """The cylindrical stages of two external gears on shafts; every other stage is a finding."""
+    """Yield the cylindrical stages of two external gears on shafts; every other stage is a finding."""
     for stage in reading.model.components.values():
         if stage.type in table.OTHER_STAGES:
             reading.find("stage_not_modelled", stage, None, f"{table.OTHER_STAGES[stage.type]}; the stage is left out")
@@ -48,26 +48,26 @@ def _pair(reading: Reading, stage: Component) -> Pair | None:
 
 
 def _teeth(reading: Reading, stage: Component, gear: Component) -> int | None:
-    """Read the number of teeth of an external gear. A gear of any other kind is a finding."""
+    """Return the number of teeth of an external gear; any other gear is a finding."""
     if gear.type != "cylindrical_gear":
-        what = "a ring gear; pairs with one" if gear.type == "ring_gear" else "other pairs than two external gears"
+        what = "pairs with a ring gear" if gear.type == "ring_gear" else "other pairs than two external gears"
         reading.find("stage_not_modelled", stage, None, f"{what} are not modelled; the stage is left out")
         return None
     number = reading.number(gear, "number_of_teeth")
     if number is not None and number < 0.0:
-        message = "a ring gear (teeth below 0); pairs with one are not modelled; the stage is left out"
+        message = "pairs with a ring gear (a negative number of teeth) are not modelled; the stage is left out"
         reading.find("ring_gear", gear, "number_of_teeth", message)
         return None
     if number is None or number != int(number) or not 1 <= number <= 10_000:
-        reading.find("teeth", gear, "number_of_teeth", "the gear has no possible number of teeth; stage left out")
+        reading.find("teeth", gear, "number_of_teeth", "the number of teeth is not possible; the stage is left out")
         return None
     return int(number)
 
 
 def _shaft_of(reading: Reading, gear: Component) -> Component | None:
-    """The shaft that a gear is part of, else the one to which a coupling fastens it."""
-    fastened = reading.model.related("side", "outer_part", gear.id, "inner_part")
-    return reading.model.whole_of(gear.id, "shaft") or next((each for each in fastened if each.type == "shaft"), None)
+    """Return the shaft that a gear is part of, else the shaft to which a coupling fastens the gear."""
+    partners = reading.model.related("side", "outer_part", gear.id, "inner_part")
+    return reading.model.whole_of(gear.id, "shaft") or next((part for part in partners if part.type == "shaft"), None)
 
 
 def _gear_data(reading: Reading, pair: Pair, gear: Component) -> Iterator[Component]:
@@ -78,25 +78,25 @@ def _gear_data(reading: Reading, pair: Pair, gear: Component) -> Iterator[Compon
 
 
 class StageDraft(Draft):
-    """One mesh on its way to requests. Its pinion is the gear that drives, else the smaller one.
+    """The draft of one mesh. Its pinion is the driving gear, or the smaller gear if the driving gear is not known.
 
-    `order`, `driver`: places of pinion and wheel, and of the driving gear where it is known, in the file's pair.
+    `order` holds the places of pinion and wheel in the file's pair, `driver` that of the driving gear, if known.
     """
 
     def __init__(self, pair: Pair, flow: Flow, pinion: int | None = None) -> None:
-        """Begin the draft of a stage; `pinion` is the place of its pinion where another draft has settled it."""
+        """Begin the draft of a stage; `pinion` is the place of its pinion, if another draft has chosen it."""
         super().__init__(flow.reading)
         self.flow, self.pair = flow, pair
         self.driver = self._driver()
         smaller = int(pair.teeth[1] < pair.teeth[0])
-        first = next(each for each in (pinion, self.driver, smaller) if each is not None)
+        first = next(place for place in (pinion, self.driver, smaller) if place is not None)
         self.order = first, 1 - first
         self.stage = pair.stage
         turn = -1 if first else 1
         self.gears, self.shafts, self.teeth = pair.gears[::turn], pair.shafts[::turn], pair.teeth[::turn]
 
     def fill(self) -> None:
-        """Take over what the file says of the mesh but for modifications of its flanks and its oil."""
+        """Fill in all fields of the mesh except modifications and oil."""
         for row in table.STAGE:
             self.take(row, self.stage)
         for place, role in enumerate(ROLES):
@@ -118,65 +118,65 @@ class StageDraft(Draft):
                 self.take(row, self.material(place), f"materials.{role}.")
 
     def _driver(self) -> int | None:
-        """The place of the driving gear, by power, else as the file says."""
+        """Return the place of the driving gear, by power, else as the file says."""
         by_power, pair = self.flow.driver(self.pair), self.pair
-        stated = [place for place in (0, 1) for each in _gear_data(self.reading, pair, pair.gears[place])
-                  if self.reading.flag(each, "is_driving_gear")]  # fmt: skip
+        stated = [place for place in (0, 1) for data in _gear_data(self.reading, pair, pair.gears[place])
+                  if self.reading.flag(data, "is_driving_gear")]  # fmt: skip
         if by_power is None and len(stated) == 1:
             return stated[0]
         if by_power is not None and stated and by_power not in stated:
-            message = "by torque and speed the other gear drives; used"
+            message = "by torque and speed the other gear is the driver, which is used"
             self.reading.find("driver", pair.gears[stated[0]], None, message)
         return by_power
 
     def flanks(self, place: int) -> dict[str, Component]:
-        """Left and right flank of pinion (0) or wheel (1), as far as the file has them."""
+        """Return the left and the right flank of pinion (0) or wheel (1), as far as the file has them."""
         relation = "flank", "gear", self.gears[place].id
-        found = {side: next(self.reading.model.related(*relation, side), None) for side in ("left", "right")}
-        return {side: flank for side, flank in found.items() if flank is not None}
+        flanks = {side: next(self.reading.model.related(*relation, side), None) for side in ("left", "right")}
+        return {side: flank for side, flank in flanks.items() if flank is not None}
 
     def gear_data(self, place: int) -> Iterator[Component]:
-        """What the file says of pinion (0) or wheel (1) in this stage."""
+        """Yield the data of pinion (0) or wheel (1) in this stage."""
         return _gear_data(self.reading, self.pair, self.gears[place])
 
     @property
     def load_sources(self) -> set[int]:
-        """The components whose attributes in a load case change torque, speed and shares alone."""
+        """Components whose attributes in a load case change only torque, speed and shares."""
         model = self.reading.model
-        unit = [model.first("gear_unit")]
-        return {
-            each.id for each in (*unit, *model.by_type["shaft"], *model.by_type["external_load"]) if each is not None
-        }
+        sources = (model.first("gear_unit"), *model.by_type["shaft"], *model.by_type["external_load"])
+        return {source.id for source in sources if source is not None}
 
     def tool(self, place: int) -> Component | None:
-        """The rack-shaped tool that made a gear."""
+        """Return the rack-shaped tool that made a gear."""
         model, flanks = self.reading.model, self.flanks(place).values()
-        steps = (tool for each in flanks for tool in model.related("manufacturing_step", "workpiece", each.id, "tool"))
-        made_by = next((tool for tool in steps if tool.type == table.TOOL), None)
+        tools = (
+            tool for flank in flanks for tool in model.related("manufacturing_step", "workpiece", flank.id, "tool")
+        )
+        made_by = next((tool for tool in tools if tool.type == table.TOOL), None)
         return made_by or model.reference_of((self.gears[place], *flanks), table.TOOL)
 
     def material(self, place: int) -> Component | None:
-        """The gear's material, else its shaft's."""
+        """Return the material of a gear, else that of its shaft."""
         return self.reading.model.reference_of((self.gears[place], self.shafts[place]), "material")
 
     @property
     def oil_origins(self) -> tuple[Component | None, ...]:
-        """What may state the oil and its temperature: the stage, else the casing."""
+        """Components that may state the oil and its temperature: the stage, then the casing."""
         return self.stage, self.reading.model.first("gear_casing")
 
     @property
     def lubricant(self) -> Component | None:
-        """The stage's lubricant, else the casing's."""
+        """Lubricant of the stage, else that of the casing."""
         return self.reading.model.reference_of(self.oil_origins, "lubricant")
 
     def load(self, flow: Flow) -> dict[str, float]:
-        """Torque and speed of the pinion as fields of the request, as far as they are known."""
+        """Return torque and speed of the pinion as fields of the request, as far as they are known."""
         torques, speed = flow.mesh_torque.get(self.stage.id), flow.speed.get(self.shafts[0].id)
-        found = {} if torques is None else {TORQUE: abs(torques[self.order[0]])}
-        return found if speed is None else found | {SPEED: abs(speed)}
+        fields = {} if torques is None else {TORQUE: abs(torques[self.order[0]])}
+        return fields if speed is None else fields | {SPEED: abs(speed)}
 
     def face_interval(self, place: int) -> tuple[float, float] | None:
-        """Ends of a gear's face along the pinion shaft's axis [mm], where both shafts have a position."""
+        """Return the ends of a gear's face along the axis of the pinion's shaft [mm]; None without positions."""
         width = self.reading.number(self.gears[place], table.FACE_WIDTH)
         middle = self.position(self.gears[place], self.shafts[place])
         if width is None or middle is None:
@@ -184,10 +184,10 @@ class StageDraft(Draft):
         return middle - width / 2.0, middle + width / 2.0
 
     def position(self, part: Component, shaft: Component) -> float | None:
-        """Place of a part's middle along the pinion shaft's axis [mm].
+        """Return the position of a part's middle along the axis of the pinion's shaft [mm]; None if it is not known.
 
-        The origin of a part is the middle of its width. Where the file gives the part's origin and a coordinate that
-        differs by half the width, the coordinate counts from the end of the part.
+        The origin of a part is the middle of its width. If the file gives the origin and a coordinate that differs by
+        half the width, the coordinate is that of the part's end.
         """
         reading = self.reading
         stated = reading.number(part, table.POSITION)
@@ -200,13 +200,14 @@ class StageDraft(Draft):
             tolerance = 1e-3 * max(1.0, abs(along))
             if abs(along - stated) > tolerance and abs(abs(along - stated) - half) > tolerance:
                 message = (
-                    f"the coordinate on the shaft is {stated:.6g} mm, by the position vectors it is {along:.6g}; used"
+                    f"the coordinate on the shaft is {stated:.6g} mm, but {along:.6g} mm by the position vectors, "
+                    "which are used"
                 )
                 reading.find("position", part, table.POSITION.name, message)
         return self.position_of_coordinate(shaft, along)
 
     def position_of_coordinate(self, shaft: Component, along: float) -> float | None:
-        """Place of a coordinate on a shaft along the pinion shaft's axis [mm]."""
+        """Convert a coordinate on a shaft to a position along the axis of the pinion's shaft [mm]."""
         if shaft.id == self.shafts[0].id:
             return along
         axis, base = self.reading.axis(shaft), self.reading.axis(self.shafts[0])
@@ -215,11 +216,11 @@ class StageDraft(Draft):
         return base.along(axis.origin) + along * self.along(shaft)
 
     def along(self, shaft: Component) -> float:
-        """+1 where the u axes of a shaft and of the pinion's shaft point the same way, else -1."""
+        """Return +1 if the u axes of a shaft and of the pinion's shaft have the same direction, else -1."""
         return self.reading.sense(shaft) * self.reading.sense(self.shafts[0])
 
     def involute(self, place: int) -> "Involute | None":
-        """The transverse geometry of a gear, where the file gives enough."""
+        """Return the transverse geometry of a gear; None if the file does not give enough."""
         fields, module = self.fields, self.fields.get(table.MODULE.field)
         angle, helix = fields.get(table.PRESSURE_ANGLE.field), fields.get(table.HELIX_ANGLE.field, 0.0)
         if not module or module < 0.0 or angle is None or not 0.0 < angle < 45.0 or not helix < 80.0:
@@ -227,33 +228,33 @@ class StageDraft(Draft):
         shift = fields.get(f"gears.{ROLES[place]}.profile_shift", 0.0)
         return Involute(self.teeth[place], module, radians(angle), radians(helix), shift)
 
-    def known(self, components: Iterable[Component], row: table.Row) -> list[tuple[float, Component]]:
-        """The values that the components have, each with its component."""
-        found = ((self.reading.number(each, row), each) for each in components)
-        return [(value, each) for value, each in found if value is not None]
+    def values_of(self, components: Iterable[Component], row: table.Row) -> list[tuple[float, Component]]:
+        """Return the values of those components that have one, with the component."""
+        numbers = ((self.reading.number(component, row), component) for component in components)
+        return [(value, component) for value, component in numbers if value is not None]
 
     def _module(self) -> None:
         row, pinion = table.MODULE, self.gears[0]
-        known = self.known(self.gears, row) or self._transverse_modules()
-        if not known:
+        modules = self.values_of(self.gears, row) or self._transverse_modules()
+        if not modules:
             self.lacks(row.field, pinion, row.name, f"the file has no {row.name}")
             return
-        if abs(known[0][0] - known[-1][0]) > SAME * abs(known[0][0]):
+        if abs(modules[0][0] - modules[-1][0]) > SAME * abs(modules[0][0]):
             message = "both gears must have one module; the pinion's is used"
-            self.reading.find("gears_differ", known[-1][1], row.name, message)
-        self.put(row.field, *known[0], row.name)
+            self.reading.find("gears_differ", modules[-1][1], row.name, message)
+        self.put(row.field, *modules[0], row.name)
 
     def _transverse_modules(self) -> list[tuple[float, Component]]:
-        """Convert a transverse module into the normal one, to which pressure angle and profile shifts refer."""
+        """Return the normal modules that follow from transverse modules of the file, with their gears."""
         cosine = cos(radians(self.fields.get(table.HELIX_ANGLE.field, 0.0)))
-        known = self.known(self.gears, table.TRANSVERSE_MODULE)
-        if known:
-            self.note(table.MODULE.field, known[0][0] * cosine, "the transverse module times the cosine of the helix")
-        return [(value * cosine, gear) for value, gear in known]
+        modules = self.values_of(self.gears, table.TRANSVERSE_MODULE)
+        if modules:
+            self.note(table.MODULE.field, modules[0][0] * cosine, "the transverse module times the cosine of the helix")
+        return [(value * cosine, gear) for value, gear in modules]
 
     def _helix(self) -> None:
         row, gear = table.HELIX_ANGLE, self.gears[0]
-        pinion, wheel = (self._helix_angle(each) for each in self.gears)
+        pinion, wheel = (self._helix_angle(gear) for gear in self.gears)
         if pinion is not None and wheel is not None and abs(pinion + wheel) > SAME * 90.0:
             message = "helix angles of an external pair are opposite; the pinion's is used"
             self.reading.find("helix_angles", self.gears[1], row.name, message)
@@ -266,7 +267,7 @@ class StageDraft(Draft):
         self.put("gears.hand", "right" if pinion >= 0.0 else "left", gear, row.name)
 
     def _helix_angle(self, gear: Component) -> float | None:
-        """Read the helix angle at the reference circle [deg], or calculate it from the base helix angle.
+        """Return the helix angle at the reference circle [deg], as stated or from the base helix angle.
 
         sin beta = sin beta_b / cos alpha_n, tan beta = tan beta_b / cos alpha_t.
         """
@@ -276,7 +277,7 @@ class StageDraft(Draft):
             return stated
         flanks = [flank for place in (0, 1) for flank in self.flanks(place).values()]
         normal, transverse = (
-            next((value for value, _ in self.known(flanks, row)), None)
+            next((value for value, _ in self.values_of(flanks, row)), None)
             for row in (table.PRESSURE_ANGLE, table.TRANSVERSE_PRESSURE_ANGLE)
         )
         if normal is None and transverse is not None and abs(transverse) < 90.0 > abs(base):
@@ -288,7 +289,7 @@ class StageDraft(Draft):
         row, gear = table.FACE_WIDTH, self.gears[0]
         if self.take(table.COMMON_WIDTH, self.stage) is not None:
             return
-        widths = [value for value, _ in self.known(self.gears, row)]
+        widths = [value for value, _ in self.values_of(self.gears, row)]
         if not widths:
             self.lacks(row.field, gear, row.name, "the file has no face width")
             return
@@ -301,12 +302,12 @@ class StageDraft(Draft):
             else:
                 self.reading.find("faces_apart", self.stage, None, "by their positions the faces do not overlap")
         self.put(row.field, common, gear, row.name)
-        if any(abs(each - common) > SAME * common for each in widths):
+        if any(abs(width - common) > SAME * common for width in widths):
             self.note(row.field, common, "the face that both gears have in common")
 
     def _pressure_angle(self) -> None:
         row = table.PRESSURE_ANGLE
-        wheel, pinion = self._of_flanks(1, row, row.field), self._of_flanks(0, row, row.field)  # the pinion's counts
+        wheel, pinion = self._of_flanks(1, row, row.field), self._of_flanks(0, row, row.field)  # the pinion's is kept
         if wheel is None and pinion is None:
             self._from_transverse_angle()
         elif wheel is not None and pinion is not None and abs(wheel - pinion) > SAME:
@@ -316,16 +317,16 @@ class StageDraft(Draft):
     def _from_transverse_angle(self) -> None:
         row = table.PRESSURE_ANGLE
         flanks = [flank for place in (0, 1) for flank in self.flanks(place).values()]
-        known = self.known(flanks, table.TRANSVERSE_PRESSURE_ANGLE)
-        if not known:
+        angles = self.values_of(flanks, table.TRANSVERSE_PRESSURE_ANGLE)
+        if not angles:
             self.assume(row.field, NORMAL_ANGLE, "the file has no pressure angle: ISO 53")
             return
         helix = radians(self.fields.get(table.HELIX_ANGLE.field, 0.0))
-        normal = degrees(atan(tan(radians(known[0][0])) * cos(helix)))
-        self.put(row.field, normal, known[0][1], table.TRANSVERSE_PRESSURE_ANGLE.name)
+        normal = degrees(atan(tan(radians(angles[0][0])) * cos(helix)))
+        self.put(row.field, normal, angles[0][1], table.TRANSVERSE_PRESSURE_ANGLE.name)
 
     def _profile_shift(self, place: int) -> None:
-        """The nominal shift, else the one after finishing, which holds the allowance of the teeth as well."""
+        """Fill in the nominal profile shift, else the shift after finishing, which includes the thickness allowance."""
         path = f"gears.{ROLES[place]}.profile_shift"
         if self._of_flanks(place, table.PROFILE_SHIFT, path) is not None:
             return
@@ -339,18 +340,22 @@ class StageDraft(Draft):
             self.assume(path, 0.0, "the file has no profile shift")
 
     def _of_flanks(self, place: int, row: table.Row, path: str) -> float | None:
-        """A number of the flanks, which both must share."""
-        known = self.known(self.flanks(place).values(), row)
-        if not known:
+        """Fill in a number of the flanks, which must be the same for both. Return it, or None without one."""
+        values = self.values_of(self.flanks(place).values(), row)
+        if not values:
             return None
-        if any(abs(value - known[0][0]) > SAME for value, _ in known):
-            message = "left and right flank differ, which is not modelled; the left one's is used"
-            self.reading.find("flanks_differ", known[1][1], row.attributes[-1], message)
-        self.put(path, *known[0], row.attributes[-1])
-        return known[0][0]
+        if any(abs(value - values[0][0]) > SAME for value, _ in values):
+            message = "left and right flank differ, which is not modelled; the value of the left flank is used"
+            self.reading.find("flanks_differ", values[1][1], row.attributes[-1], message)
+        self.put(path, *values[0], row.attributes[-1])
+        return values[0][0]
 
     def _rack(self, place: int) -> None:
-        """Take addendum and dedendum: from tip diameter or basic profile, from tool or root diameter, else ISO 53 A."""
+        """Fill in addendum and dedendum.
+
+        The addendum comes from the tip diameter or the basic profile, the dedendum from the tool or the root diameter.
+        If the file has neither, ISO 53, profile A is assumed.
+        """
         prefix, tool = f"gears.{ROLES[place]}.", self.tool(place)
         path, module = f"{prefix}addendum", self.fields.get(table.MODULE.field)
         if not self._from_diameter(place, table.TIP_DIAMETER):
@@ -372,20 +377,23 @@ class StageDraft(Draft):
         self.assume(path, ISO_53_A[name], f"the file gives no {name}: ISO 53, profile A")
 
     def _of_tool(self, tool: Component | None, row: table.Row, length_row: table.Row) -> float | None:
-        """A coefficient of the rack, which the file gives in modules or as a length."""
-        found, length = self.reading.number(tool, row), self.reading.number(tool, length_row)
+        """Return a coefficient of the rack, which the file gives in modules or as a length."""
+        coefficient, length = self.reading.number(tool, row), self.reading.number(tool, length_row)
         module = self.fields.get(table.MODULE.field)
-        return length / module if found is None and length is not None and module else found
+        return length / module if coefficient is None and length is not None and module else coefficient
 
     def _from_diameter(self, place: int, row: table.Row) -> bool:
-        """Whether tip or root diameter gave the rack's coefficient; an impossible one is a finding and not used."""
+        """Fill in a coefficient of the rack from tip or root diameter. Return True on success.
+
+        An impossible diameter is a finding and not used.
+        """
         path, gear = f"gears.{ROLES[place]}.{row.field}", self.gears[place]
         diameter, flank = self.reading.number(gear, row), self.involute(place)
         tip = row is table.TIP_DIAMETER
         if diameter is None and tip:
             limits = [self.reading.number(gear, name, "mm") for name in table.TIP_DIAMETER_LIMITS]
-            known = [each for each in limits if each is not None]
-            diameter = sum(known) / len(known) if known else None
+            stated = [limit for limit in limits if limit is not None]
+            diameter = sum(stated) / len(stated) if stated else None
         if diameter is None or flank is None:
             return False
         fault = flank.tip_fault(diameter) if tip else flank.root_fault(diameter)
@@ -397,48 +405,51 @@ class StageDraft(Draft):
         return True
 
     def _rack_tip_radius(self) -> None:
-        found = []
+        radii = []
         for tool in (self.tool(0), self.tool(1)):
             radius = self._of_tool(tool, table.TOOL_TIP_RADIUS, table.TOOL_TIP_RADIUS_LENGTH)
             if tool is not None and radius is not None:
-                found.append((radius, tool))
+                radii.append((radius, tool))
         path = "gears.rack_tip_radius"
-        if not found:
+        if not radii:
             self.assume(path, ISO_53_A[path], "the file gives no tip radius of a tool: ISO 53, profile A")
             return
-        smallest, tool = min(found, key=lambda each: each[0])
+        smallest, tool = min(radii, key=lambda radius_and_tool: radius_and_tool[0])
         self.put(path, smallest, tool, table.TOOL_TIP_RADIUS.attributes[-1])
-        if abs(found[0][0] - found[-1][0]) > SAME:
-            self.note(path, smallest, "the tools differ; the smaller radius serves both gears")
+        if abs(radii[0][0] - radii[-1][0]) > SAME:
+            self.note(path, smallest, "the tools differ; the smaller radius is used for both gears")
 
     def _backlash(self) -> None:
-        """The normal backlash of the file less the one that the centre distance gives by itself.
+        """Fill in the normal backlash of the file minus that which follows from the centre distance.
 
-        Where the file states none, it follows from the profile shifts before and after finishing.
+        If the file states no backlash, it follows from the profile shifts before and after finishing.
         """
         path, name = "gears.normal_backlash_mm", table.BACKLASH[0]
-        known = self._stated_backlash()
-        if not known:
+        limits = self._stated_backlash()
+        if not limits:
             thinning = self._thinning()
             if thinning is None:
                 self.lacks(path, self.stage, name, "the pumping calculation needs the normal backlash")
             else:
                 self.put(path, thinning, self.gears[0], table.FINISHED_SHIFT.name)
             return
-        stated = sum(known) / len(known)
+        stated = sum(limits) / len(limits)
         own = self._backlash_of_centre_distance()
         if own is None or stated < own - SAME:
-            message = f"the backlash stated, {stated:.4g} mm, is smaller than what the centre distance gives"
+            message = f"the stated backlash of {stated:.4g} mm is smaller than that which the centre distance gives"
             self.reading.find("backlash", self.stage, name, message)
             own = stated
         self.put(path, max(stated - own, 0.0), self.stage, name)
-        if known[0] != known[-1]:
+        if limits[0] != limits[-1]:
             self.note(path, stated - own, "mean of the least and the largest backlash")
 
     def _stated_backlash(self) -> list[float]:
-        """Least and largest normal backlash [mm], else from the transverse one: j_bn = j_t cos alpha_wt cos beta_b."""
+        """Return the least and the largest normal backlash [mm], else from the transverse backlash j_t.
+
+        j_bn = j_t cos alpha_wt cos beta_b.
+        """
         normal, transverse = (
-            [value for each in names if (value := self.reading.number(self.stage, each, "mm")) is not None]
+            [value for name in names if (value := self.reading.number(self.stage, name, "mm")) is not None]
             for names in (table.BACKLASH, table.TRANSVERSE_BACKLASH)
         )
         pinion, wheel, distance = self.involute(0), self.involute(1), self.working_distance()
@@ -448,10 +459,13 @@ class StageDraft(Draft):
         return [value * factor for value in transverse]
 
     def _thinning(self) -> float | None:
-        """Normal backlash [mm] of finishing both gears: 2 m_n sin alpha_n times the shifts that it takes away."""
+        """Return the normal backlash by the finishing of both gears [mm].
+
+        It is 2 m_n sin alpha_n times the sum of the profile shifts that finishing removes.
+        """
         pinion, total = self.involute(0), 0.0
         for place, role in enumerate(ROLES):
-            finished = self.known(self.flanks(place).values(), table.FINISHED_SHIFT)
+            finished = self.values_of(self.flanks(place).values(), table.FINISHED_SHIFT)
             if pinion is None or not finished:
                 return None
             total += self.fields[f"gears.{role}.profile_shift"] - finished[0][0]
@@ -460,7 +474,7 @@ class StageDraft(Draft):
         return 2.0 * pinion.module * sin(pinion.normal_angle) * total
 
     def working_distance(self) -> float | None:
-        """Centre distance [mm] as stated, else that at which the shifted teeth mesh without backlash."""
+        """Return the stated centre distance [mm], else that at which the shifted teeth mesh without backlash."""
         pinion, wheel = self.involute(0), self.involute(1)
         if pinion is None or wheel is None:
             return None
@@ -472,12 +486,15 @@ class StageDraft(Draft):
         return base / cos(inverse_involute(free)) if 0.0 <= free <= MOST_INVOLUTE else None
 
     def _free_involute(self, pinion: "Involute", wheel: "Involute") -> float:
-        """Involute function of the working pressure angle without backlash."""
+        """Return the involute function of the working pressure angle without backlash."""
         shifts = 2.0 * tan(pinion.normal_angle) * (pinion.shift + wheel.shift)
         return involute(pinion.transverse_angle) + shifts / sum(self.teeth)
 
     def _backlash_of_centre_distance(self) -> float | None:
-        """Normal backlash [mm] of unthinned teeth at the centre distance: 2 a cos alpha_wt (inv - inv_0) cos beta_b."""
+        """Return the normal backlash of unthinned teeth at the centre distance [mm].
+
+        It is 2 a cos alpha_wt (inv alpha_wt - inv alpha_0) cos beta_b, where alpha_0 is the angle without backlash.
+        """
         pinion, wheel = self.involute(0), self.involute(1)
         distance = self.fields.get("gears.centre_distance_mm")
         if pinion is None or wheel is None:
@@ -492,7 +509,7 @@ class StageDraft(Draft):
         return gap * cos(pinion.base_helix) if gap > 0.0 else 0.0
 
     def _axes(self) -> None:
-        """Shafts that do not lie at the centre distance are a finding."""
+        """Record a finding if the distance of the shafts differs from the centre distance."""
         first, second = (self.reading.axis(shaft) for shaft in self.shafts)
         distance = self.fields.get("gears.centre_distance_mm")
         if first is None or second is None or distance is None:
@@ -505,21 +522,21 @@ class StageDraft(Draft):
             self.reading.find("centre_distance", self.stage, "center_distance", message)
 
     def _load(self) -> None:
-        """Read torque and speed from the loads of the shafts, else from the gear."""
+        """Fill in torque and speed from the loads of the shafts, else from the gear."""
         load = self.load(self.flow)
         own = (table.GEAR_TORQUE, self.gear_data(0)), (table.GEAR_SPEED, (self.gears[0],))
         for (row, origins), what in zip(own, ("torque", "speed"), strict=True):
-            known = self.known(origins, row)
+            values = self.values_of(origins, row)
             if row.field in load:
                 self.put(row.field, load[row.field], self.shafts[0])
-            elif known:
-                value, component = known[0]
+            elif values:
+                value, component = values[0]
                 self.put(row.field, abs(value), component, row.name)
                 self.note(row.field, abs(value), f"the {what} that the file states of the gear")
             else:
                 self.lacks(row.field, self.shafts[0], None, f"the {what} of this stage does not follow from the file")
         if self.driver is None:
-            self.note("gears.pinion", self.gears[0].id, "which gear drives is not known; the smaller one is taken")
+            self.note("gears.pinion", self.gears[0].id, "which gear drives is not known; the smaller gear is used")
 
 
 class Involute:
@@ -533,11 +550,11 @@ class Involute:
         self.base_diameter = self.reference_diameter * cos(self.transverse_angle)
 
     def roll_length(self, diameter: float) -> float:
-        """Distance from the base tangent point along the line of action [mm]; 0 inside the base circle."""
+        """Return the distance from the base tangent point along the line of action [mm]; 0 inside the base circle."""
         return sqrt(max(diameter**2 - self.base_diameter**2, 0.0)) / 2.0
 
     def tip_fault(self, diameter: float) -> str | None:
-        """What is wrong with a tip diameter [mm], or None."""
+        """Return the fault of a tip diameter [mm], or None."""
         half = pi / (2 * self.teeth) + 2.0 * self.shift * tan(self.normal_angle) / self.teeth
         reach = min(max(half + involute(self.transverse_angle), 0.0), MOST_INVOLUTE)
         pointed = self.base_diameter / cos(inverse_involute(reach))
@@ -548,6 +565,10 @@ class Involute:
         return None
 
     def root_fault(self, diameter: float) -> str | None:
-        """What is wrong with a root diameter [mm], or None."""
+        """Return the fault of a root diameter [mm], or None."""
         low, high = self.reference_diameter - 6.0 * self.module, self.reference_diameter + 2.0 * self.module
-        return None if max(low, 0.0) < diameter < high else f"is {diameter:.6g} mm, which is no root of these teeth"
+        return (
+            None
+            if max(low, 0.0) < diameter < high
+            else f"is {diameter:.6g} mm, which is not a possible root diameter of these teeth"
+        )

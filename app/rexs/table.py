@@ -1,7 +1,7 @@
-"""What REXS calls things: units, and the attributes that become fields of a request or take numbers of an answer.
+"""The names of REXS: units, attributes that become fields of a request, and attributes for the numbers of an answer.
 
 Sources: the specification and the published schemas of REXS 1.0 to 2.0 (https://www.rexs.info). Only names and units
-are used here; of other names that versions have had, the preferred one comes first.
+are used here. If versions of REXS have different names for the same attribute, the preferred name comes first.
 """
 
 from math import pi
@@ -29,16 +29,16 @@ UNITS = (
 )
 """Units of each quantity as files spell them, without blanks, and their size in SI.
 
-A file states the unit of each attribute, so a value is converted by that text and never by the version of the file:
-degrees are "°" up to version 1.3 and "deg" from 1.4, modifications are in "mum" or in "mm".
+A file states the unit of every attribute. Values are converted by this unit and never by the version of the file:
+degrees are "°" up to version 1.3 and "deg" from 1.4; modifications are in "mum" or in "mm".
 """
 ZEROS = {"C": 273.15, "°C": 273.15}  # K
 
 
-def converted(value: float, stated: str, wanted: str) -> float | None:
-    """The value in the wanted unit, or None where the stated unit measures something else or is not known."""
+def convert(value: float, stated: str, wanted: str) -> float | None:
+    """Convert a value to the wanted unit; return None if the stated unit is unknown or of another quantity."""
     stated = "".join(stated.split())
-    sizes = next(each for each in UNITS if wanted in each)
+    sizes = next(units for units in UNITS if wanted in units)
     if stated not in sizes:
         return None
     shift = ZEROS.get(stated, 0.0) - ZEROS.get(wanted, 0.0)
@@ -48,7 +48,7 @@ def converted(value: float, stated: str, wanted: str) -> float | None:
 
 
 class Row(NamedTuple):
-    """A number that is taken over as it stands: our field, attributes in order of preference, unit of our field."""
+    """A number taken from the file as it is: our field, attributes in order of preference, unit of our field."""
 
     field: str
     attributes: tuple[str, ...]
@@ -61,7 +61,7 @@ class Row(NamedTuple):
 
 
 APPLICATION_FACTOR, SCUFFING_FACTOR = "load.application_factor", "scuffing.application_factor"
-"""The second one takes the place of the first one in the request of /v1/scuffing."""
+"""In the request of /v1/scuffing the second factor replaces the first."""
 STAGE = (
     Row("gears.centre_distance_mm", ("center_distance",), "mm"),
     Row(
@@ -97,7 +97,7 @@ HEAT = (
     Row("thermal_conductivity_w_per_m_k", ("thermal_conductivity",), "W/(mK)"),
     Row("specific_heat_j_per_kg_k", ("thermal_capacity",), "J/(kgK)"),
 )
-"""Of gears and oils alike; shafts have no such fields."""
+"""Of gears and oils; shafts have no such fields."""
 OIL = (
     Row("kinematic_viscosity_40_mm2_per_s", ("viscosity_at_40_degree_celsius",), "mm^2/s"),
     Row("kinematic_viscosity_100_mm2_per_s", ("viscosity_at_100_degree_celsius",), "mm^2/s"),
@@ -184,7 +184,7 @@ SUPPLY_FACTOR, SUPPLY_FACTORS = (
 )
 SUPPLIES = {"splash": "dip", "dip": "dip", "bath": "dip", "submerged": "submerged", "spray": "spray",
             "injection": "spray", "circulating": "spray"}  # fmt: skip
-"""Parts of what files say of the way in which the oil comes to the mesh."""
+"""Words in files by which the oil supply of a mesh is recognised."""
 REFERENCE_TEMPERATURE = Row("thermal.reference_c", ("reference_temperature",), "C")
 TOOTH_TEMPERATURES = (
     Row("thermal.pinion_bulk_c", ("bulk_temperature",), "C"),
@@ -210,7 +210,7 @@ BASE_OILS = {"phosphat": None, "traction": None, "silicon": None, "polyglycol": 
              "polyalpha": "pao", "polyalfa": "pao",
              "ester": "ester", "mil_l_": "ester", "miner": "mineral", "synthetic": None, "biologic": None,
              "food": None}  # fmt: skip
-"""Parts of what files say of the base oil, the most particular first; None is an oil that is not modelled."""
+"""Words in files by which the base oil is recognised, the most specific first; None is an oil without a model."""
 BACKLASH = ("minimum_normal_backlash", "maximum_normal_backlash")
 TRANSVERSE_BACKLASH = ("minimum_transverse_backlash", "maximum_transverse_backlash")
 
@@ -342,7 +342,7 @@ IGNORED = (
 
 CUSTOM = "custom_tribodrive_"
 STANDARD_FROM = {"face_load_factor_contact_stress": 2}
-"""Attributes of results that are of the standard, and since which major version; all others are custom ones."""
+"""Attributes of the standard for results, and the major version that introduced them; all others are custom."""
 LOAD_RESULTS = (
     ("load.face_load_factor", "face_load_factor_contact_stress", "none"),
     ("load.max_line_load_n_per_mm", "maximum_line_load", "N / mm"),
@@ -356,7 +356,7 @@ MICROPITTING_RESULTS = (
     ("wear.pinion_max_um_per_million", "maximum_wear_pinion_per_million_revolutions", "mum"),
     ("wear.wheel_max_um_per_million", "maximum_wear_wheel_per_million_revolutions", "mum"),
 )
-"""No version of REXS has the failure load stage of a micropitting test; it is filled in on the page."""
+"""REXS has no attribute for the failure load stage of a micropitting test; the user enters it on the page."""
 RESULTS = {
     "/v1/scuffing": (
         *LOAD_RESULTS,
@@ -390,4 +390,4 @@ RESULTS = {
         ("losses.efficiency", "efficiency", "none"),
     ),
 }
-"""What of an answer is written into the file: path in the answer, attribute and its unit."""
+"""Numbers of an answer that are written into the file: path in the answer, attribute, unit of the attribute."""

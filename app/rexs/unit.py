@@ -1,4 +1,4 @@
-"""A gear unit from its file: every stage with ready requests, its load cases, and what is missing, assumed, ignored."""
+"""A gear unit from its file: stages with ready requests, load cases, and missing, assumed and ignored fields."""
 
 from collections.abc import Iterable, Iterator
 from itertools import chain, islice
@@ -15,51 +15,54 @@ from app.rexs.power import Flow, Pair, Train
 from app.rexs.reading import MESH, SCUFFING, SECTIONS, Reading, path_in, rounded
 from app.rexs.stages import SPEED, TORQUE, StageDraft, pairs
 
-MOST_FINDINGS = 1000  # that an answer lists; who wrote the file sees the pattern earlier
+MOST_FINDINGS = 1000  # in an answer; the author of the file sees the pattern earlier
 MOST_STAGES = 50  # chosen: far beyond any unit
-MOST_CASES = 200  # of a spectrum in the file that are read
-MOST_DRAFTS = 2000  # stages times load cases, at 2 ms each
+MOST_CASES = 200  # of a spectrum in the file; further cases are not read
+MOST_DRAFTS = 2000  # stages times load cases; a draft takes 2 ms
 LONGEST_NAME, MOST_SPECTRUM_CASES = 100, 100  # of /v1/spectrum
 MOST_IGNORED = 2000  # of a stage
 SHARES = {"operating_time_fraction": "", "load_duration_fraction": "", "operating_time": "h", "load_duration": "h"}
-"""Attributes and their units."""
+"""Attributes with the share of a load case, and their units."""
 
 
 def gear_unit(model: Model) -> dict[str, Any]:
-    """The answer of /v1/rexs: version, shafts, stages with requests and cases, findings."""
+    """Return the answer of /v1/rexs: version, shafts, stages with requests and cases, findings."""
     reading = Reading(model)
     _check_relations(reading)
-    found = list(islice(pairs(reading), MOST_STAGES + 1))
-    if len(found) > MOST_STAGES:
+    all_pairs = list(islice(pairs(reading), MOST_STAGES + 1))
+    if len(all_pairs) > MOST_STAGES:
         message = f"the unit has more than {MOST_STAGES} stages; the first ones are read"
         reading.find("too_many_stages", None, None, message)
-        del found[MOST_STAGES:]
-    cases = model.load_cases[: min(MOST_CASES, MOST_DRAFTS // max(len(found), 1))]
+        del all_pairs[MOST_STAGES:]
+    cases = model.load_cases[: min(MOST_CASES, MOST_DRAFTS // max(len(all_pairs), 1))]
     if len(cases) < len(model.load_cases):
         reading.find("too_many_cases", None, None, f"the first {len(cases)} load cases are read")
     if len(cases) > MOST_SPECTRUM_CASES:
-        message = f"a load spectrum of more than {MOST_SPECTRUM_CASES} load cases cannot be asked as it stands"
+        message = f"/v1/spectrum takes at most {MOST_SPECTRUM_CASES} load cases; the file has more"
         reading.find("too_many_cases", None, None, message)
-    train = Train(reading, found)
+    train = Train(reading, all_pairs)
     base, flows = train.flow(), [train.flow(case) for case in cases]
     unit = model.first("gear_unit")
     return {
         "version": model.version,
         "application": model.application,
         "name": unit.name if unit else "",
-        "shafts": [{"id": each.id, "name": each.name} for each in model.by_type["shaft"]],
-        "stages": _stages(reading, found, base, flows),
+        "shafts": [{"id": shaft.id, "name": shaft.name} for shaft in model.by_type["shaft"]],
+        "stages": _stages(reading, all_pairs, base, flows),
         "findings": _rows(islice(reading.findings, MOST_FINDINGS)),
     }
 
 
-def _stages(reading: Reading, found: list[Pair], base: Flow, flows: list[Flow]) -> list[dict[str, Any]]:
-    """The stages of the answer. What a load case says of components of no stage is told with each of them."""
+def _stages(reading: Reading, all_pairs: list[Pair], base: Flow, flows: list[Flow]) -> list[dict[str, Any]]:
+    """Return the stages of the answer.
+
+    If a load case has unused attributes of components that belong to no stage, all stages list them as ignored.
+    """
     rows, parts, all_parts = [], [], set[int]()
-    for pair in found:
+    for pair in all_pairs:
         row, stage = _stage(pair, base, flows)
         rows.append(row)
-        parts.append({each.id: each for each in _described_by(stage)})
+        parts.append({component.id: component for component in _described_by(stage)})
         all_parts |= parts[-1].keys()
     for row, own in zip(rows, parts, strict=True):
         elsewhere = all_parts - own.keys()
@@ -72,14 +75,17 @@ def _stages(reading: Reading, found: list[Pair], base: Flow, flows: list[Flow]) 
 
 
 def _stage(pair: Pair, base: Flow, flows: list[Flow]) -> tuple[dict[str, Any], StageDraft]:
-    """One stage of the answer, with the load of the base model, or where it states none of the first load case."""
-    flow = next((each for each in (base, *flows) if each.knows(pair)), base)
-    stage = _filled(pair, flow)
+    """Return a stage of the answer and its draft.
+
+    The load is that of the base model. If the base model states no load, it is that of the first load case with one.
+    """
+    flow = next((flow for flow in (base, *flows) if flow.knows(pair)), base)
+    stage = _draft_of(pair, flow)
     if (case := flow.reading.case) is not None:
         for path in (TORQUE, SPEED, table.OIL_TEMPERATURE.field):
             if path in stage.fields:
-                stage.note(path, stage.fields[path], f"of the load case {case.name}; the model itself states none")
-    # the mesh first, then the oil
+                stage.note(path, stage.fields[path], f"from the load case {case.name}, because the model states none")
+    # The mesh comes first, then the oil.
     paths = sorted({**stage.fields, **stage.missing}, key=lambda path: path.partition(".")[0] not in MESH)
     requests = {endpoint: stage.request(endpoint, paths) for endpoint in SECTIONS}
     if add_drive_train(stage):
@@ -102,7 +108,7 @@ def _stage(pair: Pair, base: Flow, flows: list[Flow]) -> tuple[dict[str, Any], S
     return row, stage
 
 
-def _filled(pair: Pair, flow: Flow, pinion: int | None = None) -> StageDraft:
+def _draft_of(pair: Pair, flow: Flow, pinion: int | None = None) -> StageDraft:
     stage = StageDraft(pair, flow, pinion)
     stage.fill()
     Lubrication(stage).fill()
@@ -111,7 +117,7 @@ def _filled(pair: Pair, flow: Flow, pinion: int | None = None) -> StageDraft:
 
 
 def _described_by(stage: StageDraft) -> Iterator[Component]:
-    """The components that describe the mesh: what they say and nobody asked for is listed as ignored."""
+    """Yield the components that describe the mesh; their unused attributes are listed as ignored."""
     model = stage.reading.model
     yield stage.stage
     for place, shaft in enumerate(stage.shafts):
@@ -128,7 +134,7 @@ def _described_by(stage: StageDraft) -> Iterator[Component]:
 
 
 class _Case(NamedTuple):
-    """A load case of a stage: what it changes in the fields of its draft."""
+    """A load case of a stage, with its changes of the fields of the draft."""
 
     name: str
     share: float
@@ -140,7 +146,7 @@ class _Case(NamedTuple):
         return {"name": self.name, "share": self.share, "overrides": self._in(SCUFFING)}
 
     def as_spectrum(self, endpoint: str) -> dict[str, Any]:
-        """The case as /v1/spectrum takes it for an endpoint; what its request does not know is left out."""
+        """Return the case in the form of /v1/spectrum, without fields that the endpoint does not know."""
         return {"name": self.name[:LONGEST_NAME], "share": self.share, "set": self._in(endpoint)}
 
     def _in(self, endpoint: str) -> dict[str, Any]:
@@ -150,8 +156,8 @@ class _Case(NamedTuple):
 
 
 def _cases(stage: StageDraft, pair: Pair, flows: list[Flow]) -> list[_Case]:
-    """Return the load spectrum: for each load case the changes of torque, speed and the inputs that the case states."""
-    found = []
+    """Return the load spectrum: the changes of torque, speed and further inputs by each load case."""
+    cases = []
     shares, reason = _shares([flow.reading for flow in flows])
     load_sources = stage.load_sources
     for flow, share in zip(flows, shares, strict=True):
@@ -159,58 +165,60 @@ def _cases(stage: StageDraft, pair: Pair, flows: list[Flow]) -> list[_Case]:
         if case is None:
             continue
         changes: dict[str, Any] = stage.load(flow)
-        own = _filled(pair, flow, stage.order[0]) if case.attributes.keys() - load_sources else stage
+        own = _draft_of(pair, flow, stage.order[0]) if case.attributes.keys() - load_sources else stage
         for path, value in own.fields.items():
             component, attribute = own.origins.get(path, (None, None))
-            said = component is not None and attribute is not None and flow.reading.says(component, attribute)
-            if path not in changes and (said or stage.fields.get(path) != value):
+            is_stated = component is not None and attribute is not None and flow.reading.says(component, attribute)
+            if path not in changes and (is_stated or stage.fields.get(path) != value):
                 changes[path] = value
-        found.append(_Case(case.name, rounded(share), changes))
+        cases.append(_Case(case.name, rounded(share), changes))
     if reason:
         stage.note("cases", None, reason)
-    return found
+    return cases
 
 
-def _rows(found: Iterable[BaseModel]) -> list[dict[str, Any]]:
-    return [each.model_dump() for each in found]
+def _rows(models: Iterable[BaseModel]) -> list[dict[str, Any]]:
+    return [model.model_dump() for model in models]
 
 
 def _shares(readings: list[Reading]) -> tuple[list[float], str | None]:
-    """Share of the operating time of each load case, and how it was found where the file leaves that open."""
+    """Return the shares of the operating time of all load cases, and the reason if the file leaves them open."""
     if not readings:
         return [], None
     unit = readings[0].model.first("gear_unit")
     cases = [reading.case for reading in readings if reading.case is not None]
-    stated = {name for case in cases for each in case.attributes.values() for name in each}
+    stated = {name for case in cases for attributes in case.attributes.values() for name in attributes}
     own = sorted(name for name in stated if name.endswith("_fraction") and name not in SHARES)
     for name, size in (SHARES | dict.fromkeys(own, "")).items() if unit else ():
         values = [reading.number(unit, name, size) for reading in readings]
-        known = [value for value in values if value is not None and value >= 0.0]
-        if len(known) == len(values) and sum(known) > 0.0:
+        valid = [value for value in values if value is not None and value >= 0.0]
+        if len(valid) == len(values) and sum(valid) > 0.0:
             reason = f"shares from the attribute {name}, which is not of the standard" if name in own else None
-            return [value / sum(known) for value in known], reason
+            return [value / sum(valid) for value in valid], reason
     return [1.0 / len(readings)] * len(readings), "the file states no shares of the load cases: equal shares"
 
 
 def _check_relations(reading: Reading) -> None:
-    """Relations to components that are not there, and assemblies that contain themselves, are findings."""
+    """Record relations to absent components, and assemblies that contain themselves, as findings."""
     model = reading.model
     parents: dict[int, int] = {}
     for relation in model.relations:
         absent = [id_ for _, id_ in relation.parts if id_ not in model.components]
         if absent:
-            message = f"a relation of type {relation.type[:40]} names component {absent[0]}, which is not there"
+            message = (
+                f"a relation of type {relation.type[:40]} names component {absent[0]}, which the file does not have"
+            )
             reading.find("relation", None, None, message)
         whole, part = relation.part("assembly"), relation.part("part")
         if relation.type == "assembly" and whole is not None and part is not None:
             parents[part] = whole
-    settled: set[int] = set()
+    done: set[int] = set()
     for start in parents:
         path: dict[int, None] = {}
         here = start
-        while here in parents and here not in path and here not in settled:
+        while here in parents and here not in path and here not in done:
             path[here] = None
             here = parents[here]
         if here in path:
             reading.find("cycle", model.components.get(here), None, "the assembly contains itself")
-        settled.update(path)
+        done.update(path)

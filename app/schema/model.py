@@ -117,6 +117,8 @@ _MODELS: dict[tuple[type, type], type[Documented]] = {}
 
 def _published(hint: Any, declared: Quantity, declares: type) -> Any:
     """The type of a field in the interface: models for dataclasses, lists for tuples and arrays."""
+    alias = getattr(get_origin(hint), "__value__", None)  # of NDArray[...] since numpy 2.5
+    hint = hint if alias is None else alias[get_args(hint)]
     origin, arguments = get_origin(hint), get_args(hint)
     if isinstance(hint, type) and is_dataclass(hint):
         return _MODELS[declares, hint]

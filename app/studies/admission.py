@@ -2,21 +2,32 @@
 
 import asyncio
 import logging
-from collections.abc import AsyncIterator, Iterator
+from collections.abc import AsyncIterator, Callable, Iterator
 from contextlib import asynccontextmanager, contextmanager
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from app.errors import SchedulerUnavailable, StudiesFull
 from app.log import STUDIES
 from app.settings import Settings
 from app.studies.engine import Pool
 from app.workers.pool import Pool as WorkerPool
-from app.workers.pool import StudyPool
 
 if TYPE_CHECKING:
     from app.studies.cluster import DaskCluster
 
 logger = logging.getLogger("tribodrive")
+
+
+class StudyPool:
+    """The service's own workers for one study, which shares them with others like one more client."""
+
+    def __init__(self, workers: WorkerPool) -> None:
+        self._workers = workers
+        self.slots = workers.size
+
+    def submit(self, function: Callable[..., Any], *arguments: Any) -> asyncio.Future[Any]:
+        """Return the future of the result; it raises WorkerLost, DeadlineExceeded, and what the function raises."""
+        return self._workers.submit(self, function, *arguments, is_single=False)
 
 
 class StudyAdmission:
@@ -46,7 +57,7 @@ class StudyAdmission:
 
     def own(self) -> Pool:
         """The service's own workers for one study; its figures are drawn there, even if a cluster solves its points."""
-        return StudyPool(self._settings, self._workers)
+        return StudyPool(self._workers)
 
     async def pool(self) -> Pool:
         """Where points are solved; raises SchedulerUnavailable."""

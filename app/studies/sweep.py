@@ -1,6 +1,7 @@
 """Sweeps: a line a point, then extremes and statistics. Corners are a sweep over uncertain inputs."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import partial
 from math import inf, isnan
 from typing import Any, ClassVar
 
@@ -10,7 +11,7 @@ from app.errors import Unprocessable
 from app.schema.fields import Leaf
 from app.spreadsheet import csv_of
 from app.studies import engine
-from app.studies.engine import Clock, Line, Lines, Pool, Study, output_header, paths_of
+from app.studies.engine import Clock, Line, Lines, Pool, Study, json_line, output_header, paths_of
 from app.studies.fields import did_you_mean, is_number
 from app.studies.point_sets import CheckedAxis, PointSet, drawn, grid, listed, scattering, unit_cube, usual_corners
 from app.studies.points import SOLVED, BaseRequest, Point, check_count
@@ -244,3 +245,10 @@ def _check_best(best: Best, outputs: tuple[Leaf, ...]) -> None:
             raise Unprocessable("unknown_output", message, place)
         if known[path].kind == "text":
             raise Unprocessable("unknown_output", f"{path} is no number", place)
+
+
+def encoder(study: Study, written_as: str) -> Callable[[Line], bytes]:
+    """Return what writes the lines of a study; those of a sweep also as the rows of a table."""
+    if isinstance(study, Sweep) and written_as == "csv":
+        return partial(table_row, study.points, study.outputs)
+    return json_line

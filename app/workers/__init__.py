@@ -1,12 +1,7 @@
-"""Worker processes that calculate: who gets one, how they are started and replaced, and the first start.
+"""Worker processes that calculate, on AnyIO's worker processes.
 
-stages     what is compiled and loaded one after the other
-processes  the template, which loads everything once and is forked, and its copies, the workers
-pool       which call gets the next worker, is refused or interrupted; carries out calls of single requests and of
-           studies; a worker that dies, stops or is not wanted any more is replaced
-start_up   compiles and loads stage after stage while the port is open
-
-multiprocessing's own fork server loads modules before its first fork only, and blocks when it is stopped, so the
-template is ours. The pools of concurrent.futures, loky and pebble were tried: a dead or stopped worker costs other
-callers their results or blocks them.
+pool      the queue of calls, and the workers, which are replaced if they are lost or hang
+worker    the functions that run in a worker: its preparation, and calls
+stages    the examples that compile all kernels, in the order in which endpoints open
+start_up  the compilation of the stages in other processes while the workers answer
 """

@@ -13,22 +13,66 @@ Regime = Literal["boundary", "mixed", "full_film"]
 def dowson_higginson_minimum(
     *, viscosity: float, pressure_viscosity: float, mean_speed: Real, radius: Real, line_load: Real, modulus: float
 ) -> Real:
-    """Minimum film h = 2.65 alpha^0.54 (eta0 u)^0.7 R^0.43 / (E'^0.03 w^0.13) [m] (Eq. 27; Dowson and Higginson 1966).
+    """Compute the minimum film thickness of a line contact by Dowson and Higginson (1966).
 
-    viscosity [Pa s] and pressure_viscosity [1/Pa] of the oil at the inlet, mean_speed (u1 + u2)/2 [m/s], reduced radius
-    [m], line_load > 0 [N/m], modulus E' [Pa] of `hertz.reduced_modulus`.
+    Parameters
+    ----------
+    viscosity : float
+        Viscosity eta_0 of the oil at the inlet [Pa s].
+    pressure_viscosity : float
+        Pressure-viscosity coefficient alpha [1/Pa].
+    mean_speed : Real
+        Mean surface speed u = (u1 + u2)/2 [m/s].
+    radius : Real
+        Reduced radius R [m].
+    line_load : Real
+        Line load w, positive [N/m].
+    modulus : float
+        Reduced modulus E' by `hertz.reduced_modulus` [Pa].
+
+    Returns
+    -------
+    Real
+        Minimum film thickness h [m].
+
+    Notes
+    -----
+    Eq. 27: h = 2.65 alpha^0.54 (eta_0 u)^0.7 R^0.43/(E'^0.03 w^0.13).
     """
     entrainment = (viscosity * mean_speed) ** 0.7 * radius**0.43
     return cast("Real", 2.65 * pressure_viscosity**0.54 * entrainment / (modulus**0.03 * line_load**0.13))
 
 
 def thickness_ratio(film: Real, roughness_1: float, roughness_2: float) -> Real:
-    """Chi = h / sqrt(Ra1^2 + Ra2^2) (Eq. 28)."""
+    """Compute the ratio of film thickness to roughness.
+
+    Parameters
+    ----------
+    film : Real
+        Film thickness h [m].
+    roughness_1 : float
+        Arithmetic mean roughness Ra_1 of the first surface [m].
+    roughness_2 : float
+        Arithmetic mean roughness Ra_2 of the second surface [m].
+
+    Returns
+    -------
+    Real
+        Ratio chi [-].
+
+    Notes
+    -----
+    Eq. 28: chi = h/sqrt(Ra_1^2 + Ra_2^2).
+    """
     return film / hypot(roughness_1, roughness_2)
 
 
 def thickness_regime(ratio: float, boundary_below: float = 1.0, full_film_above: float = 4.0) -> Regime:
-    """Boundary (scuffing probable), mixed or full film; the limits are the paper's, many texts end mixed at 3."""
+    """Return the regime of lubrication at a ratio of film thickness to roughness.
+
+    The limits are those of the paper; many texts end mixed lubrication at 3. Scuffing is probable with boundary
+    lubrication.
+    """
     if ratio < boundary_below:
         return "boundary"
     return "full_film" if ratio > full_film_above else "mixed"

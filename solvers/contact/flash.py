@@ -20,10 +20,34 @@ def blok_flash_temperature(
     solid_1: Solid,
     solid_2: Solid,
 ) -> Real:
-    """t_f = 0.7858 f w |u1 - u2| / {[sqrt(lambda1 rho1 c1 u1) + sqrt(lambda2 rho2 c2 u2)] sqrt(b_0)} [K] (Eq. 25).
+    """Compute the flash temperature of a line contact by Blok.
 
-    line_load [N/m], surface speeds [m/s], half_width of the Hertz contact > 0 [m]. The factor is Blok's 1.11 for the
-    full width 2 b_0, 1.1113 / sqrt(2).
+    Parameters
+    ----------
+    friction : float
+        Coefficient of friction f [-].
+    line_load : Real
+        Line load w [N/m].
+    speed_1 : Real
+        Speed u_1 of the first surface [m/s].
+    speed_2 : Real
+        Speed u_2 of the second surface [m/s].
+    half_width : Real
+        Half width b_0 of the Hertzian contact, positive [m].
+    solid_1 : Solid
+        Material of the first surface.
+    solid_2 : Solid
+        Material of the second surface.
+
+    Returns
+    -------
+    Real
+        Flash temperature t_f [K].
+
+    Notes
+    -----
+    Eq. 25: t_f = 0.7858 f w |u_1 - u_2|/{[sqrt(lambda_1 rho_1 c_1 u_1) + sqrt(lambda_2 rho_2 c_2 u_2)] sqrt(b_0)}. The
+    factor is 1.1113/sqrt(2), where 1.11 is Blok's factor for the full width 2 b_0.
     """
     conducted = np.sqrt(_conduction(solid_1) * speed_1) + np.sqrt(_conduction(solid_2) * speed_2)
     generated = friction * line_load * np.abs(speed_1 - speed_2)
@@ -31,5 +55,5 @@ def blok_flash_temperature(
 
 
 def _conduction(solid: Solid) -> float:
-    """Lambda rho c, the square of the thermal effusivity."""
+    """Return lambda rho c, the square of the thermal effusivity."""
     return solid.thermal_conductivity * solid.density * solid.specific_heat

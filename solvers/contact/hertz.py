@@ -11,20 +11,75 @@ Real = TypeVar("Real", float, FloatArray)
 
 
 def plane_strain_compliance(solid: Solid) -> float:
-    """(1 - nu^2) / E [1/Pa]."""
+    """Return the compliance (1 - nu^2)/E [1/Pa]."""
     return (1.0 - solid.poisson_ratio**2) / solid.youngs_modulus
 
 
 def reduced_modulus(solid_1: Solid, solid_2: Solid) -> float:
-    """E' = 2 / [(1 - nu_1^2)/E_1 + (1 - nu_2^2)/E_2] [Pa], the convention of the film formulas (Eq. E1)."""
+    """Compute the reduced modulus of two solids.
+
+    Parameters
+    ----------
+    solid_1 : Solid
+        First solid.
+    solid_2 : Solid
+        Second solid.
+
+    Returns
+    -------
+    float
+        Reduced modulus E' [Pa].
+
+    Notes
+    -----
+    Eq. E1: E' = 2/[(1 - nu_1^2)/E_1 + (1 - nu_2^2)/E_2], the convention of the film formulas.
+    """
     return 2.0 / (plane_strain_compliance(solid_1) + plane_strain_compliance(solid_2))
 
 
 def half_width(line_load: Real, radius: Real, modulus: float) -> Real:
-    """Half width b = sqrt(8 w R / (pi E')) [m] for w [N/m], reduced radius R [m] and E' [Pa] (Eqs. L14, E1)."""
+    """Compute the half width of a Hertzian line contact.
+
+    Parameters
+    ----------
+    line_load : Real
+        Line load w [N/m].
+    radius : Real
+        Reduced radius R [m].
+    modulus : float
+        Reduced modulus E' [Pa].
+
+    Returns
+    -------
+    Real
+        Half width b [m].
+
+    Notes
+    -----
+    Eqs. L14, E1: b = sqrt(8 w R/(pi E')).
+    """
     return cast("Real", np.sqrt(8.0 * line_load * radius / (np.pi * modulus)))
 
 
 def maximum_pressure(line_load: Real, radius: Real, modulus: float) -> Real:
-    """Largest pressure p_H = sqrt(w E' / (2 pi R)) [Pa]; the mean is pi/4 of it (Eq. E1)."""
+    """Compute the largest pressure of a Hertzian line contact.
+
+    Parameters
+    ----------
+    line_load : Real
+        Line load w [N/m].
+    radius : Real
+        Reduced radius R [m].
+    modulus : float
+        Reduced modulus E' [Pa].
+
+    Returns
+    -------
+    Real
+        Pressure p_H at the centre of the contact [Pa].
+
+    Notes
+    -----
+    Eq. E1: p_H = sqrt(w E'/(2 pi R)); the mean pressure is pi/4 of it.
+    """
     return cast("Real", np.sqrt(line_load * modulus / (2.0 * np.pi * radius)))

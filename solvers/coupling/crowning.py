@@ -1,9 +1,9 @@
 """Which crowning suits a coupling whose misalignment stays within a range.
 
-The paper asks for a contact surface overlap below 1 and then for as much load capacity as possible. Overlap is largest
-at the smallest misalignment and falls with the crowning ratio; the contact reaches the end of the face at the largest
-misalignment and sooner the larger the ratio. Both leave a window, which may be a percent wide or empty: its ends are
-solved for, and the load capacity is maximised between them.
+The paper asks for a contact surface overlap below 1 and then for as much load capacity as possible. The overlap is
+largest at the smallest misalignment, and falls with the crowning ratio. The reach of the contact on the face is largest
+at the largest misalignment, and grows with the ratio. Both constraints leave a window of ratios, which may be a percent
+wide or empty. The ends of the window are solved for, and the load capacity is maximised between them.
 """
 
 from collections.abc import Callable
@@ -45,9 +45,9 @@ class RecommendedPoint:
 
 @record
 class CrowningScan:
-    """How crowning trades off, one value a crowning ratio whose contact can be computed.
+    """Smallest load capacity coefficient and largest overlap over the misalignment range, against the crowning ratio.
 
-    The smallest load capacity coefficient and the largest overlap over the range of misalignment.
+    Each array has one value per crowning ratio whose contact can be computed.
     """
 
     crowning_ratio: FloatArray = quantity("crowning ratio scanned", "ε")
@@ -64,7 +64,7 @@ class CrowningScan:
 class Recommendation:
     """The crowning ratio with the largest load capacity that meets every constraint over the range.
 
-    Where there is none, `feasible` is False, `failed_constraint` names the constraint that excludes it
+    If no ratio meets every constraint, `feasible` is False, `failed_constraint` names the constraint that excludes it
     (`contact_overlap`, `edge_contact`, `hertz_pressure`, `contact_width`, `sliding_velocity`) and the rest is None.
     """
 
@@ -83,11 +83,11 @@ class Recommendation:
 
 MIN_CROWNING_RATIO = 0.2  # chosen, as the upper end: far outside practice
 MAX_CROWNING_RATIO = 1000.0  # chosen: nearly straight teeth
-# Constraint by its public name, and the quantity that a larger crowning ratio lowers.
+# Public name of the constraint, and the quantity that falls with the crowning ratio.
 _LOWER_BOUNDS = (("hertz_pressure", "pressure"), ("contact_width", "width"), ("contact_overlap", "overlap"))
-MAX_SCANNED_RATIO = 100.0  # chosen: end of the range that is scanned for windows
+MAX_SCANNED_RATIO = 100.0  # chosen: end of the scanned range
 _SCAN_POINTS = 49  # chosen: a factor of 1.14 between two ratios
-_WINDOW_POINTS = 25  # chosen: of the grid that the search for the best ratio starts from
+_WINDOW_POINTS = 25  # chosen: points of the grid from which the search for the best ratio starts
 
 _REASONS = {
     "contact_overlap": "no crowning ratio up to 1000 brings the overlap below 1 at the smallest misalignment",
@@ -100,10 +100,10 @@ _REASONS = {
 
 @dataclass(frozen=True, slots=True)
 class CrowningState:
-    """A crowning ratio over the range of misalignment, each quantity at its worst end.
+    """Constraints and load capacity of a crowning ratio, each at its worst end of the range of misalignment.
 
-    `overlap`, `edge` (reach of the contact over half the face), `pressure` and `width` (over what is allowed) must
-    stay below 1; `load_capacity_coefficient` is the smallest.
+    `overlap`, `edge` (reach of the contact over half the face), `pressure` and `width` (both over their limits) must
+    stay below 1. `load_capacity_coefficient` is the smallest.
     """
 
     overlap: float
@@ -114,7 +114,7 @@ class CrowningState:
 
     @property
     def computable(self) -> bool:
-        """Whether the contact is one of Hertz."""
+        """Whether the contact is within the limits of Hertz's theory."""
         return self.pressure <= 1.0 and self.width <= 1.0
 
     @property
@@ -124,7 +124,7 @@ class CrowningState:
 
 
 def at_misalignment(inputs: RecommendationInputs, ratio: float, misalignment: float) -> CouplingInputs:
-    """The design with a crowning ratio at a misalignment [rad]."""
+    """Return the design with this crowning ratio at this misalignment [rad]."""
     design = inputs.design
     return replace(
         design,
@@ -134,7 +134,7 @@ def at_misalignment(inputs: RecommendationInputs, ratio: float, misalignment: fl
 
 
 def crowning_state(inputs: RecommendationInputs, ratio: float) -> CrowningState:
-    """Constraints and load capacity of a crowning ratio at both ends of the range."""
+    """Compute constraints and load capacity of a crowning ratio at both ends of the range."""
     design = inputs.design
     crowned = replace(design, coupling=replace(design.coupling, crowning_ratio=ratio))
     geometry = tooth_geometry(crowned.coupling)
@@ -150,7 +150,10 @@ def crowning_state(inputs: RecommendationInputs, ratio: float) -> CrowningState:
 
 
 def _state_at(misalignment: float, crowned: CouplingInputs, geometry: Geometry) -> CrowningState:
-    """Constraints and load capacity at one misalignment [rad]: of all the film takes, it moves the mesh alone."""
+    """Compute constraints and load capacity at one misalignment [rad].
+
+    Of the inputs of the film, only the motion of the mesh depends on the misalignment.
+    """
     operation = replace(crowned.operation, misalignment=misalignment)
     mesh = mesh_motion(crowned.coupling, geometry, operation, crowned.model.kinematics)
     film = film_state(crowned, geometry, mesh)
@@ -165,9 +168,25 @@ def _state_at(misalignment: float, crowned: CouplingInputs, geometry: Geometry) 
 
 
 def crowning_window(state: Callable[[float], CrowningState]) -> tuple[float, float, str | None]:
-    """Smallest and largest crowning ratio that meet every constraint, and the name of the one that fails, if any.
+    """Find the smallest and largest crowning ratio that meet every constraint.
 
-    Overlap, pressure and width ask for at least, the edge for at most some crowning ratio. Eq. C32.
+    Parameters
+    ----------
+    state : Callable[[float], CrowningState]
+        Returns the state of a crowning ratio.
+
+    Returns
+    -------
+    low : float
+        Smallest crowning ratio of the window [-].
+    high : float
+        Largest crowning ratio of the window [-].
+    failed : str or None
+        Name of the constraint that leaves no crowning ratio, None if the window is not empty.
+
+    Notes
+    -----
+    Eq. C32. Overlap, pressure and width each set a smallest crowning ratio; the edge sets the largest.
     """
     low = MIN_CROWNING_RATIO
     for name, constraint in _LOWER_BOUNDS:
@@ -182,7 +201,11 @@ def crowning_window(state: Callable[[float], CrowningState]) -> tuple[float, flo
 
 
 def _root(state: Callable[[float], CrowningState], constraint: str) -> float:
-    """The crowning ratio at which a constraint reaches 1, or the end of the range on whose side it always is."""
+    """Find the crowning ratio at which a constraint reaches 1.
+
+    If the constraint is on the same side of 1 over the whole range of ratios, return the end of the range at
+    which the constraint is nearer to 1.
+    """
 
     def excess(logarithm: float) -> float:
         return log(getattr(state(exp(logarithm)), constraint))
@@ -197,13 +220,31 @@ def _root(state: Callable[[float], CrowningState], constraint: str) -> float:
 
 
 def recommend(inputs: RecommendationInputs) -> Recommendation:
-    """The crowning ratio with the largest load capacity coefficient at the worse end of the range of misalignment.
+    """Find the crowning ratio with the largest load capacity coefficient over the range of misalignment.
 
-    Constraints: overlap < 1 at both ends, contact within the face at the largest misalignment, Hertz contact; with a
-    range of one value also the sliding velocity, which a wider range only reports. The warnings are those of `solve`
-    at both ends. Raises InvalidInput as `solve` and misalignment_range, no_load, not_turning; NoSolution as `solve`.
+    Parameters
+    ----------
+    inputs : RecommendationInputs
+        Design, and smallest and largest misalignment.
 
-    Eq. C32.
+    Returns
+    -------
+    Recommendation
+        The crowning ratio with its operating points, or the constraint that leaves none.
+
+    Raises
+    ------
+    InvalidInput
+        As `solve`; also `misalignment_range`, `no_load` and `not_turning`.
+    NoSolution
+        As `solve`.
+
+    Notes
+    -----
+    Eq. C32. The load capacity coefficient is the one at the worse end of the range. The constraints are: overlap below
+    1 at both ends, contact within the face at the largest misalignment, and a contact within the limits of Hertz's
+    theory. If the range is a single value, the sliding velocity is a constraint too; a wider range only reports it. The
+    warnings are those of `solve` at both ends.
     """
     _check(inputs)
     state = cache(partial(crowning_state, inputs))
@@ -232,7 +273,7 @@ def recommend(inputs: RecommendationInputs) -> Recommendation:
 
 
 def _best_ratio(state: Callable[[float], CrowningState], low: float, high: float) -> float:
-    """The crowning ratio in the window with the largest load capacity: a grid, refined around its best point."""
+    """Find the crowning ratio in the window with the largest load capacity, on a grid refined around its best point."""
     grid = np.geomspace(low, high, _WINDOW_POINTS)
     capacity = [state(float(ratio)).load_capacity_coefficient for ratio in grid]
     best = int(np.argmax(capacity))
@@ -246,7 +287,7 @@ def _best_ratio(state: Callable[[float], CrowningState], low: float, high: float
 
 
 def _merged(notices: tuple[Notice, ...]) -> tuple[Notice, ...]:
-    """The first notice of every code; those about the misalignment are about its range here."""
+    """Return the first notice of every code; notices about the misalignment point to its range."""
     first: dict[str, Notice] = {}
     for notice in notices:
         first.setdefault(notice.code, notice)
@@ -257,7 +298,6 @@ def _merged(notices: tuple[Notice, ...]) -> tuple[Notice, ...]:
 
 
 def _point(result: CouplingResult) -> RecommendedPoint:
-    """The recommended coupling at one misalignment."""
     overlap, capacity = result.lubrication.contact_overlap, result.lubrication.load_capacity_coefficient
     assert overlap is not None
     assert capacity is not None
@@ -271,7 +311,7 @@ def _point(result: CouplingResult) -> RecommendedPoint:
 
 
 def _scan(state: Callable[[float], CrowningState]) -> CrowningScan:
-    """Trade-off over the crowning ratios whose contact can be computed."""
+    """Compute the trade-off over the crowning ratios whose contact can be computed."""
     ratios = np.geomspace(MIN_CROWNING_RATIO, MAX_SCANNED_RATIO, _SCAN_POINTS)
     points = [(ratio, point) for ratio in ratios if (point := state(float(ratio))).computable]
     return CrowningScan(
@@ -283,7 +323,7 @@ def _scan(state: Callable[[float], CrowningState]) -> CrowningScan:
 
 
 def _infeasible(failed: str, scan: CrowningScan, used: Derived, warnings: tuple[Notice, ...]) -> Recommendation:
-    """No crowning ratio serves the whole range."""
+    """Return the recommendation if no crowning ratio serves the whole range."""
     return Recommendation(
         feasible=False,
         crowning_ratio=None,
@@ -298,7 +338,7 @@ def _infeasible(failed: str, scan: CrowningScan, used: Derived, warnings: tuple[
 
 
 def _sliding_notices(inputs: RecommendationInputs) -> tuple[Notice, ...]:
-    """A notice where the largest misalignment slides faster than the limit."""
+    """Return a notice if the largest misalignment slides faster than the limit."""
     radius = tooth_geometry(inputs.design.coupling).pitch_radius
     sliding = abs(inputs.design.operation.speed) * radius * inputs.max_misalignment
     if sliding <= SLIDING_VELOCITY_LIMIT:
@@ -308,7 +348,7 @@ def _sliding_notices(inputs: RecommendationInputs) -> tuple[Notice, ...]:
 
 
 def _check(inputs: RecommendationInputs) -> None:
-    """Raise InvalidInput where no recommendation is possible at all."""
+    """Raise InvalidInput if no recommendation is possible at all."""
     if not 0.0 < inputs.min_misalignment <= inputs.max_misalignment <= MAX_MISALIGNMENT:
         raise InvalidInput(
             "misalignment_range",

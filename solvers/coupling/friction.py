@@ -21,12 +21,12 @@ from solvers.coupling.tooth_loads import coaxial_limit, mesh_loads
 
 
 class ToothSums(NamedTuple):
-    """Sums over the teeth of tangential force times direction and place, averaged over rotor angles.
+    """Sums over the teeth of the tangential force times direction and position, averaged over the rotor angles.
 
-    With the direction of friction sgn(v_r): `load` sum F_t, `axial` sum F_t sgn(v_r), `still` sum F_t of teeth without
-    relative velocity, `tilting` sum F_t sgn(v_r) sin(phi), `pivoting` sum F_t sgn(v_r) cos(phi) [N]; `power` sum
-    F_t |v_r| [W]. Without friction: `tilted` sum F_t sin^2(phi), `mixed` sum F_t sin(phi) cos(phi), `pivoted` sum
-    F_t cos^2(phi) [N].
+    With the direction of friction sgn(v_r): `load` is sum F_t, `axial` is sum F_t sgn(v_r), `still` is sum F_t of the
+    teeth without relative velocity, `tilting` is sum F_t sgn(v_r) sin(phi), `pivoting` is sum F_t sgn(v_r) cos(phi)
+    [N]; `power` is sum F_t |v_r| [W]. Without the direction: `tilted` is sum F_t sin^2(phi), `mixed` is sum F_t
+    sin(phi) cos(phi), `pivoted` is sum F_t cos^2(phi) [N].
     """
 
     load: float
@@ -44,7 +44,7 @@ class ToothSums(NamedTuple):
 def tooth_sums(
     force: FloatArray, sine: FloatArray, cosine: FloatArray, weight: FloatArray, sliding: float, axial_velocity: float
 ) -> ToothSums:
-    """Sums of `force`, `sine`, `cosine` (rows, teeth) under the relative velocity v_r = v_ax + v_G sin(phi)."""
+    """Sum `force`, `sine` and `cosine` (rows, teeth) with the relative velocity v_r = v_ax + v_G sin(phi)."""
     load = axial = still = tilting = pivoting = power = tilted = mixed = pivoted = 0.0
     for row in range(force.shape[0]):
         for i in range(force.shape[1]):
@@ -67,14 +67,14 @@ def tooth_sums(
 
 @dataclass(frozen=True, slots=True)
 class LoadedMesh:
-    """One mesh over a pitch: its motion, and what loads and friction of its teeth add up to."""
+    """Motion of one mesh, and the sums over its loaded teeth."""
 
     motion: MeshMotion
     sums: ToothSums
 
 
 def loaded_mesh(inputs: CouplingInputs, mesh: MeshMotion) -> LoadedMesh:
-    """Tooth loads of the single mesh over one tooth pitch, or one revolution with pitch deviations."""
+    """Compute the tooth loads of the single mesh over one tooth pitch (over one revolution with pitch deviations)."""
     samples = rotor_samples(inputs.coupling, mesh, inputs.operation.axial_velocity)
     floating = inputs.model.sleeve == "floating"
     loads = mesh_loads(inputs.coupling, mesh, samples.teeth, inputs.operation.torque, floating=floating)
@@ -90,11 +90,29 @@ def loaded_mesh(inputs: CouplingInputs, mesh: MeshMotion) -> LoadedMesh:
 
 
 def mesh_thrust(loaded: LoadedMesh, friction: float, axial_velocity: float) -> tuple[float, float]:
-    """F_ax = sum mu F_n sgn(v_r), the paper's general expression, and its slack [N], both averaged over rotor angles.
+    """Compute the axial thrust of one mesh and its slack, both averaged over the rotor angles.
 
-    A tooth without relative velocity may carry any friction between -mu F_n and mu F_n: it counts as zero, and as
-    mu F_n towards the slack. Without axial velocity the force is zero: half a turn later every tooth meets the same
-    load under the opposite sliding. Eq. C19.
+    Parameters
+    ----------
+    loaded : LoadedMesh
+        The mesh and its tooth sums.
+    friction : float
+        Coefficient of friction [-].
+    axial_velocity : float
+        Axial velocity of the hub relative to the sleeve [m/s].
+
+    Returns
+    -------
+    thrust : float
+        Axial thrust F_ax = sum mu F_n sgn(v_r) [N].
+    slack : float
+        Friction of the teeth without relative velocity, by which the thrust may deviate to either side [N].
+
+    Notes
+    -----
+    Eq. C19, the paper's general expression. A tooth without relative velocity may carry any friction between -mu F_n
+    and mu F_n. The thrust counts this friction as zero, the slack counts it as mu F_n. Without axial velocity the
+    thrust is zero: half a turn later every tooth has the same load and the opposite sliding.
     """
     scale, sums = friction / cos(loaded.motion.pressure_angle), loaded.sums
     force = without_rounding(sums.axial, sums.load) if axial_velocity != 0.0 else 0.0
@@ -102,9 +120,26 @@ def mesh_thrust(loaded: LoadedMesh, friction: float, axial_velocity: float) -> t
 
 
 def uniform_load_thrust(limit: float, axial_velocity: float, max_sliding_velocity: float) -> float:
-    """F_max (2/pi) asin(v_ax/v_Gmax) [N], F_max once v_ax exceeds v_Gmax: equal tooth loads, many teeth (Eq. C21).
+    """Compute the axial thrust with equal tooth loads and many teeth.
 
-    An upper bound for a centred sleeve without pitch deviations, if the whole load is where sliding is fastest.
+    Parameters
+    ----------
+    limit : float
+        Coaxial limit F_max of the thrust [N].
+    axial_velocity : float
+        Axial velocity v_ax of the hub relative to the sleeve [m/s].
+    max_sliding_velocity : float
+        Largest sliding velocity v_Gmax [m/s].
+
+    Returns
+    -------
+    float
+        F_max (2/pi) asin(v_ax/v_Gmax), or F_max if v_ax exceeds v_Gmax [N].
+
+    Notes
+    -----
+    Eq. C21. For a centred sleeve without pitch deviations this thrust is an upper bound, if the teeth with the fastest
+    sliding carry the whole load.
     """
     if axial_velocity == 0.0:
         return 0.0
@@ -114,29 +149,67 @@ def uniform_load_thrust(limit: float, axial_velocity: float, max_sliding_velocit
 
 
 def customary_thrust(operation: Operation) -> float | None:
-    """0.25 T/D [N] with the shaft diameter D, None without one (API 617 and 671 practice, secondary source)."""
+    """Return 0.25 T/D [N] with the shaft diameter D, or None if no diameter is given.
+
+    The rule is practice under API 617 and 671, taken from a secondary source.
+    """
     return None if operation.shaft_diameter is None else 0.25 * operation.torque / operation.shaft_diameter
 
 
 def simple_self_induced_thrust(coupling: Coupling, torque: float, friction: float, factor: float) -> float:
-    """Thrust of the parallel offset with one tooth pair a mesh, 2 kappa mu^2 T/(l_H cos alpha) [N] (Fig. 13; Eq. C23).
+    """Compute the self-induced thrust of the parallel offset with one tooth pair per mesh.
 
-    Each tooth carries T/(d_o cos alpha); friction overturns the sleeve by M_2 = 2 F_R d_o, held by F_1 = M_2/l_H. The
-    paper does not say which share kappa of F_1 becomes a difference of normal forces.
+    Parameters
+    ----------
+    coupling : Coupling
+        The coupling.
+    torque : float
+        Torque [N m].
+    friction : float
+        Coefficient of friction [-].
+    factor : float
+        Share kappa of the lateral force that becomes a difference of normal forces [-].
+
+    Returns
+    -------
+    float
+        Thrust 2 kappa mu^2 T/(l_H cos alpha) [N].
+
+    Notes
+    -----
+    Fig. 13; Eq. C23. Each tooth carries T/(d_o cos alpha). Friction overturns the sleeve with M_2 = 2 F_R d_o, and the
+    lateral force F_1 = M_2/l_H holds the sleeve. The paper does not state the share kappa of F_1.
     """
     return 2.0 * factor * friction**2 * torque / (coupling.hub_distance * cos(coupling.pressure_angle))
 
 
 def uniform_self_induced_thrust(coupling: Coupling, torque: float, friction: float) -> float:
-    """Thrust of the parallel offset with every tooth loaded, (16/pi^2) mu^2 T tan(alpha)/l_H [N] (Eq. C24).
+    """Compute the self-induced thrust of the parallel offset with every tooth loaded.
 
-    M_2 = (4/pi) mu T/cos alpha, and a sleeve on isotropic tooth springs turns it into kappa = (4/pi) sin alpha.
+    Parameters
+    ----------
+    coupling : Coupling
+        The coupling.
+    torque : float
+        Torque [N m].
+    friction : float
+        Coefficient of friction [-].
+
+    Returns
+    -------
+    float
+        Thrust (16/pi^2) mu^2 T tan(alpha)/l_H [N].
+
+    Notes
+    -----
+    Eq. C24. The overturning moment is M_2 = (4/pi) mu T/cos alpha. A sleeve on isotropic tooth springs has the share
+    kappa = (4/pi) sin alpha.
     """
     return 16.0 / pi**2 * friction**2 * torque * tan(coupling.pressure_angle) / coupling.hub_distance
 
 
 def axial_thrust(inputs: CouplingInputs, geometry: Geometry, loaded: LoadedMesh, friction: float) -> AxialThrust:
-    """Thrust of one mesh, or of two on one sleeve, with its limits and closed forms."""
+    """Compute the thrust of one mesh, or of two meshes on one sleeve, with its limits and closed forms."""
     coupling, operation = inputs.coupling, inputs.operation
     limit = coaxial_limit(coupling, operation.torque, friction)
     force, slack = mesh_thrust(loaded, friction, operation.axial_velocity)
@@ -163,10 +236,11 @@ def axial_thrust(inputs: CouplingInputs, geometry: Geometry, loaded: LoadedMesh,
 
 
 def self_induced_thrust(inputs: CouplingInputs, geometry: Geometry, friction: float) -> SelfInducedThrust:
-    """Thrust of two meshes without axial velocity, beside the closed forms.
+    """Compute the thrust of two meshes without axial velocity, and its closed forms.
 
-    Those are zero in the angular arrangement: one tooth pair a mesh or equal loads make opposite moments of friction in
-    both meshes, and the sleeve asks the teeth for nothing (the paper's "for reasons of symmetry").
+    The closed forms are zero in the angular arrangement. With one tooth pair per mesh, or with equal loads, the moments
+    of friction in the two meshes are opposite, and the sleeve requires no lateral force at the teeth (the paper's "for
+    reasons of symmetry").
     """
     coupling, torque = inputs.coupling, inputs.operation.torque
     equilibrium = sleeve_equilibrium(inputs, geometry, friction, 0.0)
@@ -182,12 +256,30 @@ def self_induced_thrust(inputs: CouplingInputs, geometry: Geometry, friction: fl
 
 
 def losses(inputs: CouplingInputs, geometry: Geometry, loaded: LoadedMesh, friction: float) -> Losses:
-    """Power P = sum mu F_n |v_r| [W] and moments [N m] of the mesh of the driving hub, v_r = v_ax + v_G.
+    """Compute the friction power and the moments of the mesh at the driving hub.
 
-    Friction's moment about the pivot direction, against the tilting motion, is M_f = r_o sum mu F_n sgn(v_r)
-    sgn(v_G1) sin phi with v_G1 the sliding velocity at 90 degrees: P = M_f omega delta + F_ax v_ax. It is zero where
-    nothing tilts, and where nothing slides at all it is open. The power balance leaves M_f - T delta/2 of it to bend
-    the driving hub, whatever the load distribution. Eqs. C25, C28.
+    Parameters
+    ----------
+    inputs : CouplingInputs
+        Coupling, operating point and model.
+    geometry : Geometry
+        Radii of the coupling.
+    loaded : LoadedMesh
+        The mesh and its tooth sums.
+    friction : float
+        Coefficient of friction [-].
+
+    Returns
+    -------
+    Losses
+        Friction power P = sum mu F_n |v_r| [W] and moments [N m], with v_r = v_ax + v_G.
+
+    Notes
+    -----
+    Eqs. C25, C28. The moment of friction about the pivot direction acts against the tilting motion. It is M_f = r_o sum
+    mu F_n sgn(v_r) sgn(v_G1) sin phi, with v_G1 the sliding velocity at 90 degrees. The power is then P = M_f omega
+    delta + F_ax v_ax. M_f is zero if nothing tilts, and undetermined if nothing slides at all. By the power balance the
+    part M_f - T delta/2 bends the driving hub, whatever the load distribution.
     """
     operation, sums = inputs.operation, loaded.sums
     scale = friction / cos(inputs.coupling.pressure_angle)
@@ -209,20 +301,52 @@ def losses(inputs: CouplingInputs, geometry: Geometry, loaded: LoadedMesh, frict
 
 
 def equal_loads_friction_moment(coaxial_limit: float, pitch_radius: float) -> float:
-    """(2/pi) mu T/cos(alpha) [N m], friction's moment against a tilt with equal tooth loads (Eq. C26).
+    """Compute the moment of friction against a tilt with equal tooth loads.
 
-    `coaxial_limit` is that of the thrust, mu T/(r_o cos alpha) [N].
+    Parameters
+    ----------
+    coaxial_limit : float
+        Coaxial limit of the thrust, mu T/(r_o cos alpha) [N].
+    pitch_radius : float
+        Pitch radius r_o [m].
+
+    Returns
+    -------
+    float
+        Moment (2/pi) mu T/cos(alpha) [N m].
+
+    Notes
+    -----
+    Eq. C26.
     """
     return 2.0 / pi * pitch_radius * coaxial_limit
 
 
 def contact_shift_moment(inputs: CouplingInputs, geometry: Geometry, loaded: LoadedMesh) -> float:
-    """M_s = |sum z_c F_n n_x| [N m], moment about the tilt axis of tooth forces off the middle of the face (Eq. C27).
+    """Compute the moment about the tilt axis of tooth forces that act off the middle of the face.
 
-    Both factors are harmonics of phi: their product is one of sin^2, sin cos and cos^2. `tangential`: z_c = s_1 and
-    the tangential part of n; R_t delta T/(2 r_o) for equal loads. `spatial`: z_c = s_1 - delta r_o cos phi, the
-    contact's place in the sleeve's frame, and all of n. Both equal sum F_t df_t/d delta. The y components of n add
-    T delta/2 about the pivot direction in space, which the power balance of the hub already holds.
+    Parameters
+    ----------
+    inputs : CouplingInputs
+        Coupling, operating point and model.
+    geometry : Geometry
+        Radii of the coupling.
+    loaded : LoadedMesh
+        The mesh and its tooth sums.
+
+    Returns
+    -------
+    float
+        Moment M_s = |sum z_c F_n n_x| [N m].
+
+    Notes
+    -----
+    Eq. C27. Both factors of F_n are harmonics of phi; their product is a sum of sin^2, sin cos and cos^2.
+
+    `tangential` uses z_c = s_1 and the tangential part of n; the moment is R_t delta T/(2 r_o) for equal loads.
+    `spatial` uses z_c = s_1 - delta r_o cos phi, the position of the contact in the frame of the sleeve, and all of n.
+    Both moments equal sum F_t df_t/d delta. With spatial kinematics the y components of n add T delta/2 about the pivot
+    direction. The power balance of the hub already contains this moment.
     """
     motion, sums = loaded.motion, loaded.sums
     arm_sin, arm_cos, normal_sin, normal_cos = motion.travel_sin, 0.0, -motion.side, 0.0

@@ -3,14 +3,14 @@
 Attributes are in SI; declarations give range and default in the unit shown.
 """
 
-from dataclasses import dataclass, field, fields
+from dataclasses import field, fields
 from itertools import pairwise
 from math import atan, inf, isfinite, radians
 from typing import Literal
 
 from solvers.errors import InvalidInput
 from solvers.oils import OilBySheet
-from solvers.quantity import quantity, record
+from solvers.quantity import described, quantity, record
 from solvers.sources import PAHL
 
 Arrangement = Literal["single", "parallel_offset", "angular"]
@@ -114,7 +114,7 @@ class CouplingDesign:
     )
 
     def coupling(self) -> "Coupling":
-        """The coupling with the proportions and the stiffness that were left open."""
+        """Return the coupling, with defaults for the proportions and the stiffness that are None."""
         known = {each.name: getattr(self, each.name) for each in fields(self)}
         width = 8 * self.module if self.face_width is None else self.face_width
         height = 2 * self.module if self.tooth_height is None else self.tooth_height
@@ -216,7 +216,7 @@ class OperatingPoint(Load):
     )
 
     def operation(self, hub_distance: float) -> "Operation":
-        """The operating point with its tilt; `hub_distance` [m] lies between the tooth planes."""
+        """Return the operating point with its tilt; `hub_distance` [m] lies between the tooth planes."""
         tilt = self.misalignment
         if tilt is None:
             if self.parallel_offset is None:
@@ -241,29 +241,30 @@ class OperatingRange(Load):
     )
 
     def operation(self) -> "Operation":
-        """The operating point at the smallest misalignment."""
+        """Return the operating point at the smallest misalignment."""
         known = {each.name: getattr(self, each.name) for each in fields(Load)}
         return Operation(**known, misalignment=self.misalignment_range[0])
 
 
 @record
 class Operation(Load):
-    """Operating point with the tilt [rad] of hub against sleeve at one mesh; its sign counts."""
+    """Operating point with the misalignment of one mesh."""
 
-    misalignment: float = field(kw_only=True)
+    misalignment: float = described("Tilt of the hub against the sleeve, with its sign [rad].", kw_only=True)
 
 
 @record
 class Lubricant:
-    """Oil at the teeth; the default viscosity is that of ISO VG 46 near 50 C.
-
-    `viscosity_index` and `temperature` [K] of an oil by grade or data sheet are told, not used.
-    """
+    """Oil at the teeth; the default viscosity is that of ISO VG 46 near 50 C."""
 
     viscosity: float = quantity("oil viscosity at the teeth", "η", unit="pa_s", default=0.025, gt=0)
     reference_film: float = quantity("film of the load capacity", "h_0", unit="um", default=1.0, gt=0)
-    viscosity_index: float | None = None
-    temperature: float | None = None
+    viscosity_index: float | None = described(
+        "Viscosity index of an oil by grade or data sheet; reported, not used [-].", default=None
+    )
+    temperature: float | None = described(
+        "Temperature of an oil by grade or data sheet; reported, not used [K].", default=None
+    )
 
 
 @record
@@ -304,7 +305,7 @@ class CouplingOil(OilBySheet):
     )
 
     def lubricant(self) -> Lubricant:
-        """The oil at the teeth; grade or data sheet count before the viscosity.
+        """Return the oil at the teeth; a grade or data sheet takes precedence over the viscosity.
 
         Raises InvalidInput missing_property where neither is given.
         """
@@ -488,7 +489,7 @@ class ModelOptions:
     )
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class CouplingInputs:
     """One coupling at one operating point."""
 
@@ -499,16 +500,16 @@ class CouplingInputs:
     model: ModelOptions = field(default_factory=ModelOptions)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class RecommendationInputs:
-    """A coupling whose crowning is sought for a range of misalignment [rad], 0 < minimum <= maximum.
+    """A coupling whose crowning is sought for a range of misalignment, 0 < minimum <= maximum.
 
     `design` gives everything else; its own crowning ratio and misalignment are not read.
     """
 
     design: CouplingInputs
-    min_misalignment: float
-    max_misalignment: float
+    min_misalignment: float = described("Least misalignment of the range [rad].")
+    max_misalignment: float = described("Largest misalignment of the range [rad].")
 
 
 def check_inputs(inputs: CouplingInputs) -> None:

@@ -1,8 +1,9 @@
 """Motion of the teeth of a tilted hub in the sleeve over one revolution.
 
 Frame: z along the sleeve's axis, y the tilt axis. The tooth angle phi counts from x: a tooth is tilted at 90 and 270
-degrees and pivoted at 0 and 180. To first order in the misalignment every quantity is a harmonic of phi, so a mesh is
-described by the coefficients of sin, cos and of their products; both kinematic models differ in these alone.
+degrees and pivoted at 0 and 180. To first order in the misalignment every quantity is a harmonic of phi. A mesh is
+therefore described by the coefficients of sin, cos and their products. The two kinematic models differ only in these
+coefficients.
 """
 
 from dataclasses import dataclass
@@ -15,27 +16,39 @@ from solvers.arrays import FloatArray, frozen
 from solvers.coupling.inputs import Coupling, KinematicModel, Operation
 from solvers.coupling.results import Geometry, KinematicCurves, Kinematics
 
-_LEAST_ROTOR_POSITIONS = 208  # rotor positions a revolution: 4 a pitch for the paper's 52 teeth
+_LEAST_ROTOR_POSITIONS = 208  # rotor positions per revolution: 4 per pitch for the paper's 52 teeth
 _CURVE_ANGLE = frozen(np.linspace(0.0, 2.0 * pi, 181))  # curves in steps of 2°
-# Parts of a pitch with a Gauss rule of _PITCH_NODES each; chosen even, so that half a turn, which is half a pitch of an
-# odd number of teeth, maps the parts onto themselves.
+# Number of parts of a pitch; each part has a Gauss rule of _PITCH_NODES points. The number is even (chosen): half a
+# turn shifts the teeth by half a pitch if their number is odd, and then maps the parts onto themselves.
 _PITCH_PARTS = 4
-_PITCH_NODES = 8  # chosen: 32 angles a pitch, and exact for polynomials up to degree 15 in each part
+_PITCH_NODES = 8  # chosen: 32 angles per pitch, and exact for polynomials up to degree 15 in each part
 _gauss_rule = cache(np.polynomial.legendre.leggauss)
 
 
 def pitch_radius(coupling: Coupling) -> float:
-    """r_o = m z/2 [m]."""
+    """Return the pitch radius r_o = m z/2 [m]."""
     return coupling.module * coupling.teeth / 2.0
 
 
 def tooth_geometry(coupling: Coupling) -> Geometry:
-    """Pitch, crowning and flank radii [m] (Eq. C1).
+    """Compute the pitch, crowning and flank radii.
 
-    A cutter centre moving on the crowning radius r_b feeds radially by zeta^2/(2 r_b) at the axial distance zeta.
-    The flank recedes by that times tan(alpha) tangentially and times sin(alpha) along its normal, hence the flank
-    radii r_b/tan(alpha) in the tangential plane and r_b/sin(alpha) in the plane of action, Pahl's "pressure line
-    radius" R_e.
+    Parameters
+    ----------
+    coupling : Coupling
+        The coupling.
+
+    Returns
+    -------
+    Geometry
+        Pitch radius, crowning radius and both flank radii [m].
+
+    Notes
+    -----
+    Eq. C1. The centre of the cutter moves on the crowning radius r_b. At the axial distance zeta the cutter therefore
+    feeds radially by zeta^2/(2 r_b). The flank recedes by this feed times tan(alpha) tangentially and times sin(alpha)
+    along its normal. Hence the flank radius is r_b/tan(alpha) in the tangential plane and r_b/sin(alpha) in the plane
+    of action; the latter is Pahl's "pressure line radius" R_e.
     """
     radius = pitch_radius(coupling)
     crowning_radius = coupling.crowning_ratio * radius
@@ -49,7 +62,7 @@ def tooth_geometry(coupling: Coupling) -> Geometry:
 
 @dataclass(frozen=True, slots=True)
 class ToothPositions:
-    """Sine and cosine of tooth angles: one row a rotor angle, one column a tooth (or any other shape)."""
+    """Sine and cosine of the tooth angles, one row per rotor angle and one column per tooth (or any other shape)."""
 
     sine: FloatArray
     cosine: FloatArray
@@ -57,10 +70,10 @@ class ToothPositions:
 
 @dataclass(frozen=True, slots=True)
 class MeshMotion:
-    """One mesh: `side` is +1 where the hub drives the sleeve, -1 where the sleeve drives the hub.
+    """Motion of one mesh; `side` is +1 if the hub drives the sleeve, -1 if the sleeve drives the hub.
 
-    With s, c = sin(phi), cos(phi): sliding velocity `sliding` s [m/s]; contact position on the hub flank
-    `travel_sin` s + `travel_cos` c [m]; tangential displacement `tilt` s^2 + `mixed` s c + `pivot` c^2 [m].
+    With s, c = sin(phi), cos(phi): the sliding velocity is `sliding` s [m/s]; the contact position on the hub flank is
+    `travel_sin` s + `travel_cos` c [m]; the tangential displacement is `tilt` s^2 + `mixed` s c + `pivot` c^2 [m].
     """
 
     side: int
@@ -75,17 +88,17 @@ class MeshMotion:
 
 
 def positions_per_pitch(teeth: int) -> int:
-    """How many rotor angles a tooth pitch takes to make at least 208 of a revolution: 1.7 degrees apart."""
+    """Return the number of rotor angles per tooth pitch: at least 208 per revolution, at most 1.7 degrees apart."""
     return ceil(_LEAST_ROTOR_POSITIONS / teeth)
 
 
 def revolution(teeth: int, refinement: int = 1) -> FloatArray:
-    """Rotor angles [rad] of one revolution from zero, evenly spaced, a whole number a tooth pitch."""
+    """Return evenly spaced rotor angles [rad] of one revolution from zero, a whole number per tooth pitch."""
     return np.linspace(0.0, 2.0 * pi, refinement * positions_per_pitch(teeth) * teeth, endpoint=False)
 
 
 def tooth_positions(rotor_angles: FloatArray, teeth: int) -> ToothPositions:
-    """Positions phi_i = 2 pi i / teeth + rotor angle, shape (rotor angles, teeth)."""
+    """Compute the positions phi_i = 2 pi i / teeth + rotor angle, shape (rotor angles, teeth)."""
     pitch_angles = 2.0 * np.pi / teeth * np.arange(teeth)
     sin_pitch, cos_pitch = np.sin(pitch_angles), np.cos(pitch_angles)
     sin_rotor, cos_rotor = np.sin(rotor_angles)[:, None], np.cos(rotor_angles)[:, None]
@@ -98,13 +111,36 @@ def tooth_positions(rotor_angles: FloatArray, teeth: int) -> ToothPositions:
 def mesh_motion(
     coupling: Coupling, geometry: Geometry, operation: Operation, model: KinematicModel, *, side: int = 1, tilt: int = 1
 ) -> MeshMotion:
-    """Harmonic coefficients of one mesh whose hub is tilted by `tilt` (+1 or -1) times the misalignment (Eqs. C3, C5).
+    """Compute the harmonic coefficients of one mesh.
 
-    With delta the tilt angle and n the flank normal, `spatial` is s_1 = R_e delta n_x and, at side +1,
+    Parameters
+    ----------
+    coupling : Coupling
+        The coupling.
+    geometry : Geometry
+        Radii of the coupling.
+    operation : Operation
+        Operating point; its speed and misalignment are used.
+    model : KinematicModel
+        `spatial` or `tangential` kinematics.
+    side : int
+        +1 if the hub drives the sleeve, -1 if the sleeve drives the hub.
+    tilt : int
+        Direction of the hub's tilt, +1 or -1 times the misalignment.
+
+    Returns
+    -------
+    MeshMotion
+        Coefficients of sliding velocity, contact position and tangential displacement.
+
+    Notes
+    -----
+    Eqs. C3, C5. With the tilt angle delta and the flank normal n, `spatial` has s_1 = R_e delta n_x. At side +1 it has
     f_t = r_o delta^2/(2 cos alpha) sin(phi - alpha) [eps sin(phi - alpha)/sin alpha + cos phi], exact to first order
-    (confirmed by brute-force involute geometry); side -1 replaces phi by pi - phi in f_t. `tangential` keeps the tilt
-    alone, s_1 = -side R_t delta sin phi and f_t = R_t delta^2/2 sin^2 phi: the paper's words, in which sliding,
-    displacement and reversal peak together.
+    (confirmed by brute-force involute geometry). Side -1 replaces phi by pi - phi in f_t.
+
+    `tangential` keeps the tilt alone: s_1 = -side R_t delta sin phi and f_t = R_t delta^2/2 sin^2 phi. The paper's
+    words describe this model, in which sliding, displacement and reversal peak together.
     """
     delta = tilt * operation.misalignment
     alpha, ratio, radius = coupling.pressure_angle, coupling.crowning_ratio, geometry.pitch_radius
@@ -124,32 +160,97 @@ def mesh_motion(
 
 
 def sliding_velocity(mesh: MeshMotion, teeth: ToothPositions) -> FloatArray:
-    """v_G = delta omega r_o sin phi [m/s], axial, hub relative to sleeve (Fig. 12; Eq. C2)."""
+    """Compute the axial sliding velocity of the hub relative to the sleeve.
+
+    Parameters
+    ----------
+    mesh : MeshMotion
+        Motion of the mesh.
+    teeth : ToothPositions
+        Positions of the teeth.
+
+    Returns
+    -------
+    FloatArray
+        Sliding velocity v_G = delta omega r_o sin phi, in the shape of the positions [m/s].
+
+    Notes
+    -----
+    Fig. 12; Eq. C2.
+    """
     return mesh.sliding * teeth.sine
 
 
 def relative_velocity(mesh: MeshMotion, teeth: ToothPositions, axial_velocity: float) -> FloatArray:
-    """v_r = v_ax + v_G [m/s], the velocity that decides the direction of friction (Fig. 14)."""
+    """Return v_r = v_ax + v_G [m/s], the velocity that decides the direction of friction (Fig. 14)."""
     return axial_velocity + sliding_velocity(mesh, teeth)
 
 
 def contact_position(mesh: MeshMotion, teeth: ToothPositions) -> FloatArray:
-    """Axial place s_1 of the contact on the hub flank [m] (Eq. C3)."""
+    """Compute the axial position of the contact on the hub flank.
+
+    Parameters
+    ----------
+    mesh : MeshMotion
+        Motion of the mesh.
+    teeth : ToothPositions
+        Positions of the teeth.
+
+    Returns
+    -------
+    FloatArray
+        Contact position s_1, in the shape of the positions [m].
+
+    Notes
+    -----
+    Eq. C3.
+    """
     return mesh.travel_sin * teeth.sine + mesh.travel_cos * teeth.cosine
 
 
 def hydrodynamic_velocity(mesh: MeshMotion, teeth: ToothPositions) -> FloatArray:
-    """v_H [m/s], magnitude of the sum of both surface velocities relative to the contact (Eq. C6).
+    """Compute the hydrodynamic velocity at each tooth.
 
-    The contact moves at s_1' on the hub flank and at s_1' + v_G on the sleeve flank. The sum, not the mean, belongs to
-    the constant 2.447 of the load capacity.
+    Parameters
+    ----------
+    mesh : MeshMotion
+        Motion of the mesh.
+    teeth : ToothPositions
+        Positions of the teeth.
+
+    Returns
+    -------
+    FloatArray
+        Magnitude v_H of the sum of both surface velocities relative to the contact [m/s].
+
+    Notes
+    -----
+    Eq. C6. The contact moves at s_1' on the hub flank and at s_1' + v_G on the sleeve flank. The constant 2.447 of the
+    load capacity belongs to the sum of both velocities, not to their mean.
     """
     contact_velocity = mesh.speed * (mesh.travel_sin * teeth.cosine - mesh.travel_cos * teeth.sine)
     return np.abs(2.0 * contact_velocity + mesh.sliding * teeth.sine)
 
 
 def tangential_displacement(mesh: MeshMotion, teeth: ToothPositions) -> FloatArray:
-    """Tangential displacement f_t [m] of hub against sleeve tooth, positive where the tooth bears first (Eq. C5)."""
+    """Compute the tangential displacement of the hub tooth against the sleeve tooth.
+
+    Parameters
+    ----------
+    mesh : MeshMotion
+        Motion of the mesh.
+    teeth : ToothPositions
+        Positions of the teeth.
+
+    Returns
+    -------
+    FloatArray
+        Displacement f_t, largest at the tooth that comes under load first [m].
+
+    Notes
+    -----
+    Eq. C5.
+    """
     s, c = teeth.sine, teeth.cosine
     if mesh.mixed == 0.0 and mesh.pivot == 0.0:
         return mesh.tilt * (s * s)
@@ -157,27 +258,45 @@ def tangential_displacement(mesh: MeshMotion, teeth: ToothPositions) -> FloatArr
 
 
 def max_contact_travel(mesh: MeshMotion) -> float:
-    """s_1max [m]: R_t |delta| or, in space, R_e |delta|."""
+    """Return s_1max [m]: R_t |delta| with tangential, R_e |delta| with spatial kinematics."""
     return hypot(mesh.travel_sin, mesh.travel_cos)
 
 
 def max_hydrodynamic_velocity(mesh: MeshMotion) -> float:
-    """v_Hmax [m/s], the amplitude of a single harmonic (Eq. C6)."""
+    """Compute the largest hydrodynamic velocity over one revolution.
+
+    Parameters
+    ----------
+    mesh : MeshMotion
+        Motion of the mesh.
+
+    Returns
+    -------
+    float
+        Largest hydrodynamic velocity v_Hmax [m/s].
+
+    Notes
+    -----
+    Eq. C6. The sum of both surface velocities is a single harmonic of the tooth angle; v_Hmax is its amplitude.
+    """
     return hypot(2.0 * mesh.speed * mesh.travel_sin, mesh.sliding - 2.0 * mesh.speed * mesh.travel_cos)
 
 
 def displacement_peak_to_peak(mesh: MeshMotion) -> float:
-    """Largest minus smallest f_t [m]."""
+    """Return the largest minus the smallest f_t [m]."""
     return hypot(mesh.tilt - mesh.pivot, mesh.mixed)
 
 
 def displacement_peak(mesh: MeshMotion) -> float:
-    """Tooth angle [rad] at which f_t is largest: 90 degrees, or 90 degrees + side (alpha - chi) in space."""
+    """Return the tooth angle [rad] at which f_t is largest.
+
+    The angle is 90 degrees with tangential, 90 degrees + side (alpha - chi) with spatial kinematics.
+    """
     return pi / 2.0 + 0.5 * atan2(-mesh.mixed, mesh.tilt - mesh.pivot)
 
 
 def kinematics(mesh: MeshMotion) -> Kinematics:
-    """Largest values and curves over one revolution (Fig. 6)."""
+    """Compute the largest values and the curves over one revolution (Fig. 6)."""
     teeth = ToothPositions(sine=np.sin(_CURVE_ANGLE), cosine=np.cos(_CURVE_ANGLE))
     return Kinematics(
         max_sliding_velocity=abs(mesh.sliding),
@@ -195,10 +314,24 @@ def kinematics(mesh: MeshMotion) -> Kinematics:
 
 
 def flank_normals(mesh: MeshMotion, teeth: ToothPositions) -> FloatArray:
-    """Normals of the loaded flanks over cos(alpha), shape (rotor angles, 2, teeth) for x and y (Eq. C4).
+    """Compute the normals of the loaded flanks, divided by cos(alpha).
 
-    n = side cos(alpha) e_t + sin(alpha) e_r; times the tangential tooth force n/cos(alpha) is the lateral force on the
-    sleeve, whose radial part points outward at both sides.
+    Parameters
+    ----------
+    mesh : MeshMotion
+        Motion of the mesh.
+    teeth : ToothPositions
+        Positions of the teeth, shape (rotor angles, teeth).
+
+    Returns
+    -------
+    FloatArray
+        Components along x and y, shape (rotor angles, 2, teeth) [-].
+
+    Notes
+    -----
+    Eq. C4: n = side cos(alpha) e_t + sin(alpha) e_r. The tangential tooth force times n/cos(alpha) is the lateral force
+    on the sleeve. Its radial part points outward at both sides.
     """
     radial = tan(mesh.pressure_angle)
     return np.stack(
@@ -208,14 +341,14 @@ def flank_normals(mesh: MeshMotion, teeth: ToothPositions) -> FloatArray:
 
 @dataclass(frozen=True, slots=True)
 class RotorSamples:
-    """Quadrature over rotor angles: `weight` (rows) adds up to one, `teeth` are all tooth positions (rows, teeth)."""
+    """Quadrature over rotor angles: `weight` (rows) adds up to one, `teeth` are the tooth positions (rows, teeth)."""
 
     weight: FloatArray
     teeth: ToothPositions
 
 
 def friction_reversals(mesh: MeshMotion, axial_velocity: float) -> list[float]:
-    """Tooth angles [rad] at which the sliding velocity equals 0 or + or - the axial velocity."""
+    """Return the tooth angles [rad] at which the sliding velocity is 0, or plus or minus the axial velocity."""
     angles = [0.0, pi]
     if abs(axial_velocity) < abs(mesh.sliding):
         reversal = asin(axial_velocity / mesh.sliding)
@@ -224,10 +357,11 @@ def friction_reversals(mesh: MeshMotion, axial_velocity: float) -> list[float]:
 
 
 def rotor_samples(coupling: Coupling, mesh: MeshMotion, axial_velocity: float) -> RotorSamples:
-    """Gauss points between the rotor angles at which friction reverses at some tooth.
+    """Return Gauss points between the rotor angles at which friction reverses at some tooth.
 
-    Friction jumps where a tooth's relative velocity changes sign; breaking the pitch there leaves an integrand that
-    is continuous, with kinks only where a tooth comes under load. Several hundred midpoints do no better.
+    Friction jumps if a tooth's relative velocity changes sign. The pitch is divided at these angles, so that the
+    integrand of each part is continuous and has kinks only where a tooth comes under load. Several hundred midpoints
+    are no better.
     """
     uneven = coupling.pitch_errors is not None
     return _samples(coupling.teeth, uneven, tuple(friction_reversals(mesh, axial_velocity)))
@@ -235,7 +369,10 @@ def rotor_samples(coupling: Coupling, mesh: MeshMotion, axial_velocity: float) -
 
 @lru_cache(maxsize=4)
 def _samples(teeth: int, uneven: bool, reversals: tuple[float, ...]) -> RotorSamples:
-    """The same points at any misalignment while nothing moves along the axis."""
+    """Return the quadrature of `rotor_samples`; the key of the cache does not hold the misalignment.
+
+    Without axial velocity the reversals, and so the points, are the same at any misalignment.
+    """
     pitch = 2.0 * pi / teeth
     breaks = [angle % pitch for angle in reversals]
     if uneven:
@@ -251,5 +388,7 @@ def _samples(teeth: int, uneven: bool, reversals: tuple[float, ...]) -> RotorSam
     one_pitch = (middle[keep, None] + half[keep, None] * nodes).ravel()
     weight = (half[keep, None] * weights).ravel() / (pitch * turns)
     angles = (one_pitch + pitch * np.arange(turns)[:, None]).ravel()
-    found = tooth_positions(angles, teeth)
-    return RotorSamples(frozen(np.tile(weight, turns)), ToothPositions(frozen(found.sine), frozen(found.cosine)))
+    positions = tooth_positions(angles, teeth)
+    return RotorSamples(
+        frozen(np.tile(weight, turns)), ToothPositions(frozen(positions.sine), frozen(positions.cosine))
+    )

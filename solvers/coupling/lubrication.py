@@ -34,14 +34,14 @@ from solvers.materials import Solid
 
 MAX_CONTACT_PRESSURE = 2e9  # Pa, chosen: the model is elastic, hardened steel yields near it
 MAX_CONTACT_WIDTH = 0.1
-"""Half contact width over flank radius beyond which a cylinder is no half space."""
+"""Half contact width over flank radius beyond which a cylinder no longer acts as a half-space."""
 UNBOUNDED_LOAD = 0.20395702057972376
-"""W of an infinitely long inlet, whose exit lies at tan g = 0.47513; 12 of it is Pahl's 2.447."""
+"""W of an infinitely long inlet, whose exit lies at tan g = 0.47513; 12 W is Pahl's 2.447."""
 OVERLAP_BOUNDARIES = (1.0, 2.0)  # Pahl, regimes of Figs 9 to 11
 CAPACITY_BOUNDARIES = (0.2, 0.8)  # Pahl, regimes of Figs 9 to 11
 UNSTABLE_AREA = "3.3"
 
-# Fig. 9: area -> name and the paper's band of friction, None where it states no end.
+# Fig. 9: area -> name and the paper's band of friction; None if the paper states no end.
 _AREAS: dict[str, tuple[str, float | None, float | None]] = {
     "1.1": ("mixed lubrication", 0.05, 0.1),
     "1.2": ("transition from mixed to boundary lubrication", 0.1, 0.1),
@@ -57,9 +57,9 @@ _AREAS: dict[str, tuple[str, float | None, float | None]] = {
 
 @dataclass(frozen=True, slots=True)
 class FilmState:
-    """The two coordinates of the map of friction conditions and what they come from.
+    """The two coordinates of the map of friction conditions, and the values from which they follow.
 
-    `overlap` is inf where the contact does not travel, `load_capacity_coefficient` inf where a film carries no load.
+    `overlap` is inf if the contact does not travel. `load_capacity_coefficient` is inf if the film carries no load.
     """
 
     max_normal_force: float
@@ -73,10 +73,10 @@ class FilmState:
 
 
 def max_normal_force(inputs: CouplingInputs, mesh: MeshMotion) -> float:
-    """Largest normal tooth force [N] with a tooth in the tilt position, at 90 degrees.
+    """Compute the largest normal tooth force [N] with a tooth in the tilt position, at 90 degrees.
 
-    With pitch deviations, which make every tooth another, the largest of a revolution. `spatial` kinematics have their
-    largest displacement past the tilt position, where a tooth carries more.
+    With pitch deviations every tooth is different, and the result is the largest force of a revolution. With `spatial`
+    kinematics the largest displacement lies past the tilt position, and a tooth there carries more.
     """
     if len(set(inputs.coupling.pitch_errors or ())) <= 1:
         return float(_largest_forces(inputs, mesh, _positions_at(pi / 2, inputs.coupling.teeth)).max())
@@ -89,13 +89,12 @@ def max_normal_force(inputs: CouplingInputs, mesh: MeshMotion) -> float:
 
 @lru_cache(maxsize=4)
 def _positions_at(angle: float, teeth: int) -> ToothPositions:
-    """Tooth positions at one rotor angle [rad]."""
-    found = tooth_positions(np.array([angle]), teeth)
-    return ToothPositions(frozen(found.sine), frozen(found.cosine))
+    positions = tooth_positions(np.array([angle]), teeth)
+    return ToothPositions(frozen(positions.sine), frozen(positions.cosine))
 
 
 def _largest_forces(inputs: CouplingInputs, mesh: MeshMotion, teeth: ToothPositions) -> FloatArray:
-    """Largest normal tooth force [N] at each rotor angle."""
+    """Compute the largest normal tooth force [N] at each rotor angle."""
     coupling = inputs.coupling
     loads = mesh_loads(coupling, mesh, teeth, inputs.operation.torque, floating=inputs.model.sleeve == "floating")
     largest: FloatArray = loads.tangential_force.max(axis=1) / cos(coupling.pressure_angle)
@@ -103,7 +102,28 @@ def _largest_forces(inputs: CouplingInputs, mesh: MeshMotion, teeth: ToothPositi
 
 
 def hertz_contact(coupling: Coupling, geometry: Geometry, normal_force: float) -> tuple[float, float]:
-    """Half width a_HZ [m] and pressure [Pa] of a cylinder R_e on a plane over the tooth height (Eq. C12)."""
+    """Compute the Hertzian contact of a cylinder with radius R_e on a plane, over the tooth height.
+
+    Parameters
+    ----------
+    coupling : Coupling
+        The coupling.
+    geometry : Geometry
+        Radii of the coupling.
+    normal_force : float
+        Normal tooth force [N].
+
+    Returns
+    -------
+    half_width : float
+        Half contact width a_HZ [m].
+    pressure : float
+        Largest Hertzian pressure [Pa].
+
+    Notes
+    -----
+    Eq. C12.
+    """
     steel = Solid(youngs_modulus=coupling.youngs_modulus, poisson_ratio=coupling.poisson_ratio)
     modulus = reduced_modulus(steel, steel)
     line_load, radius = normal_force / coupling.tooth_height, geometry.normal_flank_radius
@@ -111,10 +131,10 @@ def hertz_contact(coupling: Coupling, geometry: Geometry, normal_force: float) -
 
 
 def inlet_length(model: ModelOptions, face_width: float, max_travel: float) -> float:
-    """Length b_I of converging gap ahead of the contact [m]; the paper does not define it.
+    """Return the length b_I of the converging gap ahead of the contact [m]; the paper does not define b_I.
 
-    `face` is the face left ahead of the contact at its reversal, where the paper finds the thickest film. A contact
-    that has left the tooth has none, whatever limits it before.
+    `face` is the part of the face ahead of the contact at its reversal, where the paper finds the thickest film. A
+    contact that has left the tooth has no inlet, whatever the model of the inlet is.
     """
     if max_travel >= face_width / 2.0:
         return 0.0
@@ -127,12 +147,23 @@ def inlet_length(model: ModelOptions, face_width: float, max_travel: float) -> f
 
 @kernel
 def starved_load(inlet_ratio: float) -> float:
-    """W(B), load of the parabolic gap in 12 h_trag eta v_H R_e/h_0 with its pressure starting at x = -B sqrt(2 R h_0).
+    """Compute the dimensionless load of a parabolic gap with a starved inlet.
 
-    Rigid, isoviscous Reynolds with its exit condition (zero pressure and gradient) at tan g, solved in closed form:
-    [A2(g) + A2(g_B)] cos^2 g = A4(g) + A4(g_B), W = (1 - H_m/H_B)^2/(4 H_m), bisected for g in (0, g_B).
+    Parameters
+    ----------
+    inlet_ratio : float
+        Inlet ratio B; the pressure starts at x = -B sqrt(2 R h_0) [-].
 
-    Eqs. C15, C16.
+    Returns
+    -------
+    float
+        Load W(B) in units of 12 h_trag eta v_H R_e/h_0 [-].
+
+    Notes
+    -----
+    Eqs. C15, C16. Reynolds equation for rigid surfaces and constant viscosity, with its exit condition (zero pressure
+    and gradient) at tan g, solved in closed form: [A2(g) + A2(g_B)] cos^2 g = A4(g) + A4(g_B), W = (1 - H_m/H_B)^2/(4
+    H_m). Bisection finds g in (0, g_B).
     """
     inlet = atan(inlet_ratio)
     a2 = inlet / 2.0 + sin(2.0 * inlet) / 4.0
@@ -153,7 +184,22 @@ def starved_load(inlet_ratio: float) -> float:
 
 
 def inlet_factor(inlet_ratio: float) -> float:
-    """f(B) in [0, 1]: load capacity with the inlet starting at B over that of an infinite inlet (Fig. 8; Eq. C16)."""
+    """Compute the load capacity of a starved inlet over that of an infinitely long inlet.
+
+    Parameters
+    ----------
+    inlet_ratio : float
+        Inlet ratio B [-].
+
+    Returns
+    -------
+    float
+        Factor f(B) between 0 and 1 [-].
+
+    Notes
+    -----
+    Fig. 8; Eq. C16.
+    """
     if inlet_ratio < 0.02:
         # Series; the closed form loses its digits to cancellation here.
         return 0.68948 * inlet_ratio**4
@@ -163,15 +209,40 @@ def inlet_factor(inlet_ratio: float) -> float:
 def hydrodynamic_capacity(
     tooth_height: float, viscosity: float, velocity: float, radius: float, film: float, factor: float
 ) -> float:
-    """F_HD = 2.447 h_trag eta v_H R_e/h_0 f(b_I) [N] (Eq. C14).
+    """Compute the hydrodynamic load capacity of a tooth.
 
-    Printed in Fig. 8 with "h" above and "trag" below the bar, the index of h_trag having slipped.
+    Parameters
+    ----------
+    tooth_height : float
+        Bearing tooth height h_trag [m].
+    viscosity : float
+        Dynamic viscosity eta [Pa s].
+    velocity : float
+        Hydrodynamic velocity v_H [m/s].
+    radius : float
+        Flank radius R_e in the plane of action [m].
+    film : float
+        Film thickness h_0 at which the capacity is stated [m].
+    factor : float
+        Inlet factor f(b_I) [-].
+
+    Returns
+    -------
+    float
+        Load capacity F_HD = 2.447 h_trag eta v_H R_e/h_0 f(b_I) [N].
+
+    Notes
+    -----
+    Eq. C14. Fig. 8 prints "h" above and "trag" below the fraction bar: the index of h_trag has slipped.
     """
     return 12.0 * UNBOUNDED_LOAD * tooth_height * viscosity * velocity * radius / film * factor
 
 
 def film_velocity(mesh: MeshMotion, angle: float | None) -> float:
-    """Hydrodynamic velocity that builds the film [m/s]: the largest, or that at a tooth angle [rad]."""
+    """Return the hydrodynamic velocity that builds the film [m/s].
+
+    This is the velocity at the tooth angle [rad], or the largest velocity if the angle is None.
+    """
     if angle is None:
         return max_hydrodynamic_velocity(mesh)
     position = ToothPositions(sine=np.array(sin(angle)), cosine=np.array(cos(angle)))
@@ -179,7 +250,26 @@ def film_velocity(mesh: MeshMotion, angle: float | None) -> float:
 
 
 def film_state(inputs: CouplingInputs, geometry: Geometry, mesh: MeshMotion) -> FilmState:
-    """Overlap Pu = a_HZ/s_1max and load capacity coefficient Tr = F_HD/F_n,max of one mesh (Eq. C13)."""
+    """Compute contact overlap and load capacity coefficient of one mesh.
+
+    Parameters
+    ----------
+    inputs : CouplingInputs
+        Coupling, operating point, oil and model.
+    geometry : Geometry
+        Radii of the coupling.
+    mesh : MeshMotion
+        Motion of the mesh.
+
+    Returns
+    -------
+    FilmState
+        Overlap Pu = a_HZ/s_1max and load capacity coefficient Tr = F_HD/F_n,max [-], and the values behind them.
+
+    Notes
+    -----
+    Eq. C13.
+    """
     coupling, lubricant = inputs.coupling, inputs.lubricant
     travel, radius = max_contact_travel(mesh), geometry.normal_flank_radius
     force = max_normal_force(inputs, mesh)
@@ -205,17 +295,17 @@ def film_state(inputs: CouplingInputs, geometry: Geometry, mesh: MeshMotion) -> 
 
 
 def _capacity_ratio(capacity: float, force: float) -> float:
-    """Tr, zero without a film, inf without a load on it."""
+    """Return Tr: zero if there is no film, inf if the film carries no load."""
     if capacity == 0.0:
         return 0.0
     return capacity / force if force > 0.0 else inf
 
 
 def friction_regime(overlap: float, load_capacity_coefficient: float) -> Regime:
-    """The area of Fig. 9.
+    """Find the area of Fig. 9.
 
-    A load capacity on a boundary belongs to the row with the higher number, an overlap on a boundary to the middle
-    column.
+    A load capacity coefficient on a boundary belongs to the row with the higher number. An overlap on a boundary
+    belongs to the middle column.
     """
     row = 1 + sum(load_capacity_coefficient >= boundary for boundary in CAPACITY_BOUNDARIES)
     column = 1 + (overlap >= OVERLAP_BOUNDARIES[0]) + (overlap > OVERLAP_BOUNDARIES[1])
@@ -231,16 +321,30 @@ def friction_regime(overlap: float, load_capacity_coefficient: float) -> Regime:
 
 
 def _distance_to_boundary(overlap: float, load_capacity_coefficient: float) -> float | None:
-    """Smallest |ln| of both coordinates against their boundaries; None if they lie infinitely far."""
+    """Return the smallest |ln| of a coordinate over one of its boundaries, or None if all are infinitely far."""
     ratios = [overlap / boundary for boundary in OVERLAP_BOUNDARIES]
     ratios += [load_capacity_coefficient / boundary for boundary in CAPACITY_BOUNDARIES]
     return min((abs(log(ratio)) for ratio in ratios if 0.0 < ratio < inf), default=None)
 
 
 def mixed_friction(law: MixedFrictionCurve | MixedFrictionTable, sliding_velocity: float) -> float:
-    """Friction of area 1.1 at the largest sliding velocity [m/s] (Fig. 10, whose points the paper does not print).
+    """Compute the friction in area 1.1.
 
-    Eq. C17.
+    Parameters
+    ----------
+    law : MixedFrictionCurve or MixedFrictionTable
+        Mixed friction over the sliding velocity.
+    sliding_velocity : float
+        Largest sliding velocity [m/s].
+
+    Returns
+    -------
+    float
+        Coefficient of friction [-].
+
+    Notes
+    -----
+    Eq. C17. The paper shows the curve in Fig. 10, but does not print its points.
     """
     if isinstance(law, MixedFrictionTable):
         return float(np.interp(sliding_velocity, law.sliding_velocity, law.coefficient))
@@ -251,17 +355,17 @@ def mixed_friction(law: MixedFrictionCurve | MixedFrictionTable, sliding_velocit
 
 
 def lowest_mixed_friction(law: MixedFrictionCurve | MixedFrictionTable) -> float:
-    """The least that mixed friction comes to at any sliding velocity."""
+    """Return the smallest coefficient of mixed friction at any sliding velocity."""
     return min(law.coefficient) if isinstance(law, MixedFrictionTable) else law.lowest
 
 
 def _interpolate_logarithm(x: float, points: tuple[tuple[float, float], ...]) -> float:
-    """Linear interpolation of ln(y) in x, constant outside."""
+    """Interpolate ln(y) linearly in x; constant outside."""
     return exp(float(np.interp(x, [p[0] for p in points], [log(p[1]) for p in points])))
 
 
 def _well_supplied(load_capacity_coefficient: float, mixed: float, lowest: float) -> float:
-    """Friction at an overlap below 1: from the mixed friction in use through its least to that of a full film."""
+    """Compute the friction at an overlap below 1: from mixed friction through its lowest value to a full film."""
     full_film = min(0.01, lowest)
     if load_capacity_coefficient > 0.8:
         return min(full_film, max(0.003, 0.008 / load_capacity_coefficient))
@@ -269,18 +373,39 @@ def _well_supplied(load_capacity_coefficient: float, mixed: float, lowest: float
 
 
 def _poorly_supplied(overlap: float, load_capacity_coefficient: float) -> float:
-    """Friction at an overlap above 2; at no film it rises to 0.16, the largest that Calistrat measured (1981)."""
+    """Compute the friction at an overlap above 2.
+
+    Without film it rises to 0.16, the largest coefficient that Calistrat measured (1981).
+    """
     dry = 0.1 + 0.06 * min(1.0, (overlap - 2.0) / 2.0)
     points = ((0.0, dry), (0.2, 0.1), (0.8, 0.1), (1.6, 0.05))
     return _interpolate_logarithm(load_capacity_coefficient, points)
 
 
 def regime_friction(overlap: float, load_capacity_coefficient: float, mixed: float, lowest: float) -> float:
-    """Coefficient of friction anywhere on the map, continuous, given that of mixed friction and its `lowest` value.
+    """Compute the coefficient of friction anywhere on the map; the result is continuous.
 
-    The paper states bands; this law keeps to their end values and lies inside those of areas 1.1, 1.3, 2.1, 2.2, 2.3
-    and 3.1. Across 1.2 it blends, and it may leave 3.2 near overlap 1: the paper calls the boundaries fluid. It never
-    rises with the load capacity coefficient. Eq. C18.
+    Parameters
+    ----------
+    overlap : float
+        Contact overlap Pu [-].
+    load_capacity_coefficient : float
+        Load capacity coefficient Tr [-].
+    mixed : float
+        Coefficient of mixed friction at the present sliding velocity [-].
+    lowest : float
+        Smallest coefficient of mixed friction at any sliding velocity [-].
+
+    Returns
+    -------
+    float
+        Coefficient of friction [-].
+
+    Notes
+    -----
+    Eq. C18. The paper states bands. This law keeps to the end values of the bands, and lies inside the bands of areas
+    1.1, 1.3, 2.1, 2.2, 2.3 and 3.1. It blends across area 1.2, and may leave the band of area 3.2 near overlap 1: the
+    paper calls the boundaries fluid. The coefficient never rises with the load capacity coefficient.
     """
     if overlap > 2.0:
         return _poorly_supplied(overlap, load_capacity_coefficient)
@@ -294,7 +419,7 @@ def regime_friction(overlap: float, load_capacity_coefficient: float, mixed: flo
 def friction_coefficient(
     friction: Friction, overlap: float, load_capacity_coefficient: float, sliding_velocity: float
 ) -> float:
-    """The user's coefficient, or that of the regime at the largest sliding velocity [m/s]."""
+    """Return the coefficient of friction: the user's, or that of the regime at the largest sliding velocity [m/s]."""
     if friction.coefficient is not None:
         return friction.coefficient
     law = friction.law
@@ -303,7 +428,10 @@ def friction_coefficient(
 
 
 def static_friction(friction: Friction) -> float:
-    """The user's coefficient at rest, else the user's coefficient, else that of the regime at rest without film."""
+    """Return the coefficient of friction at rest.
+
+    The user's static coefficient comes first, then the user's coefficient, then the regime at rest without film.
+    """
     if friction.static_coefficient is not None:
         return friction.static_coefficient
     return friction_coefficient(friction, overlap=inf, load_capacity_coefficient=0.0, sliding_velocity=0.0)

@@ -12,10 +12,24 @@ from solvers.coupling.tooth_loads import limits, load_distribution
 
 
 def solve(inputs: CouplingInputs) -> CouplingResult:
-    """Kinematics, tooth loads, lubrication, friction, axial thrust and losses at one operating point.
+    """Compute kinematics, tooth loads, lubrication, friction, axial thrust and losses at one operating point.
 
-    Raises InvalidInput (out_of_range, pitch_errors_length, mixed_law, mixed_curve, hertz_pressure, contact_width) and
-    NoSolution (sleeve_balance, sleeve_equilibrium) with residuals.
+    Parameters
+    ----------
+    inputs : CouplingInputs
+        Coupling, operating point, oil, friction and model, in SI units.
+
+    Returns
+    -------
+    CouplingResult
+        Results in SI units, with warnings.
+
+    Raises
+    ------
+    InvalidInput
+        `out_of_range`, `pitch_errors_length`, `mixed_law`, `mixed_curve`, `hertz_pressure` or `contact_width`.
+    NoSolution
+        `sleeve_balance` or `sleeve_equilibrium`, with residuals.
     """
     check_inputs(inputs)
     geometry = tooth_geometry(inputs.coupling)
@@ -51,7 +65,7 @@ def solve(inputs: CouplingInputs) -> CouplingResult:
 
 
 def _lubrication(film: FilmState, friction: float) -> Lubrication:
-    """The film with None where a ratio has no meaning."""
+    """Return the values of the film; a ratio without meaning is None."""
     tr = film.load_capacity_coefficient
     return Lubrication(
         max_normal_force=film.max_normal_force,

@@ -1,4 +1,4 @@
-"""Warnings of a coupling calculation: ranges that are left, values without meaning."""
+"""Warnings of a coupling calculation: values outside their ranges, and values without meaning."""
 
 from collections.abc import Iterator
 from math import degrees
@@ -12,15 +12,15 @@ from solvers.coupling.tooth_loads import SLIDING_VELOCITY_LIMIT
 from solvers.notices import Notice
 
 ORBIT_RESOLUTION = 0.01
-"""Uncertainty of an orbit over its largest value that is worth a notice."""
+"""Relative uncertainty of an orbit from which a notice is given."""
 LEAST_ORBIT = 1e-10
-"""Largest displacement [m] below which an orbit is none: perfect teeth leave rounding."""
+"""Largest displacement [m] below which an orbit counts as zero: with perfect teeth only rounding remains."""
 
 
 def motion_notices(
     inputs: CouplingInputs, geometry: Geometry, kinematics: Kinematics, thrust: AxialThrust, limits: Limits
 ) -> Iterator[Notice]:
-    """Notices about misalignment, speed and sliding."""
+    """Yield the notices about misalignment, speed and sliding."""
     operation, sliding = inputs.operation, kinematics.max_sliding_velocity
     if operation.misalignment == 0.0:
         yield Notice(
@@ -58,7 +58,7 @@ def motion_notices(
 def load_notices(
     inputs: CouplingInputs, load: LoadDistribution, thrust: AxialThrust, limits: Limits
 ) -> Iterator[Notice]:
-    """Notices about torque, friction and the sleeve's place."""
+    """Yield the notices about torque, friction and the displacement of the sleeve."""
     torque = inputs.operation.torque
     if torque == 0.0:
         message = (
@@ -77,7 +77,7 @@ def load_notices(
 
 
 def contact_notices(inputs: CouplingInputs, kinematics: Kinematics, lubrication: Lubrication) -> Iterator[Notice]:
-    """Notices about the oil, the contact on the face and the film."""
+    """Yield the notices about the oil, the contact on the face and the film."""
     yield from plausibility.thick_oil(inputs.lubricant.viscosity)
     if inputs.lubricant.temperature is not None:
         yield from plausibility.oil_temperature(inputs.lubricant.temperature, "lubricant.temperature")
@@ -105,7 +105,10 @@ def orbit_notices(
     harmonic: float,
     harmonic_uncertainty: float | None,
 ) -> Iterator[Notice]:
-    """Notices about the place and the resolution of an orbit, by its largest displacement [m] and harmonic [N]."""
+    """Yield the notices about the position and the resolution of an orbit.
+
+    `displacement` [m] and `harmonic` [N] are the largest of the orbit.
+    """
     if fewest_teeth < 3:
         message = "at some rotor angle fewer than three teeth carry: the place of the sleeve is not unique there"
         yield Notice("sleeve_position", message, "torque")
@@ -126,6 +129,6 @@ def orbit_notices(
 
 
 def unusual_values(inputs: CouplingInputs | RecommendationInputs, _result: object) -> Iterator[Notice]:
-    """Unusual values in the description of a coupling."""
+    """Return the notices about unusual values in the description of a coupling."""
     coupling = (inputs.design if isinstance(inputs, RecommendationInputs) else inputs).coupling
     return plausibility.tall_tooth(coupling.tooth_height, coupling.module)

@@ -21,17 +21,18 @@ from solvers.coupling.results import Geometry, InertiaForce, Orbit, OrbitResult
 from solvers.coupling.tooth_loads import LOADED, floating_loads, largest_value
 from solvers.errors import InvalidInput, NoSolution
 
-MAX_SWEEPS = 50  # limit; a path that has not settled by then does not
+MAX_SWEEPS = 50  # limit; a path that has not settled by then does not settle
 REPEAT_TOLERANCE = 1e-12  # m, near the rounding of a path of some ten micrometres
-HIGHEST_ORDER = 12  # harmonics of the path; the result says how much twice as many change
-REFINEMENTS = (2, 3)  # of the rotor angles, to see how certain an orbit is
+HIGHEST_ORDER = 12  # of the path; the result reports the change with twice as many
+REFINEMENTS = (2, 3)  # of the rotor angles, for the uncertainty of an orbit
 
 
 @dataclass(frozen=True, slots=True)
 class _SettledPath:
     """Path (rows, 2) [m], its inertia force (rows, 2) [N] and its `farthest` displacement [m].
 
-    `sweeps` it took, `change` [m] in the last of them, and how few teeth carry where the `fewest` do.
+    `sweeps` is the number of sweeps, `change` [m] the change in the last sweep, and `fewest` the smallest number of
+    loaded teeth at any rotor angle.
     """
 
     path: FloatArray
@@ -48,16 +49,35 @@ class _SettledPath:
 
 
 def solve_orbit(inputs: CouplingInputs) -> OrbitResult:
-    """Path and inertia force of the sleeve of one mesh; no weight acts (Eq. C11).
+    """Compute the path and the inertia force of the sleeve of one mesh.
 
-    m_s omega^2 d2e/dtheta2 = sum F_n n: each sweep balances the sleeve at every rotor angle under the inertia force of
-    the sweep before, derived in Fourier space with orders up to 12, until the path repeats to 1e-12 m. Contracts while
-    m_s (k omega)^2 stays well below the lateral stiffness. Paths with twice the orders at two and three times the
-    rotor angles, started from it, say how certain it is: where teeth load and unload, what is left at two of these
-    may happen to agree.
+    Parameters
+    ----------
+    inputs : CouplingInputs
+        Coupling, operating point and model.
 
-    Raises InvalidInput as `solve` and torque_too_low (the tooth forces cannot hold the sleeve), NoSolution
-    `sleeve_orbit` if the path does not repeat within 50 sweeps, or some position is left without balance.
+    Returns
+    -------
+    OrbitResult
+        Path [m] and inertia force [N] over one revolution, with their uncertainties.
+
+    Raises
+    ------
+    InvalidInput
+        As `solve`; also `torque_too_low` if the tooth forces cannot hold the sleeve.
+    NoSolution
+        `sleeve_orbit` if the path does not repeat within 50 sweeps, or if a position is left without balance.
+
+    Notes
+    -----
+    Eq. C11: m_s omega^2 d2e/dtheta2 = sum F_n n. No weight acts. Each sweep balances the sleeve at every rotor angle
+    under the inertia force of the previous sweep, until the path repeats to 1e-12 m. The inertia force is derived in
+    Fourier space with orders up to 12. The sweeps contract while m_s (k omega)^2 stays well below the lateral
+    stiffness.
+
+    The uncertainty comes from two further paths with twice the orders, at two and at three times the rotor angles, both
+    started from the path. Two are needed: where teeth load and unload, the errors at two resolutions may happen to
+    agree.
     """
     check_inputs(inputs)
     if inputs.operation.torque == 0.0:
@@ -69,7 +89,7 @@ def solve_orbit(inputs: CouplingInputs) -> OrbitResult:
 
 
 def _finer_paths(inputs: CouplingInputs, settled: _SettledPath) -> list[_SettledPath]:
-    """Paths at more rotor angles with twice the orders; none where one of them does not settle."""
+    """Compute the paths at more rotor angles with twice the orders; return none if one of them does not settle."""
     finer = []
     for refinement in REFINEMENTS:
         angles = revolution(inputs.coupling.teeth, refinement)
@@ -82,7 +102,7 @@ def _finer_paths(inputs: CouplingInputs, settled: _SettledPath) -> list[_Settled
 
 
 def _safe_force(inputs: CouplingInputs) -> float:
-    """A lateral force [N] that the teeth hold at every rotor angle, whatever the sweeps ask for on their way."""
+    """Return a lateral force [N] that the teeth hold at every rotor angle; the sweeps shorten larger forces to it."""
     coupling = inputs.coupling
     holding_force = inputs.operation.torque / (pitch_radius(coupling) * cos(coupling.pressure_angle))
     return 0.999 * cos(pi / coupling.teeth) * holding_force
@@ -93,7 +113,7 @@ def _settled_path(
 ) -> _SettledPath:
     """Sweep from an inertia force (rows, 2) [N] until the path repeats.
 
-    The change from sweep to sweep may grow for a dozen of them, while teeth come under load, and still die out.
+    While teeth come under load, the change from sweep to sweep may grow for a dozen sweeps, and still die out.
     """
     coupling, operation = inputs.coupling, inputs.operation
     mesh = mesh_motion(coupling, tooth_geometry(coupling), operation, inputs.model.kinematics)
@@ -123,10 +143,10 @@ def _settled_path(
 def _farthest(
     inputs: CouplingInputs, mesh: MeshMotion, angles: FloatArray, force: FloatArray, highest_order: int
 ) -> float:
-    """Largest displacement [m] under a settled inertia force (rows, 2) [N].
+    """Find the largest displacement [m] under a settled inertia force (rows, 2) [N].
 
-    Searched between the rotor angles too: while few teeth carry, the sleeve peaks within a fraction of a pitch. The
-    force is a sum of orders up to the highest and so known there.
+    The search includes positions between the rotor angles: if few teeth are loaded, the displacement peaks within a
+    fraction of a pitch. The force is a sum of orders up to the highest, and is therefore known at these positions.
     """
     coupling, limit = inputs.coupling, _safe_force(inputs)
     order = np.arange(highest_order + 1)
@@ -146,7 +166,7 @@ def _farthest(
 
 
 def _second_derivative(path: FloatArray, highest_order: int) -> FloatArray:
-    """d2e/dtheta2 of a path (rows, 2) over one revolution, orders up to the highest."""
+    """Compute d2e/dtheta2 of a path (rows, 2) over one revolution, with orders up to the highest."""
     spectrum = np.fft.rfft(path, axis=0)
     order = np.arange(spectrum.shape[0])
     factor = np.where(order <= highest_order, -(order.astype(float) ** 2), 0.0)
@@ -154,13 +174,13 @@ def _second_derivative(path: FloatArray, highest_order: int) -> FloatArray:
 
 
 def _limited(force: FloatArray, limit: float) -> FloatArray:
-    """Forces (rows, 2) shortened to at most `limit`."""
+    """Shorten forces (rows, 2) to at most `limit`."""
     size = np.hypot(force[:, 0], force[:, 1])
     return force * (limit / np.maximum(size, limit))[:, None]
 
 
 def _check_holding(force: FloatArray, limit: float) -> None:
-    """Raise InvalidInput unless the torque's tooth forces can hold the inertia force at every rotor angle."""
+    """Raise InvalidInput unless the teeth can hold the inertia force under the torque at every rotor angle."""
     needed = float(np.hypot(force[:, 0], force[:, 1]).max())
     if needed > limit:
         raise InvalidInput(
@@ -171,7 +191,7 @@ def _check_holding(force: FloatArray, limit: float) -> None:
 
 
 def _harmonics(force: FloatArray) -> FloatArray:
-    """Amplitudes 2 |c_k| of orders 0 to 12; order 0 is |mean|."""
+    """Compute the amplitudes 2 |c_k| of orders 0 to 12; the amplitude of order 0 is |mean|."""
     amplitude = 2.0 * np.abs(np.fft.rfft(force)) / force.size
     amplitude[0] /= 2.0
     return amplitude[: HIGHEST_ORDER + 1]
@@ -180,10 +200,10 @@ def _harmonics(force: FloatArray) -> FloatArray:
 def _result(
     angles: FloatArray, settled: _SettledPath, finer: Sequence[_SettledPath], geometry: Geometry
 ) -> OrbitResult:
-    """The converged orbit, and how far the finer ones lie from it."""
+    """Return the settled orbit with its uncertainty, the largest difference from the finer paths."""
     harmonics = settled.harmonics
-    displacement_uncertainty = max((abs(each.farthest - settled.farthest) for each in finer), default=None)
-    harmonics_uncertainty = max((float(np.abs(each.harmonics - harmonics).max()) for each in finer), default=None)
+    displacement_uncertainty = max((abs(path.farthest - settled.farthest) for path in finer), default=None)
+    harmonics_uncertainty = max((float(np.abs(path.harmonics - harmonics).max()) for path in finer), default=None)
     return OrbitResult(
         orbit=Orbit(rotor_angle=frozen(angles), x=frozen(settled.path[:, 0]), y=frozen(settled.path[:, 1])),
         inertia_force=InertiaForce(

@@ -2,10 +2,11 @@
 
 Units as in tooth_loads. First index of a pair: the mesh, left (0) or right (1).
 
-Six equations in (psi, e_x, e_y) of each mesh: the torque at both, the sleeve's two lateral forces and its two moments.
-The direction of friction at a tooth does not depend on the unknowns. So friction's moments ask the meshes for a
-lateral force, opposite in both; given that force, each mesh is a floating sleeve on its own, a convex problem; and two
-equations remain for the force, Phi(g) = g, solved by Newton's method with the exact slope of the tooth loads.
+The unknowns are (psi, e_x, e_y) of each mesh. The six equations are the torque at both meshes, the two lateral forces
+of the sleeve and its two moments. The direction of friction at a tooth does not depend on the unknowns. The friction
+moments therefore require a lateral force at the meshes, opposite in the two. For a given lateral force, each mesh is a
+floating sleeve of its own, which is a convex problem. Two equations remain for the force, Phi(g) = g; Newton's method
+solves them with the exact derivative of the tooth loads.
 """
 
 from dataclasses import dataclass
@@ -38,15 +39,19 @@ from solvers.coupling.tooth_loads import (
 )
 from solvers.errors import NoSolution
 
-MAX_ITERATIONS = 150  # limit; an equilibrium that is not found by then is not
-SUBSTITUTIONS = 5  # fixed-point steps at a time, chosen
-SHORTEST_STEP = 1.0 / 64.0  # of Newton's step, below which the substitution is tried again
+MAX_ITERATIONS = 150  # limit; an equilibrium that is not reached by then does not converge
+SUBSTITUTIONS = 5  # chosen: number of fixed-point steps in succession
+SHORTEST_STEP = 1.0 / 64.0  # of Newton's step; below it, substitutions are tried again
 FORCE_TOLERANCE = 1e-9  # in units of T/r_o, chosen
 _LIMIT_MARGIN = 0.9999  # of the force that the teeth can hold, chosen
 
 
 class Unbalance(NamedTuple):
-    """Phi(g) - g along x and y, its amount, and g - Phi(g) differentiated by g: `xy` is that of x by y."""
+    """Residual of the sleeve's force balance and its derivatives.
+
+    `x` and `y` are the components of Phi(g) - g, `size` its magnitude. The others are derivatives of g - Phi(g) by g:
+    `xy` is the derivative of the x component by g_y.
+    """
 
     size: float
     x: float
@@ -61,9 +66,10 @@ class Unbalance(NamedTuple):
 def add_friction_moment(
     moment: float, ahead: FloatArray, normal: FloatArray, arm: FloatArray, hessian: Hessian
 ) -> tuple[float, float, float]:
-    """`moment` and sum F_t sgn(v_r) e_r of one mesh along one axis; slopes of the sum by the force (x, y) on the mesh.
+    """Add the friction moment of one mesh along one axis to `moment`.
 
-    `arm` (teeth) holds sgn(v_r) e_r; `ahead` and `hessian` the mesh as float_sleeve left it.
+    Returns the new moment, moment + sum F_t sgn(v_r) e_r, and the derivatives of the sum by the force (x, y) on the
+    mesh. `arm` (teeth) holds sgn(v_r) e_r. `ahead` and `hessian` describe the mesh as `float_sleeve` left it.
     """
     normal_x, normal_y = normal
     torque, x, y = 0.0, 0.0, 0.0
@@ -88,10 +94,10 @@ def unbalanced_force(
     places: Places,
     ahead: FloatArray,
 ) -> Unbalance:
-    """What the force g on the left mesh, its opposite on the right one, lacks to be that of friction.
+    """Return the residual Phi(g) - g of the sleeve's force balance, with g on the left mesh and -g on the right mesh.
 
-    Balances both meshes from and into their `places`, with the interference left in `ahead` (2, teeth); the size is
-    inf where one cannot hold the force.
+    Both meshes are balanced; the balance starts from their `places`, which are updated. The interference is left in
+    `ahead` (2, teeth). The size is inf if a mesh cannot hold the force.
     """
     moment_x, moment_y, xx, xy, yx, yy = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     for mesh in range(2):
@@ -120,17 +126,42 @@ def balance_sleeve(
     places: Places,
     ahead: FloatArray,
 ) -> float:
-    """Solve Phi(g) = g at one rotor angle from and into `force` g (2) and the meshes' `places`; returns |Phi(g) - g|.
+    """Solve Phi(g) = g at one rotor angle, in place.
 
-    interference and ahead (2, teeth), normal and arm (2, 2, teeth); `lever` is (mu/cos alpha)(r_o/l_H). Newton's
-    method with steps shortened until the residual falls; some damped substitutions where that fails, for Phi is
-    piecewise linear (teeth come under load) and Newton may cycle between its pieces. Eq. C22.
+    Parameters
+    ----------
+    interference : FloatArray
+        Interference at rest, shape (2, teeth) [T/(r_o c_t)].
+    normal : FloatArray
+        Flank normals over cos(alpha), shape (2, 2, teeth) [-].
+    arm : FloatArray
+        Direction of friction times the tooth's position, shape (2, 2, teeth) [-].
+    lever : float
+        Ratio (mu/cos alpha)(r_o/l_H) [-].
+    force_limit : float
+        Largest lateral force that the teeth are asked to hold [T/r_o].
+    force : FloatArray
+        Start of the force g, shape (2,); replaced by the solution [T/r_o].
+    places : Places
+        Starts of the rotation and the displacement of both meshes; replaced by the solution [T/(r_o c_t)].
+    ahead : FloatArray
+        Receives the interference of the balanced meshes, shape (2, teeth) [T/(r_o c_t)].
+
+    Returns
+    -------
+    float
+        Residual |Phi(g) - g|, inf if a mesh cannot hold the force [T/r_o].
+
+    Notes
+    -----
+    Eq. C22. Newton's method shortens its steps until the residual falls. If shortening fails, some damped substitutions
+    follow: Phi is piecewise linear, because teeth come under load, and Newton's method may cycle between its pieces.
     """
     accepted_x, accepted_y, step_x, step_y = 0.0, 0.0, 0.0, 0.0
     accepted_residual, length, substitutions = np.inf, 1.0, 0
     for _ in range(MAX_ITERATIONS):
-        found = unbalanced_force(interference, normal, arm, lever, force, places, ahead)
-        residual = found.size
+        unbalance = unbalanced_force(interference, normal, arm, lever, force, places, ahead)
+        residual = unbalance.size
         if residual < FORCE_TOLERANCE or residual == np.inf:
             return residual
         if substitutions > 0 or residual <= (1.0 - 0.1 * length) * accepted_residual:
@@ -141,14 +172,14 @@ def balance_sleeve(
                 substitutions = SUBSTITUTIONS
         if length == 1.0 or substitutions > 0:
             (accepted_x, accepted_y), accepted_residual = force, residual
-            determinant = found.xx * found.yy - found.xy * found.yx
+            determinant = unbalance.xx * unbalance.yy - unbalance.xy * unbalance.yx
             if substitutions > 0 or abs(determinant) < 1e-6:
                 substitutions = max(0, substitutions - 1)
                 length = 0.5
-                step_x, step_y = found.x, found.y
+                step_x, step_y = unbalance.x, unbalance.y
             else:
-                step_x = (found.yy * found.x - found.xy * found.y) / determinant
-                step_y = (found.xx * found.y - found.yx * found.x) / determinant
+                step_x = (unbalance.yy * unbalance.x - unbalance.xy * unbalance.y) / determinant
+                step_y = (unbalance.xx * unbalance.y - unbalance.yx * unbalance.x) / determinant
         x, y = accepted_x + length * step_x, accepted_y + length * step_y
         shortened = min(1.0, force_limit / hypot(x, y))
         force[:] = shortened * x, shortened * y
@@ -164,10 +195,10 @@ def balance_rows(
     force_limit: float,
     share: FloatArray,
 ) -> float:
-    """Balance the sleeve at every rotor angle, each started from the one before, then from rest if that fails.
+    """Balance the sleeve at every rotor angle, and leave the tooth forces in `share` (rows, 2, teeth).
 
-    Leaves the tooth forces in `share` (rows, 2, teeth). Returns the largest residual, that of the first angle without
-    balance if there is one: no later angle is tried.
+    The balance at each angle starts from the previous angle, and from rest if this fails. Returns the largest residual.
+    The first angle without balance is the last to be tried.
     """
     force, places = np.zeros(2), Places(np.zeros(2), np.zeros(2), np.zeros(2))
     largest = 0.0
@@ -190,10 +221,10 @@ def balance_rows(
 
 @dataclass(frozen=True, slots=True)
 class SleeveEquilibrium:
-    """Means over one tooth pitch (revolution with pitch deviations) of two meshes on one sleeve.
+    """Means of two meshes on one sleeve over one tooth pitch (over one revolution with pitch deviations).
 
-    `thrust` [N] acts on one shaft, positive = shafts pulled together; `overturning_moment` [N m] is friction's on the
-    sleeve.
+    `thrust` [N] acts on one shaft and is positive if it pulls the shafts together. `overturning_moment` [N m] is the
+    moment of friction on the sleeve.
     """
 
     thrust: float
@@ -201,7 +232,10 @@ class SleeveEquilibrium:
 
 
 def two_meshes(inputs: CouplingInputs, geometry: Geometry) -> tuple[MeshMotion, MeshMotion]:
-    """Left mesh, where the hub drives the sleeve, and right mesh; the right hub tilts alike (Z) or oppositely (M)."""
+    """Return the left mesh, where the hub drives the sleeve, and the right mesh.
+
+    The right hub tilts in the same direction (Z, parallel offset) or in the opposite direction (M, angular).
+    """
     right_tilt = 1 if inputs.operation.arrangement == "parallel_offset" else -1
     left = mesh_motion(inputs.coupling, geometry, inputs.operation, inputs.model.kinematics)
     right = mesh_motion(inputs.coupling, geometry, inputs.operation, inputs.model.kinematics, side=-1, tilt=right_tilt)
@@ -211,13 +245,34 @@ def two_meshes(inputs: CouplingInputs, geometry: Geometry) -> tuple[MeshMotion, 
 def sleeve_equilibrium(
     inputs: CouplingInputs, geometry: Geometry, friction: float, axial_velocity: float
 ) -> SleeveEquilibrium:
-    """Thrust and overturning moment of two meshes, the shafts moving apart at `axial_velocity` [m/s] per mesh.
+    """Compute the thrust and the overturning moment of two meshes.
 
-    Without any sliding (no axial velocity, and no misalignment or no speed) the direction of friction is open: the
-    result is zero. Raises NoSolution `sleeve_equilibrium` where the tooth forces cannot hold the moment of friction; an
-    equilibrium exists at any rate while mu d_o/l_H < cos(pi/z) (Brouwer: Phi maps the forces the teeth hold into them).
+    Parameters
+    ----------
+    inputs : CouplingInputs
+        Coupling, operating point and model.
+    geometry : Geometry
+        Radii of the coupling.
+    friction : float
+        Coefficient of friction [-].
+    axial_velocity : float
+        Velocity at which the shafts move apart, per mesh [m/s].
 
-    Eq. C22.
+    Returns
+    -------
+    SleeveEquilibrium
+        Thrust [N] and overturning moment [N m]; both zero without any sliding.
+
+    Raises
+    ------
+    NoSolution
+        `sleeve_equilibrium` if the tooth forces cannot hold the moment of friction.
+
+    Notes
+    -----
+    Eq. C22. Without any sliding (no axial velocity, and no misalignment or no speed) the direction of friction is
+    undetermined. An equilibrium exists in any case if mu d_o/l_H < cos(pi/z): Phi then maps the set of forces that the
+    teeth hold into itself, and Brouwer's theorem applies.
     """
     coupling, torque = inputs.coupling, inputs.operation.torque
     meshes = two_meshes(inputs, geometry)
@@ -249,7 +304,7 @@ def _tooth_forces(
     direction: FloatArray,
     friction: float,
 ) -> FloatArray:
-    """Tangential tooth forces [N], shape (rotor angles, mesh, teeth), as the direction of friction.
+    """Compute the tangential tooth forces [N], shape (rotor angles, mesh, teeth) like `direction`.
 
     The residual of a NoSolution is the unbalanced lateral force over T/r_o, at most 1.
     """

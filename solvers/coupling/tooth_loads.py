@@ -1,15 +1,15 @@
 """How the teeth of one mesh share the torque, and with a floating sleeve a lateral force (Figs 3 and 4).
 
-Tooth i carries F_t = c_t max(0, psi + f_t + pitch deviation - e . n/cos(alpha)), for teeth never pull: psi is the
-common rotation as a length at the pitch radius, e the sleeve's displacement against the hub.
+Tooth i carries F_t = c_t max(0, psi + f_t + pitch deviation - e . n/cos(alpha)), because teeth never pull. Here psi is
+the common rotation as a length at the pitch radius, and e the sleeve's displacement against the hub.
 
-Kernels count lengths in T/(r_o c_t) and forces in T/r_o, so that the tooth forces add up to one. There tooth i
-interferes by u_i = psi + w_i - e . d_i: w_i is how far the tooth is ahead, d_i the flank normal over cos(alpha).
+In the kernels, lengths are in T/(r_o c_t) and forces in T/r_o, so that the tooth forces add up to one. The interference
+of tooth i is u_i = psi + w_i - e . d_i, with its lead w_i and its flank normal over cos(alpha), d_i.
 
-The sleeve minimises the convex energy sum max(0, u_i)^2/2 - psi - force . e, quadratic in pieces. Newton's steps are
-minimised along exactly, so that the energy falls with each of them whatever the start: every sleeve that can be
-balanced is. The u_i themselves are carried from step to step: formed anew from psi and e they would lose the digits
-of a tooth force that is small against how far the teeth are ahead.
+The sleeve minimises the convex energy sum max(0, u_i)^2/2 - psi - force . e, which is piecewise quadratic. The length
+of each Newton step is the exact minimum along the step. The energy therefore falls in each step from any start, and
+every sleeve that can be balanced is balanced. The u_i are carried from step to step. If they were computed again from
+psi and e, a tooth force that is small against the leads would lose its digits.
 """
 
 from collections.abc import Callable
@@ -35,25 +35,25 @@ from solvers.coupling.kinematics import (
 from solvers.coupling.results import Geometry, Limits, LoadCurves, LoadDistribution
 from solvers.errors import NoSolution
 
-MAX_ITERATIONS = 10_000  # limit that no balance should reach: each step lowers the energy
+MAX_ITERATIONS = 10_000  # limit; no balance should reach it, because each step lowers the energy
 BALANCE_TOLERANCE = 1e-13  # in units of T/r_o: some hundred roundings
 LONGEST_STEP = 1e100  # stands for infinity without overflow when it is squared
 STIFF = 1e-12
-"""Least stiffness of the sleeve that counts, over that of the loaded teeth together: rounding is some 1e-16 of it."""
+"""Smallest stiffness of the sleeve that counts, over the stiffness of the loaded teeth; rounding is some 1e-16."""
 FLAT = 1e-12
-"""Slope along a step over the slope at its start that counts as none: the lowest energy is reached."""
+"""Slope along a step, over the slope at its start, that counts as zero: the lowest energy is reached."""
 
 LOADED = 1e-6
-"""Tooth force over the mean one from which a tooth counts as loaded."""
+"""Tooth force, over the mean tooth force, from which a tooth counts as loaded."""
 SLIDING_VELOCITY_LIMIT = 0.12
 """Steady sliding of gear couplings [m/s], Tribology Handbook B4.6; transients may tilt 1.6 times as far."""
 GRAVITY = 9.80665  # m/s^2, standard gravity (CGPM 1901)
-_SEARCHES = 2  # chosen: searches, each around every sample whose neighbours may hide the highest
-_FINER = 8  # chosen: steps of a search in one of the search before, so that two meet a peak within 1/128 of a step
+_SEARCHES = 2  # chosen: number of searches around the samples near which the highest value may lie
+_FINER = 8  # chosen: a step of the previous search over a step of this one; two searches meet a peak to 1/128 step
 
 
 class Motion(NamedTuple):
-    """Common rotation of the teeth and displacement of the sleeve; or the torque and lateral force that act on them."""
+    """Common rotation of the teeth and displacement of the sleeve, or the torque and lateral force on them."""
 
     rotation: float
     x: float
@@ -61,7 +61,7 @@ class Motion(NamedTuple):
 
 
 class Places(NamedTuple):
-    """Rotation psi and sleeve displacement (e_x, e_y) of balanced meshes, an array each."""
+    """Rotation psi and sleeve displacement (e_x, e_y) of balanced meshes, one array per component."""
 
     rotation: FloatArray
     x: FloatArray
@@ -69,7 +69,7 @@ class Places(NamedTuple):
 
 
 class Hessian(NamedTuple):
-    """Second derivatives of the energy: over loaded teeth the sums of 1, -d_x, -d_y, d_x^2, d_x d_y and d_y^2."""
+    """Second derivatives of the energy: the sums over loaded teeth of 1, -d_x, -d_y, d_x^2, d_x d_y and d_y^2."""
 
     loaded: float
     x: float
@@ -81,7 +81,10 @@ class Hessian(NamedTuple):
 
 @kernel
 def _crossing(ahead: FloatArray, highest: float, psi: float) -> float:
-    """Where the teeth that psi > 0 loads would carry unit torque: Newton's step on sum max(0, psi + lead_i) = 1."""
+    """Return Newton's next value for the root of sum max(0, psi + lead_i) = 1, starting from psi > 0.
+
+    At this value the teeth that `psi` loads would carry unit torque.
+    """
     count, total = 0, 0.0
     for lead in ahead:
         behind = lead - highest
@@ -93,11 +96,29 @@ def _crossing(ahead: FloatArray, highest: float, psi: float) -> float:
 
 @kernel
 def rotation_of_leads(ahead: FloatArray, highest: float, start: float) -> float:
-    """The psi at which sum max(0, psi + lead_i) = 1, exactly, for leads w_i less the highest of them (Eq. C8).
+    """Find the common rotation psi at which the teeth carry unit torque, exactly.
 
-    Equal to sorting them in falling order and taking the largest k whose psi_k = (1 - sum_1..k lead)/k loads tooth k.
-    The sum is convex and linear in pieces: Newton's first step leads to the right of psi from any `start` > 0, the
-    others fall, each by at least one tooth less, until they have found the piece.
+    Parameters
+    ----------
+    ahead : FloatArray
+        Lead w_i of each tooth, shape (teeth,) [T/(r_o c_t)].
+    highest : float
+        The largest of the leads [T/(r_o c_t)].
+    start : float
+        Positive value from which psi is sought [T/(r_o c_t)].
+
+    Returns
+    -------
+    float
+        Rotation psi against the tooth with the largest lead [T/(r_o c_t)].
+
+    Notes
+    -----
+    Eq. C8: sum max(0, psi + lead_i) = 1, with lead_i = w_i less the largest of the leads. Gives the same result as
+    sorting the leads in descending order and taking the largest k whose psi_k = (1 - sum_1..k lead)/k loads tooth k.
+
+    The sum is convex and piecewise linear. From any positive start, Newton's first step leads to psi or to its right.
+    Each further step falls and loses at least one loaded tooth, until the piece of the root is reached.
     """
     psi = _crossing(ahead, highest, start)
     following = _crossing(ahead, highest, psi)
@@ -108,9 +129,10 @@ def rotation_of_leads(ahead: FloatArray, highest: float, start: float) -> float:
 
 @kernel
 def turn_to_torque(ahead: FloatArray, start: float) -> tuple[float, float]:
-    """Turn w_i in `ahead` into the u_i that carry unit torque.
+    """Replace the lead w_i of each tooth by the interference u_i that carries unit torque, in place.
 
-    Returns the common rotation psi against the highest w_i, which is sought from `start`, and against all.
+    Returns the common rotation psi twice: counted from the largest lead, and counted from zero. The first is sought
+    from `start`.
     """
     highest: float = ahead[0]
     for lead in ahead:
@@ -123,9 +145,9 @@ def turn_to_torque(ahead: FloatArray, start: float) -> tuple[float, float]:
 
 @kernel
 def centred_rows(ahead: FloatArray, unit: float, unit_force: float, rotation: FloatArray) -> None:
-    """Turn how far teeth are ahead into the forces of a centred sleeve, row by row, and note its rotation.
+    """Replace the lead of each tooth by its force with a centred sleeve, in place, and write the rotation of each row.
 
-    `unit` and `unit_force` are what lengths and forces count in, T/(r_o c_t) and T/r_o.
+    `unit` = T/(r_o c_t) and `unit_force` = T/r_o are the scales of lengths and forces.
     """
     psi = 1.0
     for row in range(ahead.shape[0]):
@@ -139,7 +161,7 @@ def centred_rows(ahead: FloatArray, unit: float, unit_force: float, rotation: Fl
 
 @kernel
 def add_up(ahead: FloatArray, normal: FloatArray) -> tuple[Motion, Hessian]:
-    """Torque and lateral force that the loaded teeth hold, and the energy's second derivatives."""
+    """Compute the torque and the lateral force that the loaded teeth hold, and the second derivatives of the energy."""
     normal_x, normal_y = normal
     torque, force_x, force_y = 0.0, 0.0, 0.0
     loaded, x, y, xx, xy, yy = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
@@ -161,11 +183,12 @@ def add_up(ahead: FloatArray, normal: FloatArray) -> tuple[Motion, Hessian]:
 
 @kernel
 def solve_loaded(hessian: Hessian, right: Motion) -> tuple[Motion, float, float]:
-    """Solve hessian motion = right as far as the loaded teeth are stiff, and return the lateral force they are not.
+    """Solve hessian motion = right in the directions in which the loaded teeth are stiff.
 
-    The rotation is eliminated. What is left, the scatter of the loaded flank normals, is solved along its principal
-    directions: fewer than three loaded teeth have no stiffness in one or both of them, and the sleeve stays there.
-    The force (x, y) returned is the lateral part of `right` in those directions.
+    Returns the motion, and the lateral force (x, y) of `right` in the directions without stiffness. The rotation is
+    eliminated first. The remaining system, the scatter of the loaded flank normals, is solved along its principal
+    directions. Fewer than three loaded teeth have no stiffness in one or both of these directions; the sleeve does not
+    move in a direction without stiffness.
     """
     loaded = max(hessian.loaded, 1.0)
     mean_x, mean_y = hessian.x / loaded, hessian.y / loaded
@@ -190,10 +213,10 @@ def solve_loaded(hessian: Hessian, right: Motion) -> tuple[Motion, float, float]
 
 @kernel
 def next_step(hessian: Hessian, missing: Motion) -> tuple[Motion, float]:
-    """Newton's step towards the forces that are `missing`, and how fast the energy falls along it.
+    """Return Newton's step towards the `missing` forces, and the rate at which the energy falls along this step.
 
-    Where most of what is missing acts in a direction without stiffness, the step is one along that direction instead,
-    by which the loaded teeth stay loaded as they are: the next tooth that meets the sleeve stops it.
+    If most of the missing force acts in a direction without stiffness, the step is along this direction instead, and
+    leaves the forces of the loaded teeth as they are. The next tooth that meets the sleeve stops the step.
     """
     step, free_x, free_y = solve_loaded(hessian, missing)
     unheld = hypot(free_x, free_y)
@@ -205,9 +228,10 @@ def next_step(hessian: Hessian, missing: Motion) -> tuple[Motion, float]:
 
 @kernel
 def slope_along(ahead: FloatArray, change: FloatArray, start: float, length: float) -> tuple[float, float]:
-    """First and second derivative of the energy by the length of a step that changes u_i by `change`.
+    """Compute the first and second derivative of the energy by the length of a step that changes u_i by `change`.
 
-    Formed from the first derivative at the `start`, for near the balance torque and tooth forces cancel.
+    The first derivative is formed from its value at the `start`, because torque and tooth forces cancel near the
+    balance.
     """
     first, second = start, 0.0
     for i in range(ahead.size):
@@ -220,11 +244,11 @@ def slope_along(ahead: FloatArray, change: FloatArray, start: float, length: flo
 
 @kernel
 def length_to_lowest(ahead: FloatArray, change: FloatArray, start: float) -> float:
-    """Length of a step at which the energy is lowest, LONGEST_STEP where it has no minimum.
+    """Find the length of a step at which the energy is lowest, or LONGEST_STEP if the energy has no minimum.
 
-    Newton on the slope, which rises with the length in straight pieces from its negative `start`, held between the
-    lengths known to lie before and behind the lowest energy. Where no tooth resists, the next one may be many steps
-    away: the length doubles.
+    The slope rises with the length, piecewise linearly, from its negative value at the `start`. Newton's method finds
+    its root, and is kept between a length before and a length behind the lowest energy. If no tooth resists, the next
+    tooth may be many steps away, and the length doubles.
     """
     before, behind, length = 0.0, LONGEST_STEP, 1.0
     while length < LONGEST_STEP:
@@ -248,10 +272,33 @@ def length_to_lowest(ahead: FloatArray, change: FloatArray, start: float) -> flo
 def float_sleeve(
     interference: FloatArray, normal: FloatArray, force: FloatArray, places: Places, k: int, ahead: FloatArray
 ) -> tuple[int, Hessian]:
-    """Balance a floating sleeve under unit torque and an external `force` (2), from and into place `k`.
+    """Balance a floating sleeve under unit torque and an external force, in place.
 
-    Returns the number of iterations, negative if the balance was not met, and the second derivatives at the balance.
-    Leaves u_i in `ahead` (teeth). Eq. C9.
+    Parameters
+    ----------
+    interference : FloatArray
+        Interference at rest of each tooth, shape (teeth,) [T/(r_o c_t)].
+    normal : FloatArray
+        Flank normals over cos(alpha), shape (2, teeth) [-].
+    force : FloatArray
+        External force on the sleeve, shape (2,) [T/r_o].
+    places : Places
+        Rotations and displacements; entry `k` is the start and is replaced by the balance [T/(r_o c_t)].
+    k : int
+        Index into `places` [-].
+    ahead : FloatArray
+        Receives the interference u_i of the balanced teeth, shape (teeth,) [T/(r_o c_t)].
+
+    Returns
+    -------
+    iterations : int
+        Number of iterations, negative if the balance was not reached [-].
+    hessian : Hessian
+        Second derivatives of the energy at the balance [-].
+
+    Notes
+    -----
+    Eq. C9.
     """
     normal_x, normal_y = normal
     force_x, force_y = force
@@ -287,9 +334,10 @@ def floating_rows(
     places: Places,
     iterations: IntArray,
 ) -> None:
-    """Shares and places of a floating sleeve under `force` (rows, 2), each row started from the one before.
+    """Compute the shares and places of a floating sleeve under `force` (rows, 2).
 
-    A row without balance, its iterations negative, ends it: later rows stay untouched.
+    Each row starts from the previous row. The first row without balance gets negative iterations; later rows are not
+    computed.
     """
     for row in range(interference.shape[0]):
         before = max(row - 1, 0)
@@ -302,11 +350,12 @@ def floating_rows(
 
 
 def largest_value(angles: FloatArray, values_at: Callable[[FloatArray], FloatArray]) -> float:
-    """Largest value over evenly spaced rotor angles [rad], searched twice more in steps eight times as fine.
+    """Find the largest value over evenly spaced rotor angles [rad] and between them.
 
-    Each search is around the local maxima that may hide the largest value, were they to rise for half a step as they
-    did before: between few loaded teeth a peak lasts but a fraction of a pitch, and each tooth has its own.
-    `values_at` takes rotor angles (rows) and returns one value each.
+    Two further searches follow, each in steps eight times as fine as before. Each searches around those local maxima
+    that would reach the largest value if they continued to rise for half a step. With few loaded teeth a peak lasts
+    only a fraction of a pitch, and each tooth has its own peak. `values_at` takes rotor angles (rows) and returns one
+    value per angle.
     """
     coarse, step = values_at(angles), angles[1] - angles[0]
     places = angles[:, None] + step * np.array([-1.0, 0.0, 1.0])
@@ -328,10 +377,10 @@ def largest_value(angles: FloatArray, values_at: Callable[[FloatArray], FloatArr
 
 @dataclass(frozen=True, slots=True)
 class ToothLoads:
-    """Tooth loads of one mesh, one row a rotor angle.
+    """Tooth loads of one mesh, one row per rotor angle.
 
-    `tangential_force` (rows, teeth) [N], `rotation` (rows) and `displacement` (rows, 2) [m]; `iterations` (rows) is
-    negative in the first row where the balance of a floating sleeve was not met; later rows then mean nothing.
+    `tangential_force` (rows, teeth) [N], `rotation` (rows) and `displacement` (rows, 2) [m]. `iterations` (rows) is
+    negative in the first row in which the floating sleeve was not balanced; later rows have no meaning.
     """
 
     tangential_force: FloatArray
@@ -341,7 +390,26 @@ class ToothLoads:
 
 
 def interference_at_rest(coupling: Coupling, mesh: MeshMotion, teeth: ToothPositions) -> FloatArray:
-    """How far each tooth is ahead, f_t + pitch deviation [m], shape (rows, teeth) (Eq. C7)."""
+    """Compute the lead of each tooth of a coupling at rest.
+
+    Parameters
+    ----------
+    coupling : Coupling
+        The coupling.
+    mesh : MeshMotion
+        Motion of the mesh.
+    teeth : ToothPositions
+        Positions of the teeth, shape (rows, teeth).
+
+    Returns
+    -------
+    FloatArray
+        Tangential displacement f_t + pitch deviation, shape (rows, teeth) [m].
+
+    Notes
+    -----
+    Eq. C7.
+    """
     ahead = tangential_displacement(mesh, teeth)
     if coupling.pitch_errors is not None:
         ahead += coupling.pitch_errors
@@ -349,12 +417,33 @@ def interference_at_rest(coupling: Coupling, mesh: MeshMotion, teeth: ToothPosit
 
 
 def elastic_rotation(coupling: Coupling, torque: float) -> float:
-    """T/(r_o c_t) [m]: the rotation of a coupling with one tooth, as a length at the pitch radius."""
+    """Return T/(r_o c_t) [m], the rotation of a coupling with one tooth as a length at the pitch radius."""
     return torque / (pitch_radius(coupling) * coupling.tooth_stiffness)
 
 
 def centred_loads(coupling: Coupling, mesh: MeshMotion, teeth: ToothPositions, torque: float) -> ToothLoads:
-    """Loads of a sleeve held centred on the hub: exact for any torque >= 0 (Eq. C7)."""
+    """Compute the tooth loads with a sleeve that is held centred on the hub.
+
+    Parameters
+    ----------
+    coupling : Coupling
+        The coupling.
+    mesh : MeshMotion
+        Motion of the mesh.
+    teeth : ToothPositions
+        Positions of the teeth, shape (rows, teeth).
+    torque : float
+        Torque, not negative [N m].
+
+    Returns
+    -------
+    ToothLoads
+        Tooth loads at each rotor angle; exact for any torque [N].
+
+    Notes
+    -----
+    Eq. C7.
+    """
     ahead = interference_at_rest(coupling, mesh, teeth)
     rows = ahead.shape[0]
     displacement, iterations = np.zeros((rows, 2)), np.zeros(rows, dtype=np.int64)
@@ -368,9 +457,30 @@ def centred_loads(coupling: Coupling, mesh: MeshMotion, teeth: ToothPositions, t
 def floating_loads(
     coupling: Coupling, mesh: MeshMotion, teeth: ToothPositions, torque: float, force: FloatArray
 ) -> ToothLoads:
-    """Loads of a sleeve that finds its own place under an external `force` (rows, 2) [N], for torque > 0 (Eq. C7).
+    """Compute the tooth loads with a floating sleeve under an external force.
 
-    Iterations are negative in a row without balance: the force exceeds what the torque's tooth forces can hold.
+    Parameters
+    ----------
+    coupling : Coupling
+        The coupling.
+    mesh : MeshMotion
+        Motion of the mesh.
+    teeth : ToothPositions
+        Positions of the teeth, shape (rows, teeth).
+    torque : float
+        Torque, positive [N m].
+    force : FloatArray
+        External force on the sleeve, shape (rows, 2) [N].
+
+    Returns
+    -------
+    ToothLoads
+        Tooth loads at each rotor angle [N].
+
+    Notes
+    -----
+    Eq. C7. The iterations are negative in a row without balance: the external force exceeds the lateral force that the
+    teeth can hold at this torque.
     """
     unit = elastic_rotation(coupling, torque)
     unit_force = unit * coupling.tooth_stiffness
@@ -387,9 +497,10 @@ def floating_loads(
 def mesh_loads(
     coupling: Coupling, mesh: MeshMotion, teeth: ToothPositions, torque: float, *, floating: bool
 ) -> ToothLoads:
-    """Loads of one mesh without external force.
+    """Compute the tooth loads of one mesh without external force.
 
-    Raises NoSolution `sleeve_balance` if a floating sleeve is not balanced (its lateral force over T/r_o).
+    Raises NoSolution `sleeve_balance` if a floating sleeve is not balanced; its residual is the lateral force over
+    T/r_o.
     """
     if not floating or torque == 0.0:
         return centred_loads(coupling, mesh, teeth, torque)
@@ -407,7 +518,7 @@ def mesh_loads(
 
 
 def load_distribution(inputs: CouplingInputs, geometry: Geometry, mesh: MeshMotion) -> LoadDistribution:
-    """Share of each tooth in the torque, and the place the sleeve takes."""
+    """Compute the share of each tooth in the torque, and the displacement of the sleeve."""
     coupling, torque, rotor_angle = inputs.coupling, inputs.operation.torque, inputs.model.rotor_angle
     positions = tooth_positions(np.array([rotor_angle]), coupling.teeth)
     loads = mesh_loads(coupling, mesh, positions, torque, floating=inputs.model.sleeve == "floating")
@@ -432,13 +543,46 @@ def load_distribution(inputs: CouplingInputs, geometry: Geometry, mesh: MeshMoti
 
 
 def coaxial_limit(coupling: Coupling, torque: float, friction: float) -> float:
-    """F_max = mu T/(r_o cos alpha) [N]: every tooth slides the same way (Eq. C20)."""
+    """Compute the axial thrust if every tooth slides in the same direction.
+
+    Parameters
+    ----------
+    coupling : Coupling
+        The coupling.
+    torque : float
+        Torque [N m].
+    friction : float
+        Coefficient of friction [-].
+
+    Returns
+    -------
+    float
+        Limit F_max = mu T/(r_o cos alpha) of the thrust [N].
+
+    Notes
+    -----
+    Eq. C20.
+    """
     return friction * torque / (pitch_radius(coupling) * cos(coupling.pressure_angle))
 
 
 def allowable_misalignment(speed: float, radius: float) -> float | None:
-    """Misalignment at the limit of sliding velocity, 0.12/(omega r_o) [rad]; None where no angle reaches it.
+    """Compute the misalignment at which the sliding velocity reaches its limit.
 
+    Parameters
+    ----------
+    speed : float
+        Speed omega [rad/s].
+    radius : float
+        Pitch radius r_o [m].
+
+    Returns
+    -------
+    float or None
+        Misalignment 0.12/(omega r_o), or None if no angle up to 90 degrees reaches the limit [rad].
+
+    Notes
+    -----
     Eq. C29.
     """
     rolling = abs(speed) * radius
@@ -446,18 +590,46 @@ def allowable_misalignment(speed: float, radius: float) -> float | None:
 
 
 def sleeve_centring_torque(coupling: Coupling, radius: float) -> float:
-    """Torque that holds a horizontal sleeve of weight W a mesh with every tooth loaded, 2 W r_o cos(alpha) [N m].
+    """Compute the torque at which every tooth is loaded while the teeth carry the weight of a horizontal sleeve.
 
+    Parameters
+    ----------
+    coupling : Coupling
+        The coupling; its sleeve mass is the mass per mesh.
+    radius : float
+        Pitch radius r_o [m].
+
+    Returns
+    -------
+    float
+        Torque 2 W r_o cos(alpha), with the weight W of the sleeve per mesh [N m].
+
+    Notes
+    -----
     Eq. C30.
     """
     return 2.0 * coupling.sleeve_mass * GRAVITY * radius * cos(coupling.pressure_angle)
 
 
 def unloading_misalignment(inputs: CouplingInputs, geometry: Geometry) -> float:
-    """Misalignment [rad] at which the first tooth of a centred sleeve unloads, pitch deviations ignored (Eq. C10).
+    """Compute the misalignment at which the first tooth of a centred sleeve unloads.
 
-    There the peak-to-peak displacement, a square of the misalignment, reaches 2 F_m/c_t with F_m the mean tooth force:
-    delta_L = sqrt(4 F_m/(c_t R_t)) with the tangential kinematics.
+    Parameters
+    ----------
+    inputs : CouplingInputs
+        Coupling, operating point and model; pitch deviations are ignored.
+    geometry : Geometry
+        Radii of the coupling.
+
+    Returns
+    -------
+    float
+        Misalignment delta_L [rad].
+
+    Notes
+    -----
+    Eq. C10. The peak-to-peak displacement grows with the square of the misalignment. At delta_L it reaches 2 F_m/c_t,
+    with F_m the mean tooth force. With tangential kinematics delta_L = sqrt(4 F_m/(c_t R_t)).
     """
     coupling, operation = inputs.coupling, inputs.operation
     mean_force = operation.torque / (geometry.pitch_radius * coupling.teeth)
@@ -466,7 +638,25 @@ def unloading_misalignment(inputs: CouplingInputs, geometry: Geometry) -> float:
 
 
 def limits(inputs: CouplingInputs, geometry: Geometry) -> Limits:
-    """Limits and the stiffness of one mesh: z c_t r_o^2 in torsion, z c_t/(2 cos^2 alpha) laterally (Eq. C31)."""
+    """Compute the limits and the stiffness of one mesh.
+
+    Parameters
+    ----------
+    inputs : CouplingInputs
+        Coupling, operating point and model.
+    geometry : Geometry
+        Radii of the coupling.
+
+    Returns
+    -------
+    Limits
+        Limits of sliding velocity [m/s], misalignment [rad] and torque [N m]; torsional [N m/rad] and lateral [N/m]
+        stiffness.
+
+    Notes
+    -----
+    Eq. C31. The torsional stiffness is z c_t r_o^2, the lateral stiffness z c_t/(2 cos^2 alpha).
+    """
     coupling, radius = inputs.coupling, geometry.pitch_radius
     all_teeth = coupling.teeth * coupling.tooth_stiffness
     return Limits(

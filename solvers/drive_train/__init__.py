@@ -2,9 +2,8 @@
 
 Data flows inputs, checks -> shafts (shafts, bearings and couplings as one flexibility matrix) -> gap (its equilibrium
 with the mesh, and its parts by cause) -> elements, losses, safety. `model.solve` calls all of these and notices;
-`states.solve` calls `model.solve` for the hot and for the cold unit. `unit_heat` brings the heat balance and the unit
-together, `warm_up` follows both over time. Own derivation; sources are given with the
-equations.
+`states.solve` calls `model.solve` for the hot and for the cold unit. `unit_heat` iterates between the heat balance and
+the gap, and `warm_up` follows both over time. Own derivation; sources are given with the equations.
 """
 
 from solvers.drive_train import states, warm_up

@@ -1,4 +1,4 @@
-"""Checks of the inputs of a drive train; they raise InvalidInput."""
+"""Checks of the inputs of a drive train, which raise InvalidInput."""
 
 import numpy as np
 
@@ -10,15 +10,25 @@ NAMES = ("pinion_shaft", "wheel_shaft")
 COLLAR_BEYOND_TEETH = 3.0  # normal modules
 LEAST_BEARING_DISTANCE = 0.5  # face widths
 LEAST_STIFFNESS = 1e6  # N/m, of the symmetric part in its weakest direction
-ROUNDING = 1e-9  # of numbers that come from other units
+ROUNDING = 1e-9  # relative, of numbers converted from other units
 
 
 def check_inputs(inputs: DriveTrainInputs, path: PathOfContact) -> None:
-    """Refuse what cannot stand or turn.
+    """Check that the shafts, bearings, couplings and the thrust collar fit together.
 
-    Raises InvalidInput: bearing_count, bearing_outside, bearing_order, bearing_distance, face_outside,
-    torque_position, position_outside, section_diameter, stiffness_matrix, thrust_collar_radius, machine_side,
-    couplings_on_shaft.
+    Parameters
+    ----------
+    inputs : DriveTrainInputs
+        The unit.
+    path : PathOfContact
+        Path of contact of its gear pair.
+
+    Raises
+    ------
+    InvalidInput
+        `bearing_count`, `bearing_outside`, `bearing_order`, `bearing_distance`, `face_outside`, `torque_position`,
+        `position_outside`, `section_diameter`, `stiffness_matrix`, `thrust_collar_radius`, `machine_side` or
+        `couplings_on_shaft`.
     """
     for index, (shaft, name) in enumerate(zip(inputs.shafts, NAMES, strict=True)):
         _check_sections(inputs, path, index, name)
@@ -41,7 +51,7 @@ def _check_sections(inputs: DriveTrainInputs, path: PathOfContact, index: int, n
             raise InvalidInput("section_diameter", message, f"{field}.inner_diameter")
         under_face = position < end - COINCIDENT and position + section.length > start + COINCIDENT
         if under_face and section.outer_diameter > tip:
-            message = f"section {k} under the teeth has a larger diameter than their tips; leave it out"
+            message = f"section {k} has a larger diameter than the tips of the teeth on it; leave the diameter out"
             raise InvalidInput("section_diameter", message, f"{field}.outer_diameter")
         position += section.length
 
@@ -50,7 +60,7 @@ def _check_bearings(inputs: DriveTrainInputs, shaft: Shaft, name: str) -> None:
     if len(shaft.bearings) != 2:
         raise InvalidInput("bearing_count", "a shaft runs in exactly two bearings", f"{name}.bearings")
     for k, bearing in enumerate(shaft.bearings):
-        if not _on(shaft, bearing.position):
+        if not _is_on(shaft, bearing.position):
             message = f"bearing {k} lies outside the shaft"
             raise InvalidInput("bearing_outside", message, f"{name}.bearings.{k}.position")
         if isinstance(bearing, LinearBearing):
@@ -62,12 +72,12 @@ def _check_bearings(inputs: DriveTrainInputs, shaft: Shaft, name: str) -> None:
     if distance <= COINCIDENT:
         raise InvalidInput("bearing_order", "the bearings need different positions", f"{name}.bearings.1.position")
     if distance < LEAST_BEARING_DISTANCE * inputs.mesh.distribution.gears.face_width:
-        message = "the bearings are nearer to each other than half the face width"
+        message = "the distance of the bearings is less than half the face width"
         raise InvalidInput("bearing_distance", message, f"{name}.bearings.1.position")
 
 
-def _on(shaft: Shaft, position: float) -> bool:
-    """Whether a position [m] is on the shaft, its ends included, whose places are sums of lengths."""
+def _is_on(shaft: Shaft, position: float) -> bool:
+    """Return True if a position [m] is on the shaft or at its ends, which are sums of lengths and thus rounded."""
     return shaft.start - COINCIDENT <= position <= shaft.end + COINCIDENT
 
 
@@ -75,11 +85,13 @@ def _check_torque(inputs: DriveTrainInputs, index: int, name: str) -> None:
     shaft, field = inputs.shafts[index], f"{name}.torque_position"
     position = shaft.torque_position
     if position is None:
-        own = [one.position for one in inputs.couplings if NAMES[index].startswith(one.shaft)]
-        if not own:
-            raise InvalidInput("torque_position", "say where torque enters a shaft without a coupling", field)
-        position = own[0]
-    if not _on(shaft, position):
+        hubs = [coupling.position for coupling in inputs.couplings if NAMES[index].startswith(coupling.shaft)]
+        if not hubs:
+            raise InvalidInput(
+                "torque_position", "a shaft without a coupling needs the position at which torque enters", field
+            )
+        position = hubs[0]
+    if not _is_on(shaft, position):
         raise InvalidInput("torque_position", "torque must enter within the shaft", field)
     end = inputs.face_start + inputs.mesh.distribution.gears.face_width
     if inputs.face_start + COINCIDENT < position < end - COINCIDENT:
@@ -92,12 +104,12 @@ def _check_couplings(inputs: DriveTrainInputs) -> None:
     for k, coupling in enumerate(inputs.couplings):
         field = f"couplings.{k}"
         if names.index(coupling.shaft) != k:
-            raise InvalidInput("couplings_on_shaft", "a shaft takes one coupling", f"{field}.shaft")
+            raise InvalidInput("couplings_on_shaft", "a shaft can have only one coupling", f"{field}.shaft")
         shaft = inputs.pinion_shaft if coupling.shaft == "pinion" else inputs.wheel_shaft
-        if not _on(shaft, coupling.position):
+        if not _is_on(shaft, coupling.position):
             raise InvalidInput("position_outside", "the hub lies outside its shaft", f"{field}.position")
         if (coupling.position > middle) != (coupling.machine_side == "plus"):
-            message = "the machine would lie on the gears' side of the hub; turn machine_side or move the hub"
+            message = "the machine would lie on the gears' side of the hub; change machine_side or move the hub"
             raise InvalidInput("machine_side", message, f"{field}.machine_side")
 
 

@@ -1,4 +1,4 @@
-"""Quantities that follow from the description of a unit alone: geometry, speeds, estimated temperatures."""
+"""Quantities that follow from the inputs of a unit alone: geometry, speeds, estimated temperatures."""
 
 from solvers.coupling.inputs import Coupling
 from solvers.drive_train.inputs import DriveTrainInputs, JournalBearing, Shaft, ShaftName
@@ -12,7 +12,7 @@ from solvers.scuffing.results import LoadDistribution
 
 @record
 class DerivedBearing:
-    """Radial clearance [m] and viscosity [Pa s] in force; None of other than plain bearings."""
+    """Clearance and viscosity that a plain bearing uses; None for other bearings."""
 
     radial_clearance: float | None = quantity("radial clearance used", "c", unit="um")
     viscosity: float | None = quantity("oil viscosity used in the bearing", "η_B", unit="pa_s")
@@ -20,14 +20,14 @@ class DerivedBearing:
 
 @record
 class DerivedSection:
-    """Outer diameter in force [m]."""
+    """The outer diameter that a section uses."""
 
     outer_diameter: float = quantity("section outer diameter used", "d_o", unit="mm")
 
 
 @record
 class DerivedShaft:
-    """Where torque enters [m], sections, bearings."""
+    """The values that a shaft uses."""
 
     torque_position: float = quantity("place of the torque used", "z_T", unit="mm")
     sections: tuple[DerivedSection, ...] = quantity("sections used")
@@ -36,7 +36,7 @@ class DerivedShaft:
 
 @record
 class DerivedCoupling:
-    """The coupling's missing proportions, its oil's viscosity [Pa s], the axial stiffness of its teeth [N/m]."""
+    """The values that a coupling, its oil and its teeth use."""
 
     coupling: Coupling = quantity("proportions used")
     viscosity: float = quantity("oil viscosity used", "η", unit="pa_s", text="at the teeth")
@@ -48,7 +48,7 @@ class DerivedCoupling:
 
 @record
 class DerivedHeat:
-    """Wall responses."""
+    """The wall responses that both gears use."""
 
     wall_response: float = quantity("wall response used", "κ_1")
     wall_response_wheel: float = quantity("wall response of the wheel used", "κ_2")
@@ -56,7 +56,7 @@ class DerivedHeat:
 
 @record
 class DerivedTemperatures:
-    """Bulk temperature of the contact and scuffing temperature [K]; None where there is none."""
+    """The temperatures and the lubricant factor that the contact uses."""
 
     bulk: float | None = quantity(
         "bulk temperature used",
@@ -74,7 +74,7 @@ class DerivedTemperatures:
 
 @record
 class Derived:
-    """Torque [N m], power [W], lengths [m], product of the load factors, and values that the parts derived."""
+    """The values that the calculation used where the inputs left them open."""
 
     pinion_torque: float = quantity("pinion torque used", "T_1", unit="n_m")
     power: float = quantity("power used", "P", unit="kw")
@@ -95,7 +95,22 @@ class Derived:
 
 
 def derived(inputs: DriveTrainInputs, mesh: LoadDistribution, heat: Heat | None = None) -> Derived:
-    """What the description left open, as it was used."""
+    """Collect the values that the inputs left open, as the calculation used them.
+
+    Parameters
+    ----------
+    inputs : DriveTrainInputs
+        The unit.
+    mesh : LoadDistribution
+        The load distribution of its mesh.
+    heat : Heat, optional
+        Its heat balance, if one was asked for.
+
+    Returns
+    -------
+    Derived
+        The values in force.
+    """
     ratio = inputs.mesh.distribution.gears.pinion.teeth / inputs.mesh.distribution.gears.wheel.teeth
     lengths, lubricant = mesh.derived, inputs.mesh.lubricant
     return Derived(
@@ -110,12 +125,12 @@ def derived(inputs: DriveTrainInputs, mesh: LoadDistribution, heat: Heat | None 
         wheel_shaft=_shaft(inputs, inputs.wheel_shaft, "wheel"),
         couplings=tuple(
             DerivedCoupling(
-                one.coupling,
-                one.lubricant.viscosity,
-                one.lubricant.viscosity_index,
-                one.axial_tooth_stiffness or one.coupling.tooth_stiffness,
+                coupling.coupling,
+                coupling.lubricant.viscosity,
+                coupling.lubricant.viscosity_index,
+                coupling.axial_tooth_stiffness or coupling.coupling.tooth_stiffness,
             )
-            for one in inputs.couplings
+            for coupling in inputs.couplings
         ),
         thermal=DerivedHeat(*inputs.heat.responses(ratio)),
         lubricant=None if lubricant is None else OilInUse(**oil_in_use(lubricant)),
@@ -131,7 +146,7 @@ def derived(inputs: DriveTrainInputs, mesh: LoadDistribution, heat: Heat | None 
 def _shaft(inputs: DriveTrainInputs, shaft: Shaft, name: ShaftName) -> DerivedShaft:
     position = shaft.torque_position
     if position is None:
-        position = next(one.position for one in inputs.couplings if one.shaft == name)
+        position = next(coupling.position for coupling in inputs.couplings if coupling.shaft == name)
     return DerivedShaft(
         position,
         tuple(DerivedSection(section.outer_diameter) for section in shaft.sections),

@@ -1,4 +1,4 @@
-"""Shafts and couplings as results: bearings, lines of deflection, thrust, the hubs' loads."""
+"""Results of the shafts and couplings: bearings, deflection, thrust, loads of the hubs."""
 
 from math import hypot
 
@@ -16,36 +16,39 @@ from solvers.gears.pair import PathOfContact
 from solvers.notices import Notice
 
 
-def hubs_of(unit: Unit, found: Equilibrium) -> list[tuple[HubMoments, HubMoments]]:
-    """Moments of both hubs of every coupling at the tilts found."""
+def hubs_of(unit: Unit, equilibrium: Equilibrium) -> list[tuple[HubMoments, HubMoments]]:
+    """Return the moments of both hubs of every coupling at their tilts in equilibrium."""
     return [
         (hub_moments(port, sizes[0]), hub_moments(port, sizes[1]))
-        for port, sizes in zip(unit.couplings, _tilt_sizes(unit, found), strict=True)
+        for port, sizes in zip(unit.couplings, _tilt_sizes(unit, equilibrium), strict=True)
     ]
 
 
-def warnings_of(unit: Unit, found: Equilibrium) -> list[tuple[Notice, ...]]:
-    """What the coupling model says of both hubs of every coupling."""
+def warnings_of(unit: Unit, equilibrium: Equilibrium) -> list[tuple[Notice, ...]]:
+    """Return the warnings of the coupling model for both hubs of every coupling."""
     return [
         (*hub_warnings(port, sizes[0]), *hub_warnings(port, sizes[1]))
-        for port, sizes in zip(unit.couplings, _tilt_sizes(unit, found), strict=True)
+        for port, sizes in zip(unit.couplings, _tilt_sizes(unit, equilibrium), strict=True)
     ]
 
 
-def _tilt_sizes(unit: Unit, found: Equilibrium) -> list[Vector2]:
-    """Tilts [rad] of both hubs of every coupling, at least the least."""
-    tilts = found.hubs.tilts.reshape(len(unit.couplings), 2, 2)
+def _tilt_sizes(unit: Unit, equilibrium: Equilibrium) -> list[Vector2]:
+    """Return the tilts [rad] of both hubs of every coupling, but not less than `LEAST_TILT`."""
+    tilts = equilibrium.hubs.tilts.reshape(len(unit.couplings), 2, 2)
     return [(max(hypot(*a), LEAST_TILT), max(hypot(*b), LEAST_TILT)) for a, b in tilts]
 
 
 def coupling_results(
-    unit: Unit, found: Equilibrium, hubs: list[tuple[HubMoments, HubMoments]]
+    unit: Unit, equilibrium: Equilibrium, hubs: list[tuple[HubMoments, HubMoments]]
 ) -> tuple[CouplingResult, ...]:
-    """Loads of the couplings on their shafts; the conjugate moments m = -Z x M turned back to M."""
+    """Return the loads of the couplings on their shafts.
+
+    The conjugate moments m = -Z x M of the ports are turned back into moments M.
+    """
     results = []
     for k, (port, pair) in enumerate(zip(unit.couplings, hubs, strict=True)):
-        tilts = found.hubs.tilts[TILTS * k : TILTS * (k + 1)]
-        *force, turned_x, turned_y, thrust = map(float, found.loads[unit.stations.size + LOADS * k :][:LOADS])
+        tilts = equilibrium.hubs.tilts[TILTS * k : TILTS * (k + 1)]
+        *force, turned_x, turned_y, thrust = map(float, equilibrium.loads[unit.stations.size + LOADS * k :][:LOADS])
         sizes = (hypot(tilts[0], tilts[1]), hypot(tilts[2], tilts[3]))
         results.append(
             CouplingResult(
@@ -67,30 +70,30 @@ def shaft_results(
     inputs: DriveTrainInputs,
     path: PathOfContact,
     unit: Unit,
-    found: Equilibrium,
+    equilibrium: Equilibrium,
     couplings: tuple[CouplingResult, ...],
 ) -> tuple[ShaftResult, ShaftResult]:
-    """Bearings, thrust and deflection of both shafts."""
-    own_couplings = [
-        [one for port, one in zip(unit.couplings, couplings, strict=True) if port.inputs.shaft == name]
+    """Return bearings, thrust and deflection of both shafts."""
+    couplings_of_shafts = [
+        [coupling for port, coupling in zip(unit.couplings, couplings, strict=True) if port.inputs.shaft == name]
         for name in ("pinion", "wheel")
     ]
-    acting = [sum(one.thrust for one in own) for own in own_couplings]
-    limits = [sum(one.thrust_limit for one in own) for own in own_couplings]
+    acting = [sum(coupling.thrust for coupling in own) for own in couplings_of_shafts]
+    limits = [sum(coupling.thrust_limit for coupling in own) for own in couplings_of_shafts]
     mesh = mesh_thrust(inputs, path, unit.frame)
     diameters = (_hub_diameter(inputs, 0), _hub_diameter(inputs, 1))
     thrusts = thrust_budget(inputs, mesh, (acting[0], acting[1]), (limits[0], limits[1]), diameters)
-    states = unit.bearings(found.loads)
+    states = unit.bearings(equilibrium.loads)
     shafts = []
     for i, side in enumerate(unit.shafts):
         bearings = states[2 * i : 2 * i + 2]
-        curves = _curves(side, found.loads, bearings, unit.offsets[4 * i : 4 * i + 4])
+        curves = _curves(side, equilibrium.loads, bearings, unit.offsets[4 * i : 4 * i + 4])
         shafts.append(ShaftResult((_bearing(bearings[0]), _bearing(bearings[1])), thrusts[i], curves))
     return shafts[0], shafts[1]
 
 
 def _hub_diameter(inputs: DriveTrainInputs, index: int) -> float | None:
-    """Diameter of the shaft under its hub [m]."""
+    """Return the diameter of a shaft under its hub [m], or None without a coupling."""
     shaft, name = inputs.shafts[index], ("pinion", "wheel")[index]
     for coupling in inputs.couplings:
         if coupling.shaft == name:
@@ -112,7 +115,7 @@ def _bearing(state: BearingState) -> BearingResult:
 
 
 def _curves(side: ShaftPorts, loads: FloatArray, bearings: list[BearingState], offsets: FloatArray) -> ShaftCurves:
-    """Elastic line of a shaft on its displaced bearings, and its twist."""
+    """Return the elastic line of a shaft on its displaced bearings, and its twist."""
     nodes = side.model.z.size
     displacement = np.array([state.displacement for state in bearings]) + offsets.reshape(2, 2)
     motion = side.motion(side.loads @ loads + side.fixed) + displacement.T @ side.model.bearing_share

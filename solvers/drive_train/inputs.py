@@ -1,10 +1,10 @@
-"""What describes a single-stage gear unit with its shafts, bearings and couplings; SI units, angles in radians.
+"""Inputs of a single-stage gear unit with its shafts, bearings and couplings; SI units, angles in radians.
 
-The frame: Z along the pinion's axis, X and Y across it; positions along Z are from any datum, the same for both shafts.
-"Pinion" is the driving gear.
+The Z axis runs along the pinion's axis, X and Y are normal to it. Positions along Z count from any datum, which is the
+same for both shafts. "Pinion" is the driving gear.
 """
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from math import cos
 from typing import Literal
 
@@ -15,7 +15,7 @@ from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.lubricants import Lubricant
 from solvers.oils import OilSheet, lubricant_at
 from solvers.pumping.inputs import PumpingSetup
-from solvers.quantity import quantity, record
+from solvers.quantity import described, quantity, record
 from solvers.scuffing.inputs import ScuffingInputs
 from solvers.sources import OCVIRK
 
@@ -23,14 +23,16 @@ Vector2 = tuple[float, float]
 CouplingFriction = Literal["elastic_plastic", "sliding"]
 ShaftName = Literal["pinion", "wheel"]
 State = Literal["hot", "cold"]
-ASSUMED_RESPONSE = 0.5  # chosen: among the known values, 0.2 to 1
+ASSUMED_RESPONSE = 0.5  # chosen within the range of published values, 0.2 to 1
 FILM_ABOVE_OIL = 15.0  # K
-COINCIDENT = 1e-9  # m; places nearer than this are one
+COINCIDENT = 1e-9  # m; nearer positions are the same
+BEARING_POSITION = "Position along the Z of the unit [m]."
+BEARING_OFFSET = "Offset (X, Y) of the bore from the datum axis [m]."
 
 
 @record
 class SectionDesign:
-    """A cylinder of a shaft as its user knows it [m]; under the teeth the diameter may be left out."""
+    """A cylinder of a shaft as the user describes it; the diameter may be left out under the teeth."""
 
     length: float = quantity("section length", "l", unit="mm", ge=0.1, le=5000)
     outer_diameter: float | None = quantity(
@@ -50,15 +52,29 @@ class SectionDesign:
 
 @record
 class ShaftSection(SectionDesign):
-    """A cylinder of a shaft with its diameter known [m]."""
+    """A cylinder of a shaft whose diameter is given."""
 
     outer_diameter: float = quantity("section outer diameter used", "d_o", unit="mm", ge=5, le=3000)
 
 
 def torsion_diameter(gears: GearPairInputs, teeth: GearTeeth) -> float:
-    """Diameter [m] that carries the torsion of a toothed section: d - m_n h_fP*, by a public program's rule.
+    """Compute the diameter that carries the torsion of a toothed section.
 
-    h_fP* is the dedendum of the teeth, the addendum of the tool that cuts them. Eq. D16.
+    Parameters
+    ----------
+    gears : GearPairInputs
+        The gear pair.
+    teeth : GearTeeth
+        Teeth of the gear on the section.
+
+    Returns
+    -------
+    float
+        Diameter d - m_n h_fP* [m]. The dedendum h_fP* is the addendum of the tool that cuts the teeth.
+
+    Notes
+    -----
+    Eq. D16, the rule of a public program.
     """
     reference = teeth.teeth * gears.normal_module / cos(gears.helix_angle)
     return reference - gears.normal_module * teeth.dedendum
@@ -67,9 +83,30 @@ def torsion_diameter(gears: GearPairInputs, teeth: GearTeeth) -> float:
 def sections_of(
     name: str, start: float, described: tuple[SectionDesign, ...], face: tuple[float, float], diameter: float
 ) -> tuple[ShaftSection, ...]:
-    """The sections of a shaft from `start` [m] on; those under the face that have no diameter take this one [m].
+    """Return the sections of a shaft with all diameters.
 
-    `face` is where the face starts and ends [m]. Raises InvalidInput section_diameter where another has none.
+    Parameters
+    ----------
+    name : str
+        Field of the shaft in the inputs, for error messages.
+    start : float
+        Position of the shaft's end of lowest Z [m].
+    described : tuple of SectionDesign
+        The sections in order of Z.
+    face : tuple of float
+        Positions of both ends of the face [m].
+    diameter : float
+        Outer diameter of sections under the face that have none [m].
+
+    Returns
+    -------
+    tuple of ShaftSection
+        The sections in the same order.
+
+    Raises
+    ------
+    InvalidInput
+        `section_diameter` if a section beside the face has no diameter.
     """
     sections, position = [], start
     for k, section in enumerate(described):
@@ -84,45 +121,48 @@ def sections_of(
     return tuple(sections)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class JournalBearing:
-    """A plain bearing; lengths [m], viscosity of its film [Pa s].
+    """A plain bearing."""
 
-    `radial_clearance` None is 1.5e-3 of the journal's radius. `offset` (X, Y) is of the bore against the datum axis.
-    With `in_gear_oil` the viscosity is that of the gears' oil, which follows the film's temperature in a heat balance;
-    `oil_flow` [m^3/s] there takes the place of what leaks at the sides.
-    """
-
-    position: float
-    diameter: float
-    width: float
-    viscosity: float
-    radial_clearance: float | None = None
-    offset: Vector2 = (0.0, 0.0)
-    in_gear_oil: bool = False
-    oil_flow: float | None = None
+    position: float = described(BEARING_POSITION)
+    diameter: float = described("Diameter of the journal [m].")
+    width: float = described("Width of the bearing [m].")
+    viscosity: float = described("Viscosity of the oil in the film [Pa s].")
+    radial_clearance: float | None = described(
+        "Radial clearance; None: 1.5e-3 of the radius of the journal [m].", default=None
+    )
+    offset: Vector2 = described(BEARING_OFFSET, default=(0.0, 0.0))
+    in_gear_oil: bool = described(
+        "Whether the oil of the gears lubricates the bearing; its viscosity then follows the temperature of the film "
+        "in a heat balance.",
+        default=False,
+    )
+    oil_flow: float | None = described(
+        "Oil flow in a heat balance; None: the leakage at the sides [m^3/s].", default=None
+    )
 
     @property
     def clearance(self) -> float:
-        """Radial clearance in force [m]."""
+        """Radial clearance, given or assumed [m]."""
         return 0.75e-3 * self.diameter if self.radial_clearance is None else self.radial_clearance
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class LinearBearing:
-    """A bearing by its `stiffness` ((xx, xy), (yx, yy)) [N/m], which need not be symmetric."""
+    """A bearing given by its stiffness."""
 
-    position: float
-    stiffness: tuple[Vector2, Vector2]
-    offset: Vector2 = (0.0, 0.0)
+    position: float = described(BEARING_POSITION)
+    stiffness: tuple[Vector2, Vector2] = described("Stiffness ((xx, xy), (yx, yy)), symmetric or not [N/m].")
+    offset: Vector2 = described(BEARING_OFFSET, default=(0.0, 0.0))
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class RigidBearing:
-    """A rigid bearing."""
+    """A bearing that does not yield; position and offset [m]."""
 
-    position: float
-    offset: Vector2 = (0.0, 0.0)
+    position: float = described(BEARING_POSITION)
+    offset: Vector2 = described(BEARING_OFFSET, default=(0.0, 0.0))
 
 
 Bearing = JournalBearing | LinearBearing | RigidBearing
@@ -130,7 +170,7 @@ Bearing = JournalBearing | LinearBearing | RigidBearing
 
 @record
 class ShaftBearing:
-    """A radial bearing as its user knows it: a plain one, one by its stiffness, or a rigid one."""
+    """A radial bearing as the user describes it: plain, of given stiffness, or rigid."""
 
     position: float = quantity(
         "bearing position", "z_B", unit="mm", ge=-20000, le=20000, tolerance=0.1, text="along the unit's Z"
@@ -220,9 +260,25 @@ class ShaftBearing:
     )
 
     def bearing(self, oil: OilSheet | Lubricant | None, oil_temperature: float) -> Bearing:
-        """The bearing of the model; without a viscosity of its own it runs in the gears' oil, at a temperature [K].
+        """Return the bearing in the form that the model uses.
 
-        Raises InvalidInput no_oil where there is none, bearing_data where data of its type are missing.
+        Parameters
+        ----------
+        oil : OilSheet, Lubricant or None
+            Oil of the gears, in which a bearing without a viscosity of its own runs.
+        oil_temperature : float
+            Temperature of the gears' oil [K].
+
+        Returns
+        -------
+        JournalBearing, LinearBearing or RigidBearing
+            The bearing.
+
+        Raises
+        ------
+        InvalidInput
+            `no_oil` if a plain bearing has neither a viscosity nor an oil, `bearing_data` if data of its type are
+            missing.
         """
         if self.type == "rigid":
             return RigidBearing(self.position, self.offset)
@@ -236,7 +292,7 @@ class ShaftBearing:
         viscosity = self.viscosity
         if viscosity is None:
             if oil is None:
-                message = "without an oil of the gears a plain bearing needs its own viscosity; give it, or the oil"
+                message = "a plain bearing needs a viscosity if the gears have no oil; give the viscosity or the oil"
                 raise InvalidInput("no_oil", message, "viscosity")
             film = oil_temperature + FILM_ABOVE_OIL if self.film_temperature is None else self.film_temperature
             viscosity = lubricant_at(oil, film).viscosity_at(0.0, film)
@@ -255,22 +311,41 @@ class ShaftBearing:
 def bearings_of(
     shaft: str, described: tuple[ShaftBearing, ...], oil: OilSheet | Lubricant | None, oil_temperature: float
 ) -> tuple[Bearing, ...]:
-    """The bearings of a shaft, named "pinion_shaft" or "wheel_shaft", as `ShaftBearing.bearing` makes them.
+    """Return the bearings of a shaft in the form that the model uses.
 
-    Raises what it raises, with the full name of the field at fault.
+    Parameters
+    ----------
+    shaft : str
+        Field of the shaft in the inputs, "pinion_shaft" or "wheel_shaft", for error messages.
+    described : tuple of ShaftBearing
+        The bearings as the user describes them.
+    oil : OilSheet, Lubricant or None
+        Oil of the gears.
+    oil_temperature : float
+        Temperature of the gears' oil [K].
+
+    Returns
+    -------
+    tuple of JournalBearing, LinearBearing or RigidBearing
+        The bearings in the same order.
+
+    Raises
+    ------
+    InvalidInput
+        The errors of `ShaftBearing.bearing`, with the full name of the field.
     """
-    found = []
-    for index, each in enumerate(described):
+    bearings = []
+    for index, bearing in enumerate(described):
         try:
-            found.append(each.bearing(oil, oil_temperature))
+            bearings.append(bearing.bearing(oil, oil_temperature))
         except InvalidInput as error:
             raise InvalidInput(error.code, error.message, f"{shaft}.bearings.{index}.{error.field}") from error
-    return tuple(found)
+    return tuple(bearings)
 
 
 @record
 class Shaft:
-    """A shaft in two bearings, its sections in the order of Z from `start`."""
+    """A shaft in two bearings; its sections follow one another along Z from `start`."""
 
     start: float = quantity(
         "start of the shaft",
@@ -318,7 +393,7 @@ class Shaft:
 
 @record
 class Alignment:
-    """Heights of the unit's and of the machine's shaft over their feet, and how much these warm up."""
+    """Heights of the unit's and the machine's shaft above their feet, and the temperature rises of their supports."""
 
     unit_height: float | None = quantity(
         "height of the unit's shaft",
@@ -375,7 +450,7 @@ class Alignment:
 
     @property
     def growth(self) -> float:
-        """How far the machine's shaft rises over the unit's as both warm up [m]."""
+        """Rise of the machine's shaft relative to the unit's as both warm up [m]."""
         unit, machine = (
             (height or 0.0) * (rise or 0.0)
             for height, rise in ((self.unit_height, self.unit_rise), (self.machine_height, self.machine_rise))
@@ -446,7 +521,7 @@ class UnitCoupling:
 
 @record
 class Arrangement:
-    """How the unit stands and turns; angles are counter-clockwise from X, the pinion is seen against Z."""
+    """Position and rotation of the unit; angles are counter-clockwise from X for a viewer who looks against Z."""
 
     hand: Literal["right", "left"] = quantity(
         "hand of the pinion's helix", default="right", text="without meaning for spur gears"
@@ -474,11 +549,12 @@ class Arrangement:
 
 @record
 class Heat:
-    """Tooth temperatures [K] without the pumping heat, and how much of the gas's rise the metal takes (0 to 1.5).
+    """Tooth temperatures without the pumping heat, and how strongly the metal follows the temperature rise of the gas.
 
-    `wall_response` None is an assumed one, 0.5, and says so. `wall_response_wheel` None is the pinion's times z1/z2: a
-    wheel tooth meets the hot gas once a turn. Where the bulk temperatures include the pumping heat, only the deviation
-    of the gas's rise from its mean over the face counts.
+    If `wall_response` is None, 0.5 is assumed and a warning says so. If `wall_response_wheel` is None, it is the
+    pinion's times z1/z2, because a wheel tooth meets the hot gas once per turn of the wheel. If the tooth temperatures
+    already include the pumping heat, only the deviation of the gas's temperature rise from its mean over the face
+    counts.
     """
 
     wall_response: float | None = quantity(
@@ -541,14 +617,25 @@ class Heat:
     )
 
     def responses(self, speed_ratio: float) -> tuple[float, float]:
-        """Wall responses of pinion and wheel; `speed_ratio` is z1/z2."""
+        """Return the wall responses of pinion and wheel.
+
+        Parameters
+        ----------
+        speed_ratio : float
+            Ratio of the numbers of teeth z1/z2 [-].
+
+        Returns
+        -------
+        tuple of float
+            Rise of the metal over the rise of the gas, of pinion and wheel [-].
+        """
         pinion = ASSUMED_RESPONSE if self.wall_response is None else self.wall_response
         return pinion, pinion * speed_ratio if self.wall_response_wheel is None else self.wall_response_wheel
 
 
 @record
 class Effects:
-    """What is taken into account; without shafts, couplings have nothing to bend."""
+    """The effects that the model takes into account; couplings act only if the shafts do."""
 
     shafts: bool = quantity(
         "shafts", default=True, text="whether shafts and bearings yield; without, couplings neither"
@@ -559,14 +646,11 @@ class Effects:
 
 @record
 class DriveTrainInputs:
-    """The unit: its mesh, the gas pumped in it, shafts, couplings, heat.
+    """A gear unit: its mesh, the gas that its teeth pump, shafts, couplings, heat.
 
-    The mesh and the pumped spaces belong to one gear pair; only the tip radius of the rack may differ. `face_start`
-    [m] is the end of the common face with the lower Z. The load factors of the mesh raise the load of its contacts
-    only. A thrust collar of `collar_radius` [m] on the pinion takes the place of the pinion's thrust bearing.
-    `local_bulk` adds the local pumping heat to the contact's bulk temperature. The cold unit has the same bulk
-    temperature where `bulk_given`, else the reference temperature. The result is that of the hot unit; where
-    `states` names the cold one, it holds that as well.
+    The mesh and the pumped spaces describe the same gear pair; only the tip radius of the rack may differ. The load
+    factors of the mesh raise the load of its contacts only. A thrust collar on the pinion replaces the pinion's thrust
+    bearing. The result describes the hot unit; if `states` contains "cold", it also contains the cold unit.
     """
 
     mesh: ScuffingInputs
@@ -611,7 +695,10 @@ class DriveTrainInputs:
     local_bulk: bool = quantity(
         "local bulk temperature", default=False, text="whether the contact's bulk is warmer where more heat is pumped"
     )
-    bulk_given: bool = True
+    bulk_given: bool = described(
+        "Whether the bulk temperature is given: the cold unit then has the same one, else the reference temperature.",
+        default=True,
+    )
     states: tuple[State, ...] = quantity(
         "states",
         default=("hot",),
@@ -621,15 +708,15 @@ class DriveTrainInputs:
 
     @property
     def shafts(self) -> tuple[Shaft, Shaft]:
-        """The pinion's and the wheel's shaft."""
+        """Shafts of pinion and wheel."""
         return self.pinion_shaft, self.wheel_shaft
 
     @property
     def acting_couplings(self) -> tuple[UnitCoupling, ...]:
-        """The couplings whose loads count."""
+        """Couplings whose loads the model takes into account."""
         return self.couplings if self.effects.shafts and self.effects.coupling else ()
 
     @property
     def contact_load_factor(self) -> float:
-        """K_A K_v K_gamma."""
+        """Product K_A K_v K_gamma of the load factors."""
         return self.mesh.distribution.load.contact_factor

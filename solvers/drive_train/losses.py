@@ -18,12 +18,13 @@ def train_losses(
     couplings: tuple[CouplingResult, ...],
     heat: Heat | None = None,
 ) -> TrainLosses:
-    """Losses [W] of all parts; `mesh` and `pumping` are the models' own, others those of the heat balance.
+    """Return the losses of all parts of the unit [W].
 
-    Without the mesh's no sum is known; where they exceed the power there is no efficiency.
+    `mesh` and `pumping` [W] are the results of these models. A heat balance adds the other losses and replaces that of
+    the mesh. Without a loss of the mesh there is no total; if the total exceeds the power, there is no efficiency.
     """
     bearings = sum(bearing.friction_power for shaft in shafts for bearing in shaft.bearings)
-    coupling = sum(one.friction_power for one in couplings)
+    coupling = sum(result.friction_power for result in couplings)
     parts: tuple[float | None, float | None, float | None] = (None, None, None)
     if heat is not None:
         parts, mesh = (heat.losses.oil_acceleration, heat.losses.windage, heat.losses.other), heat.losses.mesh
@@ -34,26 +35,26 @@ def train_losses(
     return TrainLosses(coupling, pumping, mesh, bearings, *parts, total, 1 - total / power if power > total else None)
 
 
-def force_balance(unit: Unit, found: Equilibrium, torques: tuple[float, float], force: float) -> ForceBalance:
-    """Sums of forces and moments of everything that acts on a shaft, in both planes and about Z.
+def force_balance(unit: Unit, equilibrium: Equilibrium, torques: tuple[float, float], force: float) -> ForceBalance:
+    """Return the largest unbalanced force and moment on a shaft, in both planes and about Z.
 
-    `torques` [N m] are those that drive the pinion and brake the wheel, force F_bt [N].
+    `torques` [N m] drive the pinion and brake the wheel; `force` is F_bt [N].
     """
     if force == 0.0:
         return ForceBalance(None, None)
-    states, width = unit.bearings(found.loads), unit.stations[-1]
+    states, width = unit.bearings(equilibrium.loads), unit.stations[-1]
     forces, moments = [], []
     for i, side in enumerate(unit.shafts):
-        sums, turns = _sums(side, found.loads, [-state.load for state in states[2 * i : 2 * i + 2]])
+        sums, turns = _sums(side, equilibrium.loads, [-state.load for state in states[2 * i : 2 * i + 2]])
         forces.append(np.abs(sums).max())
         moments.append(np.abs(turns).max())
-        twisting = float((side.torques @ found.loads).sum())
+        twisting = float((side.torques @ equilibrium.loads).sum())
         moments.append(abs(twisting + unit.frame.rotation * torques[i]))
     return ForceBalance(float(max(forces)) / force, float(max(moments)) / (force * width))
 
 
 def _sums(side: ShaftPorts, loads: FloatArray, reactions: list[FloatArray]) -> tuple[FloatArray, FloatArray]:
-    """Forces and moments about Z = 0 in both planes, of all nodal loads and the bearings' reactions."""
+    """Sum the nodal loads and the reactions of the bearings: forces, and moments about Z = 0, in both planes."""
     nodal = side.loads @ loads + side.fixed
     nodes = side.model.z.size
     sums = nodal[:, :nodes].sum(axis=1) + sum(reactions)

@@ -25,40 +25,56 @@ from solvers.scuffing.thermal.temperatures import in_force, oil_notices
 
 
 def solve(inputs: DriveTrainInputs, start: FloatArray | None = None) -> DriveTrainResult:
-    """Misalignment, load, safety, thrust and losses of a unit; `start` is the shafts' gap of a similar one.
+    """Compute misalignment, load, safety, thrust and losses of a unit in one state.
 
-    Raises InvalidInput (codes of `check_inputs`, of the three models and of the heat balance) and NoSolution
-    (drive_train, load_balance, journal, heat_balance, thermal_runaway).
+    Parameters
+    ----------
+    inputs : DriveTrainInputs
+        The unit.
+    start : FloatArray of shape (stations,), optional
+        The shafts' gap of a similar unit, from which the iteration starts [m].
+
+    Returns
+    -------
+    DriveTrainResult
+        The unit at the gap on which mesh, shafts, bearings and couplings agree.
+
+    Raises
+    ------
+    InvalidInput
+        The codes of `check_inputs`, of the models of mesh, pumping and couplings, and of the heat balance.
+    NoSolution
+        `drive_train`, `load_balance`, `journal`, `heat_balance` or `thermal_runaway`.
     """
     warm = None
     if asks_for_balance(inputs):
         warm = warm_unit(inputs, start)
-        inputs, prepared, found = warm.inputs, warm.prepared, warm.found
+        inputs, prepared, equilibrium = warm.inputs, warm.prepared, warm.equilibrium
     else:
         prepared = prepare(inputs)
-        found = settle(inputs, prepared, start)
+        equilibrium = settle(inputs, prepared, start)
     system, mesh, thermal = prepared.unit, prepared.mesh, prepared.thermal
-    spread = distribution(inputs.mesh.distribution, mesh.prepared, found.balance)
+    spread = distribution(inputs.mesh.distribution, mesh.prepared, equilibrium.balance)
     contact, spread, flash, _ = in_force(contact_of(inputs), spread)
     inputs = replace(inputs, mesh=contact)
-    hubs = hubs_of(system, found)
-    couplings = coupling_results(system, found, hubs)
-    shafts = shaft_results(inputs, mesh.prepared.path, system, found, couplings)
+    hubs = hubs_of(system, equilibrium)
+    couplings = coupling_results(system, equilibrium, hubs)
+    shafts = shaft_results(inputs, mesh.prepared.path, system, equilibrium, couplings)
     gas = gas_heat(inputs.pumping, inputs.mesh.distribution.load.pinion_speed)
     flank = flank_heat(inputs, spread, flash, thermal)
     heat = None if warm is None else with_safety_band(inputs, warm.heat, flank.safety)
     load = face_load(spread)
     losses = train_losses(inputs, spread.friction_loss.power, gas.power, shafts, couplings, heat)
     return DriveTrainResult(
-        misalignment=misalignment(inputs, system, mesh, thermal, found),
+        misalignment=misalignment(inputs, system, mesh, thermal, equilibrium),
         load=load,
         shafts=shafts,
         couplings=couplings,
         flash=flank.flash,
         safety=flank.safety,
         losses=losses,
-        balance=force_balance(system, found, _torques(inputs), mesh.transmitted),
-        convergence=Convergence(found.iterations, found.residual),
+        balance=force_balance(system, equilibrium, _torques(inputs), mesh.transmitted),
+        convergence=Convergence(equilibrium.iterations, equilibrium.residual),
         micropitting=flank.micropitting.answer,
         wear=wear_asked_for(inputs.mesh.micropitting, spread),
         mesh=spread,
@@ -69,7 +85,7 @@ def solve(inputs: DriveTrainInputs, start: FloatArray | None = None) -> DriveTra
         derived=derived(inputs, spread, heat),
         warnings=(
             *spread.warnings,
-            *coupling_notices(inputs, couplings, warnings_of(system, found)),
+            *coupling_notices(inputs, couplings, warnings_of(system, equilibrium)),
             *shaft_notices(inputs, shafts),
             *load_notices(inputs, load),
             *loss_notices(inputs, losses),
@@ -82,7 +98,7 @@ def solve(inputs: DriveTrainInputs, start: FloatArray | None = None) -> DriveTra
 
 
 def face_load(spread: LoadDistribution) -> FaceLoad:
-    """How the face carries."""
+    """Return how the load spreads over the face."""
     loaded = spread.load.face_load_factor is not None
     shares = np.trapezoid(spread.flank.line_load, axis=0)
     return FaceLoad(
@@ -96,6 +112,6 @@ def face_load(spread: LoadDistribution) -> FaceLoad:
 
 
 def _torques(inputs: DriveTrainInputs) -> tuple[float, float]:
-    """Torques [N m] at the pinion's and at the wheel's shaft."""
+    """Return the torques of pinion and wheel [N m]."""
     gears, load = inputs.mesh.distribution.gears, inputs.mesh.distribution.load
     return load.torque, load.torque * gears.wheel.teeth / gears.pinion.teeth

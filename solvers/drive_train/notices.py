@@ -1,4 +1,4 @@
-"""Warnings of a drive train: ranges that are left, assumptions that matter, inputs that look wrong."""
+"""Warnings of a drive train: results out of range, assumptions that matter, inputs that look wrong."""
 
 from collections.abc import Iterator
 from dataclasses import replace
@@ -17,21 +17,23 @@ from solvers.notices import Notice
 from solvers.scuffing.notices import unusual_modifications, unusual_temperatures
 
 SHORT_BEARING = 0.7  # width over diameter
-ROUNDING = 1e-9  # of lengths that come from other units
+ROUNDING = 1e-9  # relative, of lengths converted from other units
 THIN_FILM = 15e-6  # m
-LARGE_ECCENTRICITY = 0.9  # a tenth of the clearance is left: customary limit of design
+LARGE_ECCENTRICITY = 0.9  # customary limit of design: the film is a tenth of the clearance
 LIFTED = 0.9  # contact fraction
 
 
 def shaft_notices(inputs: DriveTrainInputs, shafts: tuple[ShaftResult, ShaftResult]) -> Iterator[Notice]:
-    """Films out of range, thrust that may reverse or is too high, long overhangs."""
+    """Warn of films out of range, of thrust that may reverse or is too high, and of long overhangs."""
     for shaft, result, name in zip(inputs.shafts, shafts, NAMES, strict=True):
         for k, (bearing, state) in enumerate(zip(shaft.bearings, result.bearings, strict=True)):
             field = f"{name}.bearings.{k}"
             if isinstance(bearing, JournalBearing):
                 yield from _film_notices(bearing, state.eccentricity_ratio, state.min_film, field)
         if not all(isinstance(bearing, JournalBearing) for bearing in shaft.bearings):
-            message = "the loss of bearings other than plain ones is not known; total loss and efficiency leave it out"
+            message = (
+                "only plain bearings have a known loss; total loss and efficiency do not contain that of other bearings"
+            )
             yield Notice("bearing_loss_left_out", message, f"{name}.bearings", rank="note")
         thrust = result.thrust
         if thrust.reverses:
@@ -63,7 +65,7 @@ def _film_notices(
 def load_notices(inputs: DriveTrainInputs, load: FaceLoad) -> Iterator[Notice]:
     """Warn of load at an end of the face, of flanks that lift off, and of an assumed wall response."""
     if load.face_load_at in {0.0, 1.0}:
-        message = f"the face carries most at its end y/b = {load.face_load_at:.0f}"
+        message = f"the load is largest at the end y/b = {load.face_load_at:.0f} of the face"
         yield Notice("edge_load", message, "mesh.distribution.modifications.helix_slope")
     if load.contact_fraction < LIFTED:
         message = f"only {load.contact_fraction:.2f} of the contact length is loaded"
@@ -74,7 +76,7 @@ def load_notices(inputs: DriveTrainInputs, load: FaceLoad) -> Iterator[Notice]:
 
 
 def loss_notices(inputs: DriveTrainInputs, losses: TrainLosses) -> Iterator[Notice]:
-    """Losses that the power does not cover."""
+    """Warn if the losses exceed the power."""
     power = inputs.mesh.distribution.load.transmitted_power
     if losses.total is not None and 0.0 < power <= losses.total:
         message = (
@@ -85,23 +87,23 @@ def loss_notices(inputs: DriveTrainInputs, losses: TrainLosses) -> Iterator[Noti
 
 
 def coupling_notices(
-    inputs: DriveTrainInputs, couplings: tuple[CouplingResult, ...], own: list[tuple[Notice, ...]]
+    inputs: DriveTrainInputs, couplings: tuple[CouplingResult, ...], of_model: list[tuple[Notice, ...]]
 ) -> Iterator[Notice]:
-    """Hubs that stick, and what the coupling model itself says of them."""
-    for k, (coupling, said) in enumerate(zip(couplings, own, strict=True)):
+    """Tell of hubs that stick, and pass on the warnings of the coupling model, `of_model`, each code once."""
+    for k, (coupling, notices) in enumerate(zip(couplings, of_model, strict=True)):
         field = f"couplings.{k}"
         for name, stuck, share in zip(("unit", "machine"), coupling.stuck, coupling.friction_share, strict=True):
             if stuck and inputs.coupling_friction == "elastic_plastic":
-                message = f"the {name}'s hub sticks; its friction moment is {share:.2f} of full sliding's"
+                message = f"the {name}'s hub sticks; its friction moment is {share:.2f} times that of full sliding"
                 yield Notice("hub_sticks", message, f"{field}.friction", rank="note")
-        for notice in {one.code: one for one in said}.values():
+        for notice in {notice.code: notice for notice in notices}.values():
             code = "misalignment_limit" if notice.code == "sliding_velocity" else notice.code
             where = field if notice.field is None else f"{field}.{notice.field}"
             yield replace(notice, code=code, field=where)
 
 
 def unusual_values(inputs: DriveTrainInputs, result: DriveTrainResult) -> Iterator[Notice]:
-    """Unusual values of oils, temperatures, ambient, couplings, gears, modifications and load."""
+    """Tell of unusual values of oils, temperatures, ambient, couplings, gears, modifications and load."""
     derived, mesh, load = result.derived, inputs.mesh.distribution, result.load
     yield from plausibility.thick_oil(derived.lubricant.viscosity if derived.lubricant else None)
     for name, shaft in zip(NAMES, (derived.pinion_shaft, derived.wheel_shaft), strict=True):

@@ -1,4 +1,4 @@
-"""The main results of a drive train without the thermal film, at a fraction of the time of a whole result."""
+"""The main results of a drive train without the thermal film, in a fraction of the time of all results."""
 
 from dataclasses import dataclass, replace
 
@@ -17,10 +17,10 @@ from solvers.scuffing.thermal.temperatures import in_force
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
-    """K_H_beta, Blok's safety over the flank, pressure [Pa], slopes of the gap [m], peak-to-peak TE [m]; arrays apart.
+    """Main results of a unit: pressure [Pa], line load [N/m], slopes of the gap and transmission error [m].
 
-    `shares` is the load along the face over its mean, `temperature` Blok's over the flank [profile, face] [K], which
-    the safety holds against `limit`; `gap` starts a similar unit.
+    `safety` is Blok's over the flank: it compares his contact `temperature` [profile, face] [K] with `limit` [K].
+    `shares` is the load along the face over its mean. The calculation of a similar unit can start from `gap` [m].
     """
 
     face_load_factor: float | None
@@ -37,25 +37,28 @@ class Outcome:
 
 
 def outcome(inputs: DriveTrainInputs, start: FloatArray | None = None) -> Outcome:
-    """The figures of a unit, from the gap of a similar one where given. Raises what `model.solve` raises."""
+    """Compute the main results of a unit; the iteration starts from the gap of a similar unit, `start`, if given.
+
+    Raises the errors of `model.solve`.
+    """
     if asks_for_balance(inputs):
         warm = warm_unit(
             replace(inputs, mesh=replace(inputs.mesh, cooling=replace(inputs.mesh.cooling, band=False))), start
         )
-        return outcome_of(warm.inputs, warm.prepared, warm.found)
+        return outcome_of(warm.inputs, warm.prepared, warm.equilibrium)
     prepared = prepare(inputs)
     return outcome_of(inputs, prepared, settle(inputs, prepared, start))
 
 
-def outcome_of(inputs: DriveTrainInputs, prepared: Prepared, found: Equilibrium) -> Outcome:
-    """The figures of a unit whose gap is known; the thermal film is left out."""
-    spread = distribution(inputs.mesh.distribution, prepared.mesh.prepared, found.balance)
+def outcome_of(inputs: DriveTrainInputs, prepared: Prepared, equilibrium: Equilibrium) -> Outcome:
+    """Return the main results of a unit in equilibrium, without the thermal film."""
+    spread = distribution(inputs.mesh.distribution, prepared.mesh.prepared, equilibrium.balance)
     contact, spread, flash, _ = in_force(contact_of(inputs), spread)
     closed = replace(inputs, mesh=replace(contact, lubrication="closed_form"))
     heat = flank_heat(closed, spread, flash, prepared.thermal)
     shares = np.trapezoid(spread.flank.line_load, axis=0)
     mean = float(np.trapezoid(shares) / (shares.size - 1))
-    slope = face_slope(found.gap)
+    slope = face_slope(equilibrium.gap)
     return Outcome(
         face_load_factor=spread.load.face_load_factor,
         safety=None if heat.safety is None else heat.safety.blok_flank,
@@ -67,5 +70,5 @@ def outcome_of(inputs: DriveTrainInputs, prepared: Prepared, found: Equilibrium)
         shares=np.asarray(shares) / (mean if mean > 0.0 else 1.0),
         temperature=heat.temperature,
         limit=closed.mesh.temperatures.scuffing,
-        gap=found.gap,
+        gap=equilibrium.gap,
     )

@@ -1,4 +1,4 @@
-"""The parts of a unit ready to be brought together, and the gap that they agree on."""
+"""The parts of a unit, prepared for the iteration on the common gap, and that iteration."""
 
 from dataclasses import dataclass, replace
 
@@ -13,12 +13,12 @@ from solvers.drive_train.inputs import DriveTrainInputs
 from solvers.drive_train.shafts.influence import Unit, unit
 from solvers.scuffing.model import mesh_of
 
-LEAST_POINTS = 400  # of the gap over the face, the stations among them
+LEAST_POINTS = 400  # of the gap over the face; the stations are among them
 
 
 @dataclass(frozen=True, slots=True)
 class Prepared:
-    """Everything but the common gap: shafts and couplings as one system, the mesh under heat, the heat."""
+    """A unit before its gap is known: shafts and couplings as one system, the heated mesh, the gap by heat."""
 
     unit: Unit
     mesh: LoadedMesh
@@ -26,7 +26,7 @@ class Prepared:
 
 
 def prepare(inputs: DriveTrainInputs) -> Prepared:
-    """The parts ready to be brought together. Raises what `check_inputs`, `mesh_of` and `gas_heat` raise."""
+    """Prepare the parts of a unit. Raises the errors of `check_inputs`, `mesh_of` and `gas_heat`."""
     given = mesh_of(inputs.mesh.distribution)
     check_inputs(inputs, given.path)
     system = unit(inputs, given.path)
@@ -54,9 +54,9 @@ def prepare(inputs: DriveTrainInputs) -> Prepared:
 
 
 def settle(inputs: DriveTrainInputs, prepared: Prepared, start: FloatArray | None = None) -> Equilibrium:
-    """The gap that mesh, shafts and couplings agree on; without their effect the shafts do not move.
+    """Find the gap on which mesh, shafts and couplings agree; the shafts do not move if their effect is switched off.
 
-    Raises NoSolution (drive_train, load_balance, journal).
+    Raises NoSolution `drive_train`, `load_balance` or `journal`.
     """
     if inputs.effects.shafts:
         return equilibrium(prepared.unit, prepared.mesh, start)

@@ -1,4 +1,4 @@
-"""Results of a drive train; SI units, read-only arrays. Vectors are (X, Y), gaps positive where the flanks part."""
+"""Results of a drive train; SI units, read-only arrays. Vectors are (X, Y), gaps are positive where the flanks part."""
 
 from collections.abc import Callable
 
@@ -9,7 +9,7 @@ from solvers.drive_train.shafts.thrust_budget import Thrust
 from solvers.heat_balance import FlowCurve
 from solvers.heat_balance.results import Heat
 from solvers.notices import Notice
-from solvers.quantity import computed, quantity, record
+from solvers.quantity import computed, described, quantity, record
 from solvers.scuffing.inputs import ISO_TR_15144, TR_13989
 from solvers.scuffing.micropitting.results import Micropitting, Wear
 from solvers.scuffing.results import LoadDistribution, Place
@@ -18,10 +18,10 @@ from solvers.sources import ISO_6336, OCVIRK
 
 @record
 class Parts:
-    """Slope of the shafts' gap over the face [m] by its causes, at the load that both agreed on.
+    """Slope of the shafts' gap over the face by its causes, under the load in equilibrium.
 
-    bending, torsion and tilting_moment are elastic, by the mesh force; films is the bearings' yielding to all loads, of
-    pinion and wheel together and apart; coupling, collar and weight are what these loads bend elastically.
+    Bending, torsion and tilting moment are elastic and caused by the mesh force. `films` is the yielding of all
+    bearings under all loads. Coupling, collar and weight are the elastic bending by these loads.
     """
 
     bending: float = quantity("slope by bending", "f_b", unit="um", text="of the mesh's transverse force")
@@ -44,9 +44,9 @@ class Parts:
 
 @record
 class GapCurves:
-    """Over the face, at stations from the end that meshes first [m]: gaps [m], transverse force per face [N/m].
+    """Gaps and force over the face, at stations from the end that meshes first.
 
-    modification is its lead part; total is the sum of the three.
+    `total` is the sum of the gaps by the shafts, by heat and by the modification's lead part.
     """
 
     position: FloatArray = quantity("position on the face", "y", unit="mm", text="from the end that meshes first")
@@ -64,10 +64,10 @@ class GapCurves:
 
 @record
 class Misalignment:
-    """Slope, crown and range of the gap [m] by shafts and heat, and what to grind against both.
+    """Slope, crown and range of the gap by shafts and heat, and the modifications that compensate both.
 
-    `shaft_mean` went into the transmission error. The recommendation is a total: minus slope and crown of the gap under
-    a load spread evenly over the face, for that is what a corrected flank has.
+    The recommended modifications replace the present ones and are not added to them. They are minus slope and crown of
+    the gap under a load spread evenly over the face, because a corrected flank carries such a load.
     """
 
     shaft_slope: float = quantity("mesh misalignment", "f_sh", unit="um", text="slope of the gap by the shafts")
@@ -95,7 +95,7 @@ class Misalignment:
 
 @record
 class FaceLoad:
-    """How the face carries: K_H_beta and its place (fraction of the face), line load [N/m], pressure [Pa], PPTE [m]."""
+    """How the load spreads over the face, with its maxima and the peak-to-peak transmission error."""
 
     face_load_factor: float | None = quantity(
         "face load factor", "K_Hβ", ISO_6336, text="largest over mean load across the face"
@@ -113,7 +113,7 @@ class FaceLoad:
 
 @record
 class BearingResult:
-    """A bearing: reaction on the shaft [N], displacement without the bore's offset [m]; the rest of plain ones only."""
+    """Reaction and displacement of a bearing; the other results exist for plain bearings only."""
 
     reaction: Vector2 = quantity("bearing reaction", "F_B", unit="n", text="on the shaft", index="X, Y")
     displacement: Vector2 = quantity(
@@ -130,7 +130,7 @@ class BearingResult:
 
 @record
 class ShaftCurves:
-    """Along a shaft at z [m]: displacement x, y [m] and twist [rad] of its axis."""
+    """Displacement and twist of a shaft's axis along Z."""
 
     z: FloatArray = quantity("position along the shaft", "Z", unit="mm")
     x: FloatArray = quantity("displacement along X", "u", unit="um", axis="z")
@@ -140,7 +140,7 @@ class ShaftCurves:
 
 @record
 class ShaftResult:
-    """A shaft: bearings, thrust, curves."""
+    """Results of a shaft."""
 
     bearings: tuple[BearingResult, BearingResult] = quantity("bearings", text="in the order of the request")
     thrust: Thrust = quantity("thrust")
@@ -149,10 +149,9 @@ class ShaftResult:
 
 @record
 class CouplingResult:
-    """A coupling: tilts of the hubs A (unit) and B (machine) [rad], whether they stick; loads on hub A [N m, N].
+    """Tilts and friction of both hubs of a coupling, and its loads on the unit's hub.
 
-    `force` holds half the sleeve's weight; `thrust` is the stated part of the limit, towards +Z. `friction_share` is
-    the friction moment of each hub over that of full sliding; friction_coefficient the smaller.
+    Pairs are of hub A on the unit's shaft and of hub B on the machine's shaft.
     """
 
     tilt: Vector2 = quantity(
@@ -183,9 +182,9 @@ class CouplingResult:
 
 @record
 class FlashPlaces:
-    """Largest Blok flash temperature [K] on the feature line and on the flank, and where; None at a base circle.
+    """Largest flash temperatures by Blok; None if the contact reaches a base circle.
 
-    `contact_max` is the largest contact temperature [K] of both, bulk and flash of each place together.
+    `contact_max` is the largest sum of bulk and flash temperature at one place.
     """
 
     feature: float | None = quantity("flash temperature on the feature line", "Δθ_fl,1", unit="k")
@@ -207,10 +206,10 @@ class FlashPlaces:
 
 @record
 class TrainSafety:
-    """Safety factors: Blok on the feature line and over the flank, thermal EHL on two lines; None unknown.
+    """Safety factors by Blok on the feature line and over the flank, and by thermal EHL on two lines.
 
-    `blok_at` is the flank's worst point by Blok, and the profile line runs from A to E through it. `minimum` is the
-    smallest of those asked for, None where one is unknown.
+    The profile line runs from A to E through `blok_at`, the hottest place by Blok. A factor that is not known is None;
+    then `minimum` is None too.
     """
 
     blok_feature: float | None = quantity("safety factor on the feature line (flash temperature method)", "S_B,1")
@@ -229,10 +228,11 @@ class TrainSafety:
 
 @record
 class TrainLosses:
-    """Power [W] lost in couplings, to pumping, in mesh and plain bearings; efficiency None where they exceed it.
+    """Power losses of the unit, their total and the efficiency.
 
-    Where the mesh's coefficient of friction is not known, its loss, the total and the efficiency are None. With a heat
-    balance the mesh's loss is that at the flanks' temperature, and the total holds also what it adds.
+    If the mesh's coefficient of friction is not known, its loss, the total and the efficiency are None. With a heat
+    balance, the loss of the mesh is that at the temperature of the flanks, and the total contains the losses by
+    acceleration of the oil, by windage and in other parts.
     """
 
     coupling: float = quantity("loss of the couplings", "P_C", unit="w")
@@ -252,7 +252,7 @@ class TrainLosses:
 
 @record
 class ForceBalance:
-    """Largest unbalanced sum on a shaft: forces over F_bt, moments over F_bt b; None without load."""
+    """Largest unbalanced force on a shaft over F_bt, and largest unbalanced moment over F_bt b; None without load."""
 
     force_error: float | None = quantity("unbalanced force", "ΣF/F_bt", text="largest of a shaft, over the tooth force")
     moment_error: float | None = quantity(
@@ -262,7 +262,7 @@ class ForceBalance:
 
 @record
 class Convergence:
-    """Iterations on the gap and the last residual [m]."""
+    """Number of iterations on the gap, and the last residual."""
 
     iterations: int = quantity("iterations")
     residual: float = quantity("residual of the gap", "ΔΔ", unit="um")
@@ -270,7 +270,7 @@ class Convergence:
 
 @record
 class FlankMaps:
-    """Maps [profile, face]: line load [N/m], pressure [Pa], NaN where R_n vanishes, contact temperature by Blok [K]."""
+    """Maps [profile, face] of load, pressure, temperature and film over the flank; NaN where there is no value."""
 
     profile_fraction: FloatArray = quantity("profile position of the map", "ξ", text="fraction of the path from A to E")
     face_fraction: FloatArray = quantity(
@@ -306,18 +306,14 @@ class FlankMaps:
 
 @record
 class States:
-    """The unit in other states than the one asked about; None where that state was not asked for or has no solution."""
+    """The unit in other states; None if the state has no solution."""
 
     cold: "DriveTrainResult | None" = quantity("cold unit", text="as drawn, at the reference temperature")
 
 
 @record
 class DriveTrainResult:
-    """The unit's answer; `mesh` is the load distribution under the gap that all agreed on.
-
-    `over_the_flow` gives the temperatures of its balance at other oil flows [m^3/s]. `contact_temperature` is the map
-    [profile, face] by Blok [K]; `film_ratio` is that of the film against micropitting, None if it is not asked for.
-    """
+    """The result of a gear unit."""
 
     misalignment: Misalignment = quantity("misalignment", text="gap over the face, by causes")
     load: FaceLoad = quantity("load", text="how the face carries")
@@ -337,10 +333,14 @@ class DriveTrainResult:
     heat: Heat | None = quantity(
         "heat balance", text="null unless the bulk temperature is asked for by heat balance, of a known oil"
     )
-    over_the_flow: Callable[[FloatArray], FlowCurve] | None
-    mesh: LoadDistribution
-    contact_temperature: FloatArray
-    film_ratio: FloatArray | None
+    over_the_flow: Callable[[FloatArray], FlowCurve] | None = described(
+        "Function that returns the temperatures of the heat balance at other oil flows [m^3/s]; None without a balance."
+    )
+    mesh: LoadDistribution = described("Load distribution in equilibrium with the gap of the whole unit.")
+    contact_temperature: FloatArray = described("Contact temperature by Blok over the flank [profile, face] [K].")
+    film_ratio: FloatArray | None = described(
+        "Film ratio against micropitting over the flank [profile, face]; None if it is not asked for [-]."
+    )
     warnings: tuple[Notice, ...]
     derived: Derived = quantity("what was left open, as used")
     states: States | None = quantity("states", text="null unless other states were asked for", default=None)
@@ -348,7 +348,7 @@ class DriveTrainResult:
     @property
     @computed("over the flank", detail="fields")
     def flank(self) -> FlankMaps:
-        """Over the flank."""
+        """Maps over the flank."""
         maps = self.mesh.flank
         return FlankMaps(
             maps.profile_fraction,

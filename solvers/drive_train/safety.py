@@ -1,4 +1,4 @@
-"""Scuffing over the whole flank of a unit: bulk temperatures that vary along the face, flash temperature, safety."""
+"""Scuffing over the whole flank of a unit: bulk temperature along the face, flash temperature, safety."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -30,7 +30,7 @@ from solvers.scuffing.thermal.verdict import hotter_surface, unknown_points
 
 @dataclass(frozen=True, slots=True)
 class FlankHeat:
-    """Blok's contact temperature over the flank [profile, face] [K], and what follows from its maxima."""
+    """Blok's contact temperature over the flank [profile, face] [K], and the results at its maxima."""
 
     temperature: FloatArray
     flash: FlashPlaces
@@ -41,7 +41,7 @@ class FlankHeat:
 
 
 def contact_of(inputs: DriveTrainInputs) -> ScuffingInputs:
-    """The mesh with its bulk temperature: where it is given and no number, the mean of the tooth temperatures."""
+    """Return the mesh with its bulk temperature; the mean of the tooth temperatures if none is given nor estimated."""
     temperatures = inputs.mesh.temperatures
     if temperatures.bulk is not None or temperatures.bulk_method != "given":
         return inputs.mesh
@@ -50,9 +50,28 @@ def contact_of(inputs: DriveTrainInputs) -> ScuffingInputs:
 
 
 def flank_heat(inputs: DriveTrainInputs, mesh: LoadDistribution, flash: FlashMap, thermal: ThermalLead) -> FlankHeat:
-    """Compute Blok's temperatures on the feature line and over the flank, and thermal EHL on both lines (Eq. D15).
+    """Compute Blok's temperatures on the feature line and over the flank, and thermal EHL on two lines.
 
-    Next to a base circle the temperature has no limit and is left out; without an oil there is no contact temperature.
+    Parameters
+    ----------
+    inputs : DriveTrainInputs
+        The unit.
+    mesh : LoadDistribution
+        The load distribution of its mesh.
+    flash : FlashMap
+        Blok's flash temperature over the flank.
+    thermal : ThermalLead
+        The temperature rise of the metal along the face.
+
+    Returns
+    -------
+    FlankHeat
+        Contact temperatures [K], safety factors and the check against micropitting. Points near a base circle have no
+        temperature, because Blok's formula has no limit there. Without an oil there is no contact temperature.
+
+    Notes
+    -----
+    Eq. D15.
     """
     given, plane = inputs.mesh.distribution, mesh.path_of_contact.plane
 
@@ -65,13 +84,13 @@ def flank_heat(inputs: DriveTrainInputs, mesh: LoadDistribution, flash: FlashMap
     on_feature = blok_flash(given, feature)
     hottest = strongest = _with_line(find_hottest(given, mesh, flash), along, across, on_feature)
     contacts = list[float | None]([None, None])
-    known = inputs.mesh.temperatures.bulk is not None
-    if known:
+    has_bulk = inputs.mesh.temperatures.bulk is not None
+    if has_bulk:
         warm_feature = on_feature + bulk(across)
         hottest = _with_line(find_hottest(given, mesh, flash, bulk), along, across, warm_feature)
         contacts = [None, None] if hottest is None else [float(warm_feature.max()), hottest.value]
     unsolved, warnings, thinnest = 0, tuple[Notice, ...](), None
-    if inputs.mesh.lubrication == "thermal_ehl" and known and hottest is not None:
+    if inputs.mesh.lubrication == "thermal_ehl" and has_bulk and hottest is not None:
         paths, bulks, warnings = _thermal_lines(inputs, mesh, (along, across), hottest, bulk)
         contacts += [_hottest_surface(*line) for line in zip(paths, bulks, strict=True)]
         thinnest = _thinnest_film(paths, bulks)
@@ -97,9 +116,10 @@ def flank_heat(inputs: DriveTrainInputs, mesh: LoadDistribution, flash: FlashMap
 
 
 def _feature_points(inputs: DriveTrainInputs, mesh: LoadDistribution, bulk: FaceFunction) -> FloatArray:
-    """Psi of the feature line's points: equidistant, and where flash and contact temperature by Blok are largest.
+    """Return psi of the points on the feature line.
 
-    Without the latter, the maxima would depend on the number of points.
+    The points are equidistant. To them are added the places of the largest flash and of the largest contact
+    temperature by Blok; without these two the maxima would depend on the number of points.
     """
     given, plane, psi = inputs.mesh.distribution, mesh.path_of_contact.plane, np.linspace(0.0, 1.0, SURVEY_POINTS)
     across = psi * plane.face_width
@@ -109,7 +129,7 @@ def _feature_points(inputs: DriveTrainInputs, mesh: LoadDistribution, bulk: Face
 
 
 def _with_line(peak: Peak | None, along: FloatArray, across: FloatArray, on_line: FloatArray) -> Peak | None:
-    """Return the higher of the peaks over the flank and on the feature line; None if either is unknown."""
+    """Return the higher of two peaks, over the flank and on the feature line; None if one of them is unknown."""
     if peak is None or np.isnan(on_line).any():
         return None
     top = int(np.argmax(on_line))
@@ -126,7 +146,10 @@ def _place(mesh: LoadDistribution, peak: Peak) -> Place:
 
 
 def _bulk(inputs: DriveTrainInputs, thermal: ThermalLead, y: FloatArray) -> FloatArray:
-    """Bulk temperature [K] of the contact at y or NaN; with `local_bulk` the members' mean pumping heat is added."""
+    """Return the bulk temperature of the contact at y [K], or NaN without one.
+
+    If `local_bulk` is on, add the temperature rise by pumping, as the mean of pinion and wheel.
+    """
     temperature = inputs.mesh.temperatures.bulk
     bulk = np.full(y.shape, np.nan if temperature is None else temperature)
     if inputs.local_bulk:
@@ -142,7 +165,10 @@ def _thermal_lines(
     hottest: Peak,
     bulk: FaceFunction,
 ) -> tuple[tuple[ThermalPath, ...], list[FloatArray], tuple[Notice, ...]]:
-    """Solve the feature line (x, y) and the profile line through the hottest point; both with bulk temperatures [K]."""
+    """Solve thermal EHL on the feature line (x, y) and on the profile line through the hottest point.
+
+    Return both lines, their bulk temperatures [K] and the warnings.
+    """
     even = np.linspace(0.0, mesh.path_of_contact.plane.path_length, inputs.mesh.path_points)
     profile = np.unique([*even, hottest.x])
     places = [feature, (profile, np.full(profile.size, hottest.y))]
@@ -153,7 +179,7 @@ def _thermal_lines(
 
 
 def _of_both_surfaces(inputs: DriveTrainInputs, bulk: FloatArray) -> FloatArray:
-    """Return the bulk temperatures of pinion and wheel, two rows [K], of the mean of both at points."""
+    """Return the bulk temperatures of pinion and wheel, two rows [K], from their mean at points [K]."""
     surfaces, mean = inputs.mesh.temperatures.surfaces, inputs.mesh.temperatures.bulk
     assert surfaces is not None
     assert mean is not None
@@ -161,14 +187,14 @@ def _of_both_surfaces(inputs: DriveTrainInputs, bulk: FloatArray) -> FloatArray:
 
 
 def _hottest_surface(path: ThermalPath, bulk: FloatArray) -> float | None:
-    """Return the hottest flank surface [K] along a line by thermal EHL; None if points not solved may decide."""
+    """Return the hottest flank surface [K] along a line by thermal EHL; None if an unsolved point may be hotter."""
     if set(path.status) == {"unloaded"} or unknown_points([path], [bulk]):
         return None
     return float(np.nanmax(hotter_surface(path, bulk)))
 
 
 def _thinnest_film(paths: Sequence[ThermalPath], bulks: Sequence[FloatArray]) -> float | None:
-    """Return the thinnest film of all lines by thermal EHL [m]; None if points not solved may decide."""
+    """Return the thinnest film of all lines by thermal EHL [m]; None if an unsolved point may be thinner."""
     films = np.concatenate([path.minimum_film for path in paths])
     return None if np.isnan(films).all() or unknown_points(paths, bulks) else float(np.nanmin(films))
 
@@ -179,7 +205,7 @@ def _safety(inputs: DriveTrainInputs, hottest: list[float | None], worst: Place 
         return None
     limit, oil = temperatures.scuffing, temperatures.oil
     factors = [None if contact is None else safety_factor(limit, oil, contact) for contact in hottest]
-    known = [factor for factor in factors if factor is not None]
+    finite = [factor for factor in factors if factor is not None]
     feature, profile = factors[2:] if len(factors) > 2 else (None, None)
-    least = min(known) if len(known) == len(factors) else None
+    least = min(finite) if len(finite) == len(factors) else None
     return TrainSafety(factors[0], factors[1], worst, feature, profile, least)

@@ -1,4 +1,4 @@
-"""The unit warm as described, and cold beside it."""
+"""The hot unit as described, and the cold unit on request."""
 
 from dataclasses import replace
 
@@ -12,29 +12,46 @@ from solvers.notices import Notice
 
 
 def solve(inputs: DriveTrainInputs, start: FloatArray | None = None) -> DriveTrainResult:
-    """The unit's answer, with that of its cold state where `inputs.states` asks for it.
+    """Compute the hot unit, and the cold unit if `inputs.states` asks for it.
 
-    What only the cold unit warns of stands among the warnings. Raises what `model.solve` raises for the hot unit; a
-    cold one without solution, or whose oil is none any more, is a warning.
+    Parameters
+    ----------
+    inputs : DriveTrainInputs
+        The unit.
+    start : FloatArray of shape (stations,), optional
+        The shafts' gap of a similar unit, from which the iteration starts [m].
+
+    Returns
+    -------
+    DriveTrainResult
+        The hot unit. Its warnings include those of the cold unit that the hot unit does not have. If the cold unit has
+        no solution, or its oil is out of range at the reference temperature, a warning says so.
+
+    Raises
+    ------
+    InvalidInput
+        The errors of `model.solve` for the hot unit.
+    NoSolution
+        The errors of `model.solve` for the hot unit.
     """
-    found = model.solve(inputs, start)
+    hot = model.solve(inputs, start)
     if "cold" not in inputs.states:
-        return found
+        return hot
     try:
-        other = model.solve(cold(inputs), start)
+        other = model.solve(cool_down(inputs), start)
     except (NoSolution, InvalidInput) as failure:
         notice = Notice("no_cold_solution", f"the cold unit: {failure.message}", "states")
-        return replace(found, states=States(None), warnings=(*found.warnings, notice))
-    known = {(notice.code, notice.field) for notice in found.warnings}
-    new = [notice for notice in other.warnings if (notice.code, notice.field) not in known]
+        return replace(hot, states=States(None), warnings=(*hot.warnings, notice))
+    of_hot = {(notice.code, notice.field) for notice in hot.warnings}
+    new = [notice for notice in other.warnings if (notice.code, notice.field) not in of_hot]
     notices = tuple(replace(notice, message=f"the cold unit: {notice.message}") for notice in new)
-    return replace(found, states=States(other), warnings=(*found.warnings, *notices))
+    return replace(hot, states=States(other), warnings=(*hot.warnings, *notices))
 
 
-def cold(inputs: DriveTrainInputs) -> DriveTrainInputs:
-    """Every tooth at the reference temperature, nothing pumped warm, supports that have not grown.
+def cool_down(inputs: DriveTrainInputs) -> DriveTrainInputs:
+    """Return the cold unit: teeth at the reference temperature, no heat of pumping, supports without growth.
 
-    The contact's bulk temperature is a tooth's as well, unless it is given; there is no heat to balance.
+    The bulk temperature of the contact is the reference temperature too, unless it is given. There is no heat balance.
     """
     heat, reference = inputs.heat, inputs.heat.reference
     mesh = replace(inputs.mesh, cooling=Cooling())

@@ -1,4 +1,4 @@
-"""Uncertain inputs of a gear unit and the values between which they are expected.
+"""Uncertain inputs of a gear unit, and the values between which they are expected.
 
 The combinations of these values are the corners of the unit.
 """
@@ -10,10 +10,10 @@ from solvers.drive_train.inputs import DriveTrainInputs, JournalBearing, Shaft
 from solvers.notices import Notice
 
 MOST_CORNERS = 256  # eight uncertainties with two values each
-FRICTION = (0.05, 0.25)  # mixed lubrication at its best; the coefficient behind the customary thrust 0.25 T/D
-THRUST = (0.0, 1.0)  # of the coupling's limit: none, all of it
-RESPONSE = (0.3, 1.0)  # of the wall to the gas: cooled by oil, or as warm as the gas; chosen
-CLEARANCE = 0.1  # share of the clearance, both ways
+FRICTION = (0.05, 0.25)  # the best mixed lubrication; the coefficient behind the customary thrust 0.25 T/D
+THRUST = (0.0, 1.0)  # share of the coupling's limit
+RESPONSE = (0.3, 1.0)  # of the wall to the gas; chosen: cooled by oil, or as warm as the gas
+CLEARANCE = 0.1  # share of the clearance, up and down
 QUARTERS: tuple[Callable[[float, float], tuple[float, float]], ...] = (
     lambda x, y: (x, y),
     lambda x, y: (-y, x),
@@ -24,7 +24,7 @@ QUARTERS: tuple[Callable[[float, float], tuple[float, float]], ...] = (
 
 @dataclass(frozen=True, slots=True)
 class Range:
-    """Values that the inputs at dotted `names` take together, a row for each choice; `quantity` says what they are."""
+    """Values of one uncertain `quantity`: each row of `values` belongs to the inputs at the dotted `names`."""
 
     quantity: str
     names: tuple[str, ...]
@@ -32,10 +32,12 @@ class Range:
 
 
 def uncertain_inputs(inputs: DriveTrainInputs) -> tuple[Range, ...]:
-    """Wall response, tilt of each shaft by clearance; friction, direction of the offset and thrust of the couplings.
+    """Return the ranges of the uncertain inputs of a unit.
 
-    The clearances of a shaft's two bearings move 10 % in opposite senses, for what they share does not tilt. Couplings
-    move together: in all combinations of their own, two would need 2,048 runs.
+    Uncertain are the wall response, the clearances of each shaft, and friction, direction of the offset and thrust of
+    the couplings. The clearances of a shaft's two bearings change by 10 % in opposite senses, because a change common
+    to both bearings does not tilt the shaft. All couplings change together: if they varied apart, two couplings would
+    need 2,048 runs.
     """
     ranges = (
         [Range("wall response", ("heat.wall_response",), tuple((value,) for value in RESPONSE))]
@@ -50,11 +52,11 @@ def uncertain_inputs(inputs: DriveTrainInputs) -> tuple[Range, ...]:
             _offsets(inputs),
             _together(inputs, "thrust fraction", "thrust_fraction", THRUST),
         ]
-    return tuple(one for one in ranges if one.names)
+    return tuple(uncertain for uncertain in ranges if uncertain.names)
 
 
 def _clearances(gear: str, shaft: Shaft) -> Range:
-    """Clearances of plain bearings up by a share at the first, down at the second, and the reverse."""
+    """Return the clearances of a shaft: larger at the first bearing and smaller at the second, and the reverse."""
     plain = [(k, bearing.clearance) for k, bearing in enumerate(shaft.bearings) if isinstance(bearing, JournalBearing)]
     return Range(
         f"{gear} clearance",
@@ -64,21 +66,23 @@ def _clearances(gear: str, shaft: Shaft) -> Range:
 
 
 def _together(inputs: DriveTrainInputs, quantity: str, name: str, values: tuple[float, ...]) -> Range:
-    """The same values of all couplings."""
+    """Return the range of an input that is the same at all couplings."""
     names = tuple(f"couplings.{k}.{name}" for k in range(len(inputs.acting_couplings)))
     return Range(quantity, names, tuple((value,) * len(names) for value in values))
 
 
 def _offsets(inputs: DriveTrainInputs) -> Range:
-    """The offsets of all couplings that have one, turned by quarters."""
-    given = [(k, one.offset) for k, one in enumerate(inputs.acting_couplings) if any(one.offset)]
+    """Return the offsets of all couplings that have one, turned by quarters of a revolution."""
+    given = [(k, coupling.offset) for k, coupling in enumerate(inputs.acting_couplings) if any(coupling.offset)]
     names = tuple(f"couplings.{k}.offset.{axis}" for k, _ in given for axis in range(2))
     turned = ([pair for _, (x, y) in given for pair in turn(x, y)] for turn in QUARTERS)
     return Range("offset", names, tuple(map(tuple, turned)))
 
 
 def no_convergence(failed: int) -> Notice:
-    """The warning about corners without solution."""
+    """Return the warning about corners without a solution."""
     return Notice(
-        "no_convergence_of_corner", f"{failed} corners have no solution; the extremes are of the rest", "ranges"
+        "no_convergence_of_corner",
+        f"{failed} corners have no solution; the extremes are those of the other corners",
+        "ranges",
     )

@@ -1,7 +1,8 @@
-"""The heat balance of a unit, in turn with the loads of its bearings and of its flanks.
+"""The heat balance of a unit, solved in turn with the loads of its bearings and flanks.
 
-Bodies deform the flanks, flanks are the bulk of the contact, and the films of plain bearings in the gears' oil have the
-temperature of the balance. Losses and loads of the bearings follow from these.
+The heat of the gear bodies deforms the flanks. The temperature of the flanks is the bulk temperature of the contact.
+The films of plain bearings in the gears' oil have the temperature of the balance. Losses and loads of the bearings
+follow.
 """
 
 from collections.abc import Iterator
@@ -30,40 +31,40 @@ from solvers.scuffing.thermal.flank import map_flash
 from solvers.scuffing.thermal.pair_heat import balance_inputs, with_backlash_loss
 from solvers.scuffing.thermal.temperatures import estimated_bulk, with_friction
 
-CLOSE = 0.05  # K; of every temperature from one pass to the next
+CLOSE = 0.05  # K; largest change of a temperature from one pass to the next
 MOST_PASSES = 10
-FIRST_RISE = 25.0  # K over the oil, of flanks, bodies and films in the first pass
+FIRST_RISE = 25.0  # K; rise of flanks, bodies and films above the oil in the first pass
 SHAFT_CONDUCTIVITY = 46.0  # W/(m K), of steel
-SHORTEST_ROD = 1e-3  # m, of a shaft between gear and bearing
+SHORTEST_ROD = 1e-3  # m; length of a shaft between gear and bearing
 
 
 @dataclass(frozen=True, slots=True)
 class WarmUnit:
-    """A unit with the temperatures of its balance: the inputs with them, the gap that all agreed on, the balance."""
+    """A unit at the temperatures of its balance: inputs, parts, gap, and the balance with its inputs."""
 
     inputs: DriveTrainInputs
     prepared: Prepared
-    found: Equilibrium
+    equilibrium: Equilibrium
     heat: Heat
     balance: HeatBalanceInputs
 
 
 def asks_for_balance(inputs: DriveTrainInputs) -> bool:
-    """Return True if the bulk temperature is asked for by heat balance and not known yet, and an oil is known."""
+    """Return True if the bulk temperature has to come from a heat balance that is not solved yet, with a known oil."""
     temperatures = inputs.mesh.temperatures
     unknown = temperatures.bulk_method == "heat_balance" and temperatures.flanks is None
     return unknown and inputs.mesh.known_oil is not None
 
 
 def warm_unit(inputs: DriveTrainInputs, start: FloatArray | None = None) -> WarmUnit:
-    """Bring the heat balance of a unit and its bearings, couplings and flanks together.
+    """Solve the heat balance of a unit together with its bearings, couplings and flanks.
 
     Parameters
     ----------
     inputs : DriveTrainInputs
         The unit with a known oil and its cooling.
     start : FloatArray, optional
-        The shafts' gap of a similar unit [m].
+        The shafts' gap of a similar unit, from which the iteration starts [m].
 
     Returns
     -------
@@ -73,26 +74,26 @@ def warm_unit(inputs: DriveTrainInputs, start: FloatArray | None = None) -> Warm
     Raises
     ------
     InvalidInput
-        What `prepare` and the balance raise.
+        The errors of `prepare` and of the balance.
     NoSolution
-        `heat_balance` if the temperatures do not settle within ten passes; what `settle` and the balance raise.
-
+        `heat_balance` if the temperatures do not settle within ten passes; the errors of `settle` and of the balance.
     """
     warm, before, change = _first_guess(inputs), np.empty(0), np.inf
     for _ in range(MOST_PASSES):
         prepared = prepare(warm)
-        found = settle(warm, prepared, start)
-        balance = _balance(inputs, warm, prepared, found)
+        equilibrium = settle(warm, prepared, start)
+        balance = _balance(inputs, warm, prepared, equilibrium)
         quick = replace(balance, cooling=replace(balance.cooling, band=False))
         heat = heat_balance.solve(quick)
         temperatures = _temperatures(heat)
         if before.size:
             change = float(np.abs(temperatures - before).max())
-        before, start = temperatures, found.gap
+        before, start = temperatures, equilibrium.gap
         warm = with_balance(inputs, heat)
         if change < CLOSE:
             heat = heat_balance.solve(balance) if balance.cooling.band else heat
-            return WarmUnit(warm, prepared, found, with_backlash_loss(heat, prepared.mesh.prepared.path.pair), balance)
+            heat = with_backlash_loss(heat, prepared.mesh.prepared.path.pair)
+            return WarmUnit(warm, prepared, equilibrium, heat, balance)
     message = (
         f"temperatures and alignment of the unit do not settle: they still change by {change:.3g} K after "
         f"{MOST_PASSES} passes; give more oil or larger bearings"
@@ -101,16 +102,16 @@ def warm_unit(inputs: DriveTrainInputs, start: FloatArray | None = None) -> Warm
 
 
 def _first_guess(inputs: DriveTrainInputs) -> DriveTrainInputs:
-    """Return the unit with one temperature of flanks, bodies and films."""
+    """Return the unit with the same temperature of flanks, bodies and films, from which the passes start."""
     guess = inputs.mesh.temperatures.oil + FIRST_RISE
     return at_temperatures(inputs, (guess, guess), (guess, guess), [guess] * 4, None)
 
 
 def with_balance(inputs: DriveTrainInputs, heat: Heat) -> DriveTrainInputs:
-    """Return the unit at the temperatures of a balance: flanks, bodies, films of the bearings, supports."""
-    films, known = list[float](), iter(heat.bearings)
+    """Return the unit with flanks, bodies, bearing films and supports at the temperatures of a balance."""
+    films, journals = list[float](), iter(heat.bearings)
     for bearing in _bearings(inputs):
-        films.append(next(known).film if isinstance(bearing, JournalBearing) else np.nan)
+        films.append(next(journals).film if isinstance(bearing, JournalBearing) else np.nan)
     flanks, bodies = (heat.pinion.flank, heat.wheel.flank), (heat.pinion.body, heat.wheel.body)
     return at_temperatures(inputs, flanks, bodies, films, heat.casing)
 
@@ -127,24 +128,24 @@ def at_temperatures(
     films: list[float],
     casing: float | None,
 ) -> DriveTrainInputs:
-    """Return the unit at given temperatures.
+    """Return the unit with given temperatures of its parts.
 
     Parameters
     ----------
     inputs : DriveTrainInputs
         The unit with a known oil.
     flanks, bodies : tuple of float
-        Of pinion and wheel [K].
+        Temperatures of pinion and wheel [K].
     films : list of float
-        Of the four bearings, the pinion's first [K]; NaN of bearings without one.
+        Film temperatures of the four bearings, the pinion's first [K]; NaN for bearings without a film.
     casing : float or None
-        Of the casing [K].
+        Temperature of the casing [K].
 
     Returns
     -------
     DriveTrainInputs
-        With bulk temperatures, viscosities of bearings in the gears' oil, and the rise of the supports.
-
+        The unit with these bulk temperatures, the viscosities in bearings that run in the gears' oil, and the
+        temperature rise of the supports.
     """
     mesh = inputs.mesh
     return replace(
@@ -153,12 +154,12 @@ def at_temperatures(
         heat=replace(inputs.heat, pinion_bulk=bodies[0], wheel_bulk=bodies[1], bulk_includes_pumping=True),
         pinion_shaft=_with_films(inputs.mesh, inputs.pinion_shaft, films[:2]),
         wheel_shaft=_with_films(inputs.mesh, inputs.wheel_shaft, films[2:]),
-        couplings=tuple(_with_rise(one, casing, inputs.heat.reference) for one in inputs.couplings),
+        couplings=tuple(_with_rise(coupling, casing, inputs.heat.reference) for coupling in inputs.couplings),
     )
 
 
 def _with_films(mesh: ScuffingInputs, shaft: Shaft, films: list[float]) -> Shaft:
-    """Return the shaft with the viscosity of the gears' oil at the films' temperatures where its bearings run in it."""
+    """Return the shaft with the oil's viscosity at the film temperatures, in bearings that run in the gears' oil."""
     assert mesh.known_oil is not None
     oil = heat_balance.cooling_oil(mesh.known_oil, mesh.temperatures.oil)
     bearings = tuple(
@@ -171,7 +172,7 @@ def _with_films(mesh: ScuffingInputs, shaft: Shaft, films: list[float]) -> Shaft
 
 
 def _with_rise(coupling: UnitCoupling, casing: float | None, reference: float) -> UnitCoupling:
-    """Return the coupling with the casing's rise as that of the unit's supports, unless that is given."""
+    """Return the coupling with the temperature rise of the casing for the unit's supports, unless that is given."""
     alignment = coupling.alignment
     if casing is None or alignment is None or alignment.unit_rise is not None:
         return coupling
@@ -179,16 +180,16 @@ def _with_rise(coupling: UnitCoupling, casing: float | None, reference: float) -
 
 
 def _balance(
-    inputs: DriveTrainInputs, warm: DriveTrainInputs, prepared: Prepared, found: Equilibrium
+    inputs: DriveTrainInputs, warm: DriveTrainInputs, prepared: Prepared, equilibrium: Equilibrium
 ) -> HeatBalanceInputs:
-    """Return what the balance of the unit depends on, at the gap and the loads of a pass."""
+    """Return the inputs of the unit's heat balance at the gap and the loads of a pass."""
     mesh = prepared.mesh.prepared
-    spread = distribution(warm.mesh.distribution, mesh, found.balance)
+    spread = distribution(warm.mesh.distribution, mesh, equilibrium.balance)
     contact, spread = with_friction(inputs.mesh, spread)
     balance = balance_inputs(contact, spread, estimated_bulk(contact, spread, map_flash(contact.distribution, spread)))
     gas = gas_heat(inputs.pumping, inputs.mesh.distribution.load.pinion_speed)
     system, face = prepared.unit, (inputs.face_start, inputs.face_start + inputs.mesh.distribution.gears.face_width)
-    couplings = coupling_results(system, found, hubs_of(system, found))
+    couplings = coupling_results(system, equilibrium, hubs_of(system, equilibrium))
     pinion, wheel = balance.gears
     return replace(
         balance,
@@ -197,14 +198,14 @@ def _balance(
             replace(wheel, shaft_radii=_radii_beside(inputs.wheel_shaft, face)),
         ),
         pumping=gas.powers,
-        journals=tuple(_journals(system, found, face)),
-        couplings=sum(one.friction_power for one in couplings),
+        journals=tuple(_journals(system, equilibrium, face)),
+        couplings=sum(result.friction_power for result in couplings),
     )
 
 
-def _journals(system: Unit, found: Equilibrium, face: tuple[float, float]) -> Iterator[Journal]:
-    """Describe the plain bearings of both shafts under their loads."""
-    states = system.bearings(found.loads)
+def _journals(system: Unit, equilibrium: Equilibrium, face: tuple[float, float]) -> Iterator[Journal]:
+    """Yield the plain bearings of both shafts under their loads, as the heat balance needs them."""
+    states = system.bearings(equilibrium.loads)
     for gear, side in enumerate(system.shafts):
         for k, bearing in enumerate(side.shaft.bearings):
             if isinstance(bearing, JournalBearing):
@@ -224,13 +225,16 @@ def _journals(system: Unit, found: Equilibrium, face: tuple[float, float]) -> It
 
 
 def _operate(bearing: JournalBearing, load: float, speed: float, viscosity: float) -> tuple[float, float]:
-    """Return friction and eccentricity of a bearing at a viscosity; at its own if it does not run in the gears' oil."""
+    """Return friction power [W] and eccentricity ratio of a bearing.
+
+    `viscosity` [Pa s] is that of the gears' oil; a bearing that does not run in this oil keeps its own viscosity.
+    """
     film = replace(bearing, viscosity=viscosity) if bearing.in_gear_oil else bearing
     return friction_and_eccentricity(film, load, speed)
 
 
 def _places(shaft: Shaft) -> Iterator[tuple[float, float, float, float]]:
-    """Start, end, outer and inner diameter of every section [m]."""
+    """Yield start, end, outer and inner diameter of every section [m]."""
     start = shaft.start
     for section in shaft.sections:
         yield start, start + section.length, section.outer_diameter, section.inner_diameter
@@ -240,7 +244,7 @@ def _places(shaft: Shaft) -> Iterator[tuple[float, float, float, float]]:
 def _sections_between(
     shaft: Shaft, face: tuple[float, float], bearing: float
 ) -> tuple[tuple[float, float, float], ...]:
-    """Return length, outer and inner diameter of the sections from the face of the gear to a bearing's centre [m]."""
+    """Return length, outer and inner diameter of the sections between the gear's face and a bearing's centre [m]."""
     low, high = (face[1], bearing) if bearing > face[1] else (bearing, face[0])
     if high - low < SHORTEST_ROD:  # the bearing lies under the face or at its edge
         low, high = bearing - SHORTEST_ROD / 2, bearing + SHORTEST_ROD / 2
@@ -253,7 +257,7 @@ def _sections_between(
 
 
 def _radii_beside(shaft: Shaft, face: tuple[float, float]) -> tuple[float, float]:
-    """Return the radii of the shaft beside both ends of the face [m], 0 where it ends there."""
+    """Return the radii of the shaft beside both ends of the face [m]; 0 if the shaft ends there."""
     below = [outer / 2 for start, end, outer, _ in _places(shaft) if start < face[0] - SHORTEST_ROD <= end]
     above = [outer / 2 for start, end, outer, _ in _places(shaft) if start <= face[1] + SHORTEST_ROD < end]
     return max(below, default=0.0), max(above, default=0.0)
@@ -268,7 +272,10 @@ def _temperatures(heat: Heat) -> FloatArray:
 
 
 def with_safety_band(inputs: DriveTrainInputs, heat: Heat, safety: TrainSafety | None) -> Heat:
-    """Return the balance with the safety at the ends of its band: the band shifts the bulk temperature alone."""
+    """Return the balance with the safety factors at both ends of its band.
+
+    The band changes only the bulk temperature; the flash temperature stays.
+    """
     temperatures = inputs.mesh.temperatures
     if heat.band is None or safety is None or not safety.minimum or temperatures.scuffing is None:
         return heat
@@ -277,7 +284,7 @@ def with_safety_band(inputs: DriveTrainInputs, heat: Heat, safety: TrainSafety |
     hottest = oil + (limit - oil) / safety.minimum
     contacts = [hottest + sum(flanks) / 2 - temperatures.bulk for flanks in heat.flank_cases]
     factors = [safety_factor(limit, oil, contact) for contact in contacts]
-    known = [factor for factor in factors if factor is not None]
-    if len(known) < len(factors):
+    finite = [factor for factor in factors if factor is not None]
+    if len(finite) < len(factors):
         return heat
-    return replace(heat, band=replace(heat.band, safety=(min(known), max(known))))
+    return replace(heat, band=replace(heat.band, safety=(min(finite), max(finite))))

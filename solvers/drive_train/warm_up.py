@@ -1,4 +1,4 @@
-"""A unit that warms up: the heat balance over time, and the alignment of its flanks at five times."""
+"""The warm-up of a unit: the heat balance over time, and the alignment of its flanks at five times."""
 
 from collections.abc import Iterator
 from dataclasses import replace
@@ -33,7 +33,7 @@ TIMES = 5
 
 @record
 class WarmUpInputs:
-    """A unit and the temperature that everything has as it starts [K]; the time at which the calculation ends [s]."""
+    """A unit, its temperature at the start, and the end of the warm-up."""
 
     unit: DriveTrainInputs
     start: float = quantity(
@@ -60,7 +60,7 @@ class WarmUpInputs:
 
 @record
 class AlignmentOverTime:
-    """Load and safety at five times of the warm-up [s], each at the temperatures of that time."""
+    """Load and safety at five times of the warm-up, at the temperatures of these times."""
 
     time: FloatArray = quantity("times of the alignment", "t", unit="s")
     face_load_factor: FloatArray = quantity("face load factor over time", "K_Hβ", ISO_6336, axis="time", gaps=True)
@@ -76,7 +76,7 @@ class AlignmentOverTime:
 
 @record(kw_only=True)
 class UnitWarmUp:
-    """A warm-up with the alignment at five times, the worst of it, and the balance that it ends in."""
+    """A warm-up: temperatures, the alignment at five times, its worst values, and the balance at the end."""
 
     warm_up: WarmUp = quantity("warm-up")
     least_safety: float | None = quantity(
@@ -99,33 +99,32 @@ class UnitWarmUp:
 
 
 def solve(inputs: WarmUpInputs) -> UnitWarmUp:
-    """Compute how a unit warms up and how its flanks carry meanwhile.
+    """Compute the temperatures of a unit during its warm-up, and the load on its flanks.
 
     Parameters
     ----------
     inputs : WarmUpInputs
-        The unit with a heat balance, and the temperature at which it starts.
+        The unit with a heat balance, its temperature at the start [K] and the end of the warm-up [s].
 
     Returns
     -------
     UnitWarmUp
-        Temperatures over time, load and safety at five times, the least backlash.
+        Temperatures over time [K], load and safety at five times, the least backlash [m].
 
     Raises
     ------
     InvalidInput
-        `not_asked` without a heat balance, `missing_mass` for a casing without mass; what `warm_unit` raises.
+        `not_asked` without a heat balance, `missing_mass` if the casing has no mass; the errors of `warm_unit`.
     NoSolution
-        `warm_up` if the integration fails; what `warm_unit` raises.
+        `warm_up` if the integration fails; the errors of `warm_unit`.
 
     Notes
     -----
-    Losses are those of the warm unit; only the viscosity changes them (Eq. H24).
-
+    The losses are those of the warm unit; during the warm-up only the viscosity changes them (Eq. H24).
     """
     unit = inputs.unit
     if not asks_for_balance(unit):
-        message = "a warm-up needs the heat balance: jets of a known oil, and no bulk temperature that is given"
+        message = "a warm-up needs the heat balance: jets of a known oil, and a bulk temperature that is not given"
         raise InvalidInput("not_asked", message, "temperatures.bulk_method")
     walls = unit.mesh.cooling.casing
     if walls.area and walls.mass is None:
@@ -133,21 +132,21 @@ def solve(inputs: WarmUpInputs) -> UnitWarmUp:
     warm = warm_unit(unit)
     balance = warm.balance
     network = heat_balance.calibrated(heat_balance.network_of(balance), balance.cooling)
-    found = heat_balance.warm_up(network, _capacities(unit, warm), inputs.start, inputs.until)
-    times = _times(found)
-    outcomes = [_outcome_at(unit, network, found, float(time)) for time in times]
-    factors = np.array([np.nan if one.face_load_factor is None else one.face_load_factor for one in outcomes])
-    safeties = np.array([np.nan if one.safety is None else one.safety for one in outcomes])
+    course = heat_balance.warm_up(network, _capacities(unit, warm), inputs.start, inputs.until)
+    times = _times(course)
+    outcomes = [_outcome_at(unit, network, course, float(time)) for time in times]
+    factors = np.array([np.nan if (factor := at.face_load_factor) is None else factor for at in outcomes])
+    safeties = np.array([np.nan if at.safety is None else at.safety for at in outcomes])
     return UnitWarmUp(
-        warm_up=found,
+        warm_up=course,
         least_safety=None if np.isnan(safeties).any() else float(safeties.min()),
         largest_face_load_factor=None if np.isnan(factors).any() else float(factors.max()),
-        least_backlash=_least_backlash(unit, warm, found),
+        least_backlash=_least_backlash(unit, warm, course),
         alignment=AlignmentOverTime(
             time=frozen(times),
             face_load_factor=frozen(factors),
             safety=frozen(safeties),
-            total_slope=frozen([one.total_slope for one in outcomes]),
+            total_slope=frozen([at.total_slope for at in outcomes]),
         ),
         heat=warm.heat,
         derived=_derived(warm),
@@ -161,14 +160,14 @@ def unusual_values(inputs: WarmUpInputs, _: UnitWarmUp) -> Iterator[Notice]:
 
 
 def _derived(warm: WarmUnit) -> Derived:
-    """Return what was left open, as the warm unit has it."""
-    spread = distribution(warm.inputs.mesh.distribution, warm.prepared.mesh.prepared, warm.found.balance)
+    """Return the values that the inputs left open, as the warm unit uses them."""
+    spread = distribution(warm.inputs.mesh.distribution, warm.prepared.mesh.prepared, warm.equilibrium.balance)
     contact, spread, *_ = in_force(contact_of(warm.inputs), spread)
     return derived(replace(warm.inputs, mesh=contact), spread, warm.heat)
 
 
 def _capacities(unit: DriveTrainInputs, warm: WarmUnit) -> Capacities:
-    """Return the heat capacities of both rotors, their teeth and the casing."""
+    """Return the heat capacities of both rotors, their teeth and the casing [J/K]."""
     given = unit.mesh.distribution
     materials, gears = (given.pinion_material, given.wheel_material), warm.balance.gears
     teeth = [
@@ -192,33 +191,38 @@ def _capacities(unit: DriveTrainInputs, warm: WarmUnit) -> Capacities:
 
 
 def _rotor(shaft: Shaft, material: Solid, solid: float, reference: float) -> float:
-    """Return the heat capacity of a rotor [J/K]; a section as thick as `solid` [m] carries teeth.
+    """Return the heat capacity of a rotor [J/K].
 
-    Teeth and their spaces hold as much as a cylinder of the `reference` diameter [m].
+    Sections at least as thick as `solid` [m] carry the teeth. Teeth and tooth spaces together have the capacity of a
+    cylinder with the `reference` diameter [m].
     """
     sections = tuple(
         (
-            one.length,
-            max(one.outer_diameter, reference) if one.outer_diameter >= solid else one.outer_diameter,
-            one.inner_diameter,
+            section.length,
+            max(section.outer_diameter, reference) if section.outer_diameter >= solid else section.outer_diameter,
+            section.inner_diameter,
         )
-        for one in shaft.sections
+        for section in shaft.sections
     )
     return cylinders_capacity(sections, shaft.density, material.specific_heat)
 
 
-def _times(found: WarmUp) -> FloatArray:
-    """Return the times of the alignment: start, end, that of the greatest difference of the bodies, and two more."""
-    end = float(found.curves.time[-1])
-    greatest = found.greatest_difference_at
+def _times(course: WarmUp) -> FloatArray:
+    """Return the five times of the alignment.
+
+    These are the start, the end, the time of the greatest temperature difference between the gear bodies, and one time
+    before and one after it. Without such a time they are equidistant.
+    """
+    end = float(course.curves.time[-1])
+    greatest = course.greatest_difference_at
     if not 0.0 < greatest < end:
         return np.linspace(0.0, end, TIMES)
     return np.array([0.0, greatest / 2, greatest, np.sqrt(greatest * end), end])
 
 
-def _outcome_at(unit: DriveTrainInputs, network: Network, found: WarmUp, time: float) -> Outcome:
-    """Solve the alignment at the temperatures of a time [s]."""
-    curves = found.curves
+def _outcome_at(unit: DriveTrainInputs, network: Network, course: WarmUp, time: float) -> Outcome:
+    """Solve the alignment of the unit at the temperatures of a time [s]."""
+    curves = course.curves
     now = np.array([np.interp(time, curves.time, curve) for curve in curves.temperature.T])
     outlets = iter(now[MIST + 1 :])
     inlet = network.oil.inlet
@@ -235,12 +239,31 @@ def _outcome_at(unit: DriveTrainInputs, network: Network, found: WarmUp, time: f
     return outcome_of(warm, prepared, settle(warm, prepared))
 
 
-def _least_backlash(unit: DriveTrainInputs, warm: WarmUnit, found: WarmUp) -> float | None:
-    """Return the least normal backlash [m]; None without a casing (Eq. H22)."""
-    if found.nodes[-1] != "casing":
+def _least_backlash(unit: DriveTrainInputs, warm: WarmUnit, course: WarmUp) -> float | None:
+    """Return the least normal backlash during the warm-up.
+
+    Parameters
+    ----------
+    unit : DriveTrainInputs
+        The unit.
+    warm : WarmUnit
+        The unit at the temperatures of its balance.
+    course : WarmUp
+        Temperatures over time [K].
+
+    Returns
+    -------
+    float or None
+        Least normal backlash [m]; None without a casing in the balance.
+
+    Notes
+    -----
+    Eq. H22.
+    """
+    if course.nodes[-1] != "casing":
         return None
     pair: GearPair = warm.prepared.mesh.prepared.path.pair
-    temperatures = found.curves.temperature
+    temperatures = course.curves.temperature
     rises = [temperatures[:, body] - temperatures[:, -1] for body in BODIES]
     growth = STEEL_EXPANSION * (pair.pinion_working_radius * rises[0] + pair.wheel_working_radius * rises[1])
     lost = 2 * np.tan(pair.working_pressure_angle) * growth * cos(pair.working_pressure_angle)

@@ -4,20 +4,32 @@ from solvers.errors import InvalidInput
 from solvers.gears.gear import Gear, full_rack_tip_radius
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 
-# Published pairs print centre distances, profile shifts and modules such as 25.4/3 mm rounded: that much of the
-# centre distance may be missing, and is taken as backlash-free.
+# Publications print rounded centre distances, profile shifts and modules such as 25.4/3 mm. A centre distance that is
+# too small by this share counts as backlash-free.
 PRINTED = 1e-4
 
 
 def check_rack(inputs: GearPairInputs, teeth: GearTeeth, name: str) -> None:
-    """Raises InvalidInput pointed_rack where the rack's flanks meet above its tip line."""
+    """Refuse a rack whose flanks meet above its tip line.
+
+    Raises
+    ------
+    InvalidInput
+        `pointed_rack`.
+    """
     if full_rack_tip_radius(teeth.dedendum, inputs.normal_pressure_angle) < 0.0:
-        message = f"the {name}'s dedendum leaves the rack no tip; reduce it"
+        message = f"the dedendum of the {name} is so large that the rack has no tip; reduce the dedendum"
         raise InvalidInput("pointed_rack", message, f"{name}.dedendum")
 
 
 def check_teeth(gear: Gear, name: str) -> None:
-    """Raises InvalidInput: no_involute, pointed_tooth."""
+    """Refuse a gear without an involute or with pointed teeth.
+
+    Raises
+    ------
+    InvalidInput
+        `no_involute` or `pointed_tooth`.
+    """
     if gear.root_radius <= 0.0 or gear.tip_radius <= gear.base_radius:
         message = f"the {name}'s teeth have no involute above the base circle"
         raise InvalidInput("no_involute", message, f"{name}.profile_shift")
@@ -27,15 +39,24 @@ def check_teeth(gear: Gear, name: str) -> None:
 
 
 def check_working_involute(value: float) -> None:
-    """Raises InvalidInput flank_interference where no working pressure angle has the involute function `value`."""
+    """Refuse an involute function that no working pressure angle has.
+
+    Raises
+    ------
+    InvalidInput
+        `flank_interference`.
+    """
     if value <= 0.0:
         raise InvalidInput("flank_interference", "the sum of profile shifts is too negative to mesh", "profile_shift")
 
 
 def centre_distance_in_use(given: float | None, backlash_free: float) -> float:
-    """The centre distance [m]: the one given, but the backlash-free one for a rounding of it.
+    """Return the given centre distance, or the backlash-free one if none is given or the difference is a rounding [m].
 
-    Raises InvalidInput flank_interference where the given one is smaller than that.
+    Raises
+    ------
+    InvalidInput
+        `flank_interference` if the given centre distance is smaller than the backlash-free one by more than a rounding.
     """
     if given is None:
         return backlash_free
@@ -46,9 +67,12 @@ def centre_distance_in_use(given: float | None, backlash_free: float) -> float:
 
 
 def check_tips(pinion: Gear, wheel: Gear, centre_distance: float) -> None:
-    """Tips must reach into each other's spaces and stay clear of each other's roots.
+    """Refuse a pair whose tips do not reach into the spaces of the mate or touch the root of the mate.
 
-    Raises InvalidInput: no_mesh (tip circles apart), no_tip_clearance.
+    Raises
+    ------
+    InvalidInput
+        `no_mesh` if the tip circles are apart, or `no_tip_clearance`.
     """
     if pinion.tip_radius + wheel.tip_radius <= centre_distance:
         raise InvalidInput("no_mesh", "the tip circles do not overlap; reduce the centre distance", "centre_distance")
@@ -63,16 +87,27 @@ def check_tips(pinion: Gear, wheel: Gear, centre_distance: float) -> None:
 
 
 def check_usable_flank(gear: Gear, name: str) -> None:
-    """Raises InvalidInput form_diameter where the fillet reaches the gear's own tip."""
+    """Refuse a gear whose fillet reaches its tip.
+
+    Raises
+    ------
+    InvalidInput
+        `form_diameter`.
+    """
     if gear.usable_roll_length >= gear.tip_roll_length:
         message = f"the {name}'s fillet reaches its tip; no involute is left"
         raise InvalidInput("form_diameter", message, f"{name}.profile_shift")
 
 
 def check_path(tip_start: float, tip_end: float, start: float, end: float) -> None:
-    """Some of the line of action must lie between the tips, and between the fillets; roll lengths of the pinion [m].
+    """Refuse a pair without a path of contact between the tips, or between the fillets.
 
-    Raises InvalidInput: no_contact, involute_interference.
+    All arguments are roll lengths of the pinion [m].
+
+    Raises
+    ------
+    InvalidInput
+        `no_contact` or `involute_interference`.
     """
     if tip_end <= tip_start:
         raise InvalidInput("no_contact", "the tips do not reach the line of action", "centre_distance")

@@ -1,7 +1,7 @@
 """One gear in the transverse plane, cut by the rack of its pair: radii, thicknesses, involute and root fillet.
 
-The arc of the rack tip is followed by `t`: 0 on the tip line, pi/2 - alpha_n where it joins the straight flank. Half
-space angles count from the centre of the tooth space.
+The arc of the rack tip has the parameter `t`: 0 on the tip line, pi/2 - alpha_n at the transition to the straight
+flank. Half space angles are measured from the centre line of the tooth space.
 """
 
 from dataclasses import dataclass
@@ -18,7 +18,7 @@ _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(20)  # chosen
 
 
 def involute(angle: float) -> float:
-    """The involute function inv(angle) = tan(angle) - angle."""
+    """Return the involute function inv(angle) = tan(angle) - angle."""
     return tan(angle) - angle
 
 
@@ -26,7 +26,8 @@ def involute(angle: float) -> float:
 class Gear:
     """One gear in the transverse plane; lengths [m], angles [rad].
 
-    `form_roll_length` is the roll length at which the involute meets the fillet of the rack; negative: undercut.
+    `form_roll_length` is the roll length at which the involute meets the fillet of the rack; it is negative if the gear
+    is undercut.
     """
 
     teeth: int
@@ -45,12 +46,12 @@ class Gear:
 
     @property
     def usable_roll_length(self) -> float:
-        """Roll length where the usable involute starts [m]; 0, the base circle, if undercut."""
+        """Roll length at which the usable involute starts [m]; 0, at the base circle, if the gear is undercut."""
         return max(self.form_roll_length, 0.0)
 
     @property
     def form_radius(self) -> float:
-        """Radius where the usable involute starts [m]; the base radius if undercut."""
+        """Radius at which the usable involute starts [m]; the base radius if the gear is undercut."""
         return hypot(self.base_radius, self.usable_roll_length)
 
     @property
@@ -60,35 +61,54 @@ class Gear:
 
     @property
     def tip_thickness(self) -> float:
-        """Thickness of a tooth on the tip circle [m]; negative: pointed below it."""
+        """Thickness of a tooth on the tip circle [m]; negative if the tooth is pointed below the tip circle."""
         return 2 * self.tip_radius * self.half_tooth_angle(self.tip_radius)
 
     def half_tooth_angle(self, radius: float) -> float:
-        """Half the angle a tooth takes at a radius at or above the base radius [rad]."""
+        """Return half the angle of a tooth [rad] at a radius [m] not below the base radius."""
         pressure_angle = acos(min(self.base_radius / radius, 1.0))
         return self.reference_half_angle + self.reference_involute - involute(pressure_angle)
 
 
 def full_rack_tip_radius(dedendum: float, normal_pressure_angle: float) -> float:
-    """Largest rack tip radius the rack has room for, in normal modules; negative: the rack tip is pointed."""
+    """Return the largest tip radius for which the rack has room, in normal modules; negative: the rack is pointed."""
     room = pi / 4 - dedendum * tan(normal_pressure_angle)
     return room * cos(normal_pressure_angle) / (1.0 - sin(normal_pressure_angle))
 
 
 def rack_tip_radius(inputs: GearPairInputs, teeth: GearTeeth) -> float:
-    """Rack tip radius that cuts a gear of the pair, in normal modules: the one given, as far as its rack has room."""
+    """Return the tip radius of the rack that cuts the gear, in normal modules.
+
+    This is the given one, limited by the room of the rack.
+    """
     return min(inputs.rack_tip_radius, full_rack_tip_radius(teeth.dedendum, inputs.normal_pressure_angle))
 
 
 def transverse_gear(inputs: GearPairInputs, teeth: GearTeeth) -> Gear:
-    """One gear of the pair."""
+    """Return one gear of the pair in the transverse plane."""
     pressure_angle = atan(tan(inputs.normal_pressure_angle) / cos(inputs.helix_angle))
     return _cut(inputs, teeth, teeth.teeth, inputs.normal_module / cos(inputs.helix_angle), pressure_angle)
 
 
 def virtual_gear(inputs: GearPairInputs, teeth: GearTeeth, base_helix_angle: float) -> Gear:
-    """The virtual spur gear of the normal section, of z / (cos^2 beta_b cos beta) teeth, cut by the same rack.
+    """Return the virtual spur gear of the normal section, which is cut by the same rack.
 
+    Parameters
+    ----------
+    inputs : GearPairInputs
+        The pair.
+    teeth : GearTeeth
+        Teeth of one gear of the pair.
+    base_helix_angle : float
+        Base helix angle beta_b [rad].
+
+    Returns
+    -------
+    Gear
+        Virtual gear of z/(cos^2 beta_b cos beta) teeth; `teeth` is the number of teeth of the real gear.
+
+    Notes
+    -----
     Eq. L10.
     """
     virtual_teeth = teeth.teeth / (cos(base_helix_angle) ** 2 * cos(inputs.helix_angle))
@@ -96,9 +116,10 @@ def virtual_gear(inputs: GearPairInputs, teeth: GearTeeth, base_helix_angle: flo
 
 
 def _cut(inputs: GearPairInputs, teeth: GearTeeth, count: float, module: float, pressure_angle: float) -> Gear:
-    """A gear of `count` teeth in a plane of this module [m] and pressure angle [rad].
+    """Return a gear of `count` teeth in a plane of this module [m] and pressure angle [rad].
 
-    Heights count normal modules, the thickness of a shifted tooth goes by the tangent of the plane's pressure angle.
+    Heights are in normal modules. The profile shift thickens a tooth by the tangent of the pressure angle in this
+    plane.
     """
     height, normal_angle = inputs.normal_module, inputs.normal_pressure_angle
     radius = module * count / 2
@@ -120,8 +141,8 @@ def _cut(inputs: GearPairInputs, teeth: GearTeeth, count: float, module: float, 
 class RackFillet(NamedTuple):
     """The rack tip that cuts a root; lengths [m].
 
-    `centre_x`, `centre_y`: centre of the tip arc in the normal plane, from the centre line of the rack tooth and from
-    the reference circle; `end`: arc parameter where the fillet hands over to the involute.
+    `centre_x` and `centre_y` are the centre of the tip arc in the normal plane, from the centre line of the rack tooth
+    and from the reference circle. `end` is the arc parameter at which the fillet meets the involute.
     """
 
     reference_radius: float
@@ -135,8 +156,9 @@ class RackFillet(NamedTuple):
 class RootProfile(NamedTuple):
     """A root from the middle of its bottom land to the start of the involute.
 
-    `root_half_angle` [rad]: half the bottom land; `involute_roll` [m]: roll length at which the involute starts;
-    `sector_area` [m^2]: area between the gear's centre and half the root, up to there.
+    `root_half_angle` [rad] is half the angle of the bottom land. `involute_roll` [m] is the roll length at which the
+    involute starts. `sector_area` [m^2] is the area between the centre of the gear and half the root, up to the start
+    of the involute.
     """
 
     fillet: RackFillet
@@ -148,7 +170,7 @@ class RootProfile(NamedTuple):
 
 @kernel
 def fillet_point(fillet: RackFillet, t: float) -> tuple[float, float]:
-    """Radius [m] and half space angle [rad] of the fillet at arc parameter t [rad]."""
+    """Return radius [m] and half space angle [rad] of the fillet at arc parameter t [rad]."""
     y = fillet.centre_y - fillet.tip_radius * np.cos(t)
     x = (fillet.centre_x + fillet.tip_radius * np.sin(t)) / fillet.cos_helix
     across = -y * np.tan(t) * fillet.cos_helix  # X + d: the contact normal passes through the pitch point
@@ -159,10 +181,13 @@ def fillet_point(fillet: RackFillet, t: float) -> tuple[float, float]:
 
 @kernel
 def fillet_sector_area(fillet: RackFillet, end: float) -> float:
-    """Area between the gear's centre and the fillet from t = 0 to `end`, 1/2 integral r^2 dpsi [m^2]."""
+    """Return the area between the centre of the gear and the fillet from t = 0 to `end` [m^2].
+
+    The area is 1/2 integral r^2 dpsi.
+    """
     r, tip, cos_helix = fillet.reference_radius, fillet.tip_radius, fillet.cos_helix
     area = 0.0
-    for node, weight in zip(_NODES, _WEIGHTS):  # noqa: B905  numba's zip knows no strict
+    for node, weight in zip(_NODES, _WEIGHTS):  # noqa: B905  numba's zip has no strict
         t = 0.5 * end * (1.0 + node)
         y, dy = fillet.centre_y - tip * np.cos(t), tip * np.sin(t)
         across, up = -y * np.tan(t) * cos_helix, y + r
@@ -173,7 +198,10 @@ def fillet_sector_area(fillet: RackFillet, end: float) -> float:
 
 
 def root_profile(pair: GearPairInputs, teeth: GearTeeth, gear: Gear) -> RootProfile:
-    """Root of one gear of the pair; where it is undercut, the union of what rack tip and rack flank sweep."""
+    """Return the root of one gear of the pair.
+
+    If the gear is undercut, the root is the union of what the tip and the flank of the rack sweep.
+    """
     module, angle = pair.normal_module, pair.normal_pressure_angle
     tip = rack_tip_radius(pair, teeth) * module
     centre_y = (teeth.profile_shift - teeth.dedendum) * module + tip
@@ -186,7 +214,7 @@ def root_profile(pair: GearPairInputs, teeth: GearTeeth, gear: Gear) -> RootProf
         fillet = fillet._replace(end=end)
     radius, half_angle = fillet_point(fillet, fillet.end)
     root_half_angle = fillet_point(fillet, 0.0)[1]
-    step = _half_space_angle(gear, radius) - half_angle  # 0 but where an undercut ends on the base circle
+    step = _half_space_angle(gear, radius) - half_angle  # 0, unless an undercut ends on the base circle
     area = root_half_angle * gear.root_radius**2 / 2 + fillet_sector_area(fillet, fillet.end) + step * radius**2 / 2
     return RootProfile(fillet, gear.root_radius, root_half_angle, roll, area)
 
@@ -196,7 +224,7 @@ def _half_space_angle(gear: Gear, radius: float) -> float:
 
 
 def _undercut_start(fillet: RackFillet, gear: Gear) -> tuple[float, float]:
-    """Arc parameter and roll length [m] where an undercutting fillet crosses the involute."""
+    """Return arc parameter [rad] and roll length [m] at which an undercutting fillet crosses the involute."""
 
     def excess(t: float) -> float:
         radius, half_angle = fillet_point(fillet, t)

@@ -8,12 +8,15 @@ from solvers.quantity import quantities, quantity, record
 from solvers.sources import ISO_21771
 
 GROUND_FILLET = 0.25  # normal modules; usual tip radius of the rack of ground teeth
-RACK_A = 0.38  # normal modules; rack A of ISO 53, assumed where the stiffness of the teeth counts
+RACK_A = 0.38  # normal modules; rack A of ISO 53, assumed if the stiffness of the teeth matters
 
 
 @record
 class GearTeeth:
-    """One gear's teeth; every coefficient counts normal modules. A tip diameter given counts, not the addendum."""
+    """Teeth of one gear; all coefficients are in normal modules.
+
+    If a tip diameter is given, the addendum is not used.
+    """
 
     teeth: int = quantity(
         "number of teeth", "z", ISO_21771, ge=5, le=1000, if_negative="internal gears are not modelled"
@@ -129,9 +132,15 @@ class GearPairInputs:
         return self.module if self.module_plane == "normal" else self.module * cos(self.helix_angle)
 
     def addendum_of(self, teeth: GearTeeth) -> float:
-        """Addendum coefficient of one gear of the pair: h_aP* = (d_a - d)/(2 m_n) - x of a tip diameter d_a.
+        """Return the addendum coefficient of one gear of the pair.
 
-        Raises InvalidInput: missing_property with neither; tip_diameter where no rack makes it.
+        A tip diameter d_a gives h_aP* = (d_a - d)/(2 m_n) - x.
+
+        Raises
+        ------
+        InvalidInput
+            `missing_property` if neither addendum nor tip diameter is given; `tip_diameter` if no rack makes the given
+            one.
         """
         name = "pinion" if teeth is self.pinion else "wheel"
         if teeth.tip_diameter is None:
@@ -144,7 +153,8 @@ class GearPairInputs:
         if not declared["ge"] <= addendum <= declared["le"]:
             message = (
                 f"a tip diameter of {teeth.tip_diameter * 1e3:.6g} mm makes an addendum coefficient of {addendum:.4g}; "
-                f"permissible {declared['ge']:g} to {declared['le']:g}: check it, the module and the profile shift"
+                f"permissible {declared['ge']:g} to {declared['le']:g}: check the tip diameter, the module and the "
+                "profile shift"
             )
             raise InvalidInput("tip_diameter", message, f"{name}.tip_diameter")
         return addendum

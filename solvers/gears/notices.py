@@ -1,4 +1,4 @@
-"""Warnings about a gear pair that meshes, the same in every model."""
+"""Warnings about a gear pair that meshes; they are the same in every model."""
 
 from solvers.gears.gear import Gear, rack_tip_radius
 from solvers.gears.pair import PathOfContact
@@ -8,7 +8,7 @@ THIN_TIP = 0.2  # normal modules
 
 
 def pair_notices(path: PathOfContact) -> list[Notice]:
-    """Rack tips held to their racks, undercut, thin tips, a path cut short by fillets."""
+    """Return the warnings about limited rack tip radii, undercut, thin tips and a path shortened by fillets."""
     inputs, notices = path.pair.inputs, []
     for gear, teeth, name in (
         (path.pair.pinion, inputs.pinion, "pinion"),
@@ -16,13 +16,14 @@ def pair_notices(path: PathOfContact) -> list[Notice]:
     ):
         used = rack_tip_radius(inputs, teeth)
         if used < inputs.rack_tip_radius:
-            message = f"the {name}'s rack has room for a tip radius of {used:.3f} modules only; that is used"
+            message = f"the {name}'s rack has room for a tip radius of {used:.3f} modules only; this radius is used"
             notices.append(Notice("rack_tip_radius", message, "rack_tip_radius", rank="note"))
         notices += _tooth_notices(gear, inputs.normal_module, name)
     notices += [
         Notice(
             "path_shortened",
-            f"the mate's tip reaches below the {name}'s usable involute; the path of contact starts where that does",
+            f"the tip of the mate reaches below the usable involute of the {name}; the path of contact starts at "
+            "this involute",
             f"{name}.dedendum",
             rank="note",
         )
@@ -35,8 +36,8 @@ def _tooth_notices(gear: Gear, module: float, name: str) -> list[Notice]:
     notices = []
     if gear.undercut:
         message = (
-            f"the {name} is undercut; its involute counts from the base circle up, so contact near it is less than "
-            "computed"
+            f"the {name} is undercut; its involute is computed from the base circle up, so that near the base circle "
+            "there is less contact than computed"
         )
         notices.append(Notice("undercut", message, f"{name}.profile_shift"))
     if gear.tip_thickness < THIN_TIP * module:

@@ -23,15 +23,15 @@ from solvers.gears.inputs import GearPairInputs, GearTeeth
 
 Real = TypeVar("Real", float, FloatArray)
 
-# A helix whose overlap is below this is a spur gear: its contact line would enter within rounding of one roll position.
+# A helical gear with less overlap is treated as a spur gear: a contact line would enter within rounding at once.
 LEAST_OVERLAP = 1e-9
-# Reduced radius over normal module below which neither Hertz nor Blok has a limit to offer.
+# Ratio of reduced radius to normal module below which the formulas of Hertz and Blok have no limit.
 LEAST_RADIUS = 0.02
 ROUNDING = 1e-9  # of the line of action
 
 
 def inverse_involute(value: float) -> float:
-    """The angle [rad] in [0, pi/2) whose involute function is `value` >= 0."""
+    """Return the angle [rad] in [0, pi/2) whose involute function is `value` >= 0."""
     return brentq(lambda angle: involute(angle) - value, 0.0, pi / 2 - 1e-9, xtol=1e-16, rtol=1e-15)
 
 
@@ -39,7 +39,7 @@ def inverse_involute(value: float) -> float:
 class GearPair:
     """A meshing pair in the transverse plane; lengths [m], angles [rad].
 
-    `centre_distance` is the one in use; `line_of_action` is N1 N2, the distance of the two base tangent points.
+    `centre_distance` is the one in use. `line_of_action` is the distance N1 N2 of both base tangent points.
     """
 
     inputs: GearPairInputs
@@ -66,9 +66,26 @@ class GearPair:
 
 
 def gear_pair(inputs: GearPairInputs) -> GearPair:
-    """Geometry of the pair (Eq. L1).
+    """Compute the geometry of a gear pair.
 
-    Raises InvalidInput: pointed_rack, no_involute, pointed_tooth, flank_interference, no_mesh, no_tip_clearance.
+    Parameters
+    ----------
+    inputs : GearPairInputs
+        The pair.
+
+    Returns
+    -------
+    GearPair
+        Radii, angles, base pitch and centre distance in the transverse plane.
+
+    Raises
+    ------
+    InvalidInput
+        `pointed_rack`, `no_involute`, `pointed_tooth`, `flank_interference`, `no_mesh` or `no_tip_clearance`.
+
+    Notes
+    -----
+    Eq. L1.
     """
     transverse_module = inputs.normal_module / cos(inputs.helix_angle)
     transverse_pressure_angle = atan(tan(inputs.normal_pressure_angle) / cos(inputs.helix_angle))
@@ -102,7 +119,7 @@ def _gear(inputs: GearPairInputs, teeth: GearTeeth, name: str) -> Gear:
 def _backlash_free_centre_distance(
     inputs: GearPairInputs, pinion: Gear, wheel: Gear, transverse_pressure_angle: float
 ) -> float:
-    """Centre distance [m] by inv alpha_wt = inv alpha_t + 2 (x1 + x2) tan alpha_n / (z1 + z2)."""
+    """Return the centre distance [m] with inv alpha_wt = inv alpha_t + 2 (x1 + x2) tan alpha_n/(z1 + z2)."""
     shifts = inputs.pinion.profile_shift + inputs.wheel.profile_shift
     teeth = pinion.teeth + wheel.teeth
     working_involute = involute(transverse_pressure_angle) + 2 * tan(inputs.normal_pressure_angle) * shifts / teeth
@@ -111,10 +128,11 @@ def _backlash_free_centre_distance(
 
 
 class ContactPlane(NamedTuple):
-    """Rectangle of the plane of action: x from A to E, y from the end that meshes first [m].
+    """Rectangle of the plane of action: x from A to E, y from the end of the face that meshes first [m].
 
-    Contact lines are x + y tan_base_helix = phase + j base_pitch. The pinion rolls on start + x of line_of_action;
-    where the reduced radius is below least_radius, near a base circle, pressure and flash temperature have no meaning.
+    Contact lines are x + y tan_base_helix = phase + j base_pitch. At x the roll length of the pinion is start + x, out
+    of line_of_action. If the reduced radius is below least_radius, near a base circle, pressure and flash temperature
+    have no meaning.
     """
 
     path_length: float
@@ -130,10 +148,24 @@ class ContactPlane(NamedTuple):
 
 @kernel
 def reduced_radius(plane: ContactPlane, x: Real) -> Real:
-    """R_n = s (N - s) / (N cos beta_b) [m] at distance x [m] from A.
+    """Compute the reduced radius of curvature in the normal section.
 
-    The curvature of an involute helicoid across its straight generator is r_K / cos beta_b. Eq. 13 prints
-    r_K cos^3 beta_b / (1 - 2 sin^2 beta_b), equal to second order in beta_b and singular at 45 degrees.
+    Parameters
+    ----------
+    plane : ContactPlane
+        The plane of action.
+    x : Real
+        Distance from A along the path of contact [m].
+
+    Returns
+    -------
+    Real
+        Reduced radius R_n = s (N - s)/(N cos beta_b) at the roll length s of the pinion [m].
+
+    Notes
+    -----
+    The curvature of an involute helicoid across its straight generator is r_K/cos beta_b. Eq. 13 prints r_K cos^3
+    beta_b/(1 - 2 sin^2 beta_b), which is equal to second order in beta_b and singular at 45 degrees.
     """
     s = plane.start + x
     return s * (plane.line_of_action - s) / (plane.line_of_action * plane.cos_base_helix)
@@ -141,9 +173,9 @@ def reduced_radius(plane: ContactPlane, x: Real) -> Real:
 
 @dataclass(frozen=True)
 class PathOfContact:
-    """Path of contact by the pinion's roll lengths [m]: start at A, end at E, pitch_point at C.
+    """Path of contact in roll lengths of the pinion [m]: `start` at A, `end` at E, `pitch_point` at C.
 
-    `shortened_by` names the members whose fillet cuts the path short of the mate's tip.
+    `shortened_by` names the members whose fillet ends the path before the tip of the mate does.
     """
 
     pair: GearPair
@@ -163,22 +195,25 @@ class PathOfContact:
 
     @property
     def transverse_contact_ratio(self) -> float:
-        """eps_alpha = g_alpha / p_bt; Eq. 2, which prints the circular pitch pi m_t as the base pitch p_bt."""
+        """Transverse contact ratio eps_alpha = g_alpha/p_bt [-].
+
+        Eq. 2, which prints the circular pitch pi m_t as the base pitch p_bt.
+        """
         return self.length / self.pair.transverse_base_pitch
 
     @property
     def overlap_ratio(self) -> float:
-        """eps_beta = b tan beta_b / p_bt (Eq. 3)."""
+        """Overlap ratio eps_beta = b tan beta_b/p_bt [-] (Eq. 3)."""
         return self.plane.face_width * self.plane.tan_base_helix / self.plane.base_pitch
 
     @property
     def total_contact_ratio(self) -> float:
-        """eps_gamma = eps_alpha + eps_beta."""
+        """Total contact ratio eps_gamma = eps_alpha + eps_beta [-]."""
         return self.transverse_contact_ratio + self.overlap_ratio
 
     @cached_property
     def plane(self) -> ContactPlane:
-        """The rectangle of the plane of action in which contact lines move."""
+        """Rectangle of the plane of action in which contact lines move."""
         pair, face_width = self.pair, self.pair.inputs.face_width
         helix = tan(pair.base_helix_angle)
         if face_width * helix < LEAST_OVERLAP * pair.transverse_base_pitch:
@@ -196,14 +231,28 @@ class PathOfContact:
         )
 
     def profile_parameter(self, x: Real) -> Real:
-        """Gamma = (N1K - N1C) / N1C at distance x [m] from A."""
+        """Return Gamma = (N1K - N1C)/N1C at distance x [m] from A."""
         return (self.start + x) / self.pitch_point - 1.0
 
     def surface_speeds(self, x: Real, pinion_speed: float) -> tuple[Real, Real]:
-        """Rolling speeds u_1, u_2 [m/s] at x [m] for a pinion speed [rad/s].
+        """Compute the rolling speeds of both flanks.
 
-        The flank velocity across the contact line is omega times the transverse radius exactly; Eq. 18 takes the
-        radius across the contact line, too large by 1 / cos beta_b.
+        Parameters
+        ----------
+        x : Real
+            Distance from A along the path of contact [m].
+        pinion_speed : float
+            Speed of the pinion [rad/s].
+
+        Returns
+        -------
+        tuple of Real
+            Speeds u_1 and u_2 of pinion and wheel [m/s].
+
+        Notes
+        -----
+        The velocity of a flank across the contact line is exactly omega times the transverse radius of curvature.
+        Eq. 18 takes the radius across the contact line, which is too large by 1/cos beta_b.
         """
         s = self.start + x
         wheel_speed = pinion_speed * self.pair.pinion.teeth / self.pair.wheel.teeth
@@ -212,15 +261,32 @@ class PathOfContact:
 
 @lru_cache(maxsize=64)
 def meshing_path(gears: GearPairInputs) -> PathOfContact:
-    """The path of contact of a pair; raises what `gear_pair` and `path_of_contact` raise."""
+    """Return the path of contact of a pair; raise what `gear_pair` and `path_of_contact` raise."""
     return path_of_contact(gear_pair(gears))
 
 
 def path_of_contact(pair: GearPair) -> PathOfContact:
-    """The path between the tip circles, cut short where an involute begins only after it (Eq. L2).
+    """Compute the path of contact between the tip circles, limited to the usable involutes.
 
-    Raises InvalidInput: form_diameter (a fillet reaches the gear's own tip), no_contact (the tips do not reach the
-    line of action), involute_interference (the fillets leave nothing of the path).
+    Parameters
+    ----------
+    pair : GearPair
+        The pair.
+
+    Returns
+    -------
+    PathOfContact
+        The path from A to E.
+
+    Raises
+    ------
+    InvalidInput
+        `form_diameter` if a fillet reaches the tip of its own gear; `no_contact` if the tips do not reach the line of
+        action; `involute_interference` if the fillets leave nothing of the path.
+
+    Notes
+    -----
+    Eq. L2.
     """
     whole = pair.line_of_action
     check_usable_flank(pair.pinion, "pinion")

@@ -1,4 +1,4 @@
-"""Band of the temperatures: what they are if much or little oil reaches the flanks. A range, not a probability."""
+"""Band of the temperatures, if much or little oil reaches the flanks: a range, not a probability."""
 
 from dataclasses import dataclass, replace
 
@@ -14,7 +14,7 @@ MEASURED_WITHIN = 3.0  # K, chosen: uncertainty of a measured temperature
 
 @dataclass(frozen=True, slots=True)
 class Extreme:
-    """How well the oil cools at one end of the band; None is as in the nominal case.
+    """How well the oil cools at one end of the band; None leaves the value of the nominal case.
 
     `measured` is added to the measured temperature of a gear [K].
     """
@@ -50,7 +50,6 @@ def extreme_network(network: Network, cooling: Cooling, extreme: Extreme) -> Net
     -----
     Eq. H21. With a measured temperature of a gear the wetting share is fitted again to the temperature at the end of
     its own uncertainty, as near as it comes.
-
     """
     spray = network.spray
     if cooling.fling_off_factor is None:
@@ -68,7 +67,7 @@ def _fitted_again(network: Network, node: str, temperature: float) -> Network:
     """Return the network with the wetting share that gives the node its temperature, or comes nearest to it."""
     place, wanted = network.nodes.index(node), temperature - network.oil.inlet
     all_oil = wetted(network, MOST_WETTING)
-    if float(equilibrium(all_oil).rises[place]) >= wanted:  # no share cools that well
+    if float(equilibrium(all_oil).rises[place]) >= wanted:  # no share cools so well
         return all_oil
     try:
         return with_rotor(network, node, temperature)
@@ -92,7 +91,6 @@ def flank_cases(network: Network, cooling: Cooling, nominal: FloatArray) -> tupl
     -------
     tuple of (float, float)
         Temperatures of pinion and wheel [K]: well cooled, nominal, poorly cooled.
-
     """
     ends = [extreme_network(network, cooling, extreme) for extreme in (WELL_COOLED, POORLY_COOLED)]
     rises = [equilibrium(ends[0], nominal).rises, nominal, equilibrium(ends[1], nominal).rises]

@@ -1,7 +1,8 @@
 """Plain bearings as the heat balance sees them: friction and the oil that leaves them."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+
+from solvers.quantity import described, record
 
 
 def journal_leakage(surface_speed: float, width: float, clearance: float, eccentricity: float) -> float:
@@ -26,7 +27,6 @@ def journal_leakage(surface_speed: float, width: float, clearance: float, eccent
     Notes
     -----
     Eq. H12: U L c eps, what Couette flow brings into the half of the bearing that carries less what leaves it.
-
     """
     return surface_speed * width * clearance * eccentricity
 
@@ -35,22 +35,18 @@ Operation = Callable[[float], tuple[float, float]]
 """Friction power [W] and eccentricity ratio of a plain bearing whose film has a viscosity [Pa s]."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Journal:
-    """A plain bearing under its load on the shaft of gear 0 or 1; lengths [m].
+    """A plain bearing under its load."""
 
-    `shaft_conductance` [W/K] leads from the body of the gear to the journal; `oil_flow` [m^3/s] takes the place of
-    the bearing's leakage.
-    """
-
-    gear: int
-    diameter: float
-    width: float
-    clearance: float
-    speed: float
-    shaft_conductance: float
-    operate: Operation
-    oil_flow: float | None = None
+    gear: int = described("Gear on whose shaft the bearing sits: 0 pinion, 1 wheel.")
+    diameter: float = described("Diameter of the journal [m].")
+    width: float = described("Width of the bearing [m].")
+    clearance: float = described("Radial clearance [m].")
+    speed: float = described("Speed of the shaft, positive [rad/s].")
+    shaft_conductance: float = described("Thermal conductance from the body of the gear to the journal [W/K].")
+    operate: Operation = described("Function that returns friction power and eccentricity ratio at a film viscosity.")
+    oil_flow: float | None = described("Oil flow; None: the leakage of the bearing [m^3/s].", default=None)
 
     @property
     def surface_speed(self) -> float:

@@ -1,4 +1,4 @@
-"""Calibration: a measured temperature of a gear fixes the wetting share, that of the drain the other losses."""
+"""Calibration: a measured temperature of a gear fixes the wetting share, that of the drain fixes the other losses."""
 
 from dataclasses import replace
 
@@ -14,7 +14,7 @@ LEAST_WETTING, MOST_WETTING = 0.02, 1.0
 TRIED_SHARES = np.geomspace(MOST_WETTING, LEAST_WETTING, 8)
 CLOSE = 1e-7  # of the wetting share
 SHARE_STEP = 1e-5  # of the logarithm of the wetting share, and of the scale of the other losses, in differences
-MOST_FITS, LARGEST_FIT = 20, 1.0  # steps, and the most that the logarithm of the share moves in one of them
+MOST_FITS, LARGEST_FIT = 20, 1.0  # steps, and largest change of the logarithm of the share per step
 FITTED = 1e-6  # K; of the last step
 MET = 1e-5  # K; of the measured temperature
 
@@ -38,7 +38,6 @@ def drain_rise(network: Network, rises: FloatArray) -> float:
     -------
     float
         Rise of the mixture of the gears' and the bearings' oil [K].
-
     """
     flows = oil_flows(network, rises)
     warmed = network.spray.flow * rises[MIST] + flows @ rises[MIST + 1 : MIST + 1 + flows.size]
@@ -74,7 +73,6 @@ def with_drain(network: Network, drain: float) -> Network:
     Notes
     -----
     Eq. H20.
-
     """
     wanted = drain - network.oil.inlet
     if wanted <= 0.0:
@@ -124,7 +122,6 @@ def with_rotor(network: Network, node: str, temperature: float, drain: float | N
     Notes
     -----
     Eq. H19.
-
     """
     place, wanted = network.nodes.index(node), temperature - network.oil.inlet
     fitted = _fitted(network, place, wanted, None if drain is None else drain - network.oil.inlet)
@@ -156,10 +153,11 @@ def with_rotor(network: Network, node: str, temperature: float, drain: float | N
 
 
 def _fitted(network: Network, place: int, wanted: float, drain: float | None) -> Network | None:
-    """Return the network with the share, and the other losses, that give a node its rise [K] and the drain its own.
+    """Return the network whose share and other losses give a node its rise and the drain its rise [K].
 
-    Newton's method for the rises of the other nodes, the logarithm of the share and the other losses together; it
-    starts from all oil on the flanks. None if it does not converge to a share from 0.02 to 1 and an equilibrium there.
+    Newton's method solves for the rises of the other nodes, the logarithm of the share and the other losses together.
+    It starts with all oil on the flanks. The function returns None if the method does not converge to a share from 0.02
+    to 1 and an equilibrium at this share.
     """
     try:
         start = equilibrium(wetted(network, MOST_WETTING)).rises

@@ -1,28 +1,45 @@
 """Heat capacities of the nodes: teeth, rotors, bearings, mist, casing."""
 
-from dataclasses import dataclass
 from math import pi
 
 import numpy as np
 
 from solvers.arrays import FloatArray
 from solvers.heat_balance.network import Network
+from solvers.quantity import described, record
 
-BEARING_OIL, BEARING_STEEL = 0.5e-3, 5.0  # m^3, kg; chosen: what warms up with a plain bearing
+BEARING_OIL, BEARING_STEEL = 0.5e-3, 5.0  # m^3, kg; chosen: oil and steel that warm up with a plain bearing
 MIST_OIL = 5e-3  # m^3, chosen: oil in the mist and on its way to the drain
 STEEL_DENSITY, STEEL_HEAT = 7850.0, 470.0  # kg/m^3, J/(kg K)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Capacities:
-    """Heat capacities [J/K] of both rotors, of the teeth's loaded halves, and of the casing."""
+    """Heat capacities of the rotors and of the casing."""
 
-    rotors: tuple[float, float]
-    loaded_teeth: tuple[float, float]
-    casing: float | None = None
+    rotors: tuple[float, float] = described("Heat capacities of the pinion with its shaft and of the wheel's [J/K].")
+    loaded_teeth: tuple[float, float] = described("Heat capacities of the loaded halves of the teeth [J/K].")
+    casing: float | None = described(
+        "Heat capacity of the casing; None if the casing is not modelled [J/K].", default=None
+    )
 
     def of(self, network: Network) -> FloatArray:
-        """Return the capacity of each node [J/K] (Eq. H23)."""
+        """Compute the heat capacity of each node.
+
+        Parameters
+        ----------
+        network : Network
+            The network.
+
+        Returns
+        -------
+        FloatArray
+            Heat capacities (n,) [J/K].
+
+        Notes
+        -----
+        Eq. H23.
+        """
         oil = network.oil.heat_capacity
         gears = [
             capacity
@@ -54,7 +71,6 @@ def cylinders_capacity(
     -------
     float
         Heat capacity [J/K].
-
     """
     volume = sum(pi / 4 * length * (outer**2 - inner**2) for length, outer, inner in sections)
     return volume * density * specific_heat
@@ -89,6 +105,5 @@ def loaded_teeth_capacity(
     -------
     float
         Heat capacity z b H pi m_n/4 rho c [J/K].
-
     """
     return teeth * face_width * height * pi * module / 4 * density * specific_heat

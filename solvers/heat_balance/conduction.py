@@ -27,7 +27,6 @@ def tooth_conductance(teeth: int, face_width: float, module: float, height: floa
     Notes
     -----
     Eq. H15: K = z b H k/(pi m_n/4), through half the thickness of a tooth.
-
     """
     return teeth * face_width * height * conductivity / (pi * module / 4)
 
@@ -50,7 +49,6 @@ def rod_conductance(sections: tuple[tuple[float, float, float], ...], conductivi
     Notes
     -----
     Eq. H14: 1/sum(L/(k A)), exact for a rod.
-
     """
     lengths = sum(length / (outer**2 - inner**2) for length, outer, inner in sections)
     return conductivity * pi / 4 / lengths

@@ -22,7 +22,6 @@ def rim_convection(speed: float, radius: float) -> float:
     Notes
     -----
     Eq. H16: 3.75 omega^0.7 r_a^0.4, after Jungnickel; agrees with Becker within 12 %.
-
     """
     return float(3.75 * speed**0.7 * radius**0.4)
 
@@ -45,7 +44,6 @@ def face_convection(speed: float, radius: float) -> float:
     Notes
     -----
     Eq. H16: 2.73 omega^0.8 r_a^0.6, after Jungnickel; agrees with the free disc within 5 %.
-
     """
     return float(2.73 * speed**0.8 * radius**0.6)
 
@@ -70,6 +68,5 @@ def recovery_rise(speed: float, radius: float, recovery: float = RECOVERY) -> fl
     Notes
     -----
     Eq. H16: 0.88 (omega r_a)^2/(2 c_p).
-
     """
     return recovery * (speed * radius) ** 2 / (2 * AIR_HEAT)

@@ -13,15 +13,15 @@ from solvers.heat_balance.oil import CoolingOil
 
 TOOTH_HEIGHT = 2.25  # H over the normal module: addendum, dedendum and tip clearance of the basic rack
 LONG_TURN = 0.98  # q of thick films and long turns, by similarity
-FLOODED = 50.0  # a scaled film this thick cools no better if it is thicker
-USED_SHARE = 0.9  # of the flooded heat; the film that reaches it is what a turn can use
-LIMITED_FROM = 0.98  # chosen: of the oil's heat capacity; a conductance that high no longer depends on the film
+FLOODED = 50.0  # scaled thickness above which a film cools no better
+USED_SHARE = 0.9  # of the flooded heat; a turn can use the film that takes this share
+LIMITED_FROM = 0.98  # chosen: of the oil's heat capacity; a higher conductance does not depend on the film
 FILM_POWER, TIME_POWER = -5.5, -8.0  # of the closed form, fitted to the solved film (2.5 %)
 
 
 @dataclass(frozen=True, slots=True)
 class TurningTeeth:
-    """The teeth of a gear under way: both flanks of all teeth [m^2], tooth height [m], radius [m], speed [rad/s]."""
+    """The teeth of a rotating gear: area of both flanks of all teeth [m^2], height [m], radius [m], speed [rad/s]."""
 
     area: float
     height: float
@@ -58,7 +58,6 @@ def turning_teeth(teeth: int, face_width: float, module: float, radius: float, s
     Notes
     -----
     Eq. H1: A = 2 z b H, H = 2.25 m_n.
-
     """
     height = TOOTH_HEIGHT * module
     return TurningTeeth(2 * teeth * face_width * height, height, radius, speed)
@@ -83,7 +82,6 @@ def heat_number(film: float, turn: float) -> float:
     -----
     Eq. H2. A thin film takes all that it can, q = h0'; after a short time the film is a half space, q = 2 sqrt(t'/pi);
     a thick film ends at 0.98, by similarity. The closed form joins the three within 2.5 % of the solved film.
-
     """
     short = 2 * sqrt(turn / pi)
     unlimited = short**TIME_POWER + LONG_TURN**TIME_POWER
@@ -110,7 +108,6 @@ def fling_off_time(oil: CoolingOil, teeth: TurningTeeth, temperature: float) -> 
     Notes
     -----
     Eq. H3: t* = sqrt(nu H/(a r))/omega.
-
     """
     viscosity = oil.viscosity(temperature) / oil.density
     return sqrt(viscosity * teeth.height / (oil.diffusivity * teeth.radius)) / teeth.speed
@@ -134,17 +131,16 @@ def laid_film(teeth: TurningTeeth, flow: float) -> float:
     Notes
     -----
     Eq. H4: h0 = Q_i/(A_i omega/2 pi).
-
     """
     return flow / (teeth.area * teeth.turns)
 
 
 @dataclass(frozen=True, slots=True)
 class FlingOff:
-    """Cooling of one gear by its film: conductances [W/K], of the film as laid and of one that floods the flank.
+    """Cooling of one gear by its film: conductances [W/K] of the film as laid and of a film that floods the flank.
 
-    `film` is what the jets lay on in a turn, `turn_film` what a turn can use [m]; `limited` if the conductance
-    is the oil's heat capacity.
+    `film` is the thickness that the jets lay per turn, and `turn_film` the thickness that can take heat in a turn [m].
+    `limited` is true if the heat capacity of the oil limits the conductance.
     """
 
     conductance: float
@@ -178,7 +174,6 @@ def fling_off(oil: CoolingOil, teeth: TurningTeeth, flow: float, factor: float, 
     Notes
     -----
     Eq. H5: G = f omega/(2 pi) A sqrt(k rho c t*) q(h0', t'), G <= rho c Q_i; flooded: h0' = 50.
-
     """
     time = fling_off_time(oil, teeth, (flank + oil.inlet) / 2)
     length, turn = sqrt(oil.diffusivity * time), 1 / (teeth.turns * time)

@@ -1,6 +1,6 @@
 """Temperatures over the oil flow: what more oil brings."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -10,16 +10,17 @@ from solvers.heat_balance.calibration import drain_rise
 from solvers.heat_balance.model import HeatBalanceInputs, calibrated, network_of
 from solvers.heat_balance.network import FLANKS, Network
 from solvers.heat_balance.solution import equilibrium
+from solvers.quantity import described, record
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class FlowCurve:
-    """Flanks and drain [K] over the flow to the gears [m^3/s]; NaN where there is no equilibrium."""
+    """Temperatures over the oil flow to the gears; NaN at flows without an equilibrium."""
 
-    flow: FloatArray
-    pinion_flank: FloatArray
-    wheel_flank: FloatArray
-    drain: FloatArray
+    flow: FloatArray = described("Oil flows to the gears [m^3/s].")
+    pinion_flank: FloatArray = described("Temperatures of the loaded flanks of the pinion [K].")
+    wheel_flank: FloatArray = described("Temperatures of the loaded flanks of the wheel [K].")
+    drain: FloatArray = described("Temperatures of the drained oil [K].")
 
 
 def over_the_flow(inputs: HeatBalanceInputs, flows: FloatArray) -> FlowCurve:
@@ -36,7 +37,6 @@ def over_the_flow(inputs: HeatBalanceInputs, flows: FloatArray) -> FlowCurve:
     -------
     FlowCurve
         Temperatures at these flows; losses follow the temperatures only.
-
     """
     network = calibrated(network_of(inputs), inputs.cooling)
     start: FloatArray | None = None

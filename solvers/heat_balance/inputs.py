@@ -1,4 +1,4 @@
-"""What a user may say of the cooling of a gear pair or unit."""
+"""Inputs of the cooling of a gear pair or gear unit."""
 
 from dataclasses import fields
 from typing import Literal
@@ -14,7 +14,7 @@ WETTING_SHARE, FLING_OFF_FACTOR, REWETTING_SHARE = 0.5, 1.0, 0.0
 
 @record
 class Casing:
-    """The casing of a gear unit; without an area it does not take part."""
+    """The casing of a gear unit; without an area it is left out of the balance."""
 
     area: float | None = quantity(
         "area of the casing",
@@ -60,7 +60,7 @@ class Casing:
 
 @record
 class Measured:
-    """Temperatures measured on the running gear: at most one of each gear, and that of the drained oil.
+    """Temperatures measured on the running gear: at most one per gear, and that of the drained oil.
 
     A thermocouple in a tooth or in the rim measures the body, an infrared sensor the flank.
     """
@@ -119,7 +119,7 @@ class Measured:
 
     @property
     def rotors(self) -> dict[str, float]:
-        """The measured temperatures of the gears by their node [K], the pinion's first."""
+        """Measured temperatures of the gears by node [K], that of the pinion first."""
         given = {item.name: getattr(self, item.name) for item in fields(self) if item.name != "drain"}
         return {name: value for name, value in given.items() if value is not None}
 
@@ -313,7 +313,13 @@ class Cooling:
         return FLING_OFF_FACTOR if self.fling_off_factor is None else self.fling_off_factor
 
     def check(self) -> None:
-        """Raise InvalidInput exclusive for a value that a measured temperature fixes, or two measured of one gear."""
+        """Refuse two measured temperatures of one gear, and a value that a measured temperature fixes.
+
+        Raises
+        ------
+        InvalidInput
+            `exclusive`.
+        """
         measured = self.measured
         for gear in ("pinion", "wheel"):
             if {f"{gear}_flank", f"{gear}_body"} <= set(measured.rotors):

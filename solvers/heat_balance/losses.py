@@ -3,32 +3,48 @@
 The friction of the mesh is the load distribution's own; here it only follows the oil's viscosity.
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from solvers.arrays import FloatArray
 from solvers.heat_balance.oil import CoolingOil
+from solvers.quantity import described, record
 
 VISCOSITY_EXPONENT = -0.05  # of Schlenk's mean coefficient of friction (quoted, not verified)
-LARGEST_ACCELERATION_SHARE = 0.5  # chosen: of the rise by which the flow is sized
+LARGEST_ACCELERATION_SHARE = 0.5  # chosen: largest share of the rise by which the flow is sized
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class MeshHeat:
-    """Friction of the mesh: its power [W] at a temperature of the flanks [K], and the pinion's share.
+    """Friction of the mesh."""
 
-    The power follows the oil's viscosity by `viscosity_exponent`; a coefficient of friction that the user gives is
-    constant, the exponent then 0.
-    """
-
-    power: float
-    temperature: float
-    share_to_pinion: float
-    viscosity_exponent: float = VISCOSITY_EXPONENT
+    power: float = described("Friction power at `temperature` [W].")
+    temperature: float = described("Temperature of the flanks at which the power was computed [K].")
+    share_to_pinion: float = described("Share of the frictional heat that enters the pinion [-].")
+    viscosity_exponent: float = described(
+        "Exponent by which the power follows the viscosity of the oil; 0 if the user gives the coefficient of friction "
+        "[-].",
+        default=VISCOSITY_EXPONENT,
+    )
 
     def at(self, oil: CoolingOil, flanks: float) -> float:
-        """Return the power [W] at a mean temperature of both flanks [K] (Eq. H6)."""
+        """Compute the friction power at other flank temperatures.
+
+        Parameters
+        ----------
+        oil : CoolingOil
+            The oil.
+        flanks : float
+            Mean temperature of both flanks [K].
+
+        Returns
+        -------
+        float
+            Friction power [W].
+
+        Notes
+        -----
+        Eq. H6.
+        """
         if self.viscosity_exponent == 0.0:
             return self.power
         thinning = oil.viscosity(flanks) / oil.viscosity(self.temperature)
@@ -55,7 +71,7 @@ def share_to_pinion(
     position : FloatArray
         Position of the points along the path [m].
     effusivity_ratio : float
-        sqrt(k rho c) of the wheel over that of the pinion [-].
+        Effusivity sqrt(k rho c) of the wheel over that of the pinion [-].
 
     Returns
     -------
@@ -66,7 +82,6 @@ def share_to_pinion(
     -----
     Eq. H7: phi = int q sqrt(u_1)/(sqrt(u_1) + sqrt(u_2)) / int q: both surfaces have the same temperature in the
     contact, which they pass as half spaces under a moving source.
-
     """
     total = float(np.trapezoid(heat, position))
     if total == 0.0:
@@ -99,7 +114,6 @@ def windage(pitch_line_velocity: float, diameter: float, face_width: float, modu
     Notes
     -----
     Eq. H8: torque 1.37e-9 v^1.9 d^1.6 b^0.52 m_n^0.69 N m with lengths in mm; the lowest of three formulas.
-
     """
     sizes = (diameter * 1e3) ** 1.6 * (face_width * 1e3) ** 0.52 * (module * 1e3) ** 0.69
     return float(1.37e-9 * pitch_line_velocity**1.9 * sizes * speed)
@@ -128,7 +142,6 @@ def acceleration_power(oil: CoolingOil, flow: float, velocity: float, jet: float
     -----
     Eq. H9: rho Q v (v - v_jet). Per mass, (v - v_jet)^2/2 of it becomes heat as the oil hits the teeth, the
     rest as the casing stops the oil.
-
     """
     return oil.density * flow * velocity * (velocity - jet)
 
@@ -153,7 +166,6 @@ def impact_rise(oil: CoolingOil, velocity: float, jet: float) -> float:
     Notes
     -----
     Eq. H10: (v - v_jet)^2/(2 c).
-
     """
     return (velocity - jet) ** 2 / (2 * oil.specific_heat)
 
@@ -186,7 +198,6 @@ def flow_by_rise(
     Notes
     -----
     Eq. H11: Q = P/(rho c (dT - min(dT/2, w v (v - v_jet)/c))).
-
     """
     accelerating = wetting_share * velocity * (velocity - jet) / oil.specific_heat
     warming = rise - min(LARGEST_ACCELERATION_SHARE * rise, accelerating)
@@ -215,6 +226,5 @@ def ts_6336_22_bulk_rise(loss: float, centre_distance: float, face_width: float,
     Notes
     -----
     Eq. H13: 7400 (P mu H_v/(a b))^0.72 X_S/1.2, in kW and mm.
-
     """
     return float(7400 * (loss * 1e-3 / (centre_distance * face_width * 1e6)) ** 0.72 * supply_factor / 1.2)

@@ -1,7 +1,7 @@
-"""The heat balance: network of what a user gives, calibration, equilibrium, band."""
+"""The heat balance: network from the inputs, calibration, equilibrium, band."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from math import pi
 
 import numpy as np
@@ -30,25 +30,25 @@ from solvers.heat_balance.results import (
 )
 from solvers.heat_balance.solution import Equilibrium, equilibrium
 from solvers.notices import Notice
+from solvers.quantity import described, record
 
 SPRAY_FACTOR = 1.2  # X_S of ISO/TS 6336-22
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class GearGeometry:
-    """One gear of the pair: lengths [m], speed [rad/s] whatever its sign, conductivity [W/(m K)].
+    """One gear of the pair."""
 
-    `shaft_radii` are those of the shaft beside both faces [m], 0 where there is none.
-    """
-
-    teeth: int
-    face_width: float
-    module: float
-    reference_radius: float
-    tip_radius: float
-    speed: float
-    conductivity: float = 46.0
-    shaft_radii: tuple[float, float] = (0.0, 0.0)
+    teeth: int = described("Number of teeth.")
+    face_width: float = described("Face width [m].")
+    module: float = described("Normal module [m].")
+    reference_radius: float = described("Reference radius [m].")
+    tip_radius: float = described("Tip radius [m].")
+    speed: float = described("Speed, positive [rad/s].")
+    conductivity: float = described("Thermal conductivity [W/(m K)].", default=46.0)
+    shaft_radii: tuple[float, float] = described(
+        "Radii of the shaft at both faces of the gear, 0 without a shaft there [m].", default=(0.0, 0.0)
+    )
 
     @property
     def face_area(self) -> float:
@@ -56,23 +56,23 @@ class GearGeometry:
         return pi * sum(max(self.tip_radius**2 - radius**2, 0.0) for radius in self.shaft_radii)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class HeatBalanceInputs:
-    """What the heat balance of a pair or of a unit depends on.
-
-    `pumping` of pinion and wheel [W]; None: half of `cooling.pumping` each. `couplings` [W] are reported only.
-    `centre_distance` [m] is for the estimate of ISO/TS 6336-22, `iso_tr_13989_bulk` [K] is reported beside it.
-    """
+    """Inputs of the heat balance of a gear pair or gear unit."""
 
     cooling: Cooling
     oil: CoolingOil
-    gears: tuple[GearGeometry, GearGeometry]
+    gears: tuple[GearGeometry, GearGeometry] = described("Geometry and speed of pinion and wheel.")
     mesh: MeshHeat
-    pumping: tuple[float, float] | None = None
-    journals: tuple[Journal, ...] = field(default=())
-    couplings: float = 0.0
-    centre_distance: float | None = None
-    iso_tr_13989_bulk: float | None = None
+    pumping: tuple[float, float] | None = described(
+        "Pumping losses of pinion and wheel; None: half of `cooling.pumping` per gear [W].", default=None
+    )
+    journals: tuple[Journal, ...] = described("Plain bearings.", default=())
+    couplings: float = described("Losses of the couplings, which are reported only [W].", default=0.0)
+    centre_distance: float | None = described("Centre distance, for the estimate by ISO/TS 6336-22 [m].", default=None)
+    iso_tr_13989_bulk: float | None = described(
+        "Bulk temperature by ISO/TR 13989, which is reported beside the estimate [K].", default=None
+    )
 
 
 def solve(inputs: HeatBalanceInputs) -> Heat:
@@ -94,7 +94,6 @@ def solve(inputs: HeatBalanceInputs) -> Heat:
         `exclusive` or `measured_unreachable` for measured temperatures.
     NoSolution
         `heat_balance`, `thermal_runaway`, or what a bearing raises.
-
     """
     cooling = inputs.cooling
     cooling.check()
@@ -137,7 +136,6 @@ def network_of(inputs: HeatBalanceInputs) -> Network:
     -------
     Network
         Nodes and flows of heat.
-
     """
     cooling, oil = inputs.cooling, inputs.oil
     pumping = (cooling.pumping / 2, cooling.pumping / 2) if inputs.pumping is None else inputs.pumping
@@ -182,7 +180,6 @@ def calibrated(network: Network, cooling: Cooling) -> Network:
     -------
     Network
         With a fitted wetting share and fitted other losses, where these are measured.
-
     """
     measured = cooling.measured
     if measured.rotors:
@@ -207,7 +204,7 @@ def _cooled(gear: GearGeometry, pumping: float) -> CooledGear:
 def _cases(
     network: Network, cooling: Cooling, state: Equilibrium
 ) -> tuple[tuple[tuple[float, float], ...], tuple[Notice, ...]]:
-    """Return the flanks over the band, or of the nominal case alone with the reason."""
+    """Return the flanks over the band, or those of the nominal case with the reason why there is no band."""
     inlet = network.oil.inlet
     nominal = ((inlet + float(state.rises[FLANKS[0]]), inlet + float(state.rises[FLANKS[1]])),)
     if not cooling.band:
@@ -215,7 +212,7 @@ def _cases(
     try:
         return flank_cases(network, cooling, state.rises), ()
     except NoSolution as failure:
-        message = f"there is no band, for with little oil on the flanks {failure.message}"
+        message = f"there is no band, because with little oil on the flanks {failure.message}"
         return nominal, (Notice("band_unsolved", message, "cooling.wetting_share"),)
 
 
@@ -242,7 +239,7 @@ def _bearings(network: Network, rises: FloatArray) -> Iterator[BearingHeat]:
 
 
 def _flows(network: Network, flows: list[Flow]) -> Iterator[HeatFlow]:
-    """Every flow of heat that is not nothing."""
+    """Yield the heat flows that are not zero."""
     for flow in flows:
         if flow.power != 0.0:
             yield HeatFlow(network.places[flow.origin], network.places[flow.target], flow.carrier, flow.power)
@@ -279,7 +276,7 @@ def _estimates(inputs: HeatBalanceInputs) -> BulkEstimates:
 
 
 def _deviation(network: Network, cooling: Cooling, rises: FloatArray) -> float | None:
-    """Return calculated less measured temperature of the wheel [K], where the share was fitted to the pinion."""
+    """Return calculated minus measured temperature of the wheel [K], if the share was fitted to the pinion."""
     rotors = list(cooling.measured.rotors.items())
     if len(rotors) < 2:
         return None
@@ -311,7 +308,6 @@ def backlash_loss(
     Notes
     -----
     Eq. H22: 2 tan(alpha_wt) alpha_L sum r_wi (B_i - C).
-
     """
     if heat.casing is None:
         return heat
@@ -321,7 +317,20 @@ def backlash_loss(
 
 
 def cooling_in_force(cooling: Cooling, heat: Heat) -> CoolingInForce:
-    """Return what stands for the values of the cooling that were left open."""
+    """Return the values in use for what the inputs of the cooling leave open.
+
+    Parameters
+    ----------
+    cooling : Cooling
+        Inputs of the cooling.
+    heat : Heat
+        Result of `solve`.
+
+    Returns
+    -------
+    CoolingInForce
+        Flow, shares and losses in use.
+    """
     return CoolingInForce(
         gear_flow=heat.gear_flow,
         wetting_share=heat.wetting_share,
@@ -333,5 +342,5 @@ def cooling_in_force(cooling: Cooling, heat: Heat) -> CoolingInForce:
 
 
 def unusual_values(inputs: HeatBalanceInputs, heat: Heat) -> Iterator[Notice]:
-    """Tell of unusual values of the inputs."""
+    """Return warnings about unusual inputs."""
     return unusual_flow(inputs.cooling.gear_flow, heat, inputs.oil)

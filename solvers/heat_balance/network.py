@@ -1,8 +1,8 @@
-"""The network of a gear pair or gear unit: its nodes, and every flow of heat between them.
+"""The network of a gear pair or gear unit: its nodes, and all heat flows between them.
 
-Nodes: flank and body of each gear, the mist, one for each plain bearing (the oil that leaves it), and the casing if
-there is one. A flow is booked once, from one place to another, so heat that is supplied is heat that is removed.
-Temperatures are rises over the temperature at which the oil is supplied [K].
+Nodes: flank and body of each gear, the mist, one node per plain bearing (the oil that leaves it), and the casing if
+there is one. A flow is booked once, from one place to another, so that supplied heat equals removed heat. Temperatures
+are rises over the temperature at which the oil is supplied [K].
 """
 
 from collections.abc import Iterator
@@ -27,9 +27,9 @@ GEAR_NODES = ("pinion_flank", "pinion_body", "wheel_flank", "wheel_body", "mist"
 
 @dataclass(frozen=True)
 class CooledGear:
-    """A gear in the network: its teeth, lengths [m], conductivity [W/(m K)] and the heat of the gas pumped [W].
+    """A gear in the network: its teeth, lengths [m], conductivity [W/(m K)] and heat of the pumped gas [W].
 
-    `face_area` is that of both faces as far as the shaft leaves them free [m^2].
+    `face_area` is the area of both faces that the shaft leaves free [m^2].
     """
 
     teeth: int
@@ -60,9 +60,9 @@ class CooledGear:
 
 @dataclass(frozen=True, slots=True)
 class Spray:
-    """Oil on its way to the teeth: flow [m^3/s], shares, the factor on its cooling, speeds of pitch line and jet [m/s].
+    """Oil on its way to the teeth: flow [m^3/s], shares, factor of its cooling, speeds of pitch line and jet [m/s].
 
-    The jet's velocity is positive into the mesh and negative for jets against the teeth that leave it.
+    The velocity of the jet is positive into the mesh, and negative for jets against the teeth that leave the mesh.
     """
 
     flow: float
@@ -90,7 +90,7 @@ class CasingWalls:
 
 
 class Flow(NamedTuple):
-    """Heat [W] that flows from one place of the network to another, places by their index, and what carries it."""
+    """Heat [W] that flows between two places of the network, given by their index, and the carrier of the heat."""
 
     origin: int
     target: int
@@ -123,7 +123,7 @@ class Network:
 
     @cached_property
     def places(self) -> tuple[str, ...]:
-        """The nodes, then the oil that leaves, the surroundings, and where losses come from."""
+        """Names of the nodes, then of the oil that leaves, the surroundings, and the source of losses."""
         return (*self.nodes, "oil", "ambient", "source")
 
     @property
@@ -133,22 +133,23 @@ class Network:
 
     @property
     def coldest(self) -> float:
-        """The lowest temperature that is given [K]."""
+        """Lowest given temperature [K]."""
         return min(self.oil.inlet, self.casing.ambient) if self.casing else self.oil.inlet
 
     @cached_property
     def _coolings(self) -> dict[tuple[int, float], FlingOff]:
-        """Fling-off cooling by gear and temperature of its flank: a Jacobian by differences asks for few of them."""
+        """Fling-off cooling by gear and flank temperature; a Jacobian by differences asks for few different ones."""
         return {}
 
     def cooling(self, gear: int, rises: FloatArray) -> FlingOff:
         """Return the fling-off cooling of gear 0 or 1."""
         flank = self.oil.inlet + float(rises[FLANKS[gear]])
-        known = self._coolings.get((gear, flank))
-        if known is None:
+        cooling = self._coolings.get((gear, flank))
+        if cooling is None:
             wetting, factor = self.spray.wetting(gear), self.spray.fling_off_factor
-            known = self._coolings[gear, flank] = fling_off(self.oil, self.gears[gear].flanks, wetting, factor, flank)
-        return known
+            cooling = fling_off(self.oil, self.gears[gear].flanks, wetting, factor, flank)
+            self._coolings[gear, flank] = cooling
+        return cooling
 
     @cached_property
     def _operations(self) -> dict[tuple[int, float], tuple[float, float]]:
@@ -157,11 +158,11 @@ class Network:
 
     def operation(self, number: int, outlet: float) -> tuple[float, float]:
         """Return friction power [W] and flow [m^3/s] of a bearing by the rise of the oil that leaves it [K]."""
-        known = self._operations.get((number, outlet))
-        if known is None:
+        operation = self._operations.get((number, outlet))
+        if operation is None:
             viscosity = self.oil.viscosity(self.film_temperature(outlet))
-            known = self._operations[number, outlet] = self.journals[number].loss_and_flow(viscosity)
-        return known
+            operation = self._operations[number, outlet] = self.journals[number].loss_and_flow(viscosity)
+        return operation
 
     def flows(self, rises: FloatArray) -> list[Flow]:
         """List every flow of heat in the network.
@@ -179,7 +180,6 @@ class Network:
         Notes
         -----
         Eq. H17.
-
         """
         mist, oil, source = float(rises[MIST]), self.size, self.size + 2
         flows = [
@@ -202,7 +202,7 @@ class Network:
         return self.gains(self.flows(rises))[: self.size]
 
     def gains(self, flows: list[Flow]) -> FloatArray:
-        """Return the heat that each place of the network gains [W]; they add up to nothing."""
+        """Return the heat that each place of the network gains [W]; the sum over all places is zero."""
         powers, places = [flow.power for flow in flows], len(self.places)
         incoming = np.bincount([flow.target for flow in flows], powers, places)
         return np.asarray(incoming - np.bincount([flow.origin for flow in flows], powers, places))

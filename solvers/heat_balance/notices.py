@@ -11,32 +11,33 @@ from solvers.heat_balance.results import Heat
 from solvers.notices import Notice
 from solvers.plausibility import unusual_value
 
-SLOW = 40.0  # m/s; below it the jets' oil is not all that wets the flanks
+SLOW = 40.0  # m/s; below this speed the flanks are not wetted by the jets alone
 TURBULENT = 41.0  # times sqrt(R/c): Reynolds number at which vortices begin in a plain bearing (Taylor)
 KNOWN_WITHIN = 15.0  # K, chosen
 USUAL_RISE = (2.0, 60.0)  # K, chosen: of the oil by the losses of the gears
 
 
 def heat_notices(network: Network, rises: FloatArray, cooling: Cooling) -> Iterator[Notice]:
-    """Speed, oil, films and measured temperatures for which the balance is doubtful."""
+    """Return warnings about speed, oil, films and measured temperatures for which the balance is doubtful."""
     if network.spray.velocity < SLOW:
         message = (
-            f"the heat balance counts the oil of the jets only; at {network.spray.velocity:.4g} m/s, below {SLOW:g}, "
-            "oil that runs down and is picked up again cools too: with little oil the flanks are cooler than stated"
+            f"the heat balance considers the oil of the jets only; at {network.spray.velocity:.4g} m/s, below "
+            f"{SLOW:g}, oil that runs down and is picked up again cools the teeth as well: with little oil the "
+            "flanks are cooler than computed"
         )
         yield Notice("low_speed", message, "cooling")
     yield from _oil_notices(network, rises)
     if network.other < 0.0:
         message = (
-            f"the measured drain leaves {network.other:.4g} W for other losses; the losses are overestimated, or the "
-            "oil flow underestimated"
+            f"with the measured drain temperature the other losses are {network.other:.4g} W; the losses are "
+            "overestimated, or the oil flow is underestimated"
         )
         yield Notice("losses_overestimated", message, "cooling.measured.drain")
     if not cooling.measured.rotors:
         message = (
-            "no heat balance was compared with measurements above 50 m/s; the flanks are known to about "
-            f"±{KNOWN_WITHIN:g} K, differences between gears, oils and oil flows better: one measured temperature of "
-            "a gear narrows this"
+            "the heat balance has not been compared with measurements above 50 m/s; flank temperatures are uncertain "
+            f"by about ±{KNOWN_WITHIN:g} K, differences between gears, oils and oil flows by less: a measured "
+            "temperature of a gear reduces the uncertainty"
         )
         yield Notice("not_validated", message, "cooling.measured", rank="note")
 

@@ -1,25 +1,22 @@
 """The oil that cools: what the heat balance needs to know of it, at the temperature at which it is supplied."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import partial
 
 from solvers.lubricants import Lubricant
 from solvers.oils import OilSheet, lubricant_at
+from solvers.quantity import described, record
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class CoolingOil:
-    """An oil with its supply temperature [K]; density, heat and conductivity (SI) are those at that temperature.
+    """The cooling oil; density, specific heat and conductivity are those at the supply temperature."""
 
-    `viscosity` gives the viscosity [Pa s] at a temperature [K].
-    """
-
-    inlet: float
-    viscosity: Callable[[float], float]
-    density: float
-    specific_heat: float
-    thermal_conductivity: float
+    inlet: float = described("Supply temperature [K].")
+    viscosity: Callable[[float], float] = described("Function that returns the viscosity [Pa s] at a temperature [K].")
+    density: float = described("Density [kg/m^3].")
+    specific_heat: float = described("Specific heat [J/(kg K)].")
+    thermal_conductivity: float = described("Thermal conductivity [W/(m K)].")
 
     @property
     def heat_capacity(self) -> float:
@@ -46,7 +43,6 @@ def cooling_oil(oil: OilSheet | Lubricant, inlet: float) -> CoolingOil:
     -------
     CoolingOil
         Its density at the supply temperature and its viscosity at any temperature without pressure.
-
     """
     supplied = lubricant_at(oil, inlet)
     return CoolingOil(

@@ -1,7 +1,7 @@
 """Results of a heat balance; SI units."""
 
 from solvers.notices import Notice
-from solvers.quantity import quantity, record
+from solvers.quantity import described, quantity, record
 from solvers.sources import OWN
 
 Range = tuple[float, float]
@@ -9,7 +9,7 @@ Range = tuple[float, float]
 
 @record
 class GearTemperatures:
-    """A gear: its temperatures [K], its heat [W], how its film cools, thicknesses [m]."""
+    """Temperatures of a gear, its frictional heat, and the cooling by its film."""
 
     flank: float = quantity("flank temperature", "θ_F", OWN, unit="c", text="loaded flank")
     body: float = quantity("body temperature", "θ_B", OWN, unit="c", text="unloaded flank, rim and shaft")
@@ -29,7 +29,7 @@ class GearTemperatures:
 
 @record
 class BearingHeat:
-    """A plain bearing in the balance: temperatures [K], oil [m^3/s], friction [W]."""
+    """Temperatures, oil flow and friction of a plain bearing."""
 
     outlet: float = quantity("oil that leaves the bearing", "θ_J", unit="c")
     film: float = quantity("film temperature of the bearing", "θ_f", unit="c")
@@ -39,7 +39,7 @@ class BearingHeat:
 
 @record
 class HeatFlow:
-    """Flow of heat between two nodes of the network [W]."""
+    """Heat flow between two nodes of the network."""
 
     from_: str = quantity("origin of the heat", text="node of the network, or source")
     to: str = quantity("target of the heat", text="node of the network, or oil, ambient")
@@ -63,7 +63,7 @@ class HeatLosses:
 
 @record
 class Balance:
-    """Heat supplied and removed [W], and their difference over the heat supplied."""
+    """Heat supplied and removed, and their difference relative to the heat supplied."""
 
     supplied: float = quantity("heat supplied", "P_in", unit="w")
     removed: float = quantity("heat removed", "P_out", unit="w")
@@ -80,7 +80,7 @@ class BulkEstimates:
 
 @record
 class HeatBand:
-    """Least and greatest temperatures [K] if much or little oil reaches the flanks, and the safety with them."""
+    """Lowest and highest flank temperatures if much or little oil reaches the flanks, and the safety with them."""
 
     pinion_flank: Range = quantity("band of the pinion's flank", "θ_F1", unit="c", index="low, high")
     wheel_flank: Range = quantity("band of the wheel's flank", "θ_F2", unit="c", index="low, high")
@@ -89,7 +89,7 @@ class HeatBand:
 
 @record
 class CoolingInForce:
-    """What of the cooling a request may leave open, as the balance has it: flow [m^3/s], losses [W]."""
+    """Values in use for what a request may leave open of the cooling."""
 
     gear_flow: float = quantity("oil flow to the gears used", "Q_g", unit="l_per_min")
     wetting_share: float = quantity("wetting share used", "w")
@@ -101,11 +101,7 @@ class CoolingInForce:
 
 @record
 class Heat:
-    """Temperatures, losses and flows of heat of a gear pair or unit.
-
-    `flank_cases` are the flanks [K] at the well cooled end of the band, in the nominal case and at the poorly cooled
-    end, for a safety with its band.
-    """
+    """Temperatures, losses and heat flows of a gear pair or gear unit."""
 
     pinion: GearTemperatures = quantity("pinion in the balance")
     wheel: GearTemperatures = quantity("wheel in the balance")
@@ -133,5 +129,9 @@ class Heat:
         default=None,
         text="gears against the casing; null without its temperature",
     )
-    flank_cases: tuple[tuple[float, float], ...] = ()
+    flank_cases: tuple[tuple[float, float], ...] = described(
+        "Temperatures of both flanks at the well cooled end of the band, in the nominal case and at the poorly cooled "
+        "end [K].",
+        default=(),
+    )
     warnings: tuple[Notice, ...] = ()

@@ -8,7 +8,7 @@ from solvers.arrays import FloatArray
 from solvers.errors import NoSolution
 from solvers.heat_balance.network import Network
 
-TOLERANCE = 1e-5  # K; of the last full step of Newton, which leaves about its square
+TOLERANCE = 1e-5  # K; of the last full Newton step, whose square is about the error left
 DIFFERENCE = 1e-4  # K; step of the Jacobian's differences
 MOST_STEPS, MOST_HALVINGS = 50, 30
 LARGEST_STEP = 100.0  # K
@@ -18,7 +18,7 @@ HOTTEST = 1200.0  # K over the supply temperature; steel melts
 
 @dataclass(frozen=True, slots=True)
 class Equilibrium:
-    """Rises of the nodes over the supplied oil [K], and what it took: Newton's steps, the residual [W]."""
+    """Rises of the nodes over the supplied oil [K], number of Newton steps, and residual [W]."""
 
     rises: FloatArray
     iterations: int
@@ -51,7 +51,6 @@ def equilibrium(network: Network, start: FloatArray | None = None) -> Equilibriu
     Eq. H18. Minus the Jacobian -J is an M-matrix: no element beside its diagonal is positive, and every node warms if
     every node gains a little heat more. Then the equilibrium is stable. Where all row sums of -J are positive it is the
     only one; hot, starved flanks can violate that and are not refused for it.
-
     """
     rises = np.zeros(network.size) if start is None else np.array(start, dtype=float)
     residual = network.residual(rises)
@@ -117,7 +116,7 @@ def _check_stability(network: Network, slopes: FloatArray) -> None:
 def _unsolved(residual: FloatArray) -> NoSolution:
     largest = float(np.abs(residual).max())
     message = (
-        f"the heat balance does not converge; it is left with {largest:.3g} W at a node: with less heat or more oil "
+        f"the heat balance does not converge; {largest:.3g} W remain at a node: with less heat or more oil "
         "there may be an equilibrium"
     )
     return NoSolution("heat_balance", message, {"residual_w": largest})

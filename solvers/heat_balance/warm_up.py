@@ -15,7 +15,7 @@ from solvers.heat_balance.network import BODIES, Network
 from solvers.heat_balance.solution import equilibrium, jacobian
 from solvers.quantity import quantity, record
 
-LONGEST = 6.0  # time constants; what is left then is a four hundredth
+LONGEST = 6.0  # time constants; a four hundredth of the change is left then
 WARM = 0.95
 POINTS = 2000  # of the times in search of `WARM`
 SHOWN = 200
@@ -34,7 +34,7 @@ class WarmUpCurves:
 
 @record
 class WarmUp:
-    """A warm-up: final temperatures [K], when each node has made 95 % of its way [s], the bodies' difference."""
+    """A warm-up: final temperatures, times to 95 % of the temperature change, and difference of the bodies."""
 
     nodes: tuple[str, ...] = quantity("nodes", index="flanks and bodies, mist, bearings, casing")
     final: FloatArray = quantity("final temperatures", "θ_end", unit="c", index="nodes")
@@ -73,7 +73,6 @@ def warm_up(network: Network, capacities: Capacities, start: float, until: float
     Notes
     -----
     Eq. H24: C dT/dt = residual of the network, by backward differentiation.
-
     """
     final, capacity = equilibrium(network).rises, capacities.of(network)
     rates = jacobian(network, final, network.residual(final)) / capacity[:, None]
@@ -84,8 +83,8 @@ def warm_up(network: Network, capacities: Capacities, start: float, until: float
     rises = path(times)
     difference = rises[BODIES[0]] - rises[BODIES[1]]
     greatest = int(np.argmax(np.abs(difference)))
-    shown = end * np.linspace(0.0, 1.0, SHOWN + 1) ** 2  # dense at the start, where most happens
-    drawn = path(shown)
+    shown = end * np.linspace(0.0, 1.0, SHOWN + 1) ** 2  # dense at the start, where temperatures change fastest
+    curves = path(shown)
     return WarmUp(
         nodes=network.nodes,
         final=frozen(network.oil.inlet + final),
@@ -94,8 +93,8 @@ def warm_up(network: Network, capacities: Capacities, start: float, until: float
         greatest_difference_at=float(times[greatest]),
         curves=WarmUpCurves(
             time=frozen(shown),
-            temperature=frozen(network.oil.inlet + drawn.T),
-            difference=frozen(drawn[BODIES[0]] - drawn[BODIES[1]]),
+            temperature=frozen(network.oil.inlet + curves.T),
+            difference=frozen(curves[BODIES[0]] - curves[BODIES[1]]),
         ),
     )
 
@@ -117,7 +116,7 @@ def _integrated(network: Network, capacity: FloatArray, begin: FloatArray, end: 
 
 
 def _time_95(times: FloatArray, rises: FloatArray, final: float) -> float | None:
-    """Return the time after which a node stays within 5 % of its way; None if it never does, or has no way to go."""
+    """Return the time after which a node stays within 5 % of its change; None if it never does or does not change."""
     left = np.abs(rises - final)
     outside = np.flatnonzero(left > (1 - WARM) * left[0])
     if outside.size == 0 or outside[-1] == times.size - 1:

@@ -1,4 +1,7 @@
-"""What papers, books and standards say in numbers, beside what the solvers compute: one table for pages and tests."""
+"""Numbers that papers, books and standards print, beside the numbers that the solvers compute.
+
+Pages and tests read the same table.
+"""
 
 from solvers.published import coupling, micropitting, pumping, scuffing
 from solvers.published.statement import Row, Statement

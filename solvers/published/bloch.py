@@ -15,7 +15,10 @@ END_CONTACT = FACE / 2 * tan(radians(20.0)) / (DIAMETER / 2 * MISALIGNMENT)
 
 @cache
 def bloch(crowning: float = 1.0, stiffness: float = 2.8e8, axial_velocity: float = 0.0) -> CouplingResult:
-    """Bloch's coupling; the book does not give the teeth, 72 of diametral pitch 8 fit the diameter."""
+    """Solve Bloch's coupling.
+
+    The book does not give the teeth; 72 teeth of diametral pitch 8 fit the diameter.
+    """
     design = Coupling(
         teeth=72,
         module=DIAMETER / 72,

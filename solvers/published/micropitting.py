@@ -1,4 +1,4 @@
-"""Micropitting by method B of ISO/TR 15144-1: gears of its test, and FZG C gears that an FVA program printed too."""
+"""Micropitting by method B of ISO/TR 15144-1: test gears, and FZG C gears with numbers printed by an FVA program."""
 
 from collections.abc import Callable
 from functools import cache, partial
@@ -59,7 +59,7 @@ ASKED_FOR = {
 
 
 def asked_over_test() -> list[float]:
-    """Return the permissible ratios of the diagram over the film ratios of the oil test."""
+    """Return the ratios of the permissible values in the diagram to the film ratios of the oil test."""
     return [
         ratio / oil_test.film_of_test(mineral(*oil), stage).ratio
         for oil, ratios in ASKED_FOR.items()
@@ -78,7 +78,7 @@ def _ratio(solve: Callable[[], StandardFilms], point: str) -> float:
 def _of_case(
     words: str, solve: Callable[[], StandardFilms], friction: float, bulk: float, ratios: dict[str, float]
 ) -> tuple[Statement, ...]:
-    """Return what the secondary source prints of a case."""
+    """Return the statements of the secondary source about a case."""
     return (
         Says(REPORT, f"mean coefficient of friction, {words}").equals(friction, "-", lambda: solve().friction, PRINTED),
         Says(REPORT, f"bulk temperature, {words}").equals(bulk, "°C", lambda: solve().bulk - ZERO, PRINTED),

@@ -1,7 +1,7 @@
-"""The gears of Milian, Distretti, Leoni and Velex (Gear Technology, May/June 2004), and how they are run.
+"""The gears of Milian, Distretti, Leoni and Velex (Gear Technology, May/June 2004), and their operating points.
 
-The tables give no face width, backlash, groove width or ambient: 200 mm, 0.3 mm, 16 mm, 101325 Pa and 50 degC are
-assumed. The tables' module is the normal module: only then are the centre distances the round 590 and 455 mm.
+The tables give no face width, backlash, groove width or ambient; 200 mm, 0.3 mm, 16 mm, 101325 Pa and 50 degC are
+assumed. The module of the tables is the normal module: only then are the centre distances the round 590 and 455 mm.
 """
 
 from dataclasses import replace
@@ -60,12 +60,12 @@ def run(
     backlash: float = 0.3e-3,
     grooves: tuple[Groove, ...] = (),
 ) -> PumpingResult:
-    """One operating point at a speed in rpm; solved once in a process."""
+    """Solve one operating point at a speed in rpm; a result is kept for the next call."""
     setup = PumpingSetup(gears, backlash, grooves, model=replace(model, slices=slices))
     return solve(PumpingInputs(setup, speed * pi / 30))
 
 
 def pinion(result: PumpingResult) -> SpacesResult:
-    """The result of the pinion's tooth spaces, the only ones that the paper calculates."""
+    """Return the result of the tooth spaces of the pinion, the only ones that the paper calculates."""
     assert result.pinion_spaces is not None
     return result.pinion_spaces

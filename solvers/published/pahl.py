@@ -38,7 +38,7 @@ def pahl_coupling(
     model: ModelOptions | None = None,
     **coupling: Any,
 ) -> CouplingInputs:
-    """The paper's coupling and friction 0.2; keywords beyond the named ones change the coupling."""
+    """Return the inputs for the coupling of the paper; further keywords change fields of the coupling."""
     steel = Coupling(teeth=TEETH, module=3e-3, face_width=24e-3, tooth_height=6e-3)
     return CouplingInputs(
         coupling=replace(steel, **coupling),
@@ -50,41 +50,41 @@ def pahl_coupling(
 
 @cache
 def pahl(misalignment_deg: float, **changes: Any) -> CouplingResult:
-    """What the model says of it."""
+    """Solve the coupling of the paper; a result is kept for the next call."""
     return solve(pahl_coupling(misalignment_deg, **changes))
 
 
 def harmonic_pitch_errors(*orders: tuple[int, float, float]) -> tuple[float, ...]:
-    """Sum of amplitude [m] cos(order phi + phase) over the teeth, for (order, amplitude, phase)."""
+    """Return the sum of amplitude [m] times cos(order phi + phase) at all teeth, for (order, amplitude, phase)."""
     phi = 2.0 * pi / TEETH * np.arange(TEETH)
     return tuple(sum(amplitude * np.cos(order * phi + phase) for order, amplitude, phase in orders))
 
 
 def concentration(misalignment_deg: float) -> float:
-    """Fig. 3: largest over mean force of the teeth."""
+    """Return the ratio of the largest to the mean force of the teeth (Fig. 3)."""
     return pahl(misalignment_deg).load_distribution.load_concentration or 0.0
 
 
 def loaded(misalignment_deg: float) -> float:
-    """Fig. 3: teeth that carry."""
+    """Return the number of teeth that carry (Fig. 3)."""
     return float(pahl(misalignment_deg).load_distribution.loaded_teeth)
 
 
 @cache
 def _orbit(misalignment_deg: float) -> OrbitResult:
-    """Fig. 5: 2 um of first and third harmonic in the pitch deviations, 1000 1/s."""
+    """Solve the orbit with 2 um of first and third harmonic in the pitch deviations, at 1000 1/s (Fig. 5)."""
     errors = harmonic_pitch_errors((1, 2e-6, 0.0), (3, 2e-6, 0.7))
     return solve_orbit(pahl_coupling(misalignment_deg, speed=1000.0, pitch_errors=errors))
 
 
 def third_over_first(misalignment_deg: float) -> float:
-    """Fig. 5: third over first harmonic of the inertia force."""
+    """Return the ratio of the third to the first harmonic of the inertia force (Fig. 5)."""
     harmonics = _orbit(misalignment_deg).inertia_force.harmonics_y
     return float(harmonics[3] / harmonics[1])
 
 
 def overlap_one(crowning: float) -> float:
-    """Misalignment [deg] at which the contact areas of a tooth just overlap."""
+    """Return the misalignment [deg] at which the contact areas of a tooth just overlap."""
 
     def excess(misalignment_deg: float) -> float:
         return (pahl(misalignment_deg, friction=None, crowning_ratio=crowning).lubrication.contact_overlap or 0.0) - 1.0
@@ -93,37 +93,39 @@ def overlap_one(crowning: float) -> float:
 
 
 def film(misalignment_deg: float, crowning: float) -> CouplingResult:
-    """Fig. 8: the coupling with the friction of its own film."""
+    """Solve the coupling with the friction of its own film (Fig. 8)."""
     return pahl(misalignment_deg, friction=None, crowning_ratio=crowning)
 
 
 def least_friction(crowning: float, low: float, high: float) -> tuple[float, float]:
-    """Misalignment [deg] and value of the lowest friction."""
-    found = minimize_scalar(
+    """Return the misalignment [deg] with the lowest coefficient of friction, and this coefficient."""
+    minimum = minimize_scalar(
         lambda misalignment: film(misalignment, crowning).lubrication.friction_coefficient,
         bounds=(low, high),
         method="bounded",
     )
-    return float(found.x), float(found.fun)
+    return float(minimum.x), float(minimum.fun)
 
 
 def fraction(speed: float) -> float:
-    """Figs. 15, 16: share of the coaxial thrust that is left at 0.05 deg and this speed [1/s]."""
+    """Return the share of the coaxial thrust that is left at 0.05 deg and this speed [1/s] (Figs. 15, 16)."""
     return pahl(0.05, speed=speed, axial_velocity=CREEP).axial_thrust.fraction_of_limit or 0.0
 
 
 def offset_thrust(friction: float = 0.2, hub_distance: float = 0.2) -> float:
-    """Fig. 13: self-induced thrust [N] of the parallel offset arrangement at 0.1 deg."""
+    """Return the self-induced thrust [N] of the parallel offset arrangement at 0.1 deg (Fig. 13)."""
     return pahl(0.1, arrangement="parallel_offset", friction=friction, hub_distance=hub_distance).axial_thrust.force
 
 
 def friction_exponent() -> float:
-    """Fig. 17: power of the coefficient of friction that the self-induced thrust follows."""
+    """Return the exponent of the coefficient of friction in the self-induced thrust (Fig. 17)."""
     return log(offset_thrust(0.3) / offset_thrust(0.05)) / log(6.0)
 
 
 @cache
 def crowning(low_deg: float, high_deg: float) -> float:
-    """Conclusion: the crowning ratio recommended for a range of misalignment."""
-    found = recommend(RecommendationInputs(pahl_coupling(0.1, friction=None), radians(low_deg), radians(high_deg)))
-    return found.crowning_ratio or 0.0
+    """Return the crowning ratio that the model recommends for a range of misalignment."""
+    recommendation = recommend(
+        RecommendationInputs(pahl_coupling(0.1, friction=None), radians(low_deg), radians(high_deg))
+    )
+    return recommendation.crowning_ratio or 0.0

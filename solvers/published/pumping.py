@@ -18,13 +18,13 @@ def case(
     model: PumpingModel = PRINTED,
     face_width: float = 0.2,
 ) -> PumpingResult:
-    """One of the paper's two cases at a speed [rpm], its own where none is given."""
+    """Solve one of the two cases of the paper at a speed [rpm]; None: the speed of the paper."""
     gears, own = CASES[number]
     return run(replace(gears, face_width=face_width), own if speed is None else speed, model, grooves=grooves)
 
 
 def table_1(flow: Flow = Flow.INCOMPRESSIBLE, discharge: float = 1.0, slices: int | None = None) -> PumpingResult:
-    """The spur gears of Table 1 with tip gaps at 1000 rpm."""
+    """Solve the spur gears of Table 1 with tip gaps at 1000 rpm."""
     return run(TABLE_1, 1000.0, replace(TIP, flow=flow, discharge_coefficient=discharge), slices, 0.0)
 
 
@@ -37,7 +37,7 @@ def _hottest(number: int) -> float:
 
 
 def _relief(number: int) -> float:
-    """How much of the heating a groove takes away."""
+    """Return the share of the temperature rise that a groove avoids."""
     return 1.0 - _rise(case(number, grooves=GROOVE)) / _rise(case(number))
 
 

@@ -29,19 +29,25 @@ EXAMPLE_1 = GearPairInputs(
 
 
 def fzg_pressure(torque: float) -> float:
-    """Hertzian pressure [MPa] of FZG type A at the pitch point, one pair carrying all; pinion torque [N m]."""
+    """Return the Hertzian pressure [MPa] of FZG type A at the pitch point for a pinion torque [N m].
+
+    One tooth pair carries the whole load.
+    """
     path = meshing_path(FZG_A)
     return _pitch_pressure(FZG_A, torque / path.pair.pinion.base_radius / path.plane.cos_base_helix / 20e-3)
 
 
 def example_stress() -> float:
-    """Nominal contact stress [MPa] of example 1 over its helix factor, 9 kN m shared over the contact ratio."""
+    """Return the nominal contact stress [MPa] of example 1 divided by its helix factor.
+
+    The torque is 9 kN m; the contact ratio shares the load.
+    """
     path = meshing_path(EXAMPLE_1)
     return _pitch_pressure(EXAMPLE_1, 9000 / path.pair.pinion.base_radius / (0.1 * path.transverse_contact_ratio))
 
 
 def example_stiffness() -> float:
-    """Theoretical single stiffness of example 1 [N/(mm um)]."""
+    """Return the theoretical single stiffness of example 1 [N/(mm um)]."""
     return standard_stiffness(meshing_path(EXAMPLE_1)).theoretical * 1e-9
 
 

@@ -1,51 +1,52 @@
-"""One published statement with a number, and how it is computed here."""
+"""One published statement with a number, and the number that is computed here."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from math import inf
+
+from solvers.quantity import described, record
 
 INDEPENDENT = "the paper shows a curve; the number is an independent calculation's"
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Row:
-    """A statement beside its computed number; deviation [-] is relative to the printed number, None for a bound."""
+    """A published statement with the number that is computed here."""
 
-    statement: str
-    source: str
-    printed: str
-    computed: float
-    unit: str
-    deviation: float | None
-    holds: bool
-    remark: str
+    statement: str = described("What the source says.")
+    source: str = described("Paper, and its equation, table or figure.")
+    printed: str = described("The number or bound that the source prints.")
+    computed: float = described("The number that is computed here, in `unit`.")
+    unit: str = described("Unit of both numbers; empty for a number without a unit.")
+    deviation: float | None = described("Deviation from the printed number, relative to it; None for a bound [-].")
+    holds: bool = described("Whether the computed number is within the tolerance.")
+    remark: str = described("Why the statement does not hold; empty if it holds.")
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Statement:
-    """What a source says: a number with the tolerance argued for it, or a bound; `remark` where it does not hold."""
+    """A published statement: a number with its tolerance, or a bound."""
 
-    says: str
-    source: str
-    printed: str
-    unit: str
-    compute: Callable[[], float]
-    least: float
-    most: float
-    number: float | None = None
-    remark: str = ""
+    says: str = described("What the source says.")
+    source: str = described("Paper, and its equation, table or figure.")
+    printed: str = described("The number or bound that the source prints.")
+    unit: str = described("Unit of the numbers; empty for a number without a unit.")
+    compute: Callable[[], float] = described("Function that computes the number here, in `unit`.")
+    least: float = described("Least number at which the statement holds, in `unit`.")
+    most: float = described("Largest number at which the statement holds, in `unit`.")
+    number: float | None = described("The printed number; None for a bound, in `unit`.", default=None)
+    remark: str = described("Why the statement does not hold; empty if it holds.", default="")
 
     def row(self) -> Row:
-        """The statement with the number that is computed now."""
+        """Compute the number and return it beside the statement."""
         computed = self.compute()
         deviation = None if not self.number else computed / self.number - 1.0
         holds = self.least <= computed <= self.most
         return Row(self.says, self.source, self.printed, computed, self.unit, deviation, holds, self.remark)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Says:
-    """What a source says, in words; each method adds the number and how it is computed here."""
+    """The words of a source; the methods add the printed number and the function that computes it here."""
 
     source: str
     words: str
@@ -53,25 +54,28 @@ class Says:
     def equals(
         self, number: float, unit: str, compute: Callable[[], float], tolerance: float, remark: str = ""
     ) -> Statement:
-        """A printed number with a relative tolerance."""
+        """Return the statement of a printed number with a relative tolerance."""
         least, most = number - tolerance * abs(number), number + tolerance * abs(number)
         return Statement(self.words, self.source, f"{number:g}", unit, compute, least, most, number, remark)
 
     def below(self, bound: float, unit: str, compute: Callable[[], float]) -> Statement:
-        """A printed upper bound."""
+        """Return the statement of a printed upper bound."""
         return Statement(self.words, self.source, f"below {bound:g}", unit, compute, -inf, bound)
 
     def above(self, bound: float, unit: str, compute: Callable[[], float]) -> Statement:
-        """A printed lower bound."""
+        """Return the statement of a printed lower bound."""
         return Statement(self.words, self.source, f"above {bound:g}", unit, compute, bound, inf)
 
     def between(self, low: float, high: float, unit: str, compute: Callable[[], float]) -> Statement:
-        """A printed range."""
+        """Return the statement of a printed range."""
         return Statement(self.words, self.source, f"{low:g} to {high:g}", unit, compute, low, high)
 
     def not_reproduced(
-        self, number: float, unit: str, compute: Callable[[], float], found: float, remark: str
+        self, number: float, unit: str, compute: Callable[[], float], by_equations: float, remark: str
     ) -> Statement:
-        """A printed number that its own equations do not give; the test holds on to what they do give, to 3 %."""
-        least, most = 0.97 * found, 1.03 * found
+        """Return the statement of a printed number that the equations of its source do not give.
+
+        The statement holds if the computed number stays within 3 % of `by_equations`, which the equations give.
+        """
+        least, most = 0.97 * by_equations, 1.03 * by_equations
         return Statement(self.words, self.source, f"{number:g}", unit, compute, least, most, number, remark)

@@ -1,4 +1,4 @@
-"""Xue, Zhang and Wang 2020: the four gear pairs, the contact at A, and the numbers read from its figures."""
+"""Xue, Zhang and Wang 2020: the four gear pairs, the contact at A, and numbers read from the figures."""
 
 from dataclasses import replace
 from functools import cache
@@ -36,7 +36,7 @@ POINT_A = ehl.Contact(2.73e5, 4.015e-3, 1.0179, 3.7076)
 
 
 def paper_gears(number: int) -> GearPairInputs:
-    """Gear pair 1 to 4 of Table 1."""
+    """Return gear pair 1 to 4 of Table 1."""
     helix, width = HELIX_AND_WIDTH[number]
     return GearPairInputs(
         GearTeeth(23), GearTeeth(30), 3e-3, width * 1e-3, helix_angle=radians(helix), rack_tip_radius=0.38
@@ -46,19 +46,19 @@ def paper_gears(number: int) -> GearPairInputs:
 def paper_pair(
     number: int, modifications: Modifications | None = None, model: Model = PAPER_MODEL
 ) -> LoadDistributionInputs:
-    """Gear pair 1 to 4 under 50 kW at 2000 1/min."""
+    """Return the inputs for gear pair 1 to 4 under 50 kW at 2000 1/min."""
     return LoadDistributionInputs(paper_gears(number), PAPER_LOAD, modifications or Modifications(), model=model)
 
 
 @cache
 def pair(number: int, model: Model = PAPER_MODEL, modifications: Modifications | None = None) -> LoadDistribution:
-    """The load on one of them."""
+    """Solve the load distribution of gear pair 1 to 4."""
     return solve_load_distribution(paper_pair(number, modifications, model))
 
 
 @cache
 def scuffing() -> Scuffing:
-    """The thermal path of pair 1."""
+    """Solve the scuffing check of gear pair 1."""
     return solve_scuffing(
         ScuffingInputs(
             paper_pair(1),
@@ -71,51 +71,51 @@ def scuffing() -> Scuffing:
 
 @cache
 def point_a(rheology: ehl.Rheology = "ree_eyring", *, thermal: bool = True) -> ehl.LineContactResult:
-    """The contact at A on 241 nodes."""
+    """Solve the contact at A on 241 nodes."""
     model = replace(ehl.Model(), thermal=thermal, nodes=241)
     return ehl.solve(ehl.LineContactInputs(POINT_A, model=replace(model, rheology=rheology), lubricant=Lubricant()))
 
 
 def film(rheology: ehl.Rheology = "ree_eyring", *, thermal: bool = True) -> float:
-    """Fig. 20: thinnest film at A [um]."""
+    """Return the thinnest film at A [um] (Fig. 20)."""
     return (point_a(rheology, thermal=thermal).film.minimum or 0.0) * 1e6
 
 
 def mid_film_temperature() -> float:
-    """Fig. 21: largest temperature in the middle of the film at A [K]."""
+    """Return the largest temperature in the middle of the film at A [K] (Fig. 21)."""
     temperature = point_a().temperature
     assert temperature is not None
     return temperature.mid_film_max
 
 
 def centre_pressure() -> float:
-    """Fig. 20: largest pressure at A [GPa]."""
+    """Return the largest pressure at A [GPa] (Fig. 20)."""
     pressure = point_a().pressure
     assert pressure is not None
     return pressure.maximum * 1e-9
 
 
 def root_load(number: int, model: Model) -> float:
-    """Fig. 11: line load where the mesh begins [N/mm]."""
+    """Return the line load at the start of the mesh [N/mm] (Fig. 11)."""
     return float(pair(number, model).feature_line.line_load[0]) * 1e-3
 
 
 def film_over_formula() -> float:
-    """Fig. 23: largest ratio of the computed film to the formula's along the path."""
+    """Return the largest ratio along the path of the computed film to the film by the formula (Fig. 23)."""
     path = scuffing().path
     assert path.thermal is not None
     return float(np.nanmax(path.thermal.minimum_film / path.dowson_higginson))
 
 
 def thinnest_psi() -> float:
-    """Fig. 23: where on the path the film is thinnest."""
+    """Return the position on the path at which the film is thinnest (Fig. 23)."""
     film = scuffing().film
     assert film is not None
     return film.min_at_psi or 0.0
 
 
 def helix_slope_pressure(slope: float) -> float:
-    """Fig. 17: largest pressure of pair 4 with this helix slope [m]."""
+    """Return the largest pressure of pair 4 with this helix slope [m] (Fig. 17)."""
     largest = pair(4, PAPER_MODEL, replace(PAPER_MODIFICATIONS, helix_slope=slope)).pressure.max
     assert largest is not None
     return largest

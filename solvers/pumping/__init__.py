@@ -2,7 +2,8 @@
 
 Data flows inputs, checks -> space (tooth space, its section, the stroke table; the face between grooves) -> flow (gas,
 duct, record) -> one of gas, chain and incompressible -> resolution, lead_correction, pulsation (all called by
-`model.solve`). `spaces` prepares what no speed changes and picks the flow model; on top of it choking and speed_scan.
+`model.solve`). `spaces` prepares everything that does not depend on the speed, and calls the flow model. `model`,
+`choking` and `speed_scan` build on it.
 """
 
 from solvers.plausibility import guarded

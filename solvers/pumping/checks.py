@@ -9,8 +9,8 @@ from solvers.pumping.inputs import Flow, PumpingSetup, rpm
 from solvers.pumping.space.face import Stretch
 
 LEAST_TEETH = 5  # chosen: gears of fewer teeth are not in use
-LEAST_SPEED = 1e-100  # rad/s; below it a stroke's duration is no number any more
-NARROW = 0.5  # of the widest slice: below it grooves are the reason for short steps
+LEAST_SPEED = 1e-100  # rad/s; at lower speeds the duration of a stroke overflows
+NARROW = 0.5  # of the widest slice; if a slice is narrower, the grooves are the reason for short steps
 
 
 def check_setup(setup: PumpingSetup) -> None:
@@ -55,29 +55,29 @@ def _check_incompressible(setup: PumpingSetup) -> None:
     if setup.model.slice_count != 1:
         raise InvalidInput("slices_incompressible", "the incompressible model is a single pocket", "slices")
     if setup.model.discharge_coefficient == 0.0:
-        message = "incompressible gas cannot stay in a shrinking space"
+        message = "without discharge, incompressible gas cannot leave a shrinking space"
         raise InvalidInput("discharge_coefficient", message, "discharge_coefficient")
 
 
 def check_speed(pinion_speed: float) -> None:
-    """Refuse standstill. Raises InvalidInput: speed_not_positive."""
+    """Raise InvalidInput (speed_not_positive) at standstill."""
     if pinion_speed < LEAST_SPEED:
         message = "the speed must be positive; towards standstill power vanishes and pressure is ambient"
         raise InvalidInput("speed_not_positive", message, "pinion_speed")
 
 
 def refuse_cost(pinion_speed: float, parts: list[Stretch], excess: float) -> NoReturn:
-    """Refuse a march that asks for `excess` times the steps it may take, with what would fit.
+    """Refuse a march that needs `excess` times the permitted steps; the message says what would fit.
 
-    Raises InvalidInput: narrow_land where grooves leave so little face somewhere that its slices are the reason,
+    Raises InvalidInput: narrow_land (a stretch between grooves is so short that its slices are the reason) or
     too_many_steps.
     """
     narrowest, widest = min(part.width for part in parts), max(part.width for part in parts)
     if narrowest < NARROW * widest:
         land = min(part.width * part.cells for part in parts)
         message = (
-            f"the grooves leave {1e3 * land:.3g} mm of face, whose slices ask for too many steps; leave nothing there, "
-            f"or at least {1e3 * LEAST_SLICES * NARROW * widest:.3g} mm"
+            f"the grooves leave a stretch of {1e3 * land:.3g} mm of the face, whose thin slices need too many steps: "
+            f"leave no stretch there, or at least {1e3 * LEAST_SLICES * NARROW * widest:.3g} mm"
         )
         raise InvalidInput("narrow_land", message, "grooves")
     slices = sum(part.cells for part in parts)
@@ -91,6 +91,6 @@ def refuse_cost(pinion_speed: float, parts: list[Stretch], excess: float) -> NoR
 
 
 def _rounded_up(value: float) -> float:
-    """To three digits, not below."""
+    """Round up to three digits."""
     unit = 10.0 ** (floor(log10(value)) - 2)
     return ceil(value / unit) * unit

@@ -16,20 +16,40 @@ from solvers.pumping.inputs import ChokingInputs, Flow, rpm
 from solvers.pumping.results import ChokingCurves, ChokingSpeeds
 from solvers.pumping.spaces import CELL_STEP_LIMIT, Mesh, Space, derived, flow_at, prepare
 
-_COARSENING = 4  # of the slices while the speeds are bracketed
-_BRACKET = log(1.1)  # around the coarse speed, logarithmic as all speeds here
+_COARSENING = 4  # factor by which the slices are fewer while the speeds are bracketed
+_BRACKET = log(1.1)  # half width around the coarse speed; all speeds here are logarithms
 _ACCURACY = 1e-4  # of the logarithm of the speed: 0.01 %
-_STEP_DOWN, _STEPS_DOWN = log(sqrt(2.0)), 24  # down to 1/4096 of the first speed
-_SOLVES = 8  # that together may cost as much as the dearest single one
+_STEP_DOWN, _STEPS_DOWN = log(sqrt(2.0)), 24  # of the scan, down to 1/4096 of the search limit
+_SOLVES = 8  # number of solutions that together may cost as much as the most expensive single one
 
 Excess = Callable[[float], float]
 
 
 def choking_speeds(inputs: ChokingInputs) -> ChokingSpeeds:
-    """Lowest pinion speeds that choke the gaps or the exits of any of the spaces asked for (Eq. P11).
+    """Find the lowest pinion speeds at which the radial gaps or the axial exits of a tooth space choke.
 
-    Radial gaps choke where the largest pressure reaches the critical ratio, exits where the ambient pressure asks for
-    Mach 1. Raises InvalidInput and NoSolution as `solve` does, choking_not_modelled and always_choked.
+    Parameters
+    ----------
+    inputs : ChokingInputs
+        Gears, grooves, ambient gas and model, and the speed at which the search ends [rad/s].
+
+    Returns
+    -------
+    ChokingSpeeds
+        Lowest choking speeds over the selected spaces [rad/s], the curves of the scan, and warnings.
+
+    Raises
+    ------
+    InvalidInput
+        With the codes of `solve`, choking_not_modelled (incompressible flow) and always_choked.
+    NoSolution
+        With the codes of `solve`.
+
+    Notes
+    -----
+    Eq. P11. Radial gaps choke if the largest pressure over the ambient pressure reaches the inverse of the critical
+    ratio, exits if the gas would expand to Mach 1 at ambient pressure. Speeds are bracketed on a coarse grid and found
+    on the full one.
     """
     setup, top = inputs.setup, log(inputs.search_limit)
     if setup.model.flow is Flow.INCOMPRESSIBLE:
@@ -41,8 +61,8 @@ def choking_speeds(inputs: ChokingInputs) -> ChokingSpeeds:
     rough = [_Demand(mesh, space, coarse) for space in mesh.spaces]
     fine = [_Demand(mesh, space, slices) for space in mesh.spaces]
     scan = _scan(rough, top)
-    radial = _lowest([(r.radial, f.radial) for r, f in zip(rough, fine, strict=True)], scan)
-    axial = _lowest([(r.axial, f.axial) for r, f in zip(rough, fine, strict=True)], scan)
+    radial = _find_lowest([(r.radial, f.radial) for r, f in zip(rough, fine, strict=True)], scan)
+    axial = _find_lowest([(r.axial, f.axial) for r, f in zip(rough, fine, strict=True)], scan)
     notices = [
         Notice(
             "beyond_search_limit",
@@ -57,31 +77,34 @@ def choking_speeds(inputs: ChokingInputs) -> ChokingSpeeds:
 
 
 class _Demand:
-    """By how much, in logarithms, a space at a logarithmic speed exceeds what chokes it; each speed is solved once."""
+    """Excess of pressure and exit Mach number of a space over their choking limits, as logarithms.
+
+    Speeds are logarithms as well. Every speed is computed once.
+    """
 
     def __init__(self, mesh: Mesh, space: Space, slices: int) -> None:
         self._mesh, self._space, self._slices = mesh, space, slices
-        self._known: dict[float, tuple[float, float]] = {}
+        self._excess: dict[float, tuple[float, float]] = {}
 
     def radial(self, log_speed: float) -> float:
-        pressure, _ = self._solved(log_speed)
+        pressure, _ = self._excess_at(log_speed)
         return pressure
 
     def axial(self, log_speed: float) -> float:
-        _, exit_demand = self._solved(log_speed)
+        _, exit_demand = self._excess_at(log_speed)
         return exit_demand
 
-    def _solved(self, log_speed: float) -> tuple[float, float]:
-        if log_speed not in self._known:
+    def _excess_at(self, log_speed: float) -> tuple[float, float]:
+        if log_speed not in self._excess:
             gas, limit = self._mesh.gas, CELL_STEP_LIMIT // _SOLVES
             flow = flow_at(self._mesh, self._space, exp(log_speed), self._slices, cell_step_limit=limit)
             pressure = flow.largest_pressure * gas.critical_ratio / gas.pressure
-            self._known[log_speed] = log(pressure), log(max(flow.exit_demand, 1e-12))
-        return self._known[log_speed]
+            self._excess[log_speed] = log(pressure), log(max(flow.exit_demand, 1e-12))
+        return self._excess[log_speed]
 
 
 def _scan(demands: list[_Demand], top: float) -> list[float]:
-    """Speeds from the search limit down to where nothing chokes, in ascending order."""
+    """Scan from the search limit down to a speed at which nothing chokes; return the speeds in ascending order."""
     speeds = [top]
     while any(max(demand.radial(speeds[-1]), demand.axial(speeds[-1])) >= 0.0 for demand in demands):
         if len(speeds) > _STEPS_DOWN:
@@ -91,27 +114,27 @@ def _scan(demands: list[_Demand], top: float) -> list[float]:
 
 
 def _refuse_sealed(speed: float) -> NoReturn:
-    message = f"the spaces are still choked at {rpm(speed):.3g} rpm of the pinion: nothing lets the gas out in time"
+    message = f"the spaces are still choked at {rpm(speed):.3g} rpm of the pinion: their openings are too small"
     raise InvalidInput("always_choked", message, "discharge_coefficient")
 
 
-def _lowest(demands: list[tuple[Excess, Excess]], scan: list[float]) -> float | None:
-    """Lowest speed at which one of the demands is met: bracketed on the coarse grid, found on the fine one."""
-    roots = [(root, fine) for rough, fine in demands if (root := _coarse_root(rough, scan)) is not None]
+def _find_lowest(demands: list[tuple[Excess, Excess]], scan: list[float]) -> float | None:
+    """Find the lowest speed at which a space chokes: bracket it on the coarse grid, refine it on the fine grid."""
+    roots = [(root, fine) for rough, fine in demands if (root := _find_coarse_root(rough, scan)) is not None]
     if not roots:
         return None
     root, fine = min(roots, key=itemgetter(0))
-    return _refined(fine, root, scan[-1])
+    return _refine(fine, root, scan[-1])
 
 
-def _coarse_root(excess: Excess, scan: list[float]) -> float | None:
+def _find_coarse_root(excess: Excess, scan: list[float]) -> float | None:
     for low, high in pairwise(scan):
         if excess(high) >= 0.0:
             return float(brentq(excess, low, high, xtol=1e-2))
     return None
 
 
-def _refined(excess: Excess, root: float, top: float) -> float | None:
+def _refine(excess: Excess, root: float, top: float) -> float | None:
     low, high = root - _BRACKET, min(root + _BRACKET, top)
     while excess(low) >= 0.0:
         low, high = low - _BRACKET, low
@@ -123,7 +146,7 @@ def _refined(excess: Excess, root: float, top: float) -> float | None:
 
 
 def _curves(mesh: Mesh, demands: list[_Demand], scan: list[float]) -> ChokingCurves:
-    """Curves of the coarse scan: the largest values over the spaces."""
+    """Return the curves of the coarse scan, the largest values over the spaces."""
     return ChokingCurves(
         pinion_speed=frozen([exp(speed) for speed in scan]),
         peak_pressure_ratio=frozen(

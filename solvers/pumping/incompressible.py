@@ -1,4 +1,7 @@
-"""Incompressible flow out of a single spur tooth space (Rosen's theory): a check at low speed, not its limit."""
+"""Incompressible flow out of a single spur tooth space (Rosen's theory), for checks at low speed.
+
+Gas dynamics does not tend to this model at low speed, because it lets the pressure vary along the face.
+"""
 
 import numpy as np
 
@@ -13,11 +16,38 @@ from solvers.pumping.space.stroke import StrokeTable
 def incompressible(
     gas: Gas, table: StrokeTable, face_width: float, pinion_speed: float, speed_ratio: float, discharge: float
 ) -> SpaceFlow:
-    """Every opening passes the same velocity U = -(dV/dt) / [C_d (2 S + L b)], and p - p_e = rho U |U| / 2 (Eq. P14).
+    """Compute the incompressible flow out of a single spur tooth space over one stroke.
 
-    `speed_ratio` of the owner to the pinion. The middle of each table interval counts.
-    Temperatures are None: what heats the gas is the work, in no place.
-    Raises InvalidInput: incompressible_vacuum (suction would exceed the ambient pressure).
+    Parameters
+    ----------
+    gas : Gas
+        Gas and ambient state.
+    table : StrokeTable
+        Area and clearances of the tooth space over its stroke.
+    face_width : float
+        Face width [m].
+    pinion_speed : float
+        Speed of the pinion [rad/s].
+    speed_ratio : float
+        Speed of the gear that owns the space over that of the pinion.
+    discharge : float
+        Discharge coefficient of all openings.
+
+    Returns
+    -------
+    SpaceFlow
+        The flow at the middle of each interval of the table. Temperatures are None: the model gives the work, but not
+        the place that it heats.
+
+    Raises
+    ------
+    InvalidInput
+        incompressible_vacuum: the suction would exceed the ambient pressure.
+
+    Notes
+    -----
+    Eq. P14: the gas has the same velocity U = -(dV/dt) / [C_d (2 S + L b)] in every opening, and
+    p - p_e = rho U |U| / 2.
     """
     time = (table.angle - table.angle[0]) / (pinion_speed * speed_ratio)
     step = np.diff(time)

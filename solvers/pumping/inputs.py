@@ -11,7 +11,7 @@ MOLAR_GAS_CONSTANT = 8.314462618  # J/(mol K)
 
 
 class Flow(StrEnum):
-    """How the gas in a tooth space moves."""
+    """Model of the flow in a tooth space."""
 
     GAS_DYNAMICS = "gas_dynamics"
     POCKET_CHAIN = "pocket_chain"
@@ -19,21 +19,21 @@ class Flow(StrEnum):
 
 
 class Closure(StrEnum):
-    """What a pocket of the chain conserves beside mass."""
+    """The second quantity that a pocket of the chain conserves, beside mass."""
 
     ENERGY = "energy"
     ISENTROPIC = "isentropic"
 
 
 class Gap(StrEnum):
-    """Where the radial clearances are taken: at the flanks' narrowest sections, or at the mate's tip corners."""
+    """Place of the radial clearances: the narrowest sections between the flanks, or the mate's tip corners."""
 
     CONTACT = "contact"
     TIP = "tip"
 
 
 class Spaces(StrEnum):
-    """Whose tooth spaces are computed."""
+    """The gears whose tooth spaces are computed."""
 
     BOTH = "both"
     PINION = "pinion"
@@ -42,7 +42,7 @@ class Spaces(StrEnum):
 
 @record
 class Groove:
-    """A circumferential groove of full tooth depth; centre `position` from the end that meshes first, `width` [m]."""
+    """A circumferential groove of full tooth depth; its centre is at `position` from the end that meshes first [m]."""
 
     position: float = quantity(
         "groove position",
@@ -59,7 +59,7 @@ class Groove:
 
 @record
 class Ambient:
-    """The mist around the mesh, a perfect gas; pressure [Pa], temperature [K], molar mass [kg/mol]."""
+    """The mist around the mesh, taken as a perfect gas; pressure [Pa], temperature [K], molar mass [kg/mol]."""
 
     pressure: float = quantity(
         "ambient pressure",
@@ -105,10 +105,11 @@ class Ambient:
 
 @record
 class PumpingModel:
-    """The options in force.
+    """Options of the flow model.
 
-    `closure` belongs to the pocket chain, `wall_transport` to gas dynamics with contact gaps; `discharge_coefficient`
-    acts on every opening of the pocket chain and of the incompressible model and on the radial gaps of gas dynamics.
+    `closure` acts in the pocket chain only, `wall_transport` in gas dynamics with contact gaps only.
+    `discharge_coefficient` acts on every opening of the pocket chain and of the incompressible model, and on the radial
+    gaps of gas dynamics.
     """
 
     flow: Flow = quantity(
@@ -191,7 +192,7 @@ class PumpingModel:
 
     @property
     def slice_count(self) -> int:
-        """Slices over the face width: as asked for, else the flow model's own number."""
+        """Number of slices over the face width: `slices`, or the default of the flow model if it is None."""
         if self.slices is not None:
             return self.slices
         return {Flow.GAS_DYNAMICS: 100, Flow.POCKET_CHAIN: 10, Flow.INCOMPRESSIBLE: 1}[self.flow]
@@ -199,7 +200,7 @@ class PumpingModel:
 
 @record
 class PumpingSetup:
-    """All but the speed; `normal_backlash` [m] is added to what the centre distance gives."""
+    """All inputs but the speed; `normal_backlash` [m] is added to the backlash of the centre distance."""
 
     gears: GearPairInputs = quantity("gear pair")
     normal_backlash: float = quantity(
@@ -247,5 +248,5 @@ class ChokingInputs:
 
 
 def rpm(speed: float) -> float:
-    """Revolutions per minute of an angular speed [rad/s]."""
+    """Convert an angular speed [rad/s] to revolutions per minute."""
     return speed * 30 / pi

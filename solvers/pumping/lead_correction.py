@@ -1,7 +1,7 @@
-"""Thermal growth of the pinion's flanks along the face, and the lead correction that undoes it (own derivation).
+"""Thermal growth of the pinion's flanks along the face, and the lead correction that compensates it (own derivation).
 
-Heating enlarges a body in proportion: every point moves by eps times its distance from the axis and from the end z = 0,
-and no angle changes. Along the transverse line of action that is
+A heated body grows in proportion: a point moves by eps times its distances from the axis and from the end z = 0, and no
+angle changes. Along the transverse line of action a flank moves by
 
  d(z) = eps(z) s_C + tan(beta_b) integral_0^z eps dz',    eps = alpha_L dT,    s_C = r_w sin(alpha_wt).
 
@@ -21,7 +21,7 @@ EXPANSION = 12e-6  # of steel, 1/K
 
 @record
 class LeadCurves:
-    """Along the face, each (slices,) [m]: positions, growth d, its radial part alone, the correction."""
+    """Curves along the face, (slices,) [m]."""
 
     position: FloatArray = quantity("position on the pinion", "z", unit="mm", text="from the end that meshes first")
     growth: FloatArray = quantity(
@@ -39,9 +39,10 @@ class LeadCurves:
 
 @record
 class LeadCorrection:
-    """Range of the growth [m], and slope and crown of the parabola fitted to the correction by least squares [m].
+    """Range of the growth, and slope and crown of the parabola fitted to the correction by least squares [m].
 
-    Slope is its rise from the end that meshes first to the other, crown the height of its middle above its ends.
+    The slope is the rise of the parabola from the end that meshes first to the other end. The crown is the height of
+    its middle above its ends.
     """
 
     range: float = quantity("range of the thermal growth", "C_r", unit="um")
@@ -55,9 +56,26 @@ class LeadCorrection:
 
 
 def lead_correction(pair: GearPair, position: FloatArray, temperature_rise: FloatArray) -> LeadCorrection:
-    """Correction for metal that warms as much as the gas; position [m] and rise [K] are (slices,) (Eq. P12).
+    """Compute the lead correction for teeth that warm as much as the gas.
 
-    It scales with the wall's response, which only measurements give.
+    Parameters
+    ----------
+    pair : GearPair
+        The gear pair at its centre distance.
+    position : FloatArray, (slices,)
+        Positions of the slices from the end that meshes first [m].
+    temperature_rise : FloatArray, (slices,)
+        Temperature rise of the gas at these positions [K].
+
+    Returns
+    -------
+    LeadCorrection
+        Thermal growth and correction along the face, and the fitted parabola [m].
+
+    Notes
+    -----
+    Eq. P12. If the teeth warm by a share of the temperature rise of the gas, the correction is multiplied by this
+    share; only measurements give it.
     """
     strain = EXPANSION * temperature_rise
     radial = strain * pair.pinion_working_radius * sin(pair.working_pressure_angle)
@@ -75,9 +93,10 @@ def lead_correction(pair: GearPair, position: FloatArray, temperature_rise: Floa
 
 
 def _elongation(position: FloatArray, strain: FloatArray) -> FloatArray:
-    """Integral of the strain from the end of the face to each position [m]: linear between positions and over grooves.
+    """Integrate the strain from the end of the face to the positions [m].
 
-    Between the end and the first position the strain is that of the first.
+    The strain is linear between two positions, also across a groove. From the end of the face to the first position it
+    is that of the first position.
     """
     parts = 0.5 * (strain[1:] + strain[:-1]) * np.diff(position)
     elongation: FloatArray = strain[0] * position[0] + np.concatenate([[0.0], np.cumsum(parts)])

@@ -30,14 +30,32 @@ from solvers.pumping.space.stroke import StrokeTable
 from solvers.pumping.space.tooth_space import normal_backlash
 from solvers.pumping.spaces import Mesh, Space, coarser_flow_at, derived, face_stretches, flow_at, prepare
 
-LEAST_HELIX = 1e-100  # rad; the meshing point of a smaller one runs along the face faster than numbers go
+LEAST_HELIX = 1e-100  # rad; at a smaller angle the speed of the meshing point along the face overflows
 
 
 def solve(inputs: PumpingInputs) -> PumpingResult:
-    """Flow through the tooth spaces of a pair at one speed: pressures, mass flow, power and temperatures (Eq. P9).
+    """Compute pressures, mass flow, power and temperatures of the gas in the tooth spaces at one speed.
 
-    Raises InvalidInput (codes of `spaces.prepare`; speed_not_positive, too_many_steps, incompressible_vacuum) and
-    NoSolution (unphysical_state, newton_not_converged).
+    Parameters
+    ----------
+    inputs : PumpingInputs
+        Gears, grooves, ambient gas and model, and the speed of the pinion [rad/s].
+
+    Returns
+    -------
+    PumpingResult
+        The operating point in SI: the spaces of the selected gears, totals, uncertainties and warnings.
+
+    Raises
+    ------
+    InvalidInput
+        With the codes of `spaces.prepare` and of `spaces.flow_at`, speed_not_positive, incompressible_vacuum.
+    NoSolution
+        unphysical_state (gas dynamics) or newton_not_converged (chain of pockets).
+
+    Notes
+    -----
+    Eq. P9.
     """
     mesh = prepare(inputs.setup)
     speed, slices = inputs.pinion_speed, inputs.setup.model.slice_count
@@ -75,7 +93,7 @@ def solve(inputs: PumpingInputs) -> PumpingResult:
 
 
 def _flow_notices(inputs: PumpingInputs, results: list[SpacesResult]) -> list[Notice]:
-    """Flows that their model does not resolve, judged by the largest Mach number and span of pressure."""
+    """Return the warnings about flows that the flow model does not resolve."""
     mach = max(result.peak_axial_mach for result in results)
     span = max(result.peak_pressure_ratio - result.min_pressure_ratio for result in results)
     return flow_notices(inputs.setup.model.flow, mach, span)
@@ -95,21 +113,21 @@ def _geometry(mesh: Mesh) -> MeshGeometry:
 
 
 def _on_grids(mesh: Mesh, space: Space, speed: float, slices: int) -> Grids:
-    """One stroke at the given resolution, and at coarser ones to estimate its error."""
-    flow = flow_at(mesh, space, speed, slices)  # first, for it refuses what takes too long
+    """Compute one stroke at the given resolution, and at half and a quarter of it to estimate its error."""
+    flow = flow_at(mesh, space, speed, slices)  # first, because it refuses a march that would take too long
     half, quarter = (coarser_flow_at(mesh, space, speed, slices, times) for times in (2, 4))
     return Grids(flow, half, quarter, _lead(mesh, space, speed))
 
 
 def _lead(mesh: Mesh, space: Space, speed: float) -> float:
-    """By how much sound gets ahead of the meshing line or falls behind it; only gas dynamics has waves."""
+    """Compute `Grids.lead`; infinite without gas dynamics, because only gas dynamics has waves."""
     if mesh.setup.model.flow is not Flow.GAS_DYNAMICS:
         return inf
     return abs(mesh.gas.sound_speed * space.lag / (speed * space.speed_ratio) - 1.0)
 
 
 def _spaces_result(gas: Gas, space: Space, grids: Grids, frequency: float) -> SpacesResult:
-    """Ratios to the ambient state, and rates of one stroke per mesh period."""
+    """Refer one stroke to the ambient state, and its masses and work to the mesh period."""
     flow = grids.flow
     profile = FaceProfile(
         position=flow.position,
@@ -149,7 +167,7 @@ def _rise(gas: Gas, temperature: FloatArray | None) -> FloatArray | None:
 
 
 def _hottest(position: FloatArray, rise: FloatArray | None) -> tuple[float | None, float | None]:
-    """Position [m] and value [K] of the largest rise, the vertex of a parabola through the three highest slices."""
+    """Find position [m] and value [K] of the largest rise by a parabola through the highest three slices."""
     if rise is None:
         return None, None
     top = int(np.argmax(rise))
@@ -158,13 +176,13 @@ def _hottest(position: FloatArray, rise: FloatArray | None) -> tuple[float | Non
     before, here, after = (float(value) for value in rise[top - 1 : top + 2])
     ahead, bend = 0.5 * (after - before), before - 2.0 * here + after
     back, apart = (float(step) for step in np.diff(position[top - 1 : top + 2]))
-    if bend == 0.0 or abs(apart - back) > 1e-6 * apart:  # next to a groove slices are not evenly spaced
+    if bend == 0.0 or abs(apart - back) > 1e-6 * apart:  # slices next to a groove are not evenly spaced
         return float(position[top]), here
     return float(position[top]) - apart * ahead / bend, here - 0.5 * ahead**2 / bend
 
 
 def _mass_flow(grids: Grids, frequency: float, jumped: float) -> MassFlow:
-    """Mass flow of successive strokes at the meshing frequency; its uncertainty from coarser grids and jumps."""
+    """Compute the mass flow of successive strokes, and its uncertainty from coarser grids and jumps of the area."""
     masses, ends = grids.flow.masses, grids.flow.ends
     return MassFlow(
         front=frequency * masses.front,
@@ -209,24 +227,24 @@ def _pinion_correction(mesh: Mesh, result: SpacesResult | None) -> LeadCorrectio
 
 
 def _pulsation(mesh: Mesh, flows: list[SpaceFlow], speed: float, frequency: float) -> Pulsation:
-    """A space of the wheel is on the line of centres half a mesh period after one of the pinion."""
+    """Superpose the flows; the wheel's spaces reach the line of centres half a mesh period after the pinion's."""
     delays = [0.0 if space.of_pinion else 0.5 for space in mesh.spaces]
     speeds = [speed * space.speed_ratio for space in mesh.spaces]
     return pulsation(frequency, list(zip(flows, speeds, delays, strict=True)))
 
 
 def _missing(result: SpacesResult, total: Totals, correction: LeadCorrection | None) -> list[Notice]:
-    """Notices of values that the options leave without a meaning."""
+    """Return notices of the values that are null with these gears and options."""
     notices = []
     if total.axial_meshing_speed is None:
-        message = "a spur gear meshes over its whole face at once: the meshing point has no speed along it"
+        message = "a spur gear meshes over its whole face at once: no meshing point moves along the face"
         notices.append(Notice("spur_gear", message, "helix_angle", rank="note"))
     if result.max_temperature_rise is None:
         notices.append(
-            Notice("no_temperature", "an incompressible gas has no temperature rise of its own", "flow", rank="note")
+            Notice("no_temperature", "the incompressible model gives no temperature rise", "flow", rank="note")
         )
     elif result.balance.energy_error is None:
-        message = "the isentropic closure conserves no energy: its temperatures are low by a factor of about two"
+        message = "the isentropic closure loses energy: temperature rises are about half of those of the energy closure"
         notices.append(Notice("no_energy_balance", message, "closure"))
     if correction is None:
         message = "a lead correction needs the temperatures of the pinion's spaces"

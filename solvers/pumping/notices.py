@@ -1,4 +1,4 @@
-"""Warnings of a pumping calculation: too coarse, unresolved, or outside the range in which the models were compared."""
+"""Warnings of a pumping calculation about coarse grids, unresolved flows and inputs outside the compared range."""
 
 from collections.abc import Iterator, Sequence
 from math import degrees, expm1, inf, pi
@@ -12,72 +12,75 @@ from solvers.pumping.inputs import ChokingInputs, Flow, PumpingInputs, PumpingSe
 from solvers.pumping.results import MassFlow, Resolution
 from solvers.pumping.space.stroke import StrokeTable
 
-FEW_TEETH = 12  # chosen: the paper and the comparisons with it have more
+FEW_TEETH = 12  # chosen: gears of the paper and of all comparisons have more teeth
 TIP_SPEED_SHARE = 0.8  # of the ambient speed of sound
 PITCH_LINE_SPEED = 250.0  # m/s
-FEW_SLICES = 20  # in the stroke at one time
+FEW_SLICES = 20  # number of slices in the stroke at one time
 INCOMPRESSIBLE_MACH = 0.3  # usual limit: density changes by 5 %
-RESOLVED = 0.06  # of a number, by its resolution
-NET_UNCERTAINTY = 0.3  # of the net flow
-NEGLIGIBLE = 1e-3  # of the gross flow
+RESOLVED = 0.06  # largest relative uncertainty of a result without a warning
+NET_UNCERTAINTY = 0.3  # largest uncertainty of a net flow without a warning, relative to the net flow
+NEGLIGIBLE = 1e-3  # of the gross flow; a smaller uncertainty of the net flow is not worth a warning
 LEAST_GAUGE_PRESSURE = 1e-6  # of the ambient pressure
 
 
 def setup_notices(setup: PumpingSetup, path: PathOfContact, active_slices: float) -> list[Notice]:
-    """What is said of the pair, few teeth, no seal between two pairs of teeth, too few slices.
+    """Return the warnings about the gear pair, few teeth, a small contact ratio and few slices.
 
-    `active_slices` are in the stroke at one time.
+    `active_slices` is the number of slices in the stroke at one time.
     """
     notices = pair_notices(path)
     ratio = path.transverse_contact_ratio
     if ratio < 1.0:
-        message = f"the transverse contact ratio is {ratio:.3f}: below 1 nothing seals the space between two pairs"
+        message = (
+            f"the transverse contact ratio is {ratio:.3f}: below 1 no flanks in contact seal the spaces between two "
+            "pairs of teeth"
+        )
         notices.append(Notice("contact_ratio_below_one", message, "addendum", rank="invalid"))
     for gear, name in ((setup.gears.pinion, "pinion"), (setup.gears.wheel, "wheel")):
         if gear.teeth < FEW_TEETH:
-            message = f"the {name} has {gear.teeth} teeth: below {FEW_TEETH} the model was never checked"
+            message = f"the {name} has {gear.teeth} teeth: the model was never checked below {FEW_TEETH}"
             notices.append(Notice("few_teeth", message, f"{name}.teeth"))
     if setup.model.slice_count == 1 and setup.gears.helix_angle != 0.0:
-        message = "one pocket takes no notice of the helix; 10 slices are usual"
+        message = "a single pocket ignores the helix angle; 10 slices are usual"
         notices.append(Notice("single_slice", message, "slices"))
     if setup.model.flow is Flow.GAS_DYNAMICS and active_slices < FEW_SLICES:
         message = (
-            f"{active_slices:.0f} slices are in the stroke at one time: below {FEW_SLICES} the grid's own dissipation "
-            "raises the power at low speed by tens of percent"
+            f"{active_slices:.0f} slices are in the stroke at one time: below {FEW_SLICES} the dissipation of the grid "
+            "raises the power at low speed by tens of percent; use more slices"
         )
         notices.append(Notice("few_slices", message, "slices"))
     return notices
 
 
 def jump_notices(tables: Sequence[StrokeTable]) -> list[Notice]:
-    """Strokes in which the area of a space jumps: what compresses or relieves the gas there is no motion of teeth."""
+    """Return a warning if the area of a space jumps: the gas is then compressed without motion of the teeth."""
     share, angle = max(table.jump for table in tables)
     if share == 0.0:
         return []
     message = (
-        f"the area of a tooth space jumps by {100 * expm1(share):.0f} % at {degrees(angle):.2f} deg, where the nearest "
-        "point to a tip corner leaves the flank for the root: pressures are wrong from there on; the contact gap knows "
-        "no such jump"
+        f"the area of a tooth space jumps by {100 * expm1(share):.0f} % at {degrees(angle):.2f} deg, where the point "
+        "nearest to a tip corner jumps from the flank to the root: pressures are wrong from this angle on; use contact "
+        "gaps, which have no such jump"
     )
     return [Notice("area_jump", message, "gap", rank="invalid")]
 
 
 def flow_notices(flow: Flow, largest_mach: float, largest_gauge_pressure: float) -> list[Notice]:
-    """Flows outside what their model resolves; the pressure is a share of the ambient one."""
+    """Return a warning if the model does not resolve the flow; the pressure is relative to the ambient pressure."""
     if flow is Flow.INCOMPRESSIBLE and largest_mach > INCOMPRESSIBLE_MACH:
-        message = f"Mach {largest_mach:.2f}: above {INCOMPRESSIBLE_MACH:g} the gas is far from incompressible"
+        message = f"the Mach number is {largest_mach:.2f}: above {INCOMPRESSIBLE_MACH:g} the gas is not incompressible"
         return [Notice("incompressible_mach", message, "flow", rank="invalid")]
     if flow is Flow.POCKET_CHAIN and largest_gauge_pressure < LEAST_GAUGE_PRESSURE:
         message = (
-            f"the pressure differs from the ambient one by less than its {LEAST_GAUGE_PRESSURE:g}th part, which the "
-            "pocket chain does not resolve; power falls as the cube of the speed"
+            f"the pressure differs from the ambient pressure by less than {LEAST_GAUGE_PRESSURE:g} of it, which the "
+            "pocket chain does not resolve; at low speed, power is in proportion to the cube of the speed"
         )
         return [Notice("pressure_not_resolved", message, "pinion_speed")]
     return []
 
 
 def net_flow_notices(model: Flow, flows: list[MassFlow]) -> list[Notice]:
-    """Net flows out of the ends that are small differences of what leaves and what enters."""
+    """Return a warning about the least certain net flow out of an end, a small difference of outflow and inflow."""
     shares = [
         (flow.net_uncertainty / abs(net) if net else inf, net, flow)
         for flow in flows
@@ -88,8 +91,8 @@ def net_flow_notices(model: Flow, flows: list[MassFlow]) -> list[Notice]:
     if flow is None or share <= NET_UNCERTAINTY:
         return []
     message = (
-        f"a net flow of {1e3 * net:.3g} g/s out of an end, a small difference of what leaves and what enters, is "
-        f"uncertain by {1e3 * flow.net_uncertainty:.2g} g/s"
+        f"a net flow of {1e3 * net:.3g} g/s out of an end is uncertain by {1e3 * flow.net_uncertainty:.2g} g/s: it is "
+        "a small difference of outflow and inflow"
     )
     if model is Flow.GAS_DYNAMICS:
         message += "; use more slices"
@@ -97,8 +100,8 @@ def net_flow_notices(model: Flow, flows: list[MassFlow]) -> list[Notice]:
 
 
 def resolution_notices(flow: Flow, uncertain: Resolution) -> list[Notice]:
-    """Numbers that the slices of gas dynamics leave uncertain."""
-    found = ", ".join(
+    """Return a warning that names the results of gas dynamics that are uncertain with these slices."""
+    shares = ", ".join(
         f"{name} by {100 * share:.2g} %"
         for name, share in (
             ("peak pressure", uncertain.peak_pressure),
@@ -110,27 +113,27 @@ def resolution_notices(flow: Flow, uncertain: Resolution) -> list[Notice]:
         )
         if share is not None and share > RESOLVED
     )
-    if flow is not Flow.GAS_DYNAMICS or not found:
+    if flow is not Flow.GAS_DYNAMICS or not shares:
         return []
-    return [Notice("not_resolved", f"with these slices the results are uncertain: {found}; use more slices", "slices")]
+    return [Notice("not_resolved", f"with these slices the results are uncertain: {shares}; use more slices", "slices")]
 
 
 def speed_notices(pair: GearPair, gas: Gas, pinion_speed: float) -> list[Notice]:
-    """Speeds beyond every published check."""
+    """Return a warning if the speed is beyond every published check."""
     tip = max(pair.pinion.tip_radius, pair.wheel.tip_radius * pair.pinion.teeth / pair.wheel.teeth) * pinion_speed
     pitch_line = pair.pinion_working_radius * pinion_speed
     if tip > TIP_SPEED_SHARE * gas.sound_speed or pitch_line > PITCH_LINE_SPEED:
         message = (
-            f"tip speed {tip:.0f} m/s, pitch line {pitch_line:.0f} m/s: published checks end at "
-            f"{TIP_SPEED_SHARE:g} of the speed of sound and {PITCH_LINE_SPEED:g} m/s; "
-            f"{PITCH_LINE_SPEED / pair.pinion_working_radius * 30 / pi:.0f} rpm is the latter"
+            f"the tip speed is {tip:.0f} m/s and the pitch line speed {pitch_line:.0f} m/s: published checks end at "
+            f"{TIP_SPEED_SHARE:g} of the speed of sound and at {PITCH_LINE_SPEED:g} m/s, which the pitch line has at "
+            f"{PITCH_LINE_SPEED / pair.pinion_working_radius * 30 / pi:.0f} rpm of the pinion"
         )
         return [Notice("high_speed", message, "pinion_speed")]
     return []
 
 
 def unusual_values(inputs: PumpingInputs | ChokingInputs, _result: object) -> Iterator[Notice]:
-    """Unusual values of ambient, gears and speed."""
+    """Yield the warnings about unusual values of the ambient, the gears and the speed."""
     yield from plausibility.thin_air(inputs.setup.ambient.pressure)
     speed = inputs.pinion_speed if isinstance(inputs, PumpingInputs) else None
     yield from plausibility.gears(inputs.setup.gears, speed)

@@ -6,12 +6,12 @@ from solvers.arrays import FloatArray, frozen
 from solvers.pumping.flow.space_flow import SpaceFlow
 from solvers.quantity import quantity, record
 
-HARMONICS = 8  # chosen
+HARMONICS = 8  # number of them, chosen
 
 
 @record
 class Pulsation:
-    """Amplitudes of the mass flow at each end [kg/s] at multiples of the meshing frequency [Hz], all (harmonics,)."""
+    """Amplitudes of the mass flow at both ends at multiples of the meshing frequency, (harmonics,)."""
 
     frequency: FloatArray = quantity("pulsation frequency", "k f_m", unit="hz")
     front_mass_flow: FloatArray = quantity(
@@ -23,11 +23,25 @@ class Pulsation:
 
 
 def pulsation(meshing_frequency: float, flows: list[tuple[SpaceFlow, float, float]]) -> Pulsation:
-    """Superpose the flows of successive spaces: amplitude k is 2 f_m |integral m_dot exp(-2 pi i k f_m t) dt|.
+    """Superpose the flows of successive tooth spaces and compute the harmonics of the mass flow.
 
-    The wave of order k is that of order 1 to the power k.
-    `flows`: of each gear's spaces, with the owner's speed [rad/s] and the share of a mesh period by which they come
-    to the line of centres later than the pinion's. Eq. P13.
+    Parameters
+    ----------
+    meshing_frequency : float
+        Meshing frequency f_m [Hz].
+    flows : list of tuple
+        For the spaces of one gear: the flow of one stroke; the speed of the gear [rad/s]; the share of a mesh period
+        by which its spaces reach the line of centres later than those of the pinion.
+
+    Returns
+    -------
+    Pulsation
+        Amplitudes at the first multiples of the meshing frequency [kg/s].
+
+    Notes
+    -----
+    Eq. P13: the amplitude of order k is 2 f_m |integral m_dot exp(-2 pi i k f_m t) dt|. The wave of order k is computed
+    as the wave of order 1 to the power k.
     """
     front = np.zeros(HARMONICS, dtype=complex)
     rear = np.zeros(HARMONICS, dtype=complex)

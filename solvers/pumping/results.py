@@ -12,7 +12,7 @@ from solvers.sources import MILIAN
 
 @record
 class MeshGeometry(Diameters):
-    """The pair as meshed; lengths [m], angle [rad]."""
+    """The gear pair at its centre distance; lengths [m], angle [rad]."""
 
     centre_distance: float = quantity("centre distance", "a", unit="mm", text="centre distance in use")
     backlash_free_centre_distance: float = quantity("centre distance without backlash", "a_0", unit="mm")
@@ -43,8 +43,9 @@ class Stroke:
 class MassFlow:
     """Mass flow out of the spaces of one gear [kg/s].
 
-    Net by exit: the first five sum to nought, see `ExitMasses`. What leaves and what enters at each end. And how far
-    the net flows of the ends, small differences of these, and the radial one may be off by their resolution.
+    The first five are net flows by exit; they add up to 0, see `ExitMasses`. The next four are the outflow and the
+    inflow at each end. The last two are uncertainties by the resolution: the net flow of an end is a small difference
+    of its outflow and inflow.
     """
 
     front: float = quantity("net mass flow at the front", "m_f", unit="g_per_s", text="at the end that meshes first")
@@ -82,7 +83,7 @@ class MassFlow:
 
 @record
 class Balance:
-    """Relative errors of the balances of mass and energy; `energy_error` is None of a model without energy."""
+    """Relative errors of the balances; `energy_error` is None if the model does not conserve energy."""
 
     mass_error: float = quantity("mass balance error", text="relative error of the books on mass")
     energy_error: float | None = quantity(
@@ -92,10 +93,11 @@ class Balance:
 
 @record
 class Resolution:
-    """Relative uncertainties of the summary by its resolution, pressures as gauge pressures; see `resolution`.
+    """Relative uncertainties of the results by the resolution, of pressures relative to the gauge pressure.
 
-    Slices of gas dynamics, steps of the chain, positions of the single pocket; at least what a jump of the area alone
-    would compress. `temperature_rise` is None where the flow model gives none; net flows state theirs.
+    The resolution is the number of slices of gas dynamics, of steps of the chain, of positions of the single pocket.
+    Uncertainties are at least the relative change of the pressure by a jump of the area. `temperature_rise` is None if
+    the flow model gives none. Uncertainties of the net flows are in `MassFlow`.
     """
 
     peak_pressure: float = quantity("uncertainty of the peak pressure", text="of the largest gauge pressure")
@@ -112,7 +114,7 @@ class Resolution:
 
 @record
 class FaceProfile:
-    """Over the face, (slices,): stroke means of the rise of stagnation and static temperature [K], peak pressures."""
+    """Curves over the face, (slices,): means of temperature rises over the stroke [K], peak pressures."""
 
     position: FloatArray = quantity("position", "z", unit="mm", text="from the end that meshes first")
     temperature_rise: FloatArray | None = quantity(
@@ -137,7 +139,7 @@ class FaceProfile:
 
 @record
 class GasField:
-    """The gas over angle [rad] and position [m], (angles, slices); `temperature_rise` [K] of stagnation."""
+    """Fields of the gas over angle [rad] and position [m], (angles, slices); `temperature_rise` [K]: of stagnation."""
 
     angle: FloatArray = quantity(
         "angle of the gear",
@@ -159,7 +161,8 @@ class GasField:
 class SpacesResult:
     """The spaces of one gear: power [W], work per space and stroke [J], `mass_flow` [kg/s], temperatures [K].
 
-    Pressures are ratios to the ambient one. None where the flow model gives no such value; a notice says so.
+    Pressures are relative to the ambient pressure. A value is None if the flow model does not give it; a notice then
+    says so.
     """
 
     stroke: Stroke = quantity("stroke", text="one stroke")
@@ -190,10 +193,10 @@ class SpacesResult:
 
 @record
 class Totals:
-    """Power of all spaces asked for [W], meshing frequency [Hz], speed of the meshing point along the face [m/s].
+    """Power of the selected spaces [W], meshing frequency [Hz], speed of the meshing point along the face [m/s].
 
-    `axial_meshing_mach` refers it to the ambient speed of sound; both are None for spur gears, whose whole face meshes
-    at once.
+    `axial_meshing_mach` is this speed over the ambient speed of sound. Both are None for spur gears, whose whole face
+    meshes at once.
     """
 
     pumping_power: float = quantity("pumping power", "P", unit="w")
@@ -211,9 +214,9 @@ class Totals:
 
 @record
 class Derived:
-    """What follows from the inputs before any physics: centre distance [m], slices with the grooves' parts.
+    """Values derived from the inputs: centre distance [m], number of slices with those in the grooves.
 
-    rack_tip_radius is what both racks have room for, in normal modules.
+    `rack_tip_radius` is limited to the value that both racks have room for; it is in normal modules.
     """
 
     centre_distance: float = quantity("centre distance used", "a", unit="mm")
@@ -225,7 +228,11 @@ class Derived:
 
 @record
 class PumpingResult:
-    """One operating point. `slices` is the number in force; `lead_correction` is for the pinion, wall response 1."""
+    """One operating point.
+
+    `slices` is the number of slices outside the grooves. `lead_correction` is for a pinion that warms as much as the
+    gas.
+    """
 
     geometry: MeshGeometry = quantity("mesh", text="the mesh")
     pinion_spaces: SpacesResult | None = quantity("pinion spaces", text="spaces of the pinion; null unless asked for")
@@ -245,7 +252,7 @@ class PumpingResult:
 
 @record
 class ChokingCurves:
-    """Coarse scan, (speeds,): peak pressure ratio and Mach number asked for at the ends over pinion speed [rad/s]."""
+    """Peak pressure ratio and exit Mach number over the pinion speed [rad/s] of the coarse scan, (speeds,)."""
 
     pinion_speed: FloatArray = quantity("pinion speed scanned", "n_1", unit="rpm")
     peak_pressure_ratio: FloatArray = quantity(
@@ -261,7 +268,7 @@ class ChokingCurves:
 
 @record
 class ChokingSpeeds:
-    """Pinion speeds [rad/s] at which the flow becomes sonic: None beyond the search limit."""
+    """Lowest pinion speeds [rad/s] at which the flow becomes sonic, None above the search limit."""
 
     radial_choking_speed: float | None = quantity(
         "radial choking speed",

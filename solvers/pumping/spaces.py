@@ -1,4 +1,4 @@
-"""Tooth spaces prepared for any speed, for the choking search and for a single solution."""
+"""Tooth spaces prepared for all speeds, and the flow through them at one speed."""
 
 from dataclasses import dataclass
 from math import tan
@@ -23,13 +23,17 @@ from solvers.pumping.space.face import Stretch, stretches
 from solvers.pumping.space.stroke import StrokeTable, stroke_table
 from solvers.pumping.space.tooth_space import tooth_space
 
-CELL_STEP_LIMIT = 5_000_000  # some ten seconds
-_ANGLES = 201  # at which fields are recorded, enough for figures
+CELL_STEP_LIMIT = 5_000_000  # cells times steps, about ten seconds
+_ANGLES = 201  # number of angles at which fields are recorded, enough for figures
 
 
 @dataclass(frozen=True, slots=True)
 class Space:
-    """The tooth spaces of one gear: ratio of its speed to the pinion's, lag of the stroke per metre of face [rad/m]."""
+    """The tooth spaces of one gear.
+
+    `speed_ratio`: speed of the gear over that of the pinion; `lag`: angle of the gear by which the stroke comes later
+    per metre of face [rad/m].
+    """
 
     of_pinion: bool
     table: StrokeTable
@@ -39,7 +43,7 @@ class Space:
 
 @dataclass(frozen=True, slots=True)
 class Mesh:
-    """All that does not depend on the speed."""
+    """Everything that does not depend on the speed."""
 
     setup: PumpingSetup
     path: PathOfContact
@@ -49,12 +53,11 @@ class Mesh:
 
     @property
     def pair(self) -> GearPair:
-        """The gear pair."""
         return self.path.pair
 
 
 def prepare(setup: PumpingSetup) -> Mesh:
-    """Geometry and stroke tables, with warnings about them.
+    """Compute geometry and stroke tables, with warnings about them.
 
     Raises InvalidInput with the codes of `check_setup`, `meshing_path`, `tooth_space`, `stroke_table` and `stretches`.
     """
@@ -72,14 +75,14 @@ def prepare(setup: PumpingSetup) -> Mesh:
 
 
 def derived(mesh: Mesh) -> Derived:
-    """Values derived from the inputs, with defaults in place of what was not given."""
+    """Return the values derived from the inputs, with defaults for values that are not given."""
     gears = mesh.setup.gears
     room = min(rack_tip_radius(gears, teeth) for teeth in (gears.pinion, gears.wheel))
     return Derived(mesh.pair.centre_distance, mesh.setup.model.slice_count, room)
 
 
 def _active_share(space: Space, face_width: float) -> float:
-    """Largest share of the face whose slices are in their stroke at one time."""
+    """Compute the largest share of the face that is in its stroke at one time."""
     limits, lag = space.table.limits, space.lag * face_width
     return min((limits.end - limits.start) / lag, 1.0) if lag > 0.0 else 1.0
 
@@ -96,7 +99,7 @@ def _space(setup: PumpingSetup, pair: GearPair, *, of_pinion: bool) -> Space:
 
 
 def face_stretches(setup: PumpingSetup, slices: int) -> list[Stretch]:
-    """The stretches of face between the grooves, in slices fit for the flow model."""
+    """Cut the face between its grooves into stretches with enough slices for the flow model."""
     least = LEAST_SLICES if setup.model.flow is Flow.GAS_DYNAMICS else 1
     return stretches(setup.gears.face_width, setup.grooves, slices, least)
 
@@ -104,7 +107,7 @@ def face_stretches(setup: PumpingSetup, slices: int) -> list[Stretch]:
 def flow_at(
     mesh: Mesh, space: Space, pinion_speed: float, slices: int, *, cell_step_limit: int = CELL_STEP_LIMIT
 ) -> SpaceFlow:
-    """One stroke of the spaces of one gear at a pinion speed [rad/s].
+    """Compute one stroke of the spaces of one gear at a pinion speed [rad/s].
 
     Raises InvalidInput: too_many_steps, narrow_land; NoSolution: unphysical_state, newton_not_converged.
     """
@@ -118,10 +121,11 @@ def flow_at(
 
 
 def coarser_flow_at(mesh: Mesh, space: Space, pinion_speed: float, slices: int, times: int) -> SpaceFlow:
-    """The same with fewer slices and steps of gas dynamics, steps of the chain, positions of the single pocket.
+    """Compute the same stroke at a resolution that is `times` times lower.
 
-    Steps end at the recorded angles, which bound them where slices are few. The slices of the chain are no resolution:
-    they are a constant of that model. Raises as `flow_at` does but for the cost.
+    Gas dynamics gets fewer slices, and fewer recorded angles, because a step never passes a recorded angle. The chain
+    of pockets gets fewer steps: its number of pockets is a constant of the model. The single pocket gets fewer
+    positions. Raises the errors of `flow_at` except those about the number of steps.
     """
     if mesh.setup.model.flow is Flow.INCOMPRESSIBLE:
         return _single_pocket(mesh, space, pinion_speed, space.table.coarser(times))
@@ -151,18 +155,38 @@ def _gas_ducts(mesh: Mesh, space: Space, pinion_speed: float, parts: list[Stretc
 
 
 def _check_cost(mesh: Mesh, pinion_speed: float, parts: list[Stretch], limit: int) -> None:
-    """Refuse a speed at which any of the spaces would take too long."""
-    dearest = max(
+    """Refuse a speed at which the march of one of the spaces would take too many steps."""
+    largest_cost = max(
         cell_steps(mesh.gas, _gas_ducts(mesh, space, pinion_speed, parts), _angles(mesh, space))
         for space in mesh.spaces
     )
-    if dearest > limit:
-        refuse_cost(pinion_speed, parts, dearest / limit)
+    if largest_cost > limit:
+        refuse_cost(pinion_speed, parts, largest_cost / limit)
 
 
 def space_duct(mesh: Mesh, space: Space, pinion_speed: float, part: Stretch, *, transport: bool) -> Duct:
-    """A stretch of the spaces of one gear as a duct, at a pinion speed [rad/s]; `transport` by flanks or none.
+    """Describe a stretch of the spaces of one gear as a duct.
 
+    Parameters
+    ----------
+    mesh : Mesh
+        The prepared gear pair.
+    space : Space
+        The tooth spaces of one gear.
+    pinion_speed : float
+        Speed of the pinion [rad/s].
+    part : Stretch
+        The stretch of the face, cut into slices.
+    transport : bool
+        Whether the flanks carry gas out of the space.
+
+    Returns
+    -------
+    Duct
+        Cells, speed and walls of the stretch.
+
+    Notes
+    -----
     Eq. 5.
     """
     table = space.table
@@ -182,6 +206,6 @@ def space_duct(mesh: Mesh, space: Space, pinion_speed: float, part: Stretch, *, 
 
 
 def _angles(mesh: Mesh, space: Space) -> FloatArray:
-    """Angles of the owner [rad] from the first slice's entry to the last one's exit, where fields are recorded."""
+    """Return the recorded angles of the owner [rad], from the start of the first stroke on the face to the last end."""
     limits = space.table.limits
     return np.linspace(limits.start, limits.end + space.lag * mesh.setup.gears.face_width, _ANGLES)

@@ -1,6 +1,6 @@
-"""Peak pressure and flow at the ends over the pinion speed, with the resolution of the choking search.
+"""Peak pressure and exit Mach number over the pinion speed.
 
-A scan takes no longer than the longest single solution allowed: low speeds, which take longer, get fewer slices.
+A scan takes no longer than the longest permitted single solution: low speeds, which need more steps, get fewer slices.
 """
 
 import numpy as np
@@ -15,7 +15,9 @@ _COARSENINGS = {Flow.GAS_DYNAMICS: (1, 2, 4)}  # the pockets of the chain are a 
 
 
 def speed_scan(setup: PumpingSetup, speeds: FloatArray) -> ChokingCurves:
-    """The largest over the spaces asked for at pinion speeds [rad/s]; NaN at a speed without a solution.
+    """Return the largest pressure ratio and exit Mach number of the selected spaces at each pinion speed [rad/s].
+
+    Both are NaN at a speed without a solution.
 
     Raises InvalidInput with the codes of `prepare`.
     """
@@ -25,7 +27,7 @@ def speed_scan(setup: PumpingSetup, speeds: FloatArray) -> ChokingCurves:
 
 
 def _point(mesh: Mesh, speed: float, limit: int) -> tuple[float, float]:
-    """Peak pressure ratio, and the Mach number that the ambient pressure asks for at the ends."""
+    """Compute the peak pressure ratio and the exit Mach number at one speed."""
     for coarsening in _COARSENINGS.get(mesh.setup.model.flow, (1,)):
         slices = mesh.setup.model.slice_count // coarsening
         try:

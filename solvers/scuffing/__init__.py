@@ -1,8 +1,8 @@
 """Load distribution of helical gears with modifications and misalignment, and their scuffing safety.
 
-Data flows inputs -> contact_lines, modification (gap over the plane of action), tooth_stiffness -> contact_slices ->
-load_balance (approach of the flanks at every roll position) -> mesh_results, flank_results; `model.solve` calls them
-all. Then thermal (friction, temperatures and film along a line of the flank), called by `safety.solve_scuffing`.
+`model.solve` computes the load distribution: inputs -> contact_lines, modification (gap over the plane of action),
+tooth_stiffness -> contact_slices -> load_balance (approach of the flanks at every roll position) -> mesh_results,
+flank_results. `safety.solve_scuffing` adds thermal (friction, temperatures and film over the flank) and micropitting.
 
 Source: Xue, Zhang, Wang, "The Load Distribution with Modification and Misalignment and Thermal Elastohydrodynamic
 Lubrication Simulation of Helical Gears", Global J. of Researches in Engineering A 20(1), 2020 ("the paper").

@@ -1,7 +1,6 @@
-"""Contact lines in the plane of action: their total length, and the parts of them that are loaded."""
+"""Contact lines in the plane of action: their total length, and their loaded parts."""
 
 from dataclasses import dataclass
-from itertools import pairwise
 from math import ceil, floor
 from typing import NamedTuple
 
@@ -13,11 +12,11 @@ from solvers.errors import InvalidInput
 from solvers.gears.pair import ContactPlane, PathOfContact
 from solvers.scuffing.modification import Gap, gap_at
 
-COINCIDENT = 1e-9  # base pitches; breakpoints nearer than this are one
+COINCIDENT = 1e-9  # base pitches; breakpoints that are nearer count as one
 LEAST_STEPS = 8  # between two breakpoints, however close
-MOST_LINES = 100  # at once; no gear has a tenth of it
-MOST_ZONES = 12  # of one line; what more there were joins the last
-LEAST_SAMPLES = 8  # of a smooth part
+MOST_LINES = 100  # in contact at the same time; no gear has a tenth of that
+MOST_ZONES = 12  # of one line; further zones are joined to the last
+LEAST_SAMPLES = 8  # per smooth part
 BISECTIONS = 45  # 2^-45 of a sample: beyond the digits of a gap
 GOLDEN_STEPS = 30  # 0.618^30 of a sample: 5e-7, and the gap at a minimum is flat
 GOLDEN = 0.6180339887498949  # (sqrt(5) - 1) / 2, the golden section
@@ -38,13 +37,31 @@ class ContactLengths:
 
 
 def contact_lengths(path: PathOfContact) -> ContactLengths:
-    """Total contact length in closed form; stands for the paper's lost Eq. 4 (its case L = eps_alpha b / cos beta_b).
+    """Compute the total contact length in closed form.
 
-    The length over the roll position is the periodised convolution of two rectangles of lengths eps_alpha = n_a + f_a
-    and eps_beta = n_b + f_b, so with the unit u = b / (eps_beta cos beta_b)
-        L_min = u [n_a eps_beta + n_b f_a + max(0, f_a + f_b - 1)],  L_max = u [n_a eps_beta + n_b f_a + min(f_a, f_b)].
-    Raises InvalidInput: no_contact where L_min = 0 (no pair carries at some roll positions), overlap_range beyond 100
-    lines at once.
+    Parameters
+    ----------
+    path : PathOfContact
+        Path of contact of the pair.
+
+    Returns
+    -------
+    ContactLengths
+        Smallest, largest and mean total length of the contact lines [m].
+
+    Raises
+    ------
+    InvalidInput
+        `no_contact` if L_min = 0, so that no pair of teeth is in contact at some roll positions; `overlap_range` if
+        more than 100 lines are in contact at the same time.
+
+    Notes
+    -----
+    Replaces the paper's lost Eq. 4, which has the mean L = eps_alpha b / cos beta_b. The length over the roll position
+    is the periodic convolution of two rectangles of lengths eps_alpha = n_a + f_a and eps_beta = n_b + f_b. With the
+    unit u = b / (eps_beta cos beta_b)
+
+    L_min = u [n_a eps_beta + n_b f_a + max(0, f_a + f_b - 1)],  L_max = u [n_a eps_beta + n_b f_a + min(f_a, f_b)].
     """
     length = path.plane.face_width / path.plane.cos_base_helix
     transverse, overlap = path.transverse_contact_ratio, path.overlap_ratio
@@ -71,10 +88,11 @@ def contact_lengths(path: PathOfContact) -> ContactLengths:
 
 
 class RollPositions(NamedTuple):
-    """Roll positions in one base pitch [m], ascending, among them those whose line meets a corner of the plane.
+    """Roll positions in one base pitch [m], ascending.
 
-    `corner` marks these; loads may change abruptly there. `side` is 0, except for spur gears, where the contact length
-    jumps: each corner then appears twice, as the limit from below (-1) and from above (+1).
+    `corner` marks the roll positions whose line meets a corner of the plane or of the gap; loads may change abruptly
+    there. `side` is 0 for helical gears. The contact length of spur gears jumps at corners: every corner then occurs
+    twice, as the limit from below (-1) and from above (+1).
     """
 
     phase: FloatArray
@@ -85,9 +103,10 @@ class RollPositions(NamedTuple):
 def roll_positions(
     plane: ContactPlane, count: int, along_path: tuple[float, ...] = (), along_face: tuple[float, ...] = ()
 ) -> RollPositions:
-    """At least `count` roll positions, equidistant between the corners (x + y tan beta_b) mod p_bt.
+    """Return at least `count` roll positions, equidistant between the corners (x + y tan beta_b) mod p_bt.
 
-    Corners are those of the plane, {0, g, b tan, g + b tan} mod p_bt, and of the kinks of its gap along path and face.
+    The corners are those of the plane, {0, g, b tan, g + b tan} mod p_bt, and those of kinks of the gap along path and
+    face.
     """
     pitch = plane.base_pitch
     x = np.array([0.0, plane.path_length, *along_path])
@@ -95,23 +114,43 @@ def roll_positions(
     corners = np.unique(np.append(np.add.outer(x, y * plane.tan_base_helix).ravel() % pitch, pitch))
     corners = corners[np.append(np.diff(corners) > COINCIDENT * pitch, True)]
     corners[0] = 0.0
-    phases, sides = [], []
-    for start, end in pairwise(corners):
-        steps = max(LEAST_STEPS, ceil(count * (end - start) / pitch))
-        phases.append(np.linspace(start, end, steps + 1))
-        sides.append(np.concatenate(([1.0], np.zeros(steps - 1), [-1.0])))
-    if plane.tan_base_helix > 0.0:
-        phases, sides = ([part[:-1] for part in parts[:-1]] + parts[-1:] for parts in (phases, sides))
-    phase, side = np.concatenate(phases), np.concatenate(sides)
-    return RollPositions(phase, side if plane.tan_base_helix == 0.0 else np.zeros(side.size), side != 0.0)
+    steps = np.maximum(LEAST_STEPS, np.ceil(count * np.diff(corners) / pitch)).astype(int)
+    part = np.repeat(np.arange(steps.size), steps + 1)  # between two corners, both included
+    number = np.arange(part.size) - (np.cumsum(steps + 1) - steps - 1)[part]  # of the position in its part
+    phase = number * (np.diff(corners) / steps)[part] + corners[part]
+    first, last = number == 0, number == steps[part]
+    phase[last] = corners[1:]
+    if plane.tan_base_helix == 0.0:
+        return RollPositions(phase, 1.0 * first - last, first | last)
+    once = np.append(~last[:-1], True)
+    return RollPositions(phase[once], np.zeros(np.count_nonzero(once)), (first | last)[once])
 
 
 @kernel
 def line_ends(plane: ContactPlane, phase: float, side: float) -> tuple[float, float]:
-    """First and last y [m] of the contact line x = phase - y tan beta_b; equal where there is none (Eq. L3).
+    """Compute the ends of a contact line.
 
-    A spur line at the end of the path counts as in contact on the `side` that lies inside. A helical line that meets
-    the rectangle in a corner is none: rounding would decide whether it leads the teeth without load.
+    Parameters
+    ----------
+    plane : ContactPlane
+        The rectangle of the plane of action.
+    phase : float
+        Place of the line at y = 0 [m].
+    side : float
+        The limit of a spur line at the end of the path: 1 from above, -1 from below, 0 elsewhere.
+
+    Returns
+    -------
+    low : float
+        First y of the line [m].
+    high : float
+        Last y of the line [m]; equal to the first if the line is not in contact.
+
+    Notes
+    -----
+    Eq. L3: the line is x = phase - y tan beta_b. A spur line at the end of the path is in contact on the `side` that
+    lies inside. A helical line that only meets a corner of the rectangle is not in contact; otherwise rounding would
+    decide whether this line has the least gap of the unloaded teeth.
     """
     if plane.tan_base_helix == 0.0:
         nudged = phase + side * COINCIDENT * plane.base_pitch
@@ -125,7 +164,7 @@ def line_ends(plane: ContactPlane, phase: float, side: float) -> tuple[float, fl
 
 @kernel
 def line_count(plane: ContactPlane) -> int:
-    """Most lines that can touch the rectangle at once."""
+    """Return the largest number of lines that can touch the rectangle at the same time."""
     return int((plane.path_length + plane.face_width * plane.tan_base_helix) / plane.base_pitch) + 2
 
 
@@ -140,19 +179,19 @@ def _total_lengths(plane: ContactPlane, phase: FloatArray, side: FloatArray) -> 
 
 
 def total_lengths(plane: ContactPlane, rolls: RollPositions) -> FloatArray:
-    """Total contact length [m] at each roll position."""
+    """Return the total contact length [m] at every roll position."""
     return _total_lengths(plane, rolls.phase, rolls.side)
 
 
 @kernel
 def gap_on_line(form: Gap, plane: ContactPlane, line: float, y: float) -> float:
-    """Delta [m] on the contact line x = line - y tan beta_b."""
+    """Return the gap Delta [m] on the contact line x = line - y tan beta_b."""
     return gap_at(form, line - y * plane.tan_base_helix, y)
 
 
 @kernel
 def valley(form: Gap, plane: ContactPlane, line: float, low: float, high: float) -> float:
-    """The y [m] of the least gap between two points of a line that hold one valley, by golden section."""
+    """Find y [m] of the least gap between two points of a line with one valley between them, by golden section."""
     inner, outer = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
     at_inner, at_outer = gap_on_line(form, plane, line, inner), gap_on_line(form, plane, line, outer)
     for _ in range(GOLDEN_STEPS):
@@ -169,7 +208,7 @@ def valley(form: Gap, plane: ContactPlane, line: float, low: float, high: float)
 
 @kernel
 def _edge(form: Gap, plane: ContactPlane, line: float, inside: float, outside: float, reach: float) -> float:
-    """The y [m] between a loaded and an unloaded point of a line at which the gap reaches the approach."""
+    """Find y [m] between a loaded and an unloaded point of a line at which the gap equals the approach `reach` [m]."""
     for _ in range(BISECTIONS):
         middle = 0.5 * (inside + outside)
         if gap_on_line(form, plane, line, middle) < reach:

@@ -1,4 +1,4 @@
-"""Slices of all contact lines at one roll position, and their sums: friction, forces, largest values."""
+"""Slices of all contact lines at one roll position, and their sums and largest values: friction, forces, pressure."""
 
 from dataclasses import dataclass
 from math import ceil
@@ -22,12 +22,12 @@ from solvers.scuffing.contact_lines import (
 from solvers.scuffing.modification import MOST_EDGES, Gap, gap_at, smooth_parts
 from solvers.scuffing.tooth_stiffness import PairCompliance, compliance_at, line_load
 
-NUDGE = 1e-3  # of a slice: how far beside an end the slope of the gap is looked at, well inside the slice
-EQUAL = 1e-9  # peaks nearer than this, relatively, are equal but for rounding, as along the line of a spur gear's pair
+NUDGE = 1e-3  # of a slice: distance from an end at which the slope of the gap is tested, well inside the slice
+EQUAL = 1e-9  # relative: peaks that are nearer differ only by rounding, as along the line of a spur gear's pair
 
 
 class Mesh(NamedTuple):
-    """Unloaded mesh: the plane of action, a pair's compliance, the gap."""
+    """The unloaded mesh: plane of action, compliance of a pair of teeth, gap."""
 
     plane: ContactPlane
     compliance: PairCompliance
@@ -35,7 +35,7 @@ class Mesh(NamedTuple):
 
 
 class Cover(NamedTuple):
-    """The slices that cover the lines: their number and length [m], least and largest gap on them [m]."""
+    """Number of slices that cover the lines, their total length, and the least and largest gap on them [m]."""
 
     slices: int
     length: float
@@ -44,11 +44,12 @@ class Cover(NamedTuple):
 
 
 class Slices(NamedTuple):
-    """Slices of the contact lines, arrays with room for those of every line.
+    """Slices of the contact lines, arrays with room for the slices of every line.
 
-    Place `x` and `y` of the middle, `length` along the line and `gap` there [m]; `constant` and `limit` of the pair's
-    compliance (`tooth_stiffness.compliance_at`); line load `load` [N/m], its logarithm `log_load`, the guess for the
-    next solution, and its derivative by the approach `stiffness` [N/m^2]; number of the `line`.
+    `x` and `y` are the place of the middle, `length` is the length along the line, `gap` the gap at the middle [m].
+    `constant` and `limit` describe the compliance of the pair (`tooth_stiffness.compliance_at`). `load` is the line
+    load [N/m], `log_load` its logarithm, which is the guess for the next solution, and `stiffness` its derivative by
+    the approach [N/m^2]. `line` is the number of the line.
     """
 
     x: FloatArray
@@ -64,7 +65,7 @@ class Slices(NamedTuple):
 
 
 class Peaks(NamedTuple):
-    """The largest value of each roll position and its place (positions,), see `Peak`."""
+    """Largest value and its place at every roll position, arrays (positions,); see `Peak`."""
 
     value: FloatArray
     x: FloatArray
@@ -73,7 +74,7 @@ class Peaks(NamedTuple):
 
 @kernel
 def slice_table(mesh: Mesh, slices: int) -> Slices:
-    """Room for the slices of every line."""
+    """Return a table with room for the slices of every line."""
     room = line_count(mesh.plane) * (slices + MOST_EDGES * MOST_ZONES)
     return Slices(
         np.zeros(room),
@@ -91,7 +92,7 @@ def slice_table(mesh: Mesh, slices: int) -> Slices:
 
 @inlined_kernel
 def _cut(mesh: Mesh, line: float, j: int, zone: FloatArray, slices: int, table: Slices, count: int) -> int:
-    """Add equal slices of a stretch of line j, given by its first and last y [m], to the table's columns."""
+    """Cut a stretch of line j, `zone` from its first to its last y [m], into equal slices and add them to the table."""
     low, high = zone
     step = (high - low) / slices
     for i in range(slices):
@@ -109,7 +110,10 @@ def _cut(mesh: Mesh, line: float, j: int, zone: FloatArray, slices: int, table: 
 def _parts(
     mesh: Mesh, line: float, ends: tuple[float, float], slices: int, reach: float, zones: FloatArray
 ) -> tuple[int, float]:
-    """Write the loaded stretches of a line, of which none holds a kink; their number and length in y [m]."""
+    """Write the loaded stretches of a line to `zones`; return their number and their length in y [m].
+
+    No stretch contains a kink of the gap.
+    """
     edges, (first_y, last_y) = np.empty(MOST_EDGES), ends
     last = smooth_parts(mesh.gap, line, mesh.plane.tan_base_helix, ends, edges) - 1
     count, length, stations = 0, 0.0, (mesh.gap.lead.size - 1) / mesh.gap.face_width
@@ -119,23 +123,24 @@ def _parts(
             continue
         if reach == np.inf:
             zones[count] = low, high
-            found = 1
+            added = 1
         else:
             pieces = ceil(slices * (high - low) / (last_y - first_y) - 1e-9)
             least = max(LEAST_SAMPLES, ceil(stations * (high - low)))
             samples = 2 * pieces * ceil(least / (2 * pieces))  # middles of whole lines' slices are among them
-            found = loaded_zones(mesh.gap, mesh.plane, line, (low, high), samples, reach, zones[count:])
-        for start, end in zones[count : count + found]:
+            added = loaded_zones(mesh.gap, mesh.plane, line, (low, high), samples, reach, zones[count:])
+        for start, end in zones[count : count + added]:
             length += end - start
-        count += found
+        count += added
     return count, length
 
 
 @kernel
 def gather(mesh: Mesh, phase: float, side: float, slices: int, reach: float, table: Slices) -> Cover:
-    """Fill the columns of the slice table, one a slice (their middles), where the gap lies below `reach` [m].
+    """Fill the table with the slices of all lines at a roll position where the gap is below `reach` [m].
 
-    Every line has `slices` of them, and more only for stretches shorter than one; no slice holds a kink of the gap.
+    A line has `slices` slices, and more only if it has stretches shorter than a slice. No slice contains a kink of the
+    gap.
     """
     plane, zones = mesh.plane, np.empty((MOST_EDGES * MOST_ZONES, 2))
     count, length, least, most = 0, 0.0, np.inf, -np.inf
@@ -157,7 +162,7 @@ def gather(mesh: Mesh, phase: float, side: float, slices: int, reach: float, tab
 
 @inlined_kernel
 def _range(mesh: Mesh, line: float, zone: FloatArray, table: Slices, first: int, last: int) -> tuple[float, float]:
-    """Least and largest gap [m] on a stretch that the columns from `first` to `last` cover."""
+    """Return the least and the largest gap [m] on a stretch that is covered by the slices `first` to `last`."""
     low, high = zone
     at_low, at_high = gap_on_line(mesh.gap, mesh.plane, line, low), gap_on_line(mesh.gap, mesh.plane, line, high)
     least, most = min(at_low, at_high), max(at_low, at_high)
@@ -179,7 +184,7 @@ def _range(mesh: Mesh, line: float, zone: FloatArray, table: Slices, first: int,
 def _beside(
     mesh: Mesh, line: float, table: Slices, end: tuple[float, float], at_end: float, middle: int, following: int
 ) -> float:
-    """Least gap [m] between the end of a stretch (y, step inwards) and the middle of its slice."""
+    """Return the least gap [m] between the end of a stretch (y, step inwards) and the middle of its slice."""
     y, step = end
     if table.gap[middle] > table.gap[following]:
         return at_end
@@ -191,17 +196,19 @@ def _beside(
 
 @inlined_kernel
 def load_under(compliance: PairCompliance, approach: float, x: float, log_load: float) -> tuple[float, float]:
-    """Line load w [N/m] of a pair pressed together by `approach` [m] at x [m], and ln w, guessed by `log_load`."""
+    """Return the line load w [N/m] of a pair under an `approach` [m] at x [m], and ln w; `log_load` guesses ln w."""
     constant, limit = compliance_at(compliance, x)
     load, _, log_load = line_load(approach, constant, compliance.logarithmic, limit, log_load)
     return load, log_load
 
 
 class Survey(NamedTuple):
-    """Over the roll positions: friction_moment int w |s - s_C| dl [N m], loaded_length and length [m].
+    """Sums and largest values over the roll positions.
 
-    held: slices pressed beyond the half-space; undefined: loaded points too near a base circle for a pressure.
-    peak_load of w [N/m]; peak_pressure of w / R_n [N/m^2]; line_forces (positions, lines) [N].
+    `friction_moment` is int w |s - s_C| dl [N m]; `loaded_length` and `length` are those of the lines [m]. `held` is
+    the number of slices pressed beyond the half-space, `undefined` the number of loaded points too near a base circle
+    for a pressure. `peak_load` is the largest w [N/m], `peak_pressure` the largest w / R_n [N/m^2]. `line_forces`
+    (positions, lines) are the forces on the lines [N].
     """
 
     friction_moment: FloatArray
@@ -216,7 +223,7 @@ class Survey(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Peak:
-    """A largest value and its place, x from A and y from the end that meshes first [m]."""
+    """A largest value and its place: x from A, y from the end that meshes first [m]."""
 
     value: float
     x: float
@@ -225,7 +232,7 @@ class Peak:
 
 @kernel
 def empty_survey(mesh: Mesh, positions: int) -> Survey:
-    """A survey of nothing."""
+    """Return a survey of zeros."""
     return Survey(
         friction_moment=np.zeros(positions),
         loaded_length=np.zeros(positions),
@@ -257,7 +264,7 @@ def _note_peaks(mesh: Mesh, survey: Survey, i: int, load: float, at: tuple[float
 
 @kernel
 def survey_slices(mesh: Mesh, table: Slices, count: int, error: float, survey: Survey, i: int) -> None:
-    """Sum up the slices of roll position i."""
+    """Add the slices of roll position i to the survey."""
     arm = mesh.plane.pitch_point - mesh.plane.start
     for n in range(count):
         load, length = table.load[n], table.length[n]
@@ -270,7 +277,7 @@ def survey_slices(mesh: Mesh, table: Slices, count: int, error: float, survey: S
 
 @kernel
 def survey_ends(mesh: Mesh, phase: float, side: float, error: float, survey: Survey, i: int) -> None:
-    """Look for peaks at the ends of the lines, where edges are, and at their kinks; a corner is a line of no length."""
+    """Add the peaks at the ends of the lines and at the kinks of the gap; a corner is a line without length."""
     plane, edges, log_load = mesh.plane, np.empty(MOST_EDGES), 0.0
     overlap = plane.face_width * plane.tan_base_helix
     for j in range(line_count(plane)):
@@ -286,12 +293,12 @@ def survey_ends(mesh: Mesh, phase: float, side: float, error: float, survey: Sur
 
 
 def reaches_base_circle(survey: Survey) -> bool:
-    """Whether a load presses where reduced radius, and with it every local maximum, has no limit."""
+    """Return True if a load acts so near a base circle that pressure and flash temperature have no limit."""
     return bool(np.any(survey.undefined > 0.0))
 
 
 def largest(peaks: Peaks) -> Peak | None:
-    """The largest of the peaks of all roll positions, the first of equals; None where nothing is loaded."""
+    """Return the largest of the peaks of all roll positions, the first of equal ones; None without load."""
     values = peaks.value
     first = int(np.argmax(values >= values.max() * (1.0 - EQUAL)))
     if values[first] <= 0.0:

@@ -1,7 +1,7 @@
 """Load over the face as a function of the gap over the face, with its derivative, to couple mesh and shafts.
 
-Both are counted at equidistant stations over the face, between which gaps are linear: a station's share of a force
-is weighed by its hat, the linear function that is 1 there and 0 at its neighbours.
+Load and gap are given at equidistant stations over the face; between stations the gap is linear. The share of a station
+in a force is weighted by its hat function, which is linear, 1 at the station and 0 at its neighbours.
 """
 
 from dataclasses import dataclass
@@ -18,11 +18,11 @@ from solvers.scuffing.load_balance import TOLERANCE, solve_near
 
 @dataclass(frozen=True, slots=True)
 class FaceResponse:
-    """Transverse `force` [N] at the stations, mean over a base pitch, and its derivative [N/m] by the gap there.
+    """Transverse `force` [N] at the stations, mean over a base pitch, and its `derivative` [N/m] by the gaps.
 
-    At every roll position the force over the whole face stays what it is, so rows and columns of the derivative add up
-    to 0. `error` and `log_load`, approach of the flanks and ln w of the slices by roll position, start the next
-    response of the same mesh under a gap that is little different.
+    The force over the whole face is the same at every roll position; the rows and the columns of the derivative
+    therefore add up to 0. `error` is the approach of the flanks and `log_load` ln w of the slices at every roll
+    position. Both start the next response of the same mesh under a gap that differs little.
     """
 
     force: FloatArray
@@ -34,9 +34,36 @@ class FaceResponse:
 def face_response(
     mesh: Mesh, rolls: RollPositions, force: float, slices: int, stations: int, start: FaceResponse | None = None
 ) -> FaceResponse:
-    """Force at `stations` equidistant points from y = 0 to b, both included, and its derivative by the gap there.
+    """Compute the force over the face and its derivative by the gap over the face.
 
-    Raises NoSolution load_balance as `balance_load` does. Eq. L20.
+    Parameters
+    ----------
+    mesh : Mesh
+        The mesh with its gap.
+    rolls : RollPositions
+        Roll positions of the balance.
+    force : float
+        Force in the balance [N].
+    slices : int
+        Number of slices per line.
+    stations : int
+        Number of equidistant stations from y = 0 to b, both included.
+    start : FaceResponse, optional
+        Response of the same mesh under a similar gap.
+
+    Returns
+    -------
+    FaceResponse
+        Force at the stations and its derivative by the gap at the stations.
+
+    Raises
+    ------
+    NoSolution
+        `load_balance` if the balance does not converge.
+
+    Notes
+    -----
+    Eq. L20.
     """
     share = np.zeros(rolls.phase.size)
     share[:-1] += np.diff(rolls.phase) / 2
@@ -68,9 +95,9 @@ def _respond(
     spread: FloatArray,
     derivative: FloatArray,
 ) -> float:
-    """Sums of w dl hat and, with P_ab = sum (dw/ddelta) dl hat_a hat_b and k = P 1, of k k^T / (1^T k) - P.
+    """Add to `spread` the sums of w dl hat and to `derivative` those of k k^T / (1^T k) - P over the roll positions.
 
-    Returns the largest relative residual of the balance.
+    Here P_ab = sum (dw/ddelta) dl hat_a hat_b and k = P 1. Returns the largest relative residual of the balance.
     """
     table, worst = slice_table(mesh, slices), 0.0
     springs = np.zeros(spread.size)
@@ -101,7 +128,7 @@ def _spread(
     derivative: FloatArray,
     springs: FloatArray,
 ) -> None:
-    """Add a roll position's loads and stiffness, as its balance left them, to the stations."""
+    """Add loads and stiffness of the slices of a balanced roll position to the stations."""
     steps_per_metre = (spread.size - 1) / mesh.plane.face_width
     for n in range(count):
         if table.load[n] <= 0.0:

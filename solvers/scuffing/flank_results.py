@@ -1,7 +1,5 @@
 """Results for the flanks from the balanced load: load over the face, feature line, maps of line load and pressure."""
 
-from dataclasses import fields
-
 import numpy as np
 
 from solvers.arrays import FloatArray, frozen
@@ -16,24 +14,40 @@ from solvers.scuffing.modification import kinks_along_face, lead_gaps, profile_g
 from solvers.scuffing.results import ContactPoints, FeatureLine, Flank
 from solvers.scuffing.tooth_stiffness import compliance_at, line_load
 
-SUBSTEPS = 4  # of a step between roll positions, where lines are loaded in part
+SUBSTEPS = 4  # per step between roll positions, if lines are loaded in part
 FACE_POINTS = 101  # every percent of the face
-NEARLY = 0.98  # of the largest: tops below it cannot be the largest once they are refined
-TOPS = 3  # highest tops that are refined
-ZOOMS = 3  # each narrows the place of the maximum by a factor of 3
-ZOOM_POINTS = 7  # points between the neighbours of a top, at each zoom
-SAME = 1e-6  # of the range looked at, or of a length
+NEARLY = 0.98  # of the largest value: lower tops cannot become the largest by refinement
+TOPS = 3  # number of tops that are refined, the highest
+ZOOMS = 3  # a zoom narrows the place of the maximum by a factor of 3
+ZOOM_POINTS = 7  # per zoom, between the neighbours of a top
+SAME = 1e-6  # of the range of places, or of a length
 
 
 def face_load_factor(balance: LoadBalance, y: float) -> float:
-    """K_H_beta = largest over mean of q(y) = int w dx / p_bt (the idea of ISO 6336-1, annex E) of a loaded mesh.
+    """Compute the face load factor of a loaded mesh.
 
-    Looked for at equidistant points, at kinks of the gap and at y [m], where a peak is, and closer around the largest.
-    The mean is the force in balance over the face. Where to look closer is seen without steps between roll positions,
-    which errs for lines loaded in part: there at every place that is nearly the largest. Eq. L17.
+    Parameters
+    ----------
+    balance : LoadBalance
+        The balanced mesh.
+    y : float
+        Distance of a peak of the load from the end that meshes first [m].
+
+    Returns
+    -------
+    float
+        Face load factor K_Hbeta [-].
+
+    Notes
+    -----
+    Eq. L17: K_Hbeta is the largest over the mean value of q(y) = int w dx / p_bt, the idea of ISO 6336-1, annex E. The
+    mean is the force in the balance over the face width. The largest value is searched at equidistant places, at kinks
+    of the gap and at `y`, and then refined around the highest of them. This first search takes no substeps between roll
+    positions, which is inexact for lines loaded in part; then several places with nearly the largest value are refined.
     """
     plane = balance.mesh.plane
-    places = _apart([*np.linspace(0.0, plane.face_width, FACE_POINTS), *kinks_along_face(balance.mesh.gap), y])
+    evenly = np.linspace(0.0, plane.face_width, FACE_POINTS)
+    places = _apart(np.append(evenly, [*kinks_along_face(balance.mesh.gap), y]))
     highest = tops(face_loads(balance, places, 1))[-TOPS if _in_part(balance) else -1 :]
     largest = max(_largest_around(balance, places, top) for top in highest)
     factor = largest * plane.face_width / (balance.force * plane.cos_base_helix)
@@ -41,7 +55,7 @@ def face_load_factor(balance: LoadBalance, y: float) -> float:
 
 
 def _in_part(balance: LoadBalance) -> bool:
-    """Whether any line is loaded in part."""
+    """Return True if any line is loaded in part."""
     return bool(np.any(balance.survey.loaded_length < (1 - SAME) * balance.survey.length))
 
 
@@ -53,25 +67,42 @@ def tops(values: FloatArray) -> list[int]:
 
 
 def _largest_around(balance: LoadBalance, places: FloatArray, top: int) -> float:
-    """Largest force per face width [N/m] between the neighbours of a place."""
+    """Return the largest force per face width [N/m] between the neighbours of a place."""
     for _ in range(ZOOMS):
         low, high = places[max(top - 1, 0)], places[min(top + 1, places.size - 1)]
-        places = _apart([*np.linspace(low, high, ZOOM_POINTS), places[top]])
+        places = _apart(np.append(np.linspace(low, high, ZOOM_POINTS), places[top]))
         shares = face_loads(balance, places)
         top = int(np.argmax(shares))
     return float(shares.max())
 
 
-def _apart(places: list[float]) -> FloatArray:
-    """Places in order, without those that differ from their neighbour by rounding only and would hide it."""
-    found = np.unique(places)
-    return np.asarray(found[np.append(np.diff(found) > SAME * (found[-1] - found[0]), True)])
+def _apart(places: FloatArray) -> FloatArray:
+    """Return the places in ascending order, without those that only rounding separates from the next place."""
+    ascending = np.sort(places)
+    return np.asarray(ascending[np.append(np.diff(ascending) > SAME * (ascending[-1] - ascending[0]), True)])
 
 
 def face_loads(balance: LoadBalance, y: FloatArray, substeps: int = SUBSTEPS) -> FloatArray:
-    """Force per face width q = int w dx / p_bt [N/m] at distances y [m] from the end that meshes first (Eq. L17).
+    """Compute the force per face width over the face.
 
-    Where lines are loaded in part, load ends between roll positions, whose steps are then cut into `substeps`.
+    Parameters
+    ----------
+    balance : LoadBalance
+        The balanced mesh.
+    y : ndarray
+        Distances from the end that meshes first [m].
+    substeps : int, optional
+        Number of substeps per step between roll positions, used only if lines are loaded in part: their load then
+        begins or ends between roll positions.
+
+    Returns
+    -------
+    ndarray
+        Force per face width q = int w dx / p_bt [N/m].
+
+    Notes
+    -----
+    Eq. L17.
     """
     phase, error = balance.rolls.phase, balance.transmission_error
     return _face_loads(balance.mesh, phase, error, substeps if _in_part(balance) else 1, y)
@@ -79,9 +110,10 @@ def face_loads(balance: LoadBalance, y: FloatArray, substeps: int = SUBSTEPS) ->
 
 @kernel
 def _face_loads(mesh: Mesh, phase: FloatArray, error: FloatArray, substeps: int, y: FloatArray) -> FloatArray:
-    """Trapezia along the path from A to E, for all places at once, over the roll positions whose lines pass between.
+    """Integrate along the path from A to E by the trapezoidal rule, at all places of the face together.
 
-    Each step between roll positions ends where the next begins, but for those at which TE jumps.
+    The points of a place are those at which the lines of the roll positions pass it. A step between roll positions
+    begins where the step before ends, unless TE jumps there.
     """
     plane, compliance, form = mesh.plane, mesh.compliance, mesh.gap
     across = lead_gaps(form, y)
@@ -110,18 +142,10 @@ def _face_loads(mesh: Mesh, phase: FloatArray, error: FloatArray, substeps: int,
 def contact_points(
     path: PathOfContact, x: FloatArray, load: FloatArray, pinion_speed: float, modulus: float
 ) -> ContactPoints:
-    """Load, radius and speeds at points x [m] of the path under w [N/m], arrays of one shape; E' [Pa]."""
+    """Return the contacts at points x [m] of the path under line loads [N/m], arrays of one shape; modulus E' [Pa]."""
     radius = reduced_radius(path.plane, x)
-    pinion, wheel = path.surface_speeds(x, pinion_speed)
-    return ContactPoints(
-        gamma=frozen(path.profile_parameter(x)),
-        line_load=frozen(load),
-        pressure=frozen(contact_pressure(path.plane, radius, load, modulus)),
-        half_width=frozen(hertz.half_width(load, np.where(radius < path.plane.least_radius, 0.0, radius), modulus)),
-        radius=frozen(radius),
-        pinion_speed=frozen(pinion),
-        wheel_speed=frozen(wheel),
-    )
+    half_width = hertz.half_width(load, np.where(radius < path.plane.least_radius, 0.0, radius), modulus)
+    return ContactPoints(load, half_width, radius, *path.surface_speeds(x, pinion_speed))
 
 
 def feature_line(
@@ -132,26 +156,57 @@ def feature_line(
     modulus: float,
     psi: FloatArray,
 ) -> FeatureLine:
-    """The points at psi in 0..1 (n,), x = psi g_alpha, y = psi b; F_bt [N], E' [Pa] (Eq. S1)."""
+    """Compute load, pressure and speeds along the feature line.
+
+    Parameters
+    ----------
+    path : PathOfContact
+        Path of contact of the pair.
+    balance : LoadBalance
+        The balanced mesh.
+    pinion_speed : float
+        Speed of the pinion [rad/s].
+    tangential_force : float
+        Transverse tooth force F_bt [N].
+    modulus : float
+        Reduced modulus E' [Pa].
+    psi : ndarray
+        Fractions of the feature line, from 0 to 1.
+
+    Returns
+    -------
+    FeatureLine
+        The points at x = psi g_alpha, y = psi b.
+
+    Notes
+    -----
+    Eq. S1.
+    """
     x = psi * path.length
     load = line_loads(balance, x, psi * path.plane.face_width)
     line = contact_points(path, x, load, pinion_speed, modulus)
     sharing = iso_load_sharing(path, x)
     return FeatureLine(
-        **{item.name: getattr(line, item.name) for item in fields(line)},
+        gamma=frozen(path.profile_parameter(x)),
+        line_load=frozen(load),
+        pressure=frozen(contact_pressure(path.plane, line.radius, load, modulus)),
+        half_width=frozen(line.half_width),
+        radius=frozen(line.radius),
+        pinion_speed=frozen(line.pinion_speed),
+        wheel_speed=frozen(line.wheel_speed),
         psi=frozen(psi),
-        load_sharing=None if tangential_force == 0.0 else frozen(_load_sharing(path, line.line_load, tangential_force)),
+        load_sharing=None if tangential_force == 0.0 else frozen(_load_sharing(path, load, tangential_force)),
         iso_load_sharing=None if sharing is None else frozen(sharing),
     )
 
 
 def _load_sharing(path: PathOfContact, load: FloatArray, tangential_force: float) -> FloatArray:
-    """X = w b / F_bt: what the standard's load-sharing factor is for."""
+    """Return X = w b / F_bt, to be compared with the standard's load-sharing factor."""
     return load * path.plane.face_width / tangential_force
 
 
 def flank(balance: LoadBalance, modulus: float, profile_points: int, face_points: int) -> Flank:
-    """Maps [profile, face] from A to E and from the end that meshes first; modulus E' [Pa]."""
+    """Compute the maps [profile, face] from A to E and from the end that meshes first; `modulus` is E' [Pa]."""
     plane = balance.mesh.plane
     profile, face = np.linspace(0.0, 1.0, profile_points), np.linspace(0.0, 1.0, face_points)
     x, y = profile * plane.path_length, face * plane.face_width
@@ -169,9 +224,10 @@ def flank(balance: LoadBalance, modulus: float, profile_points: int, face_points
 def _maps(
     mesh: Mesh, phase: FloatArray, error: FloatArray, loaded: bool, x: FloatArray, y: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Gap Delta [m] and line load w [N/m] over a grid.
+    """Return gap Delta [m] and line load w [N/m] over a grid.
 
-    A point's load starts from that in the row before, which waits for no neighbour.
+    The load of a point starts from the load in the row before, not from its neighbour in the row: the points of a row
+    then do not wait for each other.
     """
     plane, compliance, form = mesh.plane, mesh.compliance, mesh.gap
     gaps, loads = np.empty((x.size, y.size)), np.zeros((x.size, y.size))
@@ -191,10 +247,28 @@ def _maps(
 
 
 def contact_pressure(plane: ContactPlane, radius: FloatArray, load: FloatArray, modulus: float) -> FloatArray:
-    """Compute the Hertzian pressure p_H [Pa] at reduced radii [m] under line loads w [N/m].
+    """Compute the Hertzian pressure at points of the flank.
 
-    0 without load; NaN near a base circle, towards which the reduced radius vanishes and pressure has no limit.
-    Eq. 14 prints pi/4 of it, the mean pressure, and calls it the maximum.
+    Parameters
+    ----------
+    plane : ContactPlane
+        The plane of action.
+    radius : ndarray
+        Reduced radii [m].
+    load : ndarray
+        Line loads w [N/m].
+    modulus : float
+        Reduced modulus E' [Pa].
+
+    Returns
+    -------
+    ndarray
+        Pressure p_H [Pa]; 0 without load. NaN near a base circle, towards which the reduced radius vanishes and the
+        pressure has no limit.
+
+    Notes
+    -----
+    Eq. 14 prints pi/4 of this value, which is the mean pressure, and calls it the maximum.
     """
     defined = radius >= plane.least_radius
     pressure = hertz.maximum_pressure(load, np.where(defined, radius, 1.0), modulus)

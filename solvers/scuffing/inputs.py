@@ -11,7 +11,7 @@ from solvers.heat_balance.inputs import Cooling
 from solvers.lubricants import Lubricant
 from solvers.materials import Solid
 from solvers.oils import OilSheet
-from solvers.quantity import quantity, record
+from solvers.quantity import described, quantity, record
 from solvers.sources import ISO_6336, XUE
 
 FZG = "ISO 14635-1"
@@ -35,7 +35,7 @@ FlankSurface = Literal[
 
 @record
 class Load:
-    """Torque or power, and speed of the driving pinion; a torque given counts.
+    """Torque or power, and speed of the driving pinion; if both are given, the torque is used.
 
     The factors K_A, K_v and K_gamma multiply the load of the contacts, not the transmitted power.
     """
@@ -78,9 +78,9 @@ class Load:
 
     @property
     def torque(self) -> float:
-        """Transmitted torque of the pinion [N m]; of a power it is the paper's 9549 P/n.
+        """Transmitted torque of the pinion [N m]; from a power it is the paper's 9549 P/n.
 
-        Raises InvalidInput torque_or_power where neither is given.
+        Raises InvalidInput torque_or_power if neither torque nor power is given.
         """
         if self.pinion_torque is not None:
             return self.pinion_torque
@@ -95,15 +95,15 @@ class Load:
 
 
 def angular_speed(revolutions_per_minute: float) -> float:
-    """Angular speed [rad/s]."""
+    """Return the angular speed [rad/s]."""
     return revolutions_per_minute * pi / 30
 
 
 @record
 class LeadCurve:
-    """Any gap [m] over the face: linear between rising positions [m] from the end that meshes first, constant outside.
+    """A gap [m] over the face along the transverse line of action, positive where material is missing.
 
-    Positive where material is missing, along the transverse line of action.
+    The gap is linear between the positions [m], which ascend from the end that meshes first, and constant outside them.
     """
 
     position: tuple[float, ...] = quantity(
@@ -134,11 +134,11 @@ class LeadCurve:
 class Modifications:
     """Gaps [m] along the transverse line of action; positive where material is missing.
 
-    profile_slope opens the gap towards E (pinion tip), helix_slope towards E2 (the end that leaves the mesh last); so
-    do shaft deviations over the face, in the plane of the shafts and out of it.
-    tip_relief acts at E (pinion tip and gear root), root_relief at A; the caller adds the two members. Relief lengths
-    run along the line of action, end relief length along the face [m]; None is the default of `modification.gap`.
-    lead_curve adds any further gap over the face.
+    `profile_slope` opens the gap towards E (pinion tip), `helix_slope` towards E2, the end that leaves the mesh last.
+    Shaft deviations over the face, in the plane of the shafts and out of it, act as `helix_slope` does. `tip_relief`
+    acts at E and is the sum of the reliefs of pinion tip and wheel root; `root_relief` acts at A. Relief lengths run
+    along the line of action, the end relief length along the face [m]; for None see `modification.gap`. `lead_curve`
+    adds any further gap over the face.
     """
 
     profile_crowning: float = quantity(
@@ -271,12 +271,12 @@ class Modifications:
 
 @record
 class Model:
-    """Physics in force.
+    """Options of the physical model.
 
-    tooth_stiffness: "ishikawa", or "parabola" through Ishikawa's maximum with `parabola_end_ratio` at A and E, which
-    is calibrated to the paper's load maxima. contact: "hertzian" half-spaces (Weber, Johnson) or the paper's "linear"
-    term. section: where the tooth is cut for its compliance. load_convention: "exact" puts F_bn into the balance,
-    "paper" (Eq. 1) F_bt.
+    `tooth_stiffness` is "ishikawa", or "parabola" through Ishikawa's maximum with `parabola_end_ratio` at A and E; the
+    parabola is calibrated to the paper's load maxima. `contact` is "hertzian" for half-spaces (Weber, Johnson), or
+    "linear" for the paper's term. `section` is the section of the tooth for its compliance. `load_convention` is
+    "exact" for F_bn in the balance, or "paper" for F_bt (Eq. 1).
     """
 
     tooth_stiffness: ToothModel = quantity(
@@ -325,22 +325,18 @@ class Model:
 
 @record
 class Resolution:
-    """Points of the numerical solution and of its output.
+    """Points of the numerical solution and of its output."""
 
-    roll_positions in one base pitch, slices of each contact line, points of the flank map along the profile and along
-    the face, points of the feature line.
-    """
-
-    roll_positions: int = 200
-    slices: int = 100
-    profile_points: int = 201
-    face_points: int = 101
+    roll_positions: int = described("Number of roll positions per base pitch.", default=200)
+    slices: int = described("Number of slices of each contact line.", default=100)
+    profile_points: int = described("Number of points of the flank map along the profile.", default=201)
+    face_points: int = described("Number of points of the flank map along the face.", default=101)
     feature_points: int = quantity("points of the feature line", None, XUE, default=51, ge=2, le=1001, advanced=True)
 
 
 @record
 class LoadDistributionInputs:
-    """A loaded pair of modified, misaligned gears; without a coefficient of friction its loss is not known."""
+    """A loaded pair of modified, misaligned gears; without a coefficient of friction its loss is unknown."""
 
     gears: GearPairInputs
     load: Load
@@ -363,7 +359,7 @@ class LoadDistributionInputs:
 
 @record
 class ScuffingTest:
-    """The FZG A/8.3/90 load stage at which the oil fails; X_W of the steel, X_L of the oil (None: that at 90 C)."""
+    """The FZG A/8.3/90 load stage at which the oil fails, X_W of the steel, and X_L of the oil (None: X_L at 90 C)."""
 
     fzg_stage: int = quantity(
         "failure load stage",
@@ -400,12 +396,13 @@ class ScuffingTest:
 
 @record
 class Temperatures:
-    """Bulk temperature of the teeth and of the oil they draw in, oil temperature, scuffing temperature [K].
+    """Bulk temperature of the teeth, at which the oil enters, oil temperature and scuffing temperature [K].
 
-    With bulk_method "estimated" the bulk follows from the oil, its supply and Blok's flash temperature, and `bulk` is
-    None until it does; a bulk that is given needs the method "given". With "heat_balance" it is the mean of both
-    `flanks` [K] that the balance of losses and oil gives. The scuffing temperature is a property of oil and material
-    that the paper does not give: a number, or what a test says; with neither there is no safety.
+    If `bulk_method` is "estimated", the bulk temperature follows from the oil, its supply and Blok's flash temperature,
+    and `bulk` is None before. If it is "heat_balance", the bulk temperature is the mean of both `flanks` [K] by the
+    balance of losses and oil. A given bulk temperature needs the method "given". The scuffing temperature is a property
+    of oil and material that the paper does not give; it is a number or follows from a test. Without both there is no
+    safety.
     """
 
     bulk: float | None = quantity(
@@ -464,18 +461,20 @@ class Temperatures:
     scuffing_test: ScuffingTest | None = quantity(
         "scuffing test", default=None, text="instead of the temperature: the stage at which the oil fails"
     )
-    flanks: tuple[float, float] | None = None
+    flanks: tuple[float, float] | None = described(
+        "Temperatures of both flanks from the heat balance; None with another method [K].", default=None
+    )
 
     @property
     def surfaces(self) -> tuple[float, float] | None:
-        """Bulk temperatures of pinion and wheel [K]: of both flanks if a balance gives them, else the one bulk."""
+        """Bulk temperatures of pinion and wheel [K]: those of both flanks by a heat balance, else `bulk` for both."""
         if self.flanks is not None or self.bulk is None:
             return self.flanks
         return self.bulk, self.bulk
 
     @property
     def lubricant_factor(self) -> float | None:
-        """Return X_L of the scuffing test; None without a test."""
+        """X_L of the scuffing test; None without a test."""
         return None if self.scuffing_test is None else self.scuffing_test.lubricant_factor
 
 
@@ -493,11 +492,11 @@ class FlankSurfaces:
 
 @record
 class MicropittingCheck:
-    """What micropitting and wear depend on beside the film: the oil's test, the flanks' surfaces, their quality.
+    """Inputs of micropitting and wear beside the film: the oil's test, surfaces and quality of the flanks.
 
-    A `permissible_ratio` takes the place of the test, a `material_factor` that of the surfaces, of which the smaller
-    factor counts. With neither stage nor ratio there is a film but no safety. `quality_grade` decides the load sharing
-    of the standard alone.
+    A `permissible_ratio` replaces the test. A `material_factor` replaces the factors of the surfaces, of which the
+    smaller is used. Without a failure load stage and without a permissible ratio there is a film but no safety.
+    `quality_grade` is only used for the load sharing of the standard.
     """
 
     failure_load_stage: int | None = quantity(
@@ -560,17 +559,15 @@ class MicropittingCheck:
 
 @record
 class ScuffingInputs:
-    """What scuffing depends on; `path_points` along each line of the flank that is solved.
+    """Inputs of a scuffing check.
 
-    line: "flank" checks the whole flank, "feature_line" the paper's diagonal from A1 to E2 alone.
-
-    `cooling` is for the bulk temperature by heat balance alone.
-
-    An `oil` takes the place of the lubricant, as it is at the bulk temperature; with neither there are no film, contact
-    temperature and safety. friction: "given" is the coefficient of the distribution,
-    "iso_tr_13989" the mean coefficient of that report for Blok, and Schlenk's for the losses.
-    lubrication: "thermal_ehl" solves the film under the local load (`film` is its model), "closed_form" leaves it at
-    Blok's and Dowson and Higginson's formulas, which are there in either case.
+    `oil` replaces `lubricant`, which then is the oil at the bulk temperature. Without both there are no film, contact
+    temperature and safety. `friction` is "given" for the coefficient of the distribution, or "iso_tr_13989" for the
+    mean coefficient of that report for Blok and Schlenk's coefficient for the losses. `lubrication` is "thermal_ehl" to
+    solve the film under the local load by the model `film`, or "closed_form" for the formulas of Blok and of Dowson and
+    Higginson alone; the formulas are computed in either case. `line` is "flank" to check the whole flank, or
+    "feature_line" for the paper's diagonal from A1 to E2 alone; every line has `path_points` points. `cooling` is only
+    used for the bulk temperature by heat balance.
     """
 
     distribution: LoadDistributionInputs
@@ -623,5 +620,5 @@ class ScuffingInputs:
 
     @property
     def known_oil(self) -> OilSheet | Lubricant | None:
-        """The oil, however it is described."""
+        """The oil, described by `oil` or `lubricant`; None without both."""
         return self.lubricant if self.oil is None else self.oil

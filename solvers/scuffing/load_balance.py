@@ -1,11 +1,11 @@
-"""Load balance over the contact lines: the approach TE of the flanks at each roll position, and the loads it leaves.
+"""Load balance over the contact lines: the approach TE of the flanks at every roll position, and the loads under it.
 
-Each line is cut into slices at whose middles w = k max(TE - Delta, 0) is summed (Eq. 9 with one TE for all points of a
-roll position, slices dl = dy / cos beta_b, and w per length of contact line, so that the sum is F_bn). Lines that are
-loaded in part are cut again, each time only where the last TE loads them, until TE settles: however small a contact
-is, it is covered by all slices. Roll positions are added where TE is not straight between them. The paper's
-iteration (Eq. 10) converges only while the mean relief in contact stays below TE/2; here F(TE), which is convex and
-increasing, is solved by Newton steps. With linear contact these end exactly after finitely many.
+Every line is cut into slices, and w = k max(TE - Delta, 0) is summed at their middles (Eq. 9 with one TE for all points
+of a roll position). The slices are dl = dy / cos beta_b long, and w is the load per length of contact line, so that the
+sum is F_bn. Lines that are loaded in part are cut again where the last TE loads them, until TE settles: all slices
+cover the contact, however small the contact is. Roll positions are added where TE is not linear between them. The
+paper's iteration (Eq. 10) converges only while the mean relief in contact is below TE/2; here F(TE), which is convex
+and increasing, is solved by Newton steps. With linear contact a finite number of steps reaches the exact solution.
 """
 
 from dataclasses import dataclass, replace
@@ -33,18 +33,18 @@ from solvers.scuffing.contact_slices import (
 from solvers.scuffing.modification import gap_at
 from solvers.scuffing.tooth_stiffness import LEAST_OMEGA, line_load_near
 
-MAX_STEPS = 60  # limit; a roll position that has not converged by then does not
-ROUNDING = 1e-14  # relative force at which Newton has nothing left to gain
-NEAR_ROUNDING = 1e-12  # accepted once the residual no longer falls
-TOLERANCE = 1e-10  # relative force above which there is no solution
-MAX_COVERS = 20  # of the lines of one roll position by slices
+MAX_STEPS = 60  # limit; a roll position that has not converged after them never does
+ROUNDING = 1e-14  # relative force below which a Newton step gains nothing
+NEAR_ROUNDING = 1e-12  # relative force that is accepted once the residual no longer falls
+TOLERANCE = 1e-10  # largest relative force of a solution
+MAX_COVERS = 20  # number of times that the lines of one roll position are cut into slices
 SETTLED = 1e-6  # change of the approach between two covers
-STRAIGHT = 2e-3  # of the approach; how far TE may lie off the straight line between its neighbours
+STRAIGHT = 2e-3  # of the approach; distance of TE from the straight line between its neighbours that is still linear
 MAX_HALVINGS = 8  # of the steps between roll positions
-MOST_ADDED = 1000  # roll positions
-LEAST_LINE_LOAD = 0.1  # N/m, mean; the approach it makes is near the rounding of large gaps
+MOST_ADDED = 1000  # roll positions per halving
+LEAST_LINE_LOAD = 0.1  # N/m, mean; under it the approach is near the rounding of large gaps
 LEAST_SPREAD = 1e-12  # m, of a kinematic error
-BESIDE = 1e-12  # of the path: how far beside a jump of the load its two sides are looked at, above rounding
+BESIDE = 1e-12  # of the path: distance of both sides from a jump of the load, above rounding
 
 
 Start = tuple[FloatArray, FloatArray]
@@ -53,10 +53,10 @@ Start = tuple[FloatArray, FloatArray]
 
 @kernel
 def _secant_start(table: Slices, count: int, logarithmic: float, force: float) -> float:
-    """Exact TE of the linear problem; half-spaces take their secant compliance at the mean load, and start from it.
+    """Return the exact TE of the linear problem; a half-space has its secant compliance at the mean load.
 
-    All slices pressed to a common TE, pulling included, reach the force to the right of the root of the convex F(TE);
-    Newton's steps descend from there through ever smaller contact sets.
+    If slices could pull, a common TE of all slices would reach the force to the right of the root of the convex F(TE).
+    Newton's steps descend from there through smaller and smaller contact sets.
     """
     log_mean = 0.0
     if logarithmic > 0.0:
@@ -83,10 +83,11 @@ def _secant_start(table: Slices, count: int, logarithmic: float, force: float) -
 
 @kernel
 def _press(table: Slices, count: int, logarithmic: float, error: float) -> tuple[float, float, float, float]:
-    """Force [N] at an approach [m], its derivative [N/m], its error while slices settle [N], distance of a kink [m].
+    """Take one step of every slice towards its load at an approach [m].
 
-    Each slice goes one step towards its law and is noted with it. A law has a kink where the slice touches, and where
-    its compliance is held.
+    Returns the force [N], its derivative [N/m], the error of the force because slices have not settled [N], and the
+    distance to the nearest kink of a slice [m]. The load of a slice has a kink where the slice comes into contact, and
+    where its compliance is held.
     """
     force, slope, unsettled, nearest = 0.0, 0.0, 0.0, np.inf
     for i in range(count):
@@ -106,7 +107,7 @@ def _press(table: Slices, count: int, logarithmic: float, error: float) -> tuple
 
 @kernel
 def _follow(table: Slices, count: int, change: float) -> float:
-    """Force [N] once the loads have followed a change of TE [m] along their derivatives."""
+    """Change the loads by a change of TE [m] along their derivatives, and return the force [N]."""
     force = 0.0
     for i in range(count):
         table.load[i] += table.stiffness[i] * change
@@ -116,11 +117,35 @@ def _follow(table: Slices, count: int, change: float) -> float:
 
 @kernel
 def newton(table: Slices, count: int, logarithmic: float, force: float, error: float) -> tuple[float, float, float]:
-    """TE [m] from a start, relative residual and steps at one roll position; the slices stay in the table (Eq. L13).
+    """Solve the balance of one roll position from a start by Newton's method.
 
-    One iteration over both levels: with every step of TE each slice goes one of its own. A step that crosses no kink
-    and whose square is rounding is the last, and the loads follow their derivatives; of linear contact any step is that
-    crosses none.
+    Parameters
+    ----------
+    table : Slices
+        Slices of the lines; their loads are those of the solution afterwards.
+    count : int
+        Number of slices.
+    logarithmic : float
+        Logarithmic part of the compliance [1/Pa].
+    force : float
+        Force in the balance [N].
+    error : float
+        Start of the approach TE [m].
+
+    Returns
+    -------
+    error : float
+        Approach TE [m].
+    residual : float
+        Residual over the force [-].
+    steps : float
+        Number of steps.
+
+    Notes
+    -----
+    Eq. L13. One iteration serves both levels: with every step of TE, every slice takes one step of its own. A step is
+    the last if it crosses no kink and its square is below rounding; the loads then follow their derivatives. With
+    linear contact every step that crosses no kink is the last.
     """
     residual, steps = np.inf, 0.0
     while steps < MAX_STEPS:
@@ -139,13 +164,16 @@ def newton(table: Slices, count: int, logarithmic: float, force: float, error: f
 
 @kernel
 def solve_position(table: Slices, count: int, logarithmic: float, force: float) -> tuple[float, float, float]:
-    """TE [m], relative residual and steps at one roll position."""
+    """Solve the balance of one roll position; return what `newton` returns."""
     return newton(table, count, logarithmic, force, _secant_start(table, count, logarithmic, force))
 
 
 @kernel
 def solve_near(table: Slices, count: int, logarithmic: float, force: float, error: float) -> tuple[float, float, float]:
-    """The same from the TE [m] of a similar position and the table's ln w; from nothing if TE is NaN or that fails."""
+    """Solve the balance from TE [m] of a similar position and the table's ln w; without a start if TE is NaN or fails.
+
+    Returns what `newton` returns.
+    """
     if not np.isnan(error):
         error, residual, steps = newton(table, count, logarithmic, force, error)
         if residual <= TOLERANCE:
@@ -155,11 +183,12 @@ def solve_near(table: Slices, count: int, logarithmic: float, force: float, erro
 
 @dataclass(frozen=True, slots=True)
 class LoadBalance:
-    """Loaded state of a mesh over one base pitch; arrays over the roll positions, whose force is 0 or in balance.
+    """Loaded state of a mesh over one base pitch; arrays over the roll positions.
 
-    transmission_error and unloaded_error (least gap over the lines), both along the transverse line of action [m];
-    residual of the balance relative to the force [N]; steps of the iteration; `bent_steps` between roll positions were
-    left across which TE is not straight.
+    `force` is the force in the balance [N], 0 without load. `transmission_error` and `unloaded_error`, the least gap
+    over the lines, run along the transverse line of action [m]. `residual` is the residual of the balance over the
+    force, `steps` the number of iterations. `bent_steps` is the number of steps between roll positions across which TE
+    is not linear.
     """
 
     mesh: Mesh
@@ -176,28 +205,51 @@ class LoadBalance:
 def balance_load(
     mesh: Mesh, rolls: RollPositions, force: float, slices: int, start: Start | None = None
 ) -> LoadBalance:
-    """TE over the roll positions, and over those added between, under the force [N]; the kinematic error without one.
+    """Balance the load at the roll positions and at those that are added between.
 
-    `start` holds TE and the slices' ln w of the same mesh under a similar gap. A force that presses the lines by less
-    than `LEAST_LINE_LOAD` counts as none. Raises NoSolution load_balance if the iteration ends short of the force.
+    Parameters
+    ----------
+    mesh : Mesh
+        The mesh with its gap.
+    rolls : RollPositions
+        Roll positions of one base pitch.
+    force : float
+        Force in the balance [N]; 0 if its mean line load is below `LEAST_LINE_LOAD`.
+    slices : int
+        Number of slices per line.
+    start : tuple, optional
+        TE and ln w of the slices of the same mesh under a similar gap.
 
+    Returns
+    -------
+    LoadBalance
+        TE and loads at all roll positions; without a force the kinematic error.
+
+    Raises
+    ------
+    NoSolution
+        `load_balance` if the iteration does not reach the force.
+
+    Notes
+    -----
     Eq. 9.
     """
     if force < LEAST_LINE_LOAD * mesh.plane.face_width:
         force = 0.0
     balance = _balanced(mesh, rolls, force, slices, _nothing(rolls) if start is None else start)
+    bent = _bent_steps(balance)
     for _ in range(MAX_HALVINGS):
-        bent = _bent_steps(balance)
         if bent.size == 0 or bent.size > MOST_ADDED:
             break
         phase = balance.rolls.phase
         between = RollPositions((phase[bent] + phase[bent + 1]) / 2, np.zeros(bent.size), np.zeros(bent.size, bool))
         balance = _merged(balance, _balanced(mesh, between, force, slices, _nothing(between)), bent + 1)
-    return replace(balance, bent_steps=_bent_steps(balance).size)
+        bent = _bent_steps(balance)
+    return replace(balance, bent_steps=bent.size)
 
 
 def _nothing(rolls: RollPositions) -> Start:
-    """A start that knows nothing."""
+    """Return a start without values."""
     return np.full(rolls.phase.size, np.nan), np.zeros((rolls.phase.size, 0))
 
 
@@ -210,9 +262,9 @@ def _balanced(mesh: Mesh, rolls: RollPositions, force: float, slices: int, start
 
 
 def _bent_steps(balance: LoadBalance) -> IntArray:
-    """Indices of the steps between roll positions across which TE is not straight, ascending.
+    """Return the indices of the steps between roll positions across which TE is not linear, in ascending order.
 
-    What counts is how far a position lies off the line through its neighbours; corners may be sharp.
+    The measure is the distance of TE at a position from the line through its neighbours; corners are left out.
     """
     phase, error = balance.rolls.phase, balance.transmission_error
     spread = np.full(error.size, max(float(np.ptp(error)), LEAST_SPREAD))
@@ -227,10 +279,10 @@ def _bent_steps(balance: LoadBalance) -> IntArray:
 
 
 def _merged(balance: LoadBalance, added: LoadBalance, places: IntArray) -> LoadBalance:
-    """Two balances of one mesh as one, the added roll positions at their places among the others."""
+    """Merge two balances of one mesh, with the added roll positions at their places among the others."""
 
     def together(old: Any, new: Any) -> Any:
-        """Values of the positions of both in their order, arrays or tuples of them."""
+        """Merge two arrays over the roll positions, or tuples of such arrays."""
         if isinstance(old, tuple):
             return type(old)(*map(together, old, new))
         return np.insert(old, places, new, axis=0)
@@ -251,10 +303,10 @@ def _merged(balance: LoadBalance, added: LoadBalance, places: IntArray) -> LoadB
 def _settle(
     mesh: Mesh, at: tuple[float, float], slices: int, force: float, least: float, error: float, table: Slices
 ) -> tuple[Cover, float, float, float]:
-    """Slices, TE [m], relative residual and steps at a roll position (phase, side) whose lines are loaded in part.
+    """Solve a roll position (phase, side) whose lines are loaded in part, from the TE of whole lines.
 
-    Starts from the TE of whole lines. Forces vanish at the ends of what is loaded, so that an error of TE moves the
-    next one in second order only.
+    Returns the cover, TE [m], the relative residual and the number of steps. The load vanishes at the ends of the
+    loaded parts; an error of TE therefore changes the next TE in second order only.
     """
     covers, steps, settled = 0, 0.0, False
     phase, side = at
@@ -269,9 +321,9 @@ def _settle(
 
 @kernel
 def _balance(
-    mesh: Mesh, phase: FloatArray, side: FloatArray, force: float, slices: int, known: FloatArray, log_load: FloatArray
+    mesh: Mesh, phase: FloatArray, side: FloatArray, force: float, slices: int, start: FloatArray, log_load: FloatArray
 ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray, Survey]:
-    """TE, least gap, residual and steps at each roll position, and the survey of the loaded lines."""
+    """Return TE, least gap, residual and steps at every roll position, and the survey of the loaded lines."""
     error, unloaded = np.empty(phase.size), np.empty(phase.size)
     residual, steps = np.zeros(phase.size), np.zeros(phase.size)
     survey = empty_survey(mesh, phase.size)
@@ -281,7 +333,7 @@ def _balance(
         survey.length[i], unloaded[i] = cover.length, cover.least
         error[i] = cover.least
         if force > 0.0:
-            near = known[i]
+            near = start[i]
             if not np.isnan(near):
                 table.log_load[: cover.slices] = log_load[i, : cover.slices]
             elif i > 1:  # the table still holds the slices of the position before
@@ -300,9 +352,10 @@ def _balance(
 def error_at(
     plane: ContactPlane, phase: FloatArray, error: FloatArray, x: float, y: float, index: int
 ) -> tuple[float, int]:
-    """TE at the roll position whose line passes through (x, y), and its step, looked for from step `index` on.
+    """Return TE at the roll position whose line passes through (x, y), and the index of its step.
 
-    The end of the path belongs to the roll position that leaves it, not to the next.
+    The search starts from step `index`. The end of the path belongs to the roll position that leaves it, not to the
+    next.
     """
     line = min(x, plane.path_length * (1.0 - BESIDE)) + y * plane.tan_base_helix
     position = line - int(line / plane.base_pitch) * plane.base_pitch
@@ -316,7 +369,7 @@ def error_at(
 
 @kernel
 def loads_at(mesh: Mesh, phase: FloatArray, error: FloatArray, x: FloatArray, y: FloatArray) -> FloatArray:
-    """Line load w [N/m] at points (x, y) of a plane that is in balance."""
+    """Return the line load w [N/m] at points (x, y) of a balanced plane."""
     loads, log_load, index = np.empty(x.size), 0.0, 0
     for i in range(x.size):
         approach, index = error_at(mesh.plane, phase, error, x[i], y[i], index)
@@ -325,7 +378,7 @@ def loads_at(mesh: Mesh, phase: FloatArray, error: FloatArray, x: FloatArray, y:
 
 
 def line_loads(balance: LoadBalance, x: FloatArray, y: FloatArray) -> FloatArray:
-    """Line load w [N/m] at points (x, y) of the plane, arrays of one shape; 0 where the flanks stand apart."""
+    """Return the line load w [N/m] at points (x, y) of the plane, arrays of one shape; 0 where the flanks separate."""
     if balance.force == 0.0:
         return np.zeros(np.shape(x))
     points = np.ravel(x).astype(float), np.ravel(y).astype(float)

@@ -1,7 +1,7 @@
 """Results for the mesh from the balanced load: load sharing, stiffness, transmission error, friction loss.
 
-Eq. 15 is in the paper; the forms of X_Gamma and of the buttressing factor X_but are quoted from general knowledge of
-the standard and were not read again.
+Eq. 15 is in the paper. The load sharing X_Gamma and the buttressing factor X_but are quoted from general knowledge of
+the standard and were not compared with it.
 """
 
 from dataclasses import dataclass
@@ -18,18 +18,18 @@ from solvers.scuffing.results import ErrorCurves, FrictionLoss, Stiffness, Stiff
 from solvers.scuffing.tooth_stiffness import single_stiffness
 
 CURVE_POINTS = 101  # every percent of the path, for the curve
-REFERENCE_LOAD = 100e3  # N/m, for which ISO 6336-1 states c'; stands in where there is no load
-STEEL = 206e9  # Pa, for which it states c'
+REFERENCE_LOAD = 100e3  # N/m, for which ISO 6336-1 states c'; used if there is no load
+STEEL = 206e9  # Pa, for which ISO 6336-1 states c'
 DISC_FACTOR = 1.0  # C_R: solid discs
 MEASURED_FRACTION = 0.8  # C_M
 HARMONICS = 5  # chosen
 
 
 def iso_load_sharing(path: PathOfContact, x: FloatArray) -> FloatArray | None:
-    """X_Gamma X_but at distances x [m] from A; None where the standard draws no diagram.
+    """Return X_Gamma X_but at distances x [m] from A; None if the standard has no diagram for the pair.
 
-    Narrow gears (eps_gamma < 2) share as spur gears of quality 7 or better do, wide gears by 1 / eps_alpha. Not
-    defined below eps_alpha = 1, nor for spur gears from eps_alpha = 2.
+    Narrow gears (eps_gamma < 2) have the load sharing of spur gears of quality 7 or better, wide gears 1 / eps_alpha.
+    There is no diagram below eps_alpha = 1, nor for spur gears from eps_alpha = 2.
     """
     ratio = path.transverse_contact_ratio
     if ratio < 1.0 or (path.overlap_ratio == 0.0 and ratio >= 2.0):
@@ -42,14 +42,17 @@ def iso_load_sharing(path: PathOfContact, x: FloatArray) -> FloatArray | None:
 
 
 def _narrow(x: FloatArray, length: float, double: float) -> FloatArray:
-    """1/3 to 2/3 over the double contact A-B, 1 between B and D, mirrored to E."""
+    """Return the load sharing of narrow gears: 1/3 to 2/3 from A to B, 1 from B to D, and 2/3 to 1/3 from D to E."""
     from_end = np.minimum(x, length - x)
     with_mate = 1 / 3 + from_end / (3 * double) if double > 0.0 else np.ones_like(x)
     return np.where(from_end < double, with_mate, 1.0)
 
 
 def _buttressing(path: PathOfContact, x: FloatArray) -> FloatArray:
-    """1 + 0.3 min(eps_beta, 1) at A and E, falling to 1 over 0.2 sin beta_b of Gamma (Eq. 15); 1 for spur gears."""
+    """Return the factor by which helical teeth carry more at their ends; 1 for spur gears.
+
+    The factor is 1 + 0.3 min(eps_beta, 1) at A and E and falls to 1 over 0.2 sin beta_b of Gamma (Eq. 15).
+    """
     plane = path.plane
     ramp = 0.2 * plane.tan_base_helix * plane.cos_base_helix * path.pitch_point
     if ramp == 0.0:
@@ -71,13 +74,32 @@ class StandardStiffness:
 def standard_stiffness(
     path: PathOfContact, line_load: float = REFERENCE_LOAD, youngs_modulus: float = STEEL
 ) -> StandardStiffness:
-    """Stiffness by ISO 6336-1: c' = c'_th C_M C_R C_B cos beta, c_ga = c' (0.75 eps_alpha + 0.25), c_gb = 0.85 c_ga.
+    """Compute the stiffness of teeth and mesh by ISO 6336-1, method B.
+
+    Parameters
+    ----------
+    path : PathOfContact
+        Path of contact of the pair.
+    line_load : float, optional
+        Line load F_t K_A/b [N/m].
+    youngs_modulus : float, optional
+        Young's modulus of the gears E [Pa].
+
+    Returns
+    -------
+    StandardStiffness
+        Stiffness of one pair of teeth and of the mesh [Pa].
+
+    Notes
+    -----
+    Eq. L16: c' = c'_th C_M C_R C_B cos beta, c_ga = c' (0.75 eps_alpha + 0.25), c_gb = 0.85 c_ga, with
 
     1/c'_th = 0.04723 + 0.15551/z_n1 + 0.25791/z_n2 - 0.00635 x1 - 0.11654 x1/z_n1 - 0.00193 x2 - 0.24188 x2/z_n2
-              + 0.00529 x1^2 + 0.00182 x2^2 [mm um/N]; C_B for the basic rack.
+              + 0.00529 x1^2 + 0.00182 x2^2 [mm um/N] and C_B of the basic rack.
 
-    Gear 1 has fewer teeth, whichever drives; of equal teeth the larger profile shift, chosen. Other materials than
-    steel scale c' by E/206 GPa. Below a line load F_t K_A/b [N/m] of 100 N/mm c' falls with its fourth root. Eq. L16.
+    Gear 1 is the gear with fewer teeth, whichever drives; if both have the same number of teeth, the gear with the
+    larger profile shift (chosen). For other materials than steel c' is multiplied by E/206 GPa. Below a line load of
+    100 N/mm c' falls with the fourth root of the line load.
     """
     inputs = path.pair.inputs
     virtual = cos(path.pair.base_helix_angle) ** 2 * cos(inputs.helix_angle)
@@ -96,19 +118,36 @@ def standard_stiffness(
 
 
 def _standard_line_load(path: PathOfContact, load: Load) -> float:
-    """F_t K_A/b [N/m] with F_t at the reference circle; without load the one c' is stated for."""
+    """Return F_t K_A/b [N/m] with F_t at the reference circle; without load the line load for which c' is stated."""
     tangential = load.application_factor * load.torque / path.pair.pinion.reference_radius
     return tangential / path.plane.face_width if tangential > 0.0 else REFERENCE_LOAD
 
 
 def _rack_factor(pair: GearPair) -> float:
-    """C_B = [1 + 0.5 (1.2 - h_fP)][1 - 0.02 (20 - alpha_n)], the mean of the two gears'."""
+    """Return C_B = [1 + 0.5 (1.2 - h_fP)][1 - 0.02 (20 - alpha_n)] with the mean dedendum of both gears."""
     dedendum = (pair.inputs.pinion.dedendum + pair.inputs.wheel.dedendum) / 2
     return (1 + 0.5 * (1.2 - dedendum)) * (1 - 0.02 * (20 - degrees(pair.inputs.normal_pressure_angle)))
 
 
 def mesh_stiffness(balance: LoadBalance, tangential_force: float) -> FloatArray | None:
-    """c_gamma(phase) = F_bt / [b (TE - TE_unloaded)] [Pa]; None without load (Eq. L15)."""
+    """Compute the stiffness of the mesh at every roll position.
+
+    Parameters
+    ----------
+    balance : LoadBalance
+        The balanced mesh.
+    tangential_force : float
+        Transverse tooth force F_bt [N].
+
+    Returns
+    -------
+    ndarray or None
+        Stiffness c_gamma [Pa]; None without load.
+
+    Notes
+    -----
+    c_gamma = F_bt / [b (TE - TE_unloaded)] (Eq. L15).
+    """
     if balance.force == 0.0:
         return None
     approach = balance.transmission_error - balance.unloaded_error
@@ -118,7 +157,7 @@ def mesh_stiffness(balance: LoadBalance, tangential_force: float) -> FloatArray 
 def stiffness(
     path: PathOfContact, balance: LoadBalance, inputs: LoadDistributionInputs, mean_load: float, tangential_force: float
 ) -> Stiffness:
-    """Stiffness of one pair along the path, secant at the mean line load [N/m] if any, and of the mesh."""
+    """Return the stiffness of the mesh, and of one pair along the path, secant at the mean line load [N/m] if any."""
     secant_load = mean_load if mean_load > 0.0 else REFERENCE_LOAD
     single = single_stiffness(balance.mesh.compliance, secant_load)
     x = np.linspace(0.0, path.length, single.size)
@@ -142,9 +181,22 @@ def stiffness(
 
 
 def transmission_error(balance: LoadBalance) -> TransmissionError:
-    """TE along the transverse line of action [m]; means and harmonics by trapezia over the roll positions (Eq. L18).
+    """Compute extremes, mean and harmonics of the transmission error.
 
-    The trapezia honour the jumps of spur gears, which stand twice in the grid.
+    Parameters
+    ----------
+    balance : LoadBalance
+        The balanced mesh.
+
+    Returns
+    -------
+    TransmissionError
+        Transmission error along the transverse line of action [m].
+
+    Notes
+    -----
+    Eq. L18. Mean and harmonics are integrals by the trapezoidal rule over the roll positions. The jumps of spur gears
+    are exact, because a roll position with a jump occurs twice, with both limits.
     """
     error, phase = balance.transmission_error, balance.rolls.phase
     return TransmissionError(
@@ -158,12 +210,13 @@ def transmission_error(balance: LoadBalance) -> TransmissionError:
 
 
 def period_mean(values: FloatArray, phase: FloatArray) -> float:
-    """Mean over one base pitch."""
+    """Return the mean over one base pitch."""
     return float(np.trapezoid(values, phase) / phase[-1])
 
 
 def _fourier(values: FloatArray, phase: FloatArray) -> NDArray[np.complex128]:
-    """Complex Fourier coefficients c_1, c_2, ... of a function of the roll position; wave k is the first to the k."""
+    """Return the complex Fourier coefficients c_1, c_2, ... of a function of the roll position."""
+    # wave k is the first to the power k
     waves = np.cumprod(np.tile(np.exp(-2j * np.pi * phase / phase[-1]), (HARMONICS, 1)), axis=0)
     return np.asarray(np.trapezoid((values - values.mean()) * waves, phase) / phase[-1])
 
@@ -171,9 +224,29 @@ def _fourier(values: FloatArray, phase: FloatArray) -> NDArray[np.complex128]:
 def friction_loss(
     path: PathOfContact, balance: LoadBalance, load: Load, friction_coefficient: float | None
 ) -> FrictionLoss:
-    """P_V = f/p_bt int sum_j int w |u1 - u2| dl dphase, u1 - u2 = (omega_1 + omega_2)(s - s_C); H_V = P_V / (f P).
+    """Compute friction power, loss factor and efficiency of the mesh.
 
-    Power and efficiency are those of the transmitted power; load factors raise the load of the contacts only. Eq. L19.
+    Parameters
+    ----------
+    path : PathOfContact
+        Path of contact of the pair.
+    balance : LoadBalance
+        The balanced mesh.
+    load : Load
+        Torque, speed and load factors.
+    friction_coefficient : float or None
+        Mean coefficient of friction f [-].
+
+    Returns
+    -------
+    FrictionLoss
+        Friction power [W], loss factor and efficiency [-]; None where load or coefficient of friction is missing.
+
+    Notes
+    -----
+    Eq. L19: P_V = f/p_bt int sum_j int w |u1 - u2| dl dphase with u1 - u2 = (omega_1 + omega_2)(s - s_C), and
+    H_V = P_V / (f P). Friction power and efficiency belong to the transmitted power; load factors raise only the load
+    of the contacts.
     """
     if balance.force == 0.0:
         return FrictionLoss(friction_coefficient, loss_factor=None, power=0.0, efficiency=None)

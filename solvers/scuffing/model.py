@@ -33,9 +33,9 @@ from solvers.scuffing.tooth_stiffness import pair_compliance
 
 @dataclass(frozen=True, slots=True)
 class PreparedMesh:
-    """All of a load distribution that its gap does not change: path and lengths of contact, mesh, roll positions.
+    """The values of a load distribution that do not depend on the gap: path and lengths of contact, roll positions.
 
-    tangential_force is F_bt, force the one in balance [N]; the gap of `mesh` is that of the inputs.
+    `mesh` has the gap of the inputs. `tangential_force` is F_bt, `force` the force in the balance [N].
     """
 
     path: PathOfContact
@@ -47,10 +47,27 @@ class PreparedMesh:
 
 
 def mesh_of(inputs: LoadDistributionInputs) -> PreparedMesh:
-    """The mesh with everything that does not depend on the load (Eq. 1).
+    """Prepare the mesh for the load balance.
 
-    Raises InvalidInput where the pair cannot mesh (see `gear_pair`, `path_of_contact`, `contact_lengths`) or options
-    exclude each other (`pair_compliance`).
+    Parameters
+    ----------
+    inputs : LoadDistributionInputs
+        The pair, its load and its modifications.
+
+    Returns
+    -------
+    PreparedMesh
+        Path and lengths of contact, mesh, roll positions and forces.
+
+    Raises
+    ------
+    InvalidInput
+        If the pair cannot mesh (see `gear_pair`, `path_of_contact`, `contact_lengths`) or two options exclude each
+        other (see `pair_compliance`).
+
+    Notes
+    -----
+    Eq. 1.
     """
     path = meshing_path(inputs.gears)
     compliance = pair_compliance(path, inputs.pinion_material, inputs.wheel_material, inputs.model)
@@ -70,9 +87,24 @@ def mesh_of(inputs: LoadDistributionInputs) -> PreparedMesh:
 
 
 def solve(inputs: LoadDistributionInputs) -> LoadDistribution:
-    """Load, pressure, transmission error and loss over the plane of action.
+    """Compute load, pressure, transmission error and friction loss of a pair.
 
-    Raises what `mesh_of` raises; NoSolution if the load balance does not converge.
+    Parameters
+    ----------
+    inputs : LoadDistributionInputs
+        The pair, its load and its modifications.
+
+    Returns
+    -------
+    LoadDistribution
+        Results over the plane of action.
+
+    Raises
+    ------
+    InvalidInput
+        The errors of `mesh_of`.
+    NoSolution
+        `load_balance` if the load balance does not converge.
     """
     prepared = mesh_of(inputs)
     balance = balance_load(prepared.mesh, prepared.rolls, prepared.force, inputs.resolution.slices)
@@ -80,7 +112,7 @@ def solve(inputs: LoadDistributionInputs) -> LoadDistribution:
 
 
 def distribution(inputs: LoadDistributionInputs, prepared: PreparedMesh, balance: LoadBalance) -> LoadDistribution:
-    """Results of a load balance, with the gap of the inputs or another."""
+    """Return the results of a load balance, which may have another gap than the inputs."""
     path, lengths, resolution = prepared.path, prepared.lengths, inputs.resolution
     modulus = reduced_modulus(inputs.pinion_material, inputs.wheel_material)
     tangential_force = prepared.tangential_force
@@ -115,7 +147,6 @@ def distribution(inputs: LoadDistributionInputs, prepared: PreparedMesh, balance
 
 
 def _geometry(path: PathOfContact) -> Geometry:
-    """The mesh in numbers."""
     pair = path.pair
     return Geometry(
         centre_distance=pair.centre_distance,
@@ -132,7 +163,7 @@ def _geometry(path: PathOfContact) -> Geometry:
 
 
 def _derived(path: PathOfContact, form: Gap, load: Load) -> Derived:
-    """Values derived from the inputs, with defaults in place of what was not given."""
+    """Return the values derived from the inputs, with the defaults used for inputs that are not given."""
     pair = path.pair.inputs
     return Derived(
         pinion_torque=load.torque,
@@ -146,7 +177,7 @@ def _derived(path: PathOfContact, form: Gap, load: Load) -> Derived:
 
 
 def _contact_lines(lengths: ContactLengths, balance: LoadBalance) -> ContactLines:
-    """The contact lengths, closed-form extremes and numeric curve."""
+    """Return the contact lengths: extremes in closed form, and the curve over the roll positions."""
     phase = balance.rolls.phase
     return ContactLines(
         min_length=lengths.minimum,
@@ -158,7 +189,7 @@ def _contact_lines(lengths: ContactLengths, balance: LoadBalance) -> ContactLine
 
 
 def _load_on_flank(path: PathOfContact, balance: LoadBalance, load: Load, tangential_force: float) -> LoadOnFlank:
-    """Forces, the largest line load over all roll positions and how much of the flank is loaded."""
+    """Return the forces, the largest line load over all roll positions, and the loaded share of the flank."""
     peak = largest(balance.survey.peak_load)
     phase, loaded, length = balance.rolls.phase, balance.survey.loaded_length, balance.survey.length
     return LoadOnFlank(
@@ -176,7 +207,7 @@ def _load_on_flank(path: PathOfContact, balance: LoadBalance, load: Load, tangen
 
 
 def _pressure(path: PathOfContact, balance: LoadBalance, modulus: float) -> Pressure:
-    """Largest p_H = sqrt(E' w / (2 pi R_n)) over all roll positions."""
+    """Return the largest p_H = sqrt(E' w / (2 pi R_n)) over all roll positions."""
     if reaches_base_circle(balance.survey):
         return Pressure(None, None)
     peak = largest(balance.survey.peak_pressure)
@@ -185,7 +216,6 @@ def _pressure(path: PathOfContact, balance: LoadBalance, modulus: float) -> Pres
 
 
 def _place(path: PathOfContact, peak: Peak | None) -> Place | None:
-    """A peak's place on the flank."""
     if peak is None:
         return None
     gamma = without_rounding(float(path.profile_parameter(peak.x)), 1.0)

@@ -11,13 +11,13 @@ from solvers.errors import InvalidInput
 from solvers.gears.pair import PathOfContact
 from solvers.scuffing.inputs import LeadCurve, Modifications
 
-LEAD_POINTS = 401  # every 0.25 % of the face; between them lead curves are straight
+LEAD_POINTS = 401  # every 0.25 % of the face; between them lead curves are linear
 MOST_EDGES = 6  # two ends, two end reliefs, two reliefs along the path
 
 
 @kernel
 def place_of(x: float, points_per_metre: float, points: int) -> tuple[int, float]:
-    """Where x lies among equidistant points from 0 on: the last one before it, and the share of the step beyond."""
+    """Return the index of the point before x among equidistant points from 0, and the share of the step beyond it."""
     position = x * points_per_metre
     index = min(max(int(position), 0), points - 2)
     return index, position - index
@@ -25,16 +25,16 @@ def place_of(x: float, points_per_metre: float, points: int) -> tuple[int, float
 
 @kernel
 def interpolated(table: FloatArray, place: tuple[int, float]) -> float:
-    """Linear interpolation at a place of the table's points."""
+    """Interpolate linearly at a place among the points of the table."""
     index, share = place
     low, high = float(table[index]), float(table[index + 1])
     return low + share * (high - low)
 
 
 class Gap(NamedTuple):
-    """Gap Delta(x, y) along the transverse line of action; amplitudes and lengths [m], all lengths resolved.
+    """Gap Delta(x, y) along the transverse line of action; amplitudes and lengths [m], none of them None.
 
-    `lead` is a gap [m] at equidistant points of the face, both ends among them.
+    `lead` is the gap [m] of the lead curve at equidistant points of the face, from end to end.
     """
 
     path_length: float
@@ -54,10 +54,10 @@ class Gap(NamedTuple):
 
 
 def gap(modifications: Modifications, path: PathOfContact) -> Gap:
-    """The gap with its relief lengths.
+    """Return the gap with its relief lengths.
 
-    The paper gives none. Defaults: tip and root relief reach g_alpha - p_bt, the long relief to D and B, but at least a
-    tenth of the path and at most half of it; end relief a tenth of the face.
+    The paper gives no lengths. By default tip and root relief are g_alpha - p_bt long, the long relief to D and B, but
+    at least a tenth and at most half of the path; end relief is a tenth of the face long.
     """
     width = path.pair.inputs.face_width
     long_relief = min(max(path.length - path.pair.transverse_base_pitch, 0.1 * path.length), 0.5 * path.length)
@@ -82,9 +82,10 @@ def gap(modifications: Modifications, path: PathOfContact) -> Gap:
 
 
 def lead_table(curve: LeadCurve, face_width: float) -> FloatArray:
-    """The curve at equidistant points of the face.
+    """Return the curve at equidistant points of the face.
 
-    Raises InvalidInput lead_curve where it has fewer than two points, or they do not rise within the face.
+    Raises InvalidInput lead_curve if the curve has fewer than two points, or positions that do not ascend within the
+    face.
     """
     position, value = np.asarray(curve.position), np.asarray(curve.gap)
     rising = position.size >= 2 and bool(np.all(np.diff(position) > 0.0))
@@ -96,7 +97,7 @@ def lead_table(curve: LeadCurve, face_width: float) -> FloatArray:
 
 
 def kinks_along_path(form: Gap) -> tuple[float, ...]:
-    """Distances from A [m] at which reliefs begin."""
+    """Return the distances from A [m] at which reliefs begin."""
     starts = (
         (form.root_relief, form.root_relief_length),
         (form.tip_relief, form.path_length - form.tip_relief_length),
@@ -105,7 +106,7 @@ def kinks_along_path(form: Gap) -> tuple[float, ...]:
 
 
 def kinks_along_face(form: Gap) -> tuple[float, ...]:
-    """Distances from the end that meshes first [m] at which end relief begins, or meets that of the other end."""
+    """Return the distances from the end that meshes first [m] at which end reliefs begin, or meet each other."""
     if form.end_relief == 0.0:
         return ()
     length = min(form.end_relief_length, form.face_width / 2)
@@ -113,16 +114,32 @@ def kinks_along_face(form: Gap) -> tuple[float, ...]:
 
 
 def misalignment_slope(in_plane: float, out_of_plane: float, working_pressure_angle: float) -> float:
-    """Helix slope [m] of shaft deviations [m] over the face (ISO/TR 10064-3) (Eq. L12).
+    """Compute the helix slope of shaft deviations.
 
-    f_Sigma_delta in the plane of the shafts counts by sin alpha_wt, f_Sigma_beta out of it by cos alpha_wt.
+    Parameters
+    ----------
+    in_plane : float
+        Deviation f_Sigma_delta in the plane of the shafts, over the face [m].
+    out_of_plane : float
+        Deviation f_Sigma_beta out of the plane of the shafts, over the face [m].
+    working_pressure_angle : float
+        Working transverse pressure angle alpha_wt [rad].
+
+    Returns
+    -------
+    float
+        Helix slope over the face [m].
+
+    Notes
+    -----
+    Eq. L12, with the deviations of ISO/TR 10064-3: f_Sigma_delta sin alpha_wt + f_Sigma_beta cos alpha_wt.
     """
     return in_plane * sin(working_pressure_angle) + out_of_plane * cos(working_pressure_angle)
 
 
 @kernel
 def _relief(amplitude: float, length: float, distance: float, exponent: float) -> float:
-    """Amplitude (1 - distance / length)_+^exponent."""
+    """Return amplitude (1 - distance / length)_+^exponent."""
     if amplitude == 0.0 or distance >= length:
         return 0.0
     rest = 1.0 - distance / length
@@ -131,7 +148,24 @@ def _relief(amplitude: float, length: float, distance: float, exponent: float) -
 
 @kernel
 def profile_gap(form: Gap, x: float) -> float:
-    """The part of Delta [m] that changes along the path, at distance x [m] from A (Eq. L11)."""
+    """Compute the part of the gap that depends on the place along the path.
+
+    Parameters
+    ----------
+    form : Gap
+        The gap.
+    x : float
+        Distance from A [m].
+
+    Returns
+    -------
+    float
+        Part of the gap Delta [m].
+
+    Notes
+    -----
+    Eq. L11.
+    """
     xi = x / form.path_length - 0.5
     value = 4.0 * form.profile_crowning * xi * xi + form.profile_slope * xi
     value += _relief(form.tip_relief, form.tip_relief_length, form.path_length - x, form.exponent)
@@ -140,7 +174,24 @@ def profile_gap(form: Gap, x: float) -> float:
 
 @kernel
 def lead_gap(form: Gap, y: float) -> float:
-    """The part of Delta [m] that changes over the face, at y [m] from the end that meshes first (Eq. L11)."""
+    """Compute the part of the gap that depends on the place on the face.
+
+    Parameters
+    ----------
+    form : Gap
+        The gap.
+    y : float
+        Distance from the end that meshes first [m].
+
+    Returns
+    -------
+    float
+        Part of the gap Delta [m].
+
+    Notes
+    -----
+    Eq. L11.
+    """
     eta = y / form.face_width - 0.5
     value = 4.0 * form.lead_crowning * eta * eta + form.helix_slope * eta
     value += interpolated(form.lead, place_of(y, (form.lead.size - 1) / form.face_width, form.lead.size))
@@ -149,7 +200,7 @@ def lead_gap(form: Gap, y: float) -> float:
 
 @kernel
 def lead_gaps(form: Gap, y: FloatArray) -> FloatArray:
-    """The part of Delta [m] that changes over the face, at distances y [m] from the end that meshes first."""
+    """Return the part of Delta [m] that depends on the face, at distances y [m] from the end that meshes first."""
     gaps = np.empty(y.size)
     for i in range(y.size):
         gaps[i] = lead_gap(form, y[i])
@@ -158,13 +209,13 @@ def lead_gaps(form: Gap, y: FloatArray) -> FloatArray:
 
 @kernel
 def gap_at(form: Gap, x: float, y: float) -> float:
-    """Delta [m] at distance x [m] from A and y [m] from the end that meshes first; positive: material missing."""
+    """Return Delta [m] at x [m] from A and y [m] from the end that meshes first; positive where material is missing."""
     return profile_gap(form, x) + lead_gap(form, y)
 
 
 @kernel
 def _insert(edges: FloatArray, count: int, y: float) -> int:
-    """Put y among so many edges that rise, if it lies within them; their number then."""
+    """Insert y into the `count` ascending edges if it lies between them, and return their new number."""
     if not edges[0] < y < edges[count - 1]:
         return count
     place = count
@@ -177,9 +228,9 @@ def _insert(edges: FloatArray, count: int, y: float) -> int:
 
 @kernel
 def smooth_parts(form: Gap, line: float, tan_base_helix: float, ends: tuple[float, float], edges: FloatArray) -> int:
-    """Write the ends of the contact line x = line - y tan_base_helix and its kinks between into `edges`, by rising y.
+    """Write the ends of the contact line x = line - y tan_base_helix and its kinks to `edges`, in ascending order of y.
 
-    Returns their number, at most `MOST_EDGES`. What a lead curve does between its stations counts as smooth.
+    Returns their number, at most `MOST_EDGES`. The kinks of a lead curve at its stations are not counted.
     """
     length = min(form.end_relief_length, 0.5 * form.face_width)
     edges[0], edges[1] = ends
@@ -204,5 +255,5 @@ def _gaps(form: Gap, x: FloatArray, y: FloatArray) -> FloatArray:
 
 
 def gaps_at(form: Gap, x: FloatArray, y: FloatArray) -> FloatArray:
-    """Delta [m] at points of one shape."""
+    """Return Delta [m] at points x, y [m], arrays of one shape."""
     return _gaps(form, np.ravel(x), np.ravel(y)).reshape(np.shape(x))

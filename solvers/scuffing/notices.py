@@ -22,11 +22,11 @@ LEAST_TEETH = 8  # chosen: gears of fewer teeth are not in use
 PRESSURE_ANGLES = (14.5, 30.0)  # degrees
 LARGEST_HELIX = 45.0  # degrees
 TRANSVERSE_HELIX = 15.0  # degrees
-LEAST_LENGTH_RATIO = 0.2  # chosen: below it the total length of the lines nearly vanishes once a base pitch
+LEAST_LENGTH_RATIO = 0.2  # chosen: below it the total length of the lines nearly vanishes once per base pitch
 
 
 def geometry_notices(path: PathOfContact, lengths: ContactLengths) -> list[Notice]:
-    """What is said of the pair, ranges of the model, pitch point outside the path, uneven contact length."""
+    """Return warnings about the pair, the ranges of the model, the pitch point and uneven contact length."""
     notices = [*pair_notices(path), *_range_notices(path.pair.inputs)]
     if not path.start <= path.pitch_point <= path.end:
         notices.append(
@@ -46,7 +46,7 @@ def geometry_notices(path: PathOfContact, lengths: ContactLengths) -> list[Notic
 
 
 def _range_notices(inputs: GearPairInputs) -> list[Notice]:
-    """The ranges of teeth, pressure angle and helix angle the model was made for."""
+    """Return warnings about numbers of teeth, pressure angle and helix angle beyond the ranges of the model."""
     notices = []
     for teeth, name in ((inputs.pinion, "pinion"), (inputs.wheel, "wheel")):
         if teeth.teeth < LEAST_TEETH:
@@ -68,7 +68,7 @@ def _range_notices(inputs: GearPairInputs) -> list[Notice]:
 
 
 def model_notices(path: PathOfContact, model: Model) -> list[Notice]:
-    """Warnings about known errors of the chosen options."""
+    """Return warnings about known errors of the selected options."""
     notices = []
     if model.tooth_stiffness == "parabola":
         notices.append(
@@ -91,7 +91,7 @@ def model_notices(path: PathOfContact, model: Model) -> list[Notice]:
 
 
 def relief_notices(path: PathOfContact, modifications: Modifications) -> list[Notice]:
-    """Warnings about reliefs that are longer than the path or the face."""
+    """Return warnings about reliefs that are longer than the path or the face."""
     m, face_width = modifications, path.plane.face_width
     reliefs = (
         ("tip_relief", m.tip_relief, m.tip_relief_length, path.length, "path of contact"),
@@ -110,7 +110,7 @@ def relief_notices(path: PathOfContact, modifications: Modifications) -> list[No
 
 
 def load_notices(balance: LoadBalance) -> list[Notice]:
-    """Loads that were not applied, or not everywhere, or pressed beyond the half-space; pressures without meaning."""
+    """Return warnings about a missing or light load, contact beyond the half-space, and pressures without a limit."""
     notices = []
     if balance.force == 0.0:
         message = "without a torque that presses the flanks only the kinematic transmission error is computed"
@@ -139,7 +139,7 @@ def load_notices(balance: LoadBalance) -> list[Notice]:
 
 
 def unusual_load_values(inputs: LoadDistributionInputs, result: LoadDistribution) -> Iterator[Notice]:
-    """Unusual values of gears, modifications and load."""
+    """Warn of unusual values of gears, modifications and load."""
     yield from plausibility.gears(inputs.gears, inputs.load.pinion_speed)
     yield from unusual_modifications(inputs.modifications)
     yield from plausibility.high_pressure(result.pressure.max)
@@ -147,22 +147,24 @@ def unusual_load_values(inputs: LoadDistributionInputs, result: LoadDistribution
 
 
 def unusual_modifications(modifications: Modifications) -> Iterator[Notice]:
-    """Modifications that cannot be ground."""
+    """Warn of modifications that are too small to be ground."""
     depths = {
-        name: getattr(modifications, name) for name, each in quantities(Modifications).items() if each.unit == "um"
+        name: getattr(modifications, name)
+        for name, declared in quantities(Modifications).items()
+        if declared.unit == "um"
     }
     return plausibility.modifications(depths, modifications.lead_curve.gap)
 
 
 def unusual_temperatures(temperatures: Temperatures) -> Iterator[Notice]:
-    """Temperatures of the oil, and of the teeth where they are given, that gears in service do not have."""
+    """Warn of temperatures of the oil, and of given temperatures of the teeth, that gears in service do not have."""
     yield from plausibility.oil_temperature(temperatures.oil)
     if temperatures.bulk_method == "given":
         yield from plausibility.tooth_temperature(temperatures.bulk)
 
 
 def unusual_scuffing_values(inputs: ScuffingInputs, result: Scuffing) -> Iterator[Notice]:
-    """Unusual values of oil, temperatures, gears, modifications and load."""
+    """Warn of unusual values of oil, temperatures, gears, modifications and load."""
     oil, hottest = result.derived.oil, result.contact_temperature
     yield from plausibility.thick_oil(oil.viscosity if oil else None)
     if inputs.known_oil is not None:

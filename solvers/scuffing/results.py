@@ -4,7 +4,7 @@ x runs along the path from A to E, y along the face from the end that meshes fir
 """
 
 from collections.abc import Callable
-from dataclasses import field
+from dataclasses import dataclass, field
 from functools import cached_property
 
 from solvers.arrays import BoolArray, FloatArray, frozen
@@ -44,7 +44,10 @@ class Geometry(Diameters):
 
 @record
 class LengthCurves:
-    """Total contact length [m] over the roll position, a fraction of the base pitch; spur gears' jumps stand twice."""
+    """Total contact length [m] over the roll position, a fraction of the base pitch.
+
+    A roll position at which the length of a spur gear jumps occurs twice, with both limits.
+    """
 
     roll_position: FloatArray = quantity(
         "roll position of the contact length", "φ/p_bt", text="roll position over the base pitch"
@@ -79,8 +82,8 @@ class StiffnessCurves:
 class Stiffness:
     """Stiffness per face width [Pa]: of one pair, secant at secant_load [N/m], and of the mesh.
 
-    `pitch` is None where the path does not hold the pitch point, `mean_mesh` without load. `standard_...` is ISO
-    6336-1, method B.
+    `pitch` is None if the pitch point lies outside the path, `mean_mesh` without load. `standard_...` is the stiffness
+    by ISO 6336-1, method B.
     """
 
     max: float = quantity("largest stiffness of one pair", "k_max", f"{XUE}, Fig. 8", unit="n_per_mm_um")
@@ -111,7 +114,10 @@ class Stiffness:
 
 @record
 class ErrorCurves:
-    """Transmission error [m] over the roll position, a fraction of the base pitch; spur gears' jumps stand twice."""
+    """Transmission error [m] over the roll position, a fraction of the base pitch.
+
+    A roll position at which the error of a spur gear jumps occurs twice, with both limits.
+    """
 
     roll_position: FloatArray = quantity(
         "roll position of the transmission error", "φ/p_bt", text="roll position over the base pitch"
@@ -146,11 +152,11 @@ class TransmissionError:
 
 @record
 class LoadOnFlank:
-    """Forces [N], torque [N m], largest line load [N/m] and its place; contact_fraction of the flank's contact length.
+    """Forces [N], torque [N m], largest line load [N/m] and its place, loaded share of the contact length.
 
-    pinion_torque is the transmitted one, the forces are contact_factor times what it gives. normal_force is the one
-    in balance, tangential_force always F_bt. pair_share [line, roll position] is the force on each line over the force
-    in balance.
+    `pinion_torque` is the transmitted torque; the forces are those of this torque times `contact_factor`.
+    `normal_force` is the force in the balance, `tangential_force` always F_bt. `pair_share` [line, roll position] is
+    the force on a line over the force in the balance.
     """
 
     pinion_torque: float = quantity("pinion torque", "T_1", unit="n_m", text="the transmitted one")
@@ -185,7 +191,7 @@ class LoadOnFlank:
 class Pressure:
     """Largest Hertzian pressure [Pa] over all roll positions, and its place.
 
-    None where the loaded path reaches a base circle, towards which pressure has no limit.
+    Both are None if the loaded path reaches a base circle, towards which the pressure has no limit.
     """
 
     max: float | None = quantity(
@@ -204,8 +210,7 @@ class Pressure:
 class FrictionLoss:
     """Mean coefficient of friction, loss factor H_V, friction power [W] and efficiency.
 
-    Without load loss factor and efficiency are None; where the coefficient is not known it is None, and power and
-    efficiency are.
+    Loss factor and efficiency are None without load. Power and efficiency are None without a coefficient of friction.
     """
 
     coefficient: float | None = quantity(
@@ -219,11 +224,33 @@ class FrictionLoss:
     efficiency: float | None = quantity("mesh efficiency", "η_z", text="1 - μ_m H_V; null without load")
 
 
-@record
+@dataclass(frozen=True, slots=True)
 class ContactPoints:
-    """At points of the flank: line load [N/m], Hertzian pressure [Pa], half width and reduced radius [m], speeds [m/s].
+    """Contacts at points of the flank: line load [N/m], half width and reduced radius [m], surface speeds [m/s]."""
 
-    pressure is NaN where the reduced radius vanishes.
+    line_load: FloatArray
+    half_width: FloatArray
+    radius: FloatArray
+    pinion_speed: FloatArray
+    wheel_speed: FloatArray
+
+    @property
+    def in_contact(self) -> BoolArray:
+        """True at points at which the flanks touch and move, so that film and flash temperature have a meaning."""
+        return (self.line_load > 0.0) & (self.half_width > 0.0) & (self.pinion_speed + self.wheel_speed > 0.0)
+
+    @property
+    def undefined(self) -> BoolArray:
+        """True at loaded points too near a base circle for a width of contact, a pressure or a flash temperature."""
+        return (self.line_load > 0.0) & (self.half_width <= 0.0)
+
+
+@record(kw_only=True)
+class FeatureLine:
+    """Points along the feature line.
+
+    `load_sharing` is None without load, `iso_load_sharing` if the standard has no diagram for the pair. The pressure is
+    NaN at points where the reduced radius vanishes.
     """
 
     gamma: FloatArray = quantity("profile parameter along the feature line", "Γ", axis="psi")
@@ -253,28 +280,6 @@ class ContactPoints:
     wheel_speed: FloatArray = quantity(
         "surface speed of the wheel", "u_2", f"{XUE}, Eq. 18", unit="m_per_s", axis="psi"
     )
-
-    @property
-    @computed("sliding speed", "u_1 − u_2", unit="m_per_s", axis="psi")
-    def sliding(self) -> FloatArray:
-        """Sliding velocity u_1 - u_2 [m/s]."""
-        return frozen(self.pinion_speed - self.wheel_speed)
-
-    @property
-    def in_contact(self) -> BoolArray:
-        """Where the flanks touch and move, so that film and flash temperature have a meaning."""
-        return (self.line_load > 0.0) & (self.half_width > 0.0) & (self.pinion_speed + self.wheel_speed > 0.0)
-
-    @property
-    def undefined(self) -> BoolArray:
-        """Where a load presses too near a base circle for a width of contact, a pressure or a flash temperature."""
-        return (self.line_load > 0.0) & (self.half_width <= 0.0)
-
-
-@record(kw_only=True)
-class FeatureLine(ContactPoints):
-    """Points along the feature line; load sharing is None without load, the standard's also where it has no diagram."""
-
     psi: FloatArray = quantity(
         "feature line position", "Ψ", f"{XUE}, Fig. 18", text="fraction of the feature line, A1 to E2"
     )
@@ -288,6 +293,12 @@ class FeatureLine(ContactPoints):
         text="the standard's diagram; null where it has none",
         axis="psi",
     )
+
+    @property
+    @computed("sliding speed", "u_1 − u_2", unit="m_per_s", axis="psi")
+    def sliding(self) -> FloatArray:
+        """Sliding velocity u_1 - u_2 [m/s]."""
+        return frozen(self.pinion_speed - self.wheel_speed)
 
 
 @record
@@ -322,9 +333,9 @@ class Flank:
 
 @record
 class Derived:
-    """What follows from the inputs before any physics: torque [N m], power [W], lengths [m].
+    """Values that follow directly from the inputs: torque [N m], power [W], lengths [m].
 
-    rack_tip_radius is what both racks have room for, in normal modules.
+    `rack_tip_radius` is the fillet radius in normal modules, at most the radius for which both racks have room.
     """
 
     pinion_torque: float = quantity("pinion torque used", "T_1", unit="n_m")
@@ -340,10 +351,9 @@ class Derived:
 
 @record(slots=False)
 class LoadDistribution:
-    """How a pair of gears carries its load; path_of_contact and balance are what further checks build on.
+    """How a pair of gears carries its load; further checks use `path_of_contact` and `balance`.
 
-    Curves along the feature line and maps over the flank are computed when they are first asked for, by `feature` and
-    `maps`.
+    `feature` computes the curves along the feature line, `maps` the maps over the flank, when they are first used.
     """
 
     path_of_contact: PathOfContact

@@ -1,11 +1,12 @@
 """Scuffing of a loaded pair over the whole flank: contact temperature and film thickness against their limits.
 
 The closed forms are Blok's flash temperature (Eq. 25) and Dowson and Higginson's film (Eq. 27). The thermal EHL
-solution is asked for along two lines: the paper's feature line, and the profile line through the hottest point.
+solution is computed along two lines: the paper's feature line, and the profile line through the hottest point.
 """
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -17,7 +18,7 @@ from solvers.heat_balance import Heat, cooling_in_force
 from solvers.lubricants import OilInUse, oil_in_use
 from solvers.oils import OilSheet
 from solvers.scuffing.contact_slices import Peak, reaches_base_circle
-from solvers.scuffing.inputs import ScuffingInputs, Temperatures
+from solvers.scuffing.inputs import LoadDistributionInputs, ScuffingInputs, Temperatures
 from solvers.scuffing.micropitting.check import CheckedFlank, check_micropitting
 from solvers.scuffing.micropitting.wear import wear_asked_for
 from solvers.scuffing.model import solve
@@ -35,6 +36,7 @@ from solvers.scuffing.safety_results import (
 from solvers.scuffing.thermal.blok import blok_flash
 from solvers.scuffing.thermal.flank import (
     SURVEY_POINTS,
+    ContactFunction,
     contact_at_points,
     find_hottest,
     find_thinnest,
@@ -53,27 +55,47 @@ from solvers.scuffing.thermal.verdict import (
     without_thermal,
 )
 
-AS_HOT = 0.02  # of the flash temperature: a hottest point no hotter than this above the line needs no line of its own
+AS_HOT = 0.02  # of the flash temperature: the hottest point must exceed the feature line by it to get its profile line
 
 
 def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
-    """Load distribution and scuffing check (Eq. 16).
+    """Compute the load distribution of a pair and check it against scuffing.
 
-    Without an oil or a bulk temperature there are neither film nor contact temperature nor safety. Raises InvalidInput
-    exclusive for a bulk temperature beside the method that estimates it, what `model.solve` and `in_force` raise, and
-    what the thermal EHL solver raises if it refuses every point.
+    Parameters
+    ----------
+    inputs : ScuffingInputs
+        The pair, its load, its oil and its temperatures.
+
+    Returns
+    -------
+    Scuffing
+        Load distribution, flash temperature and path of the check. Film, contact temperature and safety are None if
+        the oil or the bulk temperature is unknown.
+
+    Raises
+    ------
+    InvalidInput
+        `exclusive` if a bulk temperature is given and its method is "estimated"; the errors of `model.solve` and
+        `in_force`; the error of the thermal EHL solver if it refuses every point.
+    NoSolution
+        The errors of `model.solve` and `in_force`.
+
+    Notes
+    -----
+    Eq. 16.
     """
     if inputs.temperatures.bulk_method == "estimated" and inputs.temperatures.bulk is not None:
-        message = "an estimated bulk and a bulk temperature are both given; keep one, or set the method to given"
+        message = "a bulk temperature is given, but its method is estimated; set the method to given or leave it out"
         raise InvalidInput("exclusive", message, "temperatures.bulk_method")
     inputs, distribution, flash_map, heat = in_force(inputs, solve(inputs.distribution))
     given, bulk = inputs.distribution, inputs.temperatures.bulk
     whole = inputs.line == "flank"
     hottest = find_hottest(given, distribution, flash_map) if whole else None
-    thinnest = find_thinnest(inputs, distribution, flash_map) if whole else None
-    lines, beside = _lines(inputs, distribution, hottest)
+    film_at = formula_film(inputs)
+    thinnest = find_thinnest(given, distribution, flash_map, film_at) if whole else None
+    lines, beside = _lines(inputs, distribution, hottest, film_at)
     if thinnest is not None and beside is not None:
-        thinnest = _or_along(inputs, distribution, beside, thinnest)
+        thinnest = _or_along(distribution, beside, thinnest)
     warnings, unknown = (*distribution.warnings, *oil_notices(inputs, distribution.path_of_contact)), 0
     paths = [_closed_form_path(inputs, line) for line in lines]
     if inputs.lubrication == "thermal_ehl" and bulk is not None:
@@ -118,65 +140,73 @@ def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
 
 
 class _Line(NamedTuple):
-    """Points of a line over the flank: fraction of the path from A, distance from the end that meshes first [m]."""
+    """Points of a line over the flank, with Blok's flash temperature [K] and the film of the formula [m].
+
+    `psi` is the fraction of the path from A, `face` the distance from the end that meshes first [m].
+    """
 
     psi: FloatArray
     face: FloatArray
     points: ContactPoints
+    flash: FloatArray
+    film: FloatArray
 
 
 def _line_at(
-    inputs: ScuffingInputs, distribution: LoadDistribution, psi: FloatArray, face: float | None = None
+    given: LoadDistributionInputs,
+    distribution: LoadDistribution,
+    film_at: ContactFunction,
+    psi: FloatArray,
+    face: float | None = None,
 ) -> _Line:
-    """Return the points of the profile line at a face position [m], or of the feature line."""
+    """Return the profile line at a face position [m], or the feature line."""
     plane = distribution.path_of_contact.plane
     across = psi * plane.face_width if face is None else np.full(psi.size, face)
-    points = contact_at_points(inputs.distribution, distribution, psi * plane.path_length, across)
-    return _Line(frozen(psi), frozen(across), points)
+    points = contact_at_points(given, distribution, psi * plane.path_length, across)
+    return _Line(frozen(psi), frozen(across), points, blok_flash(given, points), film_at(points))
 
 
 def _lines(
-    inputs: ScuffingInputs, distribution: LoadDistribution, hottest: Peak | None
+    inputs: ScuffingInputs, distribution: LoadDistribution, hottest: Peak | None, film_at: ContactFunction
 ) -> tuple[list[_Line], _Line | None]:
-    """Return the lines to check, and the profile line through the hottest point even if it is not one of them.
+    """Return the lines to check, and the profile line through the hottest point even if it is not checked.
 
-    The lines are the feature line, and the profile line if that is hotter. Both are equidistant but for the places
-    where Blok's flash temperature is largest and the film of the formula thinnest. Without these, a maximum would
-    depend on the number of points.
+    The lines are the feature line, and the profile line if that is hotter. Their points are equidistant; added are the
+    places at which Blok's flash temperature is largest and the film of the formula is thinnest. Without these places, a
+    maximum would depend on the number of points.
     """
+    line_at = partial(_line_at, inputs.distribution, distribution, film_at)
     even = np.linspace(0.0, 1.0, inputs.path_points)
-    survey = _line_at(inputs, distribution, np.linspace(0.0, 1.0, SURVEY_POINTS))
-    flash, film = blok_flash(inputs.distribution, survey.points), formula_film(inputs)(survey.points)
+    survey = line_at(np.linspace(0.0, 1.0, SURVEY_POINTS))
     added = [
         survey.psi[extreme(curve)]
-        for curve, extreme in ((flash, np.nanargmax), (film, np.nanargmin))
+        for curve, extreme in ((survey.flash, np.nanargmax), (survey.film, np.nanargmin))
         if np.isfinite(curve[survey.points.in_contact]).any()
     ]
     if survey.points.undefined.any():
         added.append(survey.psi[np.argmax(survey.points.undefined)])
-    feature = _line_at(inputs, distribution, np.unique([*even, *added]))
+    feature = line_at(np.unique(np.append(even, added)))
     if hottest is None:
         return [feature], None
-    on_line = int(np.argmax(flash))
-    hotter = hottest.value > (1.0 + AS_HOT) * flash[on_line]
+    on_line = int(np.argmax(survey.flash))
+    hotter = hottest.value > (1.0 + AS_HOT) * survey.flash[on_line]
     psi, face = hottest.x / distribution.path_of_contact.length, hottest.y
-    if flash[on_line] > hottest.value:
+    if survey.flash[on_line] > hottest.value:
         psi, face = survey.psi[on_line], float(survey.face[on_line])
-    profile = _line_at(inputs, distribution, np.unique([*even, psi]), face)
+    profile = line_at(np.unique(np.append(even, psi)), face)
     return [feature, profile] if hotter else [feature], profile
 
 
-def _or_along(inputs: ScuffingInputs, distribution: LoadDistribution, line: _Line, thinnest: Peak) -> Peak:
-    """Return the thinnest film by the formula, or the thinnest of a line's points if that is thinner.
+def _or_along(distribution: LoadDistribution, line: _Line, thinnest: Peak) -> Peak:
+    """Return the thinnest film by the formula, or the thinnest film of a profile line if that is thinner.
 
-    Whether the profile line is checked depends on the feature line, which in the mirror image of a spur pair is another
-    one. Its points always count, so that both have one thinnest film.
+    Whether the profile line is checked depends on the feature line, and a spur pair and its mirror image have different
+    feature lines. The points of the profile line always count, so that both have the same thinnest film.
     """
-    film = formula_film(inputs)(line.points)
-    if np.isnan(film).all():
+    if np.isnan(line.film).all():
         return thinnest
-    k = int(np.nanargmin(film))
-    along = Peak(float(film[k]), float(line.psi[k]) * distribution.path_of_contact.length, float(line.face[k]))
+    k = int(np.nanargmin(line.film))
+    along = Peak(float(line.film[k]), float(line.psi[k]) * distribution.path_of_contact.length, float(line.face[k]))
     return min(thinnest, along, key=lambda peak: peak.value)
 
 
@@ -188,12 +218,12 @@ def _surfaces(temperatures: Temperatures, line: _Line) -> FloatArray:
 def _contact_temperature(
     temperatures: Temperatures, bulk: float, flash: Flash, lines: Sequence[CheckedLine]
 ) -> ContactTemperature:
-    """Bulk [K] and flash; by thermal EHL of either surface from its own bulk."""
+    """Add the flash temperatures to the bulk temperature [K]; by thermal EHL to that of the surface."""
     thermal = None
     if flash.thermal_ehl_max is not None:
         surfaces = np.array(temperatures.surfaces)[:, None]
-        solved = [line.path.thermal for line in lines if line.path.thermal is not None]
-        thermal = float(np.nanmax(np.concatenate([hotter_surface(path, surfaces) for path in solved])))
+        paths = [line.path.thermal for line in lines if line.path.thermal is not None]
+        thermal = float(np.nanmax(np.concatenate([hotter_surface(path, surfaces) for path in paths])))
     return ContactTemperature(
         bulk=bulk, blok_max=None if flash.blok_max is None else bulk + flash.blok_max, thermal_ehl_max=thermal
     )
@@ -202,20 +232,20 @@ def _contact_temperature(
 def _with_band(
     temperatures: Temperatures, heat: Heat, flash: Flash, safety: Safety | None
 ) -> tuple[Heat, Safety | None]:
-    """Return the balance with the safety at the ends of its band, and the safety with the verdict of the lower end."""
+    """Add the safety at both ends of its band to the balance, and take the verdict from the lower end."""
     if safety is None or safety.blok_factor is None or flash.blok_max is None or heat.band is None:
         return heat, safety
     contacts = [sum(flanks) / 2 + flash.blok_max for flanks in heat.flank_cases]
     factors = [safety_factor(safety.scuffing, temperatures.oil, contact) for contact in contacts]
-    known = [factor for factor in factors if factor is not None]
-    if len(known) < len(factors):
+    defined = [factor for factor in factors if factor is not None]
+    if len(defined) < len(factors):
         return heat, safety
-    band = replace(heat.band, safety=(min(known), max(known)))
-    return replace(heat, band=band), replace(safety, verdict=scuffing_risk(min(known)))
+    band = replace(heat.band, safety=(min(defined), max(defined)))
+    return replace(heat, band=band), replace(safety, verdict=scuffing_risk(min(defined)))
 
 
 def _derived(inputs: ScuffingInputs, mesh: Derived, heat: Heat | None) -> ScuffingDerived:
-    """What follows from the inputs for mesh and oil."""
+    """Return the values of mesh, oil and cooling that follow from the inputs."""
     sheet = inputs.oil if isinstance(inputs.oil, OilSheet) else None
     return ScuffingDerived(
         mesh=mesh,
@@ -228,7 +258,26 @@ def _derived(inputs: ScuffingInputs, mesh: Derived, heat: Heat | None) -> Scuffi
 
 
 def safety_factor(scuffing: float, oil: float, contact: float) -> float | None:
-    """S = (t_s - t_oil) / (max t_B - t_oil) (Eq. 26), temperatures in one unit; None where the rise is not positive."""
+    """Compute the safety factor against scuffing.
+
+    Parameters
+    ----------
+    scuffing : float
+        Scuffing temperature t_s [K].
+    oil : float
+        Oil temperature t_oil [K].
+    contact : float
+        Largest contact temperature t_B [K].
+
+    Returns
+    -------
+    float or None
+        Safety factor S [-]; None if the contact is not hotter than the oil.
+
+    Notes
+    -----
+    S = (t_s - t_oil) / (max t_B - t_oil) (Eq. 26).
+    """
     return (scuffing - oil) / (contact - oil) if contact > oil else None
 
 
@@ -252,33 +301,33 @@ def _safety(temperatures: Temperatures, contact: ContactTemperature, flash: Flas
 
 
 def _closed_form_path(inputs: ScuffingInputs, line: _Line) -> ScuffingPath:
-    """Flash temperature (Eq. 25) and film (Eqs. 27, 28) along a line.
+    """Return flash temperature (Eq. 25) and film (Eqs. 27, 28) along a line.
 
-    A loaded point too near a base circle has neither: it is "refused". Without an oil there is no film.
+    A loaded point too near a base circle has neither; its status is "refused". Without an oil there is no film.
     """
     pinion, wheel, points = inputs.distribution.pinion_material, inputs.distribution.wheel_material, line.points
-    film = formula_film(inputs)(points)
     return ScuffingPath(
         psi=line.psi,
         status=tuple(np.where(points.in_contact, "ok", np.where(points.undefined, "refused", "unloaded")).tolist()),
-        blok_flash=frozen(blok_flash(inputs.distribution, points)),
-        dowson_higginson=frozen(film),
-        thickness_ratio=frozen(thickness_ratio(film, pinion.roughness, wheel.roughness)),
+        blok_flash=frozen(line.flash),
+        dowson_higginson=frozen(line.film),
+        thickness_ratio=frozen(thickness_ratio(line.film, pinion.roughness, wheel.roughness)),
     )
 
 
 def _with_thermal(inputs: ScuffingInputs, path: ScuffingPath, thermal: ThermalPath) -> ScuffingPath:
-    """The path with everything the thermal EHL solution knows, its film judged instead of the formula's."""
+    """Add the thermal EHL solution to a path; the thickness ratio is then that of its film."""
     given = inputs.distribution
     ratio = thickness_ratio(thermal.minimum_film, given.pinion_material.roughness, given.wheel_material.roughness)
     status = tuple(
-        formula if formula == "refused" else solved for formula, solved in zip(path.status, thermal.status, strict=True)
+        formula if formula == "refused" else thermal_status
+        for formula, thermal_status in zip(path.status, thermal.status, strict=True)
     )
     return replace(path, status=status, thickness_ratio=frozen(ratio), thermal=thermal)
 
 
 def _with_film_ratio(flank: CheckedFlank, path: ScuffingPath, line: _Line) -> ScuffingPath:
-    """The path with the film ratio of micropitting, if that is asked for and known."""
+    """Add the film ratio of micropitting to a path, if the check has one."""
     if flank.film is None:
         return path
     return replace(path, micropitting_ratio=frozen(flank.film.ratio(line.points, line.face)))

@@ -7,7 +7,7 @@ from solvers.contact.film import Regime
 from solvers.heat_balance.results import CoolingInForce, Heat
 from solvers.lubricants import OilInUse
 from solvers.notices import Notice
-from solvers.quantity import computed, quantity, record
+from solvers.quantity import computed, described, quantity, record
 from solvers.scuffing.inputs import ISO_TR_15144, TR_13989
 from solvers.scuffing.micropitting.results import Micropitting, Wear
 from solvers.scuffing.results import Derived, Flank, LoadDistribution
@@ -19,10 +19,11 @@ PointStatus = Literal["ok", "ok_with_warnings", "no_solution", "refused", "unloa
 
 @record
 class Flash:
-    """Largest flash temperature [K] and where; no place without load, no thermal EHL value in closed form.
+    """Largest flash temperatures [K] and their places; no place without load, no thermal EHL value in closed form.
 
-    `..._at_psi` is the place on the feature line of the largest value there, `..._at_profile` and `..._at_face` [m] the
-    place on the flank. Neither value nor place is stated if a loaded point that may decide has no value.
+    `..._at_psi` is the place of the largest value on the feature line, `..._at_profile` and `..._at_face` [m] are the
+    place of the largest value on the flank. Neither value nor place is stated if a loaded point without a value may be
+    the hottest.
     """
 
     blok_max: float | None = quantity(
@@ -91,9 +92,9 @@ class Flash:
 
 @record
 class ContactTemperature:
-    """Bulk temperature t_M and largest contact temperature t_B = t_M + t_f [K] (Eq. 16); None where t_f is.
+    """Bulk temperature t_M and largest contact temperature t_B = t_M + t_f [K] (Eq. 16); t_B is None if t_f is None.
 
-    By thermal EHL t_M is that of the surface, where a heat balance tells the flanks of the gears apart.
+    By thermal EHL t_M is the bulk temperature of the surface: a heat balance gives pinion and wheel different ones.
     """
 
     bulk: float = quantity(
@@ -121,11 +122,12 @@ class ContactTemperature:
 
 @record
 class Film:
-    """Thinnest film [m], where, and against roughness; None if no point is loaded, or one without a film may decide.
+    """Thinnest film [m], its place and its ratio to the roughness.
 
-    The formula's film is that of the flank, the film by thermal EHL that of the lines that are solved. The thinner one
-    is not asked for: the thermal film is judged if there is one. `min_at_psi` is the place of the thinnest film on the
-    feature line, the other two are the place of the film that is judged.
+    The values are None if no point is loaded, or if a point without a film may have the thinnest. The film of the
+    formula is the thinnest over the flank, the film by thermal EHL the thinnest on the solved lines. The film by
+    thermal EHL is judged if there is one, whichever is thinner. `min_at_psi` is the place of the thinnest film on the
+    feature line; `min_at_profile` and `min_at_face` are the place of the judged film.
     """
 
     dowson_higginson_min: float | None = quantity(
@@ -168,9 +170,9 @@ class Film:
 
 @record
 class Safety:
-    """Safety factor against scuffing (Eq. 26); None where teeth stay as cool as the oil, or the temperature is unknown.
+    """Safety factors against scuffing (Eq. 26); None if the teeth stay as cool as the oil.
 
-    `scuffing` is the temperature it is against [K]; `verdict` the standard's risk by Blok's factor.
+    `scuffing` is the scuffing temperature [K], `verdict` the standard's risk for Blok's factor.
     """
 
     scuffing: float = quantity("scuffing temperature used", "θ_S", unit="c", text="given or by the scuffing test")
@@ -205,9 +207,9 @@ class Safety:
 
 @record
 class ScuffingDerived:
-    """What follows for mesh and oil, if any, as it enters the contact; where a sheet gives it nu at 100 C, rho at 15 C.
+    """Values of mesh, oil and cooling that follow from the inputs; the oil as it enters the contact.
 
-    kinematic_viscosity_100 [m^2/s], density_15 [kg/m^3].
+    `kinematic_viscosity_100` [m^2/s] and `density_15` [kg/m^3] are None unless a grade or data sheet gives the oil.
     """
 
     mesh: Derived
@@ -226,10 +228,10 @@ class ScuffingDerived:
 
 @record
 class ThermalPath:
-    """Point by point: status, flash temperatures of both flanks [K], films [m], pressure [Pa], friction, film [K].
+    """The thermal EHL solution at the points of a line; temperatures [K], films [m], pressure [Pa], friction [-].
 
-    What was not solved is NaN. A point refused because its load is too light has bounds instead: it is no hotter
-    (flash_bound [K]) and its film no thinner (film_bound [m]) than under the lightest load that the solver takes.
+    Unsolved points are NaN. A point that is refused because its load is too light has bounds instead: it is no hotter
+    (`flash_bound` [K]) and its film no thinner (`film_bound` [m]) than under the lightest load that the solver accepts.
     """
 
     status: tuple[PointStatus, ...]
@@ -252,12 +254,12 @@ class ThermalPath:
 class ScuffingPath:
     """Along a line from A to E: Blok's flash temperature [K], film [m] and its ratio to roughness.
 
-    The feature line runs diagonally, y = psi b; the profile line lies at the face position of the hottest point.
-    psi is equidistant but for the places where Blok's flash temperature is largest and the film of the formula
-    thinnest. Where nothing is loaded or nothing moves the status is "unloaded", film and ratio are NaN and Blok's flash
-    temperature is 0; where the reduced radius vanishes under load it is "refused" and all is NaN. `thermal` is None in
-    closed form; points that it did not solve are "no_solution", those it would not take "refused". The thickness ratio
-    is that of its film if there is one.
+    The feature line runs diagonally, y = psi b; the profile line lies at the face position of the hottest point. The
+    points are equidistant; added are the places at which Blok's flash temperature is largest and the film of the
+    formula is thinnest. A point without load or motion has the status "unloaded"; its film and ratio are NaN, and its
+    flash temperature by Blok is 0. A loaded point at which the reduced radius vanishes is "refused"; all its values are
+    NaN. `thermal` is None in closed form. Points that the thermal EHL solver did not solve are "no_solution", points
+    that it does not accept "refused". The thickness ratio is that of the film by thermal EHL if there is one.
     """
 
     psi: FloatArray = quantity(
@@ -311,7 +313,7 @@ class ScuffingPath:
 class HeatedFlank(Flank):
     """Maps [profile, face] of the load distribution, of Blok's flash temperature [K] and of the film ratio.
 
-    The flash temperature is NaN where it has no limit, the film ratio where nothing is in contact.
+    The flash temperature is NaN at points where it has no limit, the film ratio at points without contact.
     """
 
     flash_temperature: FloatArray = quantity(
@@ -338,10 +340,8 @@ class HeatedFlank(Flank):
 class Scuffing:
     """The scuffing check on a load distribution; `safety` is None without a scuffing temperature.
 
-    Without an oil, contact temperature, film and safety are None. `flank_flash` is Blok's flash temperature [K] at the
-    points of the flank's maps [profile, face], NaN where it has no limit or no coefficient of friction is known.
-    `flank_film_ratio` is the film ratio of micropitting at these points, None if it is not asked for. `warnings` are
-    those of the load distribution and of the check.
+    Without an oil, contact temperature, film and safety are None. `warnings` are those of the load distribution and of
+    the check.
     """
 
     distribution: LoadDistribution
@@ -366,8 +366,13 @@ class Scuffing:
         default=None,
         text="null unless the bulk temperature is asked for by heat balance, of a known oil",
     )
-    flank_flash: FloatArray
-    flank_film_ratio: FloatArray | None
+    flank_flash: FloatArray = described(
+        "Flash temperature by Blok over the flank [profile, face]; NaN if it is unbounded, or if the coefficient of "
+        "friction is not known [K]."
+    )
+    flank_film_ratio: FloatArray | None = described(
+        "Film ratio against micropitting over the flank [profile, face]; None if it is not asked for [-]."
+    )
     derived: ScuffingDerived = quantity("load, lengths and oil used")
     warnings: tuple[Notice, ...]
     unsolved_points: int = quantity("unsolved points", text="points of the path without a solution or refused")

@@ -1,10 +1,10 @@
 """Stiffness of a pair of teeth: bending of each tooth (Ishikawa, Eqs. 5-6) and the flattening of their contact.
 
-A slice of contact line approaches by delta along the transverse line of action and carries w per length of line:
+The flanks at a slice of contact line approach by delta along the transverse line of action and carry the line load w:
     linear contact      delta = C w
     half-space contact  delta = a w omega,  omega = A/a - ln w      (w in N/m)
-The second has the closed form w = delta / (a omega) with omega - ln omega = A/a + ln(a / delta), a branch of
-Lambert's function. `PairCompliance` holds C or A over the path of contact, and a.
+The half-space contact has the closed form w = delta / (a omega) with omega - ln omega = A/a + ln(a / delta), a branch
+of Lambert's function. `PairCompliance` contains C or A over the path of contact, and a.
 """
 
 from dataclasses import dataclass, replace
@@ -26,19 +26,19 @@ from solvers.scuffing.inputs import Model
 from solvers.scuffing.modification import interpolated, place_of
 
 TABLE_POINTS = 801  # every 0.125 % of the path, chosen
-LEAST_RADIUS = 1e-6  # normal modules; on a base circle it vanishes, and the half width with it
+LEAST_RADIUS = 1e-6  # normal modules; on a base circle the reduced radius and the half width vanish
 SHALLOWEST = 2.0  # half-space depth over contact half width
 OMEGA_STEPS = 12  # limit of Newton's method for the branch of Lambert's function
-LEAST_OMEGA = 2.0  # of a guess; omega is larger wherever the law is not held, and has no meaning below 1
-LAST_STEP = 1e-3  # of omega; it leaves less than a tenth of its fourth power, so the next step would be rounding
+LEAST_OMEGA = 2.0  # of a guess; omega is larger where the compliance is not held, and has no meaning below 1
+LAST_STEP = 1e-3  # of omega; the error after it is below a tenth of its fourth power, so the next step is rounding
 
 
 @dataclass(frozen=True, slots=True)
 class LoadPoints:
-    """Where and how a tooth is loaded, over the load points.
+    """Points at which a tooth is loaded, arrays over the points.
 
-    height above the root chord [m], angle of the load against the normal of the centre line [rad], depth from the
-    flank to the centre line along the load [m].
+    `height` is the height above the root chord [m], `angle` the angle between the load and the normal of the centre
+    line [rad], `depth` the distance from the flank to the centre line along the load [m].
     """
 
     height: FloatArray
@@ -57,16 +57,16 @@ class ToothShape:
 
 
 def section_gear(pair: GearPair, gear: Gear, teeth: GearTeeth, section: Literal["normal", "transverse"]) -> Gear:
-    """The gear whose teeth are bent: itself, or the virtual spur gear of z / (cos^2 beta_b cos beta) teeth."""
+    """Return the gear whose teeth bend: itself, or the virtual spur gear of z / (cos^2 beta_b cos beta) teeth."""
     return gear if section == "transverse" else virtual_gear(pair.inputs, teeth, pair.base_helix_angle)
 
 
 def tooth_shape(gear: Gear) -> ToothShape:
-    """The rectangle and trapezium of a tooth.
+    """Return the rectangle and the trapezium of a tooth.
 
-    Heights run along the centre line from the chord of width S_F that lies on the root circle. A tooth no narrower
-    at the tip than at the root counts as one rectangle. Raises InvalidInput pointed_tooth: the virtual tooth of a
-    normal section may end in a point where the tooth itself does not.
+    Heights run along the centre line from the chord of width S_F on the root circle. A tooth that is as wide at the tip
+    as at the root, or wider, is a single rectangle. Raises InvalidInput pointed_tooth if the tooth ends in a point: the
+    virtual tooth of the normal section may do so even if the tooth itself does not.
     """
     root_angle, tip_angle = gear.half_tooth_angle(gear.form_radius), gear.half_tooth_angle(gear.tip_radius)
     root_width = 2 * gear.form_radius * sin(root_angle)
@@ -86,10 +86,10 @@ def tooth_shape(gear: Gear) -> ToothShape:
 
 
 def load_points(gear: Gear, radius: FloatArray) -> LoadPoints:
-    """Load points at radii [m].
+    """Return the load points at radii [m].
 
-    The load angle is alpha_x - g_x, flank pressure angle less half tooth angle (the paper calls it pressure angle; the
-    static bending arm needs the load angle).
+    The load angle is alpha_x - g_x, the pressure angle of the flank less the half tooth angle. The paper calls it
+    pressure angle; the arm of the bending moment follows from the load angle.
     """
     pressure_angle = np.arccos(np.minimum(gear.base_radius / radius, 1.0))
     half_angle = gear.reference_half_angle + gear.reference_involute - np.tan(pressure_angle) + pressure_angle
@@ -103,9 +103,9 @@ def load_points(gear: Gear, radius: FloatArray) -> LoadPoints:
 
 
 def _chord_height(gear: Gear, root_width: float) -> float:
-    """Distance of the root chord from the gear's axis [m].
+    """Return the distance of the root chord from the gear's axis [m].
 
-    Raises InvalidInput root_circle where the chord does not fit into the root circle.
+    Raises InvalidInput root_circle if the chord does not fit into the root circle.
     """
     if gear.root_radius <= root_width / 2:
         message = "a gear's root circle is narrower than the root of its teeth; reduce the dedendum or take more teeth"
@@ -114,7 +114,26 @@ def _chord_height(gear: Gear, root_width: float) -> float:
 
 
 def bending_rectangle(shape: ToothShape, points: LoadPoints, material: Solid) -> FloatArray:
-    """delta_Br / w [1/Pa], for load heights above or inside the rectangle (Eq. L4)."""
+    """Compute the bending of the rectangle of a tooth.
+
+    Parameters
+    ----------
+    shape : ToothShape
+        Rectangle and trapezium of the tooth.
+    points : LoadPoints
+        Where the tooth is loaded.
+    material : Solid
+        Material of the tooth.
+
+    Returns
+    -------
+    ndarray
+        Deflection per line load [1/Pa].
+
+    Notes
+    -----
+    Eq. L4: delta_Br / w, for load heights above or inside the rectangle.
+    """
     h_x, s_f = points.height, shape.root_width
     h_r = np.minimum(shape.rectangle_height, h_x)
     factor = 12 * np.cos(points.angle) ** 2 / (material.youngs_modulus * s_f**3)
@@ -122,10 +141,27 @@ def bending_rectangle(shape: ToothShape, points: LoadPoints, material: Solid) ->
 
 
 def bending_trapezium(shape: ToothShape, points: LoadPoints, material: Solid) -> FloatArray:
-    """delta_Bt / w [1/Pa]: 6 cos^2 w / (E S_F^3) [q (4 - q) - 2 ln q - 3] (h_i - h_r)^3, q = (h_i - h_x)/(h_i - h_r).
+    """Compute the bending of the trapezium of a tooth.
 
-    The logarithm is right as printed (with its sign turned the compliance is negative); E is that of the member, not
-    E_1 as printed. Eq. L5.
+    Parameters
+    ----------
+    shape : ToothShape
+        Rectangle and trapezium of the tooth.
+    points : LoadPoints
+        Where the tooth is loaded.
+    material : Solid
+        Material of the tooth.
+
+    Returns
+    -------
+    ndarray
+        Deflection per line load [1/Pa].
+
+    Notes
+    -----
+    Eq. L5: delta_Bt / w = 6 cos^2 w / (E S_F^3) [q (4 - q) - 2 ln q - 3] (h_i - h_r)^3 with
+    q = (h_i - h_x)/(h_i - h_r). The sign of the logarithm is right as printed; with the other sign the compliance is
+    negative. E is the modulus of the gear itself; the paper prints E_1.
     """
     if shape.tip_width == shape.root_width:
         return np.zeros_like(points.height)
@@ -135,7 +171,26 @@ def bending_trapezium(shape: ToothShape, points: LoadPoints, material: Solid) ->
 
 
 def shear(shape: ToothShape, points: LoadPoints, material: Solid) -> FloatArray:
-    """delta_S / w [1/Pa], shear factor 1: 2 (1 + nu) cos^2 w / (E S_F) [h_r + (h_i - h_r) ln(1/q)] (Eq. L6)."""
+    """Compute the shear of a tooth.
+
+    Parameters
+    ----------
+    shape : ToothShape
+        Rectangle and trapezium of the tooth.
+    points : LoadPoints
+        Where the tooth is loaded.
+    material : Solid
+        Material of the tooth.
+
+    Returns
+    -------
+    ndarray
+        Deflection per line load [1/Pa].
+
+    Notes
+    -----
+    Eq. L6: delta_S / w = 2 (1 + nu) cos^2 w / (E S_F) [h_r + (h_i - h_r) ln(1/q)], with a shear factor of 1.
+    """
     length = np.minimum(shape.rectangle_height, points.height)
     if shape.tip_width < shape.root_width:
         slope_height = _apex_height(shape) - shape.rectangle_height
@@ -145,37 +200,73 @@ def shear(shape: ToothShape, points: LoadPoints, material: Solid) -> FloatArray:
 
 
 def root_rotation(shape: ToothShape, points: LoadPoints, material: Solid) -> FloatArray:
-    """delta_G / w = 24 h_x^2 cos^2 w / (pi E S_F^2) [1/Pa] (Eq. L7).
+    """Compute the deflection by the rotation of a tooth at its root.
 
-    Printed with h_x in place of h_x^2; a rotation M/(E S_F^2) times the arm h_x, and the unit, ask for the square.
+    Parameters
+    ----------
+    shape : ToothShape
+        Rectangle and trapezium of the tooth.
+    points : LoadPoints
+        Where the tooth is loaded.
+    material : Solid
+        Material of the tooth.
+
+    Returns
+    -------
+    ndarray
+        Deflection per line load [1/Pa].
+
+    Notes
+    -----
+    Eq. L7: delta_G / w = 24 h_x^2 cos^2 w / (pi E S_F^2). The paper prints h_x instead of h_x^2; the rotation
+    M/(E S_F^2) times the arm h_x gives the square, which the unit also needs.
     """
     arm = points.height * np.cos(points.angle)
     return np.asarray(24 * arm**2 / (pi * material.youngs_modulus * shape.root_width**2))
 
 
 def bending_compliance(shape: ToothShape, points: LoadPoints, material: Solid) -> FloatArray:
-    """Deflection of one tooth along the load per line load [1/Pa] (Eq. 5)."""
+    """Compute the deflection of one tooth along the load.
+
+    Parameters
+    ----------
+    shape : ToothShape
+        Rectangle and trapezium of the tooth.
+    points : LoadPoints
+        Where the tooth is loaded.
+    material : Solid
+        Material of the tooth.
+
+    Returns
+    -------
+    ndarray
+        Deflection per line load [1/Pa].
+
+    Notes
+    -----
+    Eq. 5.
+    """
     parts = (bending_rectangle, bending_trapezium, shear, root_rotation)
     return np.asarray(sum(part(shape, points, material) for part in parts))
 
 
 def _apex_height(shape: ToothShape) -> float:
-    """h_i = (h S_F - h_r S_a) / (S_F - S_a): where the trapezium's sides meet."""
+    """Return h_i = (h S_F - h_r S_a) / (S_F - S_a), the height at which the sides of the trapezium meet."""
     h, h_r, s_f, s_a = shape.height, shape.rectangle_height, shape.root_width, shape.tip_width
     return (h * s_f - h_r * s_a) / (s_f - s_a)
 
 
 def _apex_fraction(shape: ToothShape, points: LoadPoints) -> FloatArray:
-    """Q = (h_i - h_x) / (h_i - h_r), 1 within the rectangle."""
+    """Return q = (h_i - h_x) / (h_i - h_r); 1 within the rectangle."""
     apex = _apex_height(shape)
     return np.minimum((apex - points.height) / (apex - shape.rectangle_height), 1.0)
 
 
 class PairCompliance(NamedTuple):
-    """Compliance over equidistant points from A to E; `constant` [1/Pa] is C or A, `logarithmic` [1/Pa] is 0 or a.
+    """Compliance over equidistant points from A to E.
 
-    Beyond the approach `limit` [m], where the half width reaches half the depth of the half-space, the compliance
-    reached there is kept.
+    `constant` [1/Pa] is C, and `logarithmic` 0, for linear contact; for half-spaces they are A and a. At the approach
+    `limit` [m] the half width reaches half the depth of the half-space; beyond it the compliance is held.
     """
 
     constant: FloatArray
@@ -186,7 +277,7 @@ class PairCompliance(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Member:
-    """One gear's part in the pair, over the table points: radii at which it is loaded [m], bending [1/Pa]."""
+    """One gear of the pair, over the table points: radii at which it is loaded [m], bending [1/Pa]."""
 
     gear: Gear
     material: Solid
@@ -195,9 +286,32 @@ class Member:
 
 
 def pair_compliance(path: PathOfContact, pinion: Solid, wheel: Solid, model: Model) -> PairCompliance:
-    """Compliance of a pair of teeth along the path (Eqs. 7, L8); kept for the next load of the same teeth.
+    """Compute the compliance of a pair of teeth along the path; it is kept for the next load of the same teeth.
 
-    Raises InvalidInput contact_law: the parabola is scaled to linear contact and refuses the half-space.
+    Parameters
+    ----------
+    path : PathOfContact
+        Path of contact of the pair.
+    pinion : Solid
+        Material of the pinion.
+    wheel : Solid
+        Material of the wheel.
+    model : Model
+        Options of stiffness, contact and section.
+
+    Returns
+    -------
+    PairCompliance
+        Compliance over equidistant points of the path.
+
+    Raises
+    ------
+    InvalidInput
+        `contact_law` for the parabola with the half-space: the parabola is scaled to linear contact.
+
+    Notes
+    -----
+    Eqs. 7, L8.
     """
     return _pair_compliance(path, replace(pinion, roughness=0.0), replace(wheel, roughness=0.0), model)
 
@@ -215,8 +329,9 @@ def _pair_compliance(path: PathOfContact, pinion: Solid, wheel: Solid, model: Mo
         _member(gear, section_gear(path.pair, gear, one, model.section), roll, material)
         for gear, one, roll, material in zip(gears, teeth, roll_lengths, (pinion, wheel), strict=True)
     ]
-    # A slice dy carries w dl cos(beta_b) = w dy in the transverse plane, so a tooth bent there yields to w itself; the
-    # contact, and a tooth bent in its normal section, yield along the normal, which the transverse line sees longer.
+    # In the transverse plane a slice dy carries w dl cos(beta_b) = w dy, so that a tooth bent in this plane yields to w
+    # itself. The contact, and a tooth bent in its normal section, yield along the normal; along the transverse line of
+    # action this is more by 1 / cos(beta_b).
     inclination = cos(path.pair.base_helix_angle)
     bending = (members[0].bending + members[1].bending) / (inclination if model.section == "normal" else 1.0)
     points_per_metre = (TABLE_POINTS - 1) / path.length
@@ -233,19 +348,36 @@ def _pair_compliance(path: PathOfContact, pinion: Solid, wheel: Solid, model: Mo
 
 
 def linear_contact_compliance(pinion: Solid, wheel: Solid) -> float:
-    """c_PV = (2/pi) [(1 - nu_1^2)/E_1 + (1 - nu_2^2)/E_2] [1/Pa]; printed with one E (Eq. 6)."""
+    """Compute the linear compliance of the contact.
+
+    Parameters
+    ----------
+    pinion : Solid
+        Material of the pinion.
+    wheel : Solid
+        Material of the wheel.
+
+    Returns
+    -------
+    float
+        Compliance c_PV [1/Pa].
+
+    Notes
+    -----
+    Eq. 6: c_PV = (2/pi) [(1 - nu_1^2)/E_1 + (1 - nu_2^2)/E_2]; the paper prints one E for both.
+    """
     return 2 / pi * (plane_strain_compliance(pinion) + plane_strain_compliance(wheel))
 
 
 def _member(gear: Gear, section: Gear, roll_length: FloatArray, material: Solid) -> Member:
-    """A member's bending in its section, at the same height above the reference circle."""
+    """Return a gear of the pair with its bending in the section, at the same height above the reference circle."""
     radius = np.hypot(gear.base_radius, roll_length)
     points = load_points(section, section.reference_radius + radius - gear.reference_radius)
     return Member(gear, material, radius, bending_compliance(tooth_shape(section), points, material))
 
 
 def _half_space(path: PathOfContact, x: FloatArray, members: list[Member]) -> tuple[FloatArray, float, float]:
-    """Offset [1/Pa], slope [1/Pa] and least contact part of omega of the half-space contact (Johnson 1985; Weber).
+    """Return offset [1/Pa], slope [1/Pa] and least contact part of omega of the half-space (Johnson 1985; Weber).
 
     delta_H / w = sum_i (1 - nu_i^2)/(pi E_i) [2 ln(2 d_i / b_H) - nu_i/(1 - nu_i)],  b_H^2 = 8 w R_n/(pi E').
     """
@@ -264,13 +396,13 @@ def _half_space(path: PathOfContact, x: FloatArray, members: list[Member]) -> tu
 
 
 def _parabola(fraction: FloatArray, end_ratio: float) -> FloatArray:
-    """1 - (1 - r)(2 xi - 1)^2, calibrated to the paper's load maxima with r = 0.757."""
+    """Return 1 - (1 - r)(2 xi - 1)^2, calibrated to the paper's load maxima with r = 0.757."""
     return np.asarray(1 - (1 - end_ratio) * (2 * fraction - 1) ** 2)
 
 
 @inlined_kernel
 def compliance_at(compliance: PairCompliance, x: float) -> tuple[float, float]:
-    """`constant` [1/Pa] and `limit` [m] at x [m] from A; linear contact has no limit."""
+    """Return `constant` [1/Pa] and `limit` [m] at x [m] from A; linear contact has no limit."""
     place = place_of(x, compliance.points_per_metre, compliance.constant.size)
     constant = interpolated(compliance.constant, place)
     return constant, np.inf if compliance.logarithmic == 0.0 else interpolated(compliance.limit, place)
@@ -280,7 +412,34 @@ def compliance_at(compliance: PairCompliance, x: float) -> tuple[float, float]:
 def line_load(
     approach: float, constant: float, logarithmic: float, limit: float, log_load: float
 ) -> tuple[float, float, float]:
-    """Line load w [N/m], its derivative [Pa] by the approach [m], and ln w, a next guess as `log_load` is (Eq. L9)."""
+    """Compute the line load of a pair of teeth under an approach.
+
+    Parameters
+    ----------
+    approach : float
+        Approach of the flanks delta [m].
+    constant : float
+        Constant part of the compliance [1/Pa].
+    logarithmic : float
+        Logarithmic part of the compliance [1/Pa].
+    limit : float
+        Approach beyond which the compliance is held [m].
+    log_load : float
+        Guess of ln w.
+
+    Returns
+    -------
+    load : float
+        Line load w [N/m].
+    stiffness : float
+        Derivative of the line load by the approach [Pa].
+    log_load : float
+        Ln w, the guess for a similar approach.
+
+    Notes
+    -----
+    Eq. L9.
+    """
     load = stiffness = 0.0
     for _ in range(OMEGA_STEPS):
         load, stiffness, log_load, step = line_load_near(approach, constant, logarithmic, limit, log_load)
@@ -293,12 +452,12 @@ def line_load(
 def line_load_near(
     approach: float, constant: float, logarithmic: float, limit: float, log_load: float
 ) -> tuple[float, float, float, float]:
-    """What `line_load` returns, after one step of omega from the guess `log_load`, and the relative size of that step.
+    """Take one step of omega from the guess `log_load`; return what `line_load` returns and the relative step.
 
     The remaining error of omega is of the order of the fourth power of the step. omega - ln omega = A/a + ln(a / delta)
     is solved by the iteration of Fritsch, Shafer and Crowley (1973) for Lambert's function, which takes one logarithm
     per step and converges from any guess; dw/d(delta) = 1 / (a (omega - 1)). The guess is passed as ln w, because ln w
-    changes less than omega from one position to the next; it is at most the ln w of the limit.
+    changes less than omega from one position to the next. Its largest value is ln w at the limit.
     """
     if approach <= 0.0:
         return 0.0, 0.0, log_load, 0.0
@@ -318,7 +477,7 @@ def line_load_near(
 
 @kernel
 def _secants(constant: FloatArray, limit: FloatArray, logarithmic: float, load: float) -> FloatArray:
-    """1 / (a omega) at a line load [N/m], omega that of the load or of the limit."""
+    """Return 1 / (a omega) at a line load [N/m], with omega of the load or, beyond the limit, of the limit."""
     stiffness = np.empty(constant.size)
     for i in range(constant.size):
         _, _, log_limit = line_load(limit[i], constant[i], logarithmic, limit[i], np.log(load))
@@ -327,7 +486,7 @@ def _secants(constant: FloatArray, limit: FloatArray, logarithmic: float, load: 
 
 
 def single_stiffness(compliance: PairCompliance, load: float) -> FloatArray:
-    """Secant stiffness w / delta [Pa] of one pair at the table points under the line load [N/m]."""
+    """Return the secant stiffness w / delta [Pa] of one pair at the table points under a line load [N/m]."""
     if compliance.logarithmic == 0.0:
         return np.asarray(1 / compliance.constant)
     return _secants(compliance.constant, compliance.limit, compliance.logarithmic, load)

@@ -117,7 +117,7 @@ def test_the_exit_status_tells_warnings() -> None:
 @pytest.mark.parametrize(
     ("endpoint", "text", "message"),
     [
-        ("/v1/coupling", "{", "the body is no JSON"),
+        ("/v1/coupling", "{", "the body is not valid JSON"),
         ("/v1/coupling", '{"coupling": {}}', "/operation: operation is required"),
         ("/v1/couplings", "{}", "there is no /v1/couplings"),
     ],

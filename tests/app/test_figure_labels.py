@@ -5,7 +5,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import replace
 from importlib.resources import files
-from itertools import combinations
+from itertools import combinations, pairwise
 from unittest.mock import patch
 
 import numpy as np
@@ -107,6 +107,16 @@ def test_a_figure_in_a_column_of_a_report_has_no_collisions() -> None:
     long = replace(PANEL, levels=(Level(1.5, name),))
     assert not narrowed(Figure("a finding", (long,), title="two peaks")).narrow
     assert not narrowed(replace(figure, beside=True)).narrow
+
+
+@pytest.mark.parametrize("narrow", [False, True])
+def test_numbers_of_neighbouring_ticks_keep_a_distance(narrow: bool) -> None:
+    ticks = tuple(np.linspace(0.0, 1.0, 41).tolist())
+    panel = replace(PANEL, x=replace(PANEL.x, ticks=ticks))
+    texts, _ = boxes(Figure("a finding", (panel,), title="two peaks", narrow=narrow))
+    numbers = sorted((box for text, box in texts if text.startswith("0.")), key=lambda box: box.x0)
+    assert len(numbers) > 3
+    assert all(right.x0 - left.x1 > 0.045 for left, right in pairwise(numbers))
 
 
 def test_the_coupling_on_its_map_of_friction_hides_no_area() -> None:

@@ -50,11 +50,5 @@ def test_links_between_the_projects_documents_lead_somewhere() -> None:
 
 def test_checks_before_a_commit_are_those_of_the_whole_run() -> None:
     hooks = re.findall(r"entry: (\.venv/bin/[^,\n]+)", text(".pre-commit-config.yaml"))
-    whole = text(".ci/run")
-    assert [each for each in hooks if "pytest" not in each and each not in whole] == []
-    assert len(hooks) == 4
-
-
-def test_the_owner_has_chosen_no_licence() -> None:
-    assert "has not chosen a licence" in " ".join(text("README.md").split())
-    assert not list(ROOT.glob("LICEN[CS]E*"))
+    assert hooks
+    assert [hook for hook in hooks if "pytest" not in hook and hook not in text(".ci/run")] == []

@@ -12,8 +12,11 @@ from app.examples import examples
 from app.manual import NAMES
 from app.manual.equations import equations
 from app.pages import views
+from app.pages.cases import solved
 from app.pages.manual import chapter_page, contents_page, functions_page
 from app.pages.query import pairs_of
+from app.pages.results import flattened
+from app.schema.fields import leaf_at
 from tests.support.pages import asked
 
 pytestmark = pytest.mark.usefixtures("without_images")
@@ -48,9 +51,25 @@ def test_inputs_say_the_value_used_and_where_it_comes_from() -> None:
     assert inputs["centre distance a"] == ("264.963 mm", "derived")
     assert inputs["pressure-viscosity coefficient α"] == ("17.0207 1/GPa", "assumed")
     assert inputs["oil density ρ0"] == ("843.537 kg/m³", "derived")
-    assert inputs["Young's modulus E"] == ("206 GPa", "default")
-    assert inputs["bulk temperature θM"] == ("estimated", "not given")
     assert inputs["rheology"] == ("Ree-Eyring", "assumed")
+    left = unescape(re.sub(r"<[^>]+>", "", report(SCUFFING).partition("<h3>Left to their defaults")[2]))
+    assert "Young's modulus E 206 GPa;" in left
+    assert "bulk temperature θM (estimated)." in left
+
+
+@pytest.mark.parametrize("name", SHORT[:3])
+def test_no_input_is_dropped(name: str) -> None:
+    """Those that were given, assumed or derived stand in tables, the others in a text."""
+    case = asked(name)
+    part = report(name)
+    part = part[part.index("<h2>Inputs") : part.index("<h2>Assumptions")]
+    text = unescape(re.sub(r"<[^>]+>", "", part))
+    used = flattened(solved(case.calculation, case.pairs, None).response.inputs)
+    stated = (leaf_at(case.calculation.request, path) for path, value in used.items() if value is not None)
+    titles = {leaf.title.partition(",")[0] for leaf in stated if leaf}
+    assert len(titles) > 20
+    assert not {title for title in titles if f"{title} " not in text}
+    assert set(re.findall(r'<td class="origin [^"]*">([^<]*)</td>', part)) <= {"given", "assumed", "derived"}
 
 
 @pytest.mark.parametrize("name", SHORT)

@@ -5,15 +5,14 @@ import re
 from collections.abc import Callable
 from dataclasses import replace
 from html import unescape
-from types import SimpleNamespace
 from typing import Any
 
 import httpx
 import pytest
 
-from app.http.routes import study_pages
 from app.pages.cases import Asked
 from app.pages.studies import page as pages
+from app.pages.studies import stream
 from app.pages.studies.sensitivity import MOST_ROWS, SensitivityPage
 from app.pages.studies.sweep import SweepPage
 from app.pages.typesetting import shown
@@ -103,5 +102,4 @@ class BrokenPool:
 
 
 def test_a_page_that_has_begun_says_that_a_part_failed() -> None:
-    http: Any = SimpleNamespace(app=SimpleNamespace(state=SimpleNamespace(studies=SimpleNamespace(own=BrokenPool))))
-    assert b"could not be drawn" in asyncio.run(study_pages._part(http, pages.drawn))
+    assert b"could not be drawn" in asyncio.run(stream._part(BrokenPool(), pages.drawn))

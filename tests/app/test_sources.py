@@ -11,7 +11,8 @@ from app.examples import examples
 from app.pages import views
 from app.pages.cases import Asked
 from app.pages.query import pairs_of, pairs_of_query, split_views
-from app.sources import SOURCES, changes_since, recent_changes, sources_of
+from app.sources import SOURCES, changes_since, recent_changes
+from solvers.digest import digest_of
 
 MODULE = '''"""What is computed."""
 
@@ -34,7 +35,7 @@ def double(x: float) -> float:
 def named(folder: Path, text: str, name: str = "module.py") -> str:
     (folder / name).parent.mkdir(parents=True, exist_ok=True)
     (folder / name).write_text(text, "utf-8")
-    return sources_of(folder)
+    return digest_of(folder)
 
 
 @pytest.mark.parametrize(

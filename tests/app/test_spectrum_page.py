@@ -1,6 +1,8 @@
 """The page of a load spectrum: a pasted table and tolerances make the study, whose numbers and links it shows."""
 
+import asyncio
 import re
+from collections.abc import AsyncGenerator, Callable
 from dataclasses import replace
 from html import unescape
 from typing import Any
@@ -16,7 +18,9 @@ from app.pages.query import pairs_of
 from app.pages.studies import page as pages
 from app.pages.studies.page import StudyPage
 from app.pages.studies.spectrum import SpectrumPage, address_of, cases_of, table_of
+from app.pages.studies.stream import report_pieces
 from app.schema.fields import ITEM, leaves
+from app.studies.engine import Clock
 from app.studies.requests import EXAMPLES
 from app.studies.spectrum import Spectrum
 from tests.support.pages import DEADLINE_S, asked, asked_by, checked, fault_at, lines_of, whole
@@ -281,6 +285,58 @@ def test_the_page_works_from_the_case(client: httpx.Client) -> None:
     figure = client.get(address.replace("/spectrum?", "/spectrum/figures/losses.csv?") + "&" + urlencode(SAID))
     assert figure.status_code == 200
     assert figure.text.splitlines()[1].startswith("low,")
+
+
+class Inline:
+    """A pool that calls in this process, at once."""
+
+    slots = 1
+
+    def submit(self, function: Callable[..., Any], *arguments: Any) -> asyncio.Future[Any]:
+        """Return what the call returns."""
+        future = asyncio.get_running_loop().create_future()
+        future.set_result(function(*arguments))
+        return future
+
+
+def parts_of_report(study: StudyPage, lines: list[dict[str, Any]]) -> list[str]:
+    """Return the report as it is sent while the lines arrive, more than a pause apart."""
+    clock = Clock(study.study.total)
+
+    async def arriving() -> AsyncGenerator[list[dict[str, Any]], None]:
+        for line in lines:
+            await asyncio.sleep(0.31)
+            clock.done = line.get("done", clock.done)
+            yield [line]
+
+    async def sent() -> list[str]:
+        return [part.decode() async for part in report_pieces(Inline, study, "", arriving(), clock)]
+
+    return asyncio.run(sent())
+
+
+@pytest.mark.usefixtures("without_images")
+def test_the_report_tells_how_many_points_are_calculated_until_it_comes() -> None:
+    study = checked(SpectrumPage, asked(COUPLING, **SAID))
+    total = study.study.total
+    half = {"type": "progress", "done": total // 2, "total": total, "elapsed_s": 1.0}
+    all_of = half | {"done": total}
+    first, *between, last = parts_of_report(study, [half, all_of, *told(study)])
+    assert f'<progress max="{total}" value="0"' in first
+    texts = [re.sub(r"<[^>]+>", "", part) for part in between]
+    assert f"{total // 2} of {total} points are calculated." in texts[0]
+    assert f"{total} of {total} points are calculated; the report is being written." in texts[-1]
+    assert last.startswith("<style>")
+    assert "<h2>Load spectrum</h2>" in last
+    assert (first + last).count("<body>") == (first + last).count("</body>") == 1
+
+
+def test_the_report_of_a_study_that_ends_early_says_why() -> None:
+    study = checked(SpectrumPage, asked(COUPLING, **SAID))
+    ended = {"type": "error", "code": "deadline_exceeded", "message": "It took too long.", "done": 5}
+    *_, last = parts_of_report(study, [told(study)[0], ended])
+    assert f"The study ended after 5 of {study.study.total} points. It took too long." in last
+    assert "<main" not in last
 
 
 def test_the_report_has_a_section_of_its_own(client: httpx.Client) -> None:

@@ -13,18 +13,19 @@ COUNT_COLD = """
 import gc
 from numba.extending import is_jitted
 from app.examples import examples
-from app.workers.stages import STAGES, calculate
+from app.workers.stages import STAGES, warm
+from app.calculations import BY_PATH
+from app.evaluate import answer_of
 
 def compiled():
     return {(each.py_func.__module__, each.py_func.__name__): len(each.signatures)
             for each in gc.get_objects() if is_jitted(each)}
 
 for stage in STAGES:
-    for name in stage.examples:
-        calculate(name)
+    warm(stage)
 before = compiled()
-for name in examples():
-    calculate(name)
+for example in examples().values():
+    answer_of(example.endpoint, BY_PATH[example.endpoint].request.model_validate(example.request))
 after = compiled()
 cold = {name: count for name, count in after.items() if before.get(name) != count}
 assert len(before) > 10, before

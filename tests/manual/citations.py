@@ -3,7 +3,11 @@
 import ast
 import re
 from collections.abc import Iterator
+from importlib import import_module
 from pathlib import Path
+from typing import Any
+
+from app.manual.equations import module_of
 
 SOLVERS = Path(__file__).parents[2] / "solvers"
 PAPERS = {"MILIAN": "Milian", "XUE": "Xue"}
@@ -20,6 +24,15 @@ def _plain(text: str) -> Iterator[str]:
         for part in re.split(r", | and ", cited):
             first, _, last = part.partition("-")
             yield from [first] if not last else (str(each) for each in range(int(first), int(last) + 1))
+
+
+def implementing(name: str) -> Any:
+    """Return the function, method or class of this name."""
+    module = module_of(name)
+    value: Any = import_module(module)
+    for part in name.removeprefix(f"{module}.").split("."):
+        value = getattr(value, part)
+    return value
 
 
 def paper_of(path: Path) -> str:

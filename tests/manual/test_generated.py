@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from app.calculations import CALCULATIONS
-from app.evaluate import drawn
+from app.evaluate import draw_figure
 from app.examples import examples
 from app.main import app
 from app.manual import NAMES, chapters
@@ -180,7 +180,7 @@ def renew_figures() -> None:
         calculation = next(each for each in CALCULATIONS if each.path == example.endpoint)
         declaration = next(each for each in calculation.figures if each.name == shown)
         request = calculation.request.model_validate(example.request)
-        (folder / f"{name}.{shown}.png").write_bytes(drawn(calculation, declaration, request, "png", "light"))
+        (folder / f"{name}.{shown}.png").write_bytes(draw_figure(calculation, declaration, request, "png", "light"))
 
 
 if __name__ == "__main__":

@@ -2,9 +2,7 @@
 
 import doctest
 import re
-from importlib import import_module
 from pathlib import Path
-from typing import Any
 
 import httpx
 import pytest
@@ -14,20 +12,11 @@ from app.examples import examples
 from app.manual import NAMES, chapters
 from app.manual.equations import anchor, equations, functions, module_of
 from app.pages.manual import chapter_of, method_of, shown_studies
-from tests.manual.citations import cited, declared
+from tests.manual.citations import cited, declared, implementing
 from tests.manual.pictures import figures_of, studies_of
 
 FOLDER = Path(__file__).parents[2] / "app" / "manual"
 CITED = cited()
-
-
-def implementing(name: str) -> Any:
-    """The function, method or class of this name."""
-    module = module_of(name)
-    found: Any = import_module(module)
-    for part in name.removeprefix(f"{module}.").split("."):
-        found = getattr(found, part)
-    return found
 
 
 def test_every_chapter_is_served_and_no_file_is_left_out() -> None:

@@ -3,8 +3,11 @@
 import base64
 import io
 import json
+import re
 import struct
 import zipfile
+from hashlib import sha256
+from html import unescape
 from typing import Any
 from xml.etree import ElementTree as ET
 
@@ -13,11 +16,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from app.errors import Unprocessable
+from app.pages.carried import uses
 from app.rexs.answer import unit_html, unit_json, with_answer
 from app.rexs.document import read, with_attributes
 from app.rexs.model import Attribute
 from app.rexs.unit import gear_unit
 from tests.rexs.units import Unit, three_stages, turbo_unit
+from tests.support.pages import asked_by
 
 MOST_BYTES = 20_000_000
 ANSWER = {
@@ -341,6 +346,20 @@ def test_a_damaged_file_is_read_or_refused_wherever_one_is_taken(data: st.DataOb
     assert unit_html("", content, MOST_BYTES)
     for stage in found["stages"]:
         assert read(with_answer(document, stage["id"], "/v1/scuffing", ANSWER).content, MOST_BYTES)
+
+
+def test_links_of_a_unit_carry_the_name_of_the_file_to_every_report() -> None:
+    content = turbo_unit().xml()
+    name, hashed = "mill 7.rexs", sha256(content).hexdigest()
+    html = unescape(unit_html("", content, MOST_BYTES, name).decode())
+    assert f"File: {name}." in html
+    links = re.findall(r'href="(/[a-z/-]+\?[^"]+)"', html)
+    assert len(links) > 3
+    for address in links:
+        case = asked_by(address)
+        addresses = [case.report, case.study("vary"), *(use.address for use in uses(case))]
+        for carried in (asked_by(each).file for each in addresses):
+            assert (carried["rexs_file"], carried["rexs_sha256"]) == (name, hashed)
 
 
 @pytest.mark.parametrize("teeth", [1, 2, 3, 4, 5, 1000, 1001, 10_000])

@@ -14,10 +14,10 @@ import httpx
 import pytest
 
 from app.examples import examples
-from app.sources import sources_of
 from app.studies.requests import EXAMPLES
 from app.studies.spectrum import Spectrum
 from app.studies.sweep import Sweep
+from solvers.digest import digest_of
 from tests.support.dask_cluster import DaskProcesses, running_cluster
 from tests.support.server import ROOT, Server, free_port, running_server
 from tests.support.studies import Planner, lines_of, study_of, timeless
@@ -149,7 +149,7 @@ def edited(tmp_path: Path) -> Path:
 
 
 def test_a_worker_with_other_sources_is_refused_before_the_study_and_during_it(edited: Path) -> None:
-    theirs = sources_of(edited / "solvers")
+    theirs = digest_of(edited / "solvers")
     with running_service(1) as (cluster, address):
         with httpx.stream("POST", f"{address}/v1/sweep", json=loads(2500), timeout=PREPARED_S) as response:
             found = response.iter_lines()

@@ -16,8 +16,6 @@ from app.examples import examples
 from tests.support.server import (
     PATIENCE_S,
     Server,
-    answer_to,
-    connected,
     descendants,
     descriptors,
     faulty_server,
@@ -25,10 +23,8 @@ from tests.support.server import (
     meanwhile,
     memory_mb,
     metric,
-    private_memory_mb,
     running_server,
     send_signal,
-    template,
     wait_for_metric,
     wait_until,
     wait_until_gone,
@@ -37,14 +33,16 @@ from tests.support.server import (
 
 pytestmark = pytest.mark.service
 
-KILLS = 50
-KILL_EVERY_S = 0.5
+KILLS = 8
+KILL_EVERY_S = 2.0
+DEADLINE_S = 30.0  # a worker starts within it on busy cores too
 RUNNING = "tribodrive_calculations"
+LOST = "tribodrive_workers_lost_total"
 
 
 @pytest.fixture(scope="module")
 def service() -> Iterator[Server]:
-    with faulty_server(workers=2, queue=2, deadline_s=6, body_deadline_s=1, worker_memory_mb=1024) as server:
+    with faulty_server(workers=2, queue=2, deadline_s=DEADLINE_S, worker_memory_mb=1024) as server:
         yield server
 
 
@@ -94,16 +92,16 @@ def outcomes_while_killing(process: subprocess.Popen[str], address: str) -> Coun
 
 def test_deadline(address: str) -> None:
     started = time.monotonic()
-    response = httpx.post(f"{address}/sleep/60", timeout=20)
+    response = httpx.post(f"{address}/sleep/60", timeout=90)
     assert response.status_code == 504
-    assert time.monotonic() - started > 5.9
+    assert time.monotonic() - started > DEADLINE_S - 0.1
     assert_recovers(address)
 
 
-def test_disconnect_ends_the_work(address: str) -> None:
+def test_a_client_that_leaves_ends_its_calculation(address: str) -> None:
     with pytest.raises(httpx.ReadTimeout):
-        httpx.post(f"{address}/sleep/5", timeout=0.5)
-    wait_until(lambda: metric(address, RUNNING) == 0, 3.5)
+        httpx.post(f"{address}/sleep/600", timeout=0.5)
+    wait_until(lambda: metric(address, RUNNING) == 0)
     assert_recovers(address)
 
 
@@ -112,16 +110,6 @@ def test_memory_bomb(address: str) -> None:
     assert response.status_code == 503
     assert response.json()["type"].endswith("memory_limit")
     assert_recovers(address)
-
-
-def test_slow_body(address: str) -> None:
-    started = time.monotonic()
-    with connected(address) as connection:
-        connection.sendall(
-            b"POST /v1/coupling HTTP/1.1\r\nHost: x\r\nContent-Type: application/json\r\nContent-Length: 100\r\n\r\n{"
-        )
-        assert answer_to(connection).startswith(b"HTTP/1.1 408")
-    assert 0.9 < time.monotonic() - started < 8.0  # 10 s by default
 
 
 def test_full_queue_and_recovery(address: str) -> None:
@@ -155,42 +143,55 @@ def test_killed_workers_are_replaced(service: Server) -> None:
     assert_recovers(address)
 
 
-def test_a_worker_shares_the_memory_of_its_template(service: Server) -> None:
+def test_a_client_that_leaves_a_short_calculation_costs_no_worker(service: Server) -> None:
     process, address = service
-    worker = int(httpx.post(f"{address}/worker", timeout=20).text)
-    assert worker in workers(process)
-    assert private_memory_mb(worker) < 40
+    assert_recovers(address)
+    before = workers(process)
+    with pytest.raises(httpx.ReadTimeout):
+        httpx.post(f"{address}/sleep/0.5", timeout=0.2)
+    assert_recovers(address)
+    assert workers(process) == before
 
 
-@pytest.mark.parametrize("busy", [False, True])
-def test_a_stopped_worker_is_noticed_and_replaced(service: Server, busy: bool) -> None:
+def test_a_killed_idle_worker_harms_nobody(service: Server) -> None:
     process, address = service
+    assert_recovers(address)
+    lost = metric(address, LOST)
+    for _ in range(3):
+        wait_until(lambda: len(workers(process)) == 2)
+        for worker in workers(process):
+            send_signal(worker, signal.SIGKILL)
+            wait_until_gone([worker])
+        time.sleep(0.1)
+        assert httpx.post(f"{address}/sleep/0", timeout=60).status_code == 200
+    assert metric(address, LOST) == lost
+
+
+def test_a_worker_that_crashes_costs_its_own_call_alone(address: str) -> None:
+    with ThreadPoolExecutor(2) as pool:
+        other = pool.submit(httpx.post, f"{address}/sleep/3", timeout=60)
+        wait_for_metric(address, RUNNING, 1)
+        crash = httpx.post(f"{address}/crash", timeout=60)
+        assert crash.status_code == 503
+        assert crash.json()["type"].endswith("worker_lost")
+        assert other.result().status_code == 200
+    assert_recovers(address)
+
+
+def test_a_stopped_worker_costs_one_call_its_deadline_and_is_replaced(service: Server) -> None:
+    process, address = service
+    assert_recovers(address)
+    wait_until(lambda: len(workers(process)) == 2)
     before = set(workers(process))
     with ThreadPoolExecutor(2) as pool:
-        flights = [pool.submit(httpx.post, f"{address}/sleep/4", timeout=20) for _ in range(2 if busy else 0)]
-        wait_for_metric(address, RUNNING, len(flights))
-        for worker in before:
-            send_signal(worker, signal.SIGSTOP)
-        wait_until(lambda: not set(workers(process)) & before)
-        assert {flight.result().status_code for flight in flights} <= {503}
-    assert httpx.post(f"{address}/sleep/0", timeout=5).status_code == 200
-
-
-@pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGSTOP])
-def test_a_lost_fork_server_is_started_again(service: Server, number: signal.Signals) -> None:
-    process, address = service
-    old = template(process)
-    flight_worker = workers(process)
-    with ThreadPoolExecutor(1) as pool:
-        flight = pool.submit(httpx.post, f"{address}/sleep/2", timeout=20)
-        wait_for_metric(address, RUNNING, 1)
-        send_signal(old, number)
-        assert flight.result().status_code == 200  # workers outlive the process that they were copied from
-    wait_until(lambda: not is_alive(old) and httpx.get(f"{address}/readyz", timeout=20).status_code == 200, 60)
-    for worker in flight_worker:
-        send_signal(worker, signal.SIGKILL)
-    assert_recovers(address, 60)
-    assert template(process) != old
+        flights = [pool.submit(httpx.post, f"{address}/sleep/2", timeout=60) for _ in range(2)]
+        wait_for_metric(address, RUNNING, 2)
+        stopped = min(before)
+        send_signal(stopped, signal.SIGSTOP)
+        assert sorted(flight.result().status_code for flight in flights) == [200, 504]
+    wait_until(lambda: not is_alive(stopped))
+    assert before - {stopped} <= set(workers(process))
+    assert_recovers(address)
 
 
 def test_a_storm_of_disconnects_leaves_nothing_behind(service: Server) -> None:
@@ -203,11 +204,13 @@ def test_a_storm_of_disconnects_leaves_nothing_behind(service: Server) -> None:
         with pytest.raises(httpx.ReadTimeout):
             httpx.post(f"{address}/sleep/5", timeout=httpx.Timeout(5, read=0.1))
 
-    with meanwhile(leave), httpx.Client(base_url=address, timeout=20) as client:
-        end = time.monotonic() + 10
+    other = httpx.HTTPTransport(local_address="127.0.0.2")
+    with meanwhile(leave), httpx.Client(base_url=address, timeout=60, transport=other) as client:
+        end = time.monotonic() + 20
         while time.monotonic() < end:
-            answered += client.post("/sleep/0.01").status_code == 200
-    assert answered > 50
+            assert client.post("/sleep/0.01").status_code == 200
+            answered += 1
+    assert answered > 3  # a worker starts again after each client that left
     assert_recovers(address)
     wait_until(lambda: len(descendants(process.pid)) <= before[0])
     wait_until(lambda: descriptors(process.pid) <= before[1] + 2)
@@ -215,9 +218,9 @@ def test_a_storm_of_disconnects_leaves_nothing_behind(service: Server) -> None:
 
 
 @contextmanager
-def calculating(path: str, workers: int) -> Iterator[tuple[subprocess.Popen[str], Future[httpx.Response]]]:
+def calculating(path: str, **settings: int) -> Iterator[tuple[subprocess.Popen[str], Future[httpx.Response]]]:
     """A service of one's own with one calculation under way, and its answer."""
-    with faulty_server(workers=workers) as (process, address), ThreadPoolExecutor(1) as pool:
+    with faulty_server(**settings) as (process, address), ThreadPoolExecutor(1) as pool:
         flight = pool.submit(httpx.post, address + path, timeout=60)
         wait_for_metric(address, RUNNING, 1)
         yield process, flight
@@ -226,21 +229,31 @@ def calculating(path: str, workers: int) -> Iterator[tuple[subprocess.Popen[str]
 def test_death_of_the_service_takes_everything_along() -> None:
     with calculating("/spin/60", workers=2) as (process, flight):
         family = descendants(process.pid)
-        assert len(family) >= 3
+        assert len(family) >= 2
         process.kill()
         with pytest.raises(httpx.TransportError):
             flight.result()
         wait_until_gone(family)
 
 
-def test_interrupt_does_not_wait_for_a_calculation() -> None:
-    with calculating("/spin/25", workers=2) as (process, flight):
+def test_a_second_interrupt_does_not_wait_for_a_calculation() -> None:
+    with calculating("/spin/600", workers=2) as (process, flight):
         family = descendants(process.pid)
+        process.send_signal(signal.SIGINT)
+        time.sleep(0.5)
+        assert process.poll() is None
         process.send_signal(signal.SIGINT)
         process.wait(20)
         wait_until_gone(family)
+        assert flight.exception() is not None or flight.result().status_code == 503
+
+
+def test_a_calculation_that_outlasts_the_shutdown_is_answered_that_the_service_stops() -> None:
+    with calculating("/spin/600", workers=1, shutdown_s=1) as (process, flight):
+        process.send_signal(signal.SIGTERM)
         assert flight.result().status_code == 503
         assert flight.result().json()["type"].endswith("shutting_down")
+        process.wait(20)
 
 
 def test_shutdown_finishes_what_is_in_flight() -> None:

@@ -1,9 +1,7 @@
-"""Limits where bytes arrive: headers, trailers, bodies, connections, time. Every flood is bounded in size."""
+"""Limits where bytes arrive: headers, bodies, connections. Slow and greedy clients are left to the reverse proxy."""
 
 import http.client
 import json
-import socket
-import threading
 import time
 from collections.abc import Iterator
 from contextlib import ExitStack, suppress
@@ -14,7 +12,6 @@ import httpx
 import pytest
 
 from tests.support.server import (
-    FAULTY,
     Server,
     answer_to,
     connected,
@@ -22,8 +19,6 @@ from tests.support.server import (
     faulty_server,
     meanwhile,
     memory_mb,
-    running_server,
-    wait_for_metric,
     wait_until,
 )
 
@@ -36,13 +31,8 @@ JSON = {"Content-Type": "application/json"}
 
 @pytest.fixture(scope="module")
 def service() -> Iterator[Server]:
-    with faulty_server(workers=2, header_deadline_s=1.5, body_deadline_s=1.5) as server:
+    with faulty_server(workers=2) as server:
         yield server
-
-
-def post_of(path: str, size: int = 0) -> bytes:
-    head = f"POST {path} HTTP/1.1\r\nHost: x\r\nContent-Type: application/json\r\nContent-Length: {size}\r\n\r\n"
-    return head.encode()
 
 
 def flood(address: str, opening: bytes, piece: bytes) -> tuple[int, bytes]:
@@ -57,15 +47,10 @@ def flood(address: str, opening: bytes, piece: bytes) -> tuple[int, bytes]:
         return sent, answer_to(connection)
 
 
-CHUNKED = (
-    b"POST /v1/coupling HTTP/1.1\r\nHost: x\r\nContent-Type: application/json\r\nTransfer-Encoding: chunked\r\n\r\n"
-)
 OPENINGS = {
     "one header without end": (b"GET /healthz HTTP/1.1\r\nHost: x\r\nX-Padding: ", PIECE),
     "headers without end": (b"GET /healthz HTTP/1.1\r\nHost: x\r\n", b"X-Padding: 1234567890\r\n" * 3000),
     "an address without end": (b"GET /", PIECE),
-    "trailers without end": (CHUNKED + b"2\r\n{}\r\n0\r\n", b"X-Padding: 1234567890\r\n" * 3000),
-    "a chunk size without end": (CHUNKED + b"2;extension=", PIECE),
 }
 
 
@@ -76,61 +61,8 @@ def test_flood_is_cut_off_before_it_costs_memory(service: Server, kind: str) -> 
     sent, answer = flood(address, *OPENINGS[kind])
     assert sent < FLOOD
     assert memory_mb(process.pid) < before + 10
-    assert answer[:12] in {b"", b"HTTP/1.1 431", b"HTTP/1.1 400"}  # a reset can overtake the answer
+    assert answer[:12] in {b"", b"HTTP/1.1 400"}  # a reset can overtake the answer
     assert httpx.get(f"{address}/healthz", timeout=2).status_code == 200
-
-
-def test_refusal_of_headers_is_a_problem_and_is_logged(address: str) -> None:
-    with connected(address) as connection:
-        connection.sendall(b"GET /healthz HTTP/1.1\r\nHost: x\r\nX-Padding: " + b"x" * 17_000 + b"\r\n\r\n")
-        head, _, body = answer_to(connection).partition(b"\r\n\r\n")
-    assert head.startswith(b"HTTP/1.1 431")
-    assert b"x-content-type-options: nosniff" in head
-    assert json.loads(body)["instance"].encode() in head
-    assert 'endpoint="unparsed",status="431"' in httpx.get(f"{address}/metrics").text
-
-
-def test_half_sent_headers_time_out(address: str) -> None:
-    with connected(address) as silent, connected(address) as slow:
-        slow.sendall(b"GET /healthz HTTP/1.1\r\nHost:")
-        started = time.monotonic()
-        assert answer_to(slow).startswith(b"HTTP/1.1 408")
-        assert answer_to(silent) == b""
-        assert 1.4 < time.monotonic() - started < 8.0  # 10 s by default
-
-
-def read_health(connection: socket.socket) -> None:
-    """The answer of /healthz, and no byte more."""
-    received = b""
-    while not received.endswith(b'{"status":"ok"}'):
-        received += connection.recv(65536)
-    assert received.startswith(b"HTTP/1.1 200")
-
-
-def test_half_sent_second_request_times_out(address: str) -> None:
-    with connected(address) as connection:
-        connection.sendall(b"GET /healthz HTTP/1.1\r\nHost: x\r\n\r\n")
-        read_health(connection)
-        connection.sendall(b"GET /heal")
-        assert answer_to(connection).startswith(b"HTTP/1.1 408")
-
-
-def test_a_body_that_drips_times_out(address: str) -> None:
-    with connected(address) as connection:
-        connection.sendall(post_of("/v1/coupling", 99))
-        started = time.monotonic()
-
-        def drip() -> None:
-            with suppress(OSError):
-                for _ in range(40):
-                    connection.sendall(b" ")
-                    time.sleep(0.1)
-
-        dripping = threading.Thread(target=drip)
-        dripping.start()
-        assert connection.recv(65536).startswith(b"HTTP/1.1 408")
-        assert 1.4 < time.monotonic() - started < 8.0  # 10 s by default
-        dripping.join()
 
 
 def test_many_unknown_fields_do_not_hold_up_the_others(address: str) -> None:
@@ -150,69 +82,6 @@ def test_many_unknown_fields_do_not_hold_up_the_others(address: str) -> None:
     assert median(waits) < 0.5
 
 
-def test_bodies_in_pieces_of_a_byte_do_not_hold_up_the_others(address: str) -> None:
-    opening = CHUNKED.replace(b"/v1/coupling", b"/v1/rexs").replace(b"json", b"xml")
-    answers, slowest = [], 0.0
-
-    def load() -> None:
-        with connected(address) as connection:
-            with suppress(OSError):
-                connection.sendall(opening + b"1\r\n \r\n" * 400_000)
-            answers.append(answer_to(connection)[:12])
-
-    loads = [threading.Thread(target=load) for _ in range(20)]
-    with httpx.Client(base_url=address) as client:
-        client.get("/healthz")
-        for each in loads:
-            each.start()
-        while any(each.is_alive() for each in loads):
-            started = time.monotonic()
-            client.get("/healthz")
-            slowest = max(slowest, time.monotonic() - started)
-    assert set(answers) <= {b"HTTP/1.1 400", b""}  # a client that goes on sending may lose its answer to a reset
-    assert slowest < 3.0  # 4 s on quiet cores if each piece is taken for itself
-
-
-def test_pipelined_requests_are_bounded(service: Server) -> None:
-    process, address = service
-    before = memory_mb(process.pid)
-    with connected(address) as connection:
-        with suppress(OSError):
-            connection.sendall(b"GET /healthz HTTP/1.1\r\nHost: x\r\n\r\n" * 20_000)
-        answer_to(connection)
-    assert memory_mb(process.pid) < before + 10
-    assert httpx.get(f"{address}/healthz", timeout=2).status_code == 200
-
-
-def test_pipelined_documents_that_nobody_reads_do_not_hold_up_a_newcomer(address: str) -> None:
-    request = b"GET /openapi.json HTTP/1.1\r\nHost: x\r\nAccept-Encoding: gzip\r\n\r\n"
-    httpx.get(f"{address}/openapi.json", timeout=20)  # the first one takes a second
-    with ExitStack() as stack:
-        for _ in range(100):
-            stack.enter_context(connected(address)).sendall(request * 15)
-        started = time.monotonic()
-        assert httpx.get(f"{address}/healthz", timeout=60).status_code == 200
-        assert time.monotonic() - started < 8.0  # 10 s on quiet cores if each is written anew
-
-
-def test_bytes_behind_a_long_request_do_not_cost_its_answer(address: str) -> None:
-    with connected(address) as connection:
-        connection.sendall(post_of("/sleep/2.5"))
-        wait_for_metric(address, "tribodrive_calculations", 1)
-        connection.sendall(b"\r\n")
-        assert connection.recv(65536).startswith(b"HTTP/1.1 200")
-
-
-def test_a_pipelined_request_whose_body_comes_late_is_answered(address: str) -> None:
-    first = b"GET /healthz HTTP/1.1\r\nHost: x\r\n\r\n"
-    with connected(address) as connection:
-        connection.sendall(first + post_of("/v1/coupling", 2) + b"{")
-        read_health(connection)
-        time.sleep(1.0)
-        connection.sendall(b"}")
-        assert connection.recv(65536).startswith(b"HTTP/1.1 422")
-
-
 @pytest.mark.parametrize("size", [2_000_000, 20_000_000])
 def test_a_refusal_reaches_a_client_that_sends_on_and_closes(address: str, size: int) -> None:
     for body in (b" " * size, (b" " * 65536 for _ in range(size // 65536))):  # announced, and in chunks
@@ -228,44 +97,15 @@ def test_two_hosts_are_refused(address: str) -> None:
         assert answer_to(connection).startswith(b"HTTP/1.1 400")
 
 
-def test_an_answer_that_nobody_reads_is_given_up() -> None:
-    """The memory of it is free again after the deadline; who reads slowly gets the whole of it."""
-    with (
-        faulty_server(workers=1, send_deadline_s=6) as (process, address),
-        ExitStack() as stack,
-    ):
-        request = b"GET /openapi.json HTTP/1.1\r\nHost: x\r\n\r\n"
-        whole = len(httpx.get(f"{address}/openapi.json", timeout=60).content)
+def test_connections_beyond_the_limit_are_refused_in_plain_text_and_nothing_breaks() -> None:
+    with faulty_server(workers=1, limit_concurrency=20) as (process, address), ExitStack() as stack:
         idle = descriptors(process.pid)
-        for _ in range(20):
-            connection = stack.enter_context(socket.socket())
-            connection.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
-            connection.connect((urlsplit(address).hostname, urlsplit(address).port))
-            connection.sendall(request * 10)
-        wait_until(lambda: descriptors(process.pid) >= idle + 10)  # slow machines give up the first before the last
-        slow = stack.enter_context(connected(address))
-        slow.sendall(request)
-        received = 0
-        while received < whole:
-            received += len(slow.recv(20_000))
-            time.sleep(0.01)
-        wait_until(lambda: descriptors(process.pid) <= idle + 2, 60)
-
-
-def test_few_descriptors() -> None:
-    """Idle connections beyond the limit are refused, and nothing breaks while they are there or afterwards."""
-    command = ["bash", "-c", f"ulimit -n 256; exec {' '.join(FAULTY)}"]
-    with (
-        running_server(command, workers=2, header_deadline_s=3, log_level="error") as (process, address),
-        ExitStack() as stack,
-    ):
-        idle = descriptors(process.pid)
-        for _ in range(300):
-            with suppress(OSError):
-                stack.enter_context(connected(address)).sendall(b"GET /")
+        for _ in range(30):
+            stack.enter_context(connected(address)).sendall(b"GET /")
         refused = httpx.get(f"{address}/healthz", timeout=5)
         assert refused.status_code == 503
-        assert refused.json()["type"].endswith("service_unavailable")
+        assert refused.headers["content-type"].startswith("text/plain")
+        stack.close()
         wait_until(lambda: descriptors(process.pid) <= idle + 2)
         for _ in range(20):
             assert httpx.get(f"{address}/readyz", timeout=5).status_code == 200

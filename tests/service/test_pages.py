@@ -190,8 +190,8 @@ def test_project_and_author_are_put_on_the_report(visit: Callable[..., Page]) ->
     page.get_by_label("project").fill("Mill 7")
     page.get_by_label("notes").fill("first line\nsecond line")
     page.get_by_role("button", name="Put on the report").click()
-    expect(page.locator("header .names")).to_contain_text("Mill 7")
-    expect(page.locator("header .names")).to_contain_text("second line")
+    expect(page.locator("header")).to_contain_text("Mill 7")
+    expect(page.locator("header")).to_contain_text("second line")
     page.emulate_media(media="print")
     expect(page.locator(".fill")).to_be_hidden()
     page.emulate_media(media="screen")
@@ -456,6 +456,30 @@ def test_the_help_of_a_field_covers_no_field(visit: Callable[..., Page], name: s
     expect(page.locator(f'[id="f.{name}-help"]')).to_be_visible()
     assert page.evaluate(COVERED, f"f.{name}-help") == 0
     assert overflow(page) == 0
+
+
+@pytest.mark.parametrize("touch", [False, True], ids=["mouse", "touch"])
+def test_a_choice_below_an_open_help_is_hit(visit: Callable[..., Page], touch: bool) -> None:
+    """The help between them closes, and the layout moves, when the button is up."""
+    page = visit(address_of(SCUFFING), viewport=PHONE, has_touch=touch, is_mobile=touch)
+    choice = page.locator("fieldset.choice").first
+    one, other = choice.locator("label.pick").nth(0), choice.locator("label.pick").nth(1)
+    one.locator("input").check()
+    choice.locator(".field input:visible").first.focus()
+    expect(choice.locator(".help").first).to_be_visible()
+    other.scroll_into_view_if_needed()
+    box = other.bounding_box()
+    assert box
+    x, y = box["x"] + 12.0, box["y"] + box["height"] / 2.0
+    if touch:
+        page.touchscreen.tap(x, y)
+    else:
+        page.mouse.move(x, y)
+        page.mouse.down()
+        page.wait_for_timeout(100)
+        page.mouse.up()
+    expect(other.locator("input")).to_be_checked()
+    expect(choice.locator(".help").first).to_be_hidden()
 
 
 @pytest.mark.slow

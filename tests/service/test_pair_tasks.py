@@ -2,11 +2,14 @@
 
 import re
 from collections.abc import Callable
+from hashlib import sha256
 from typing import Any
+from urllib.parse import urlencode
 
 import pytest
-from playwright.sync_api import Page, expect
+from playwright.sync_api import Locator, Page, expect
 
+from tests.rexs.units import turbo_unit
 from tests.support.browsing import address_of, overflow
 
 pytestmark = pytest.mark.service
@@ -99,3 +102,48 @@ def test_what_is_scrolled_to_is_not_below_the_cards(visit: Callable[..., Page]) 
     assert cards
     below = cards["y"] + cards["height"]
     assert below <= target["y"] + 1.0 or below <= 0.0
+
+
+def follow(link: Locator, window: dict[str, Any]) -> None:
+    """Follow a link or press a button: by touch on a phone, by the keyboard at the desk."""
+    if window is PHONE:
+        link.tap()
+    else:
+        link.press("Enter")
+
+
+@WINDOWS
+def test_the_file_that_a_stage_was_read_from_stands_on_its_report_untyped(
+    visit: Callable[..., Page], window: dict[str, Any]
+) -> None:
+    content = turbo_unit().xml()
+    page = visit("/", **window)
+    page.locator("#rexs-file").set_input_files(
+        {"name": "mill 7.rexs", "mimeType": "application/xml", "buffer": content}
+    )
+    opening = page.locator("form", has=page.locator("#rexs-file"))
+    follow(opening.get_by_role("button", name="Open"), window)
+    expect(page.locator(".lead")).to_contain_text("mill 7.rexs")
+    follow(page.locator("main").get_by_role("link", name="Load distribution").first, window)
+    expect(page.locator(".card").first).to_be_visible()
+    follow(page.get_by_role("link", name="Report", exact=True), window)
+    expect(page.locator("header")).to_contain_text(f"mill 7.rexs, SHA-256 {sha256(content).hexdigest()}")
+    expect(page.get_by_label("name of the REXS file")).to_have_value("mill 7.rexs")
+
+
+@WINDOWS
+def test_the_report_of_a_study_tells_how_many_points_are_calculated(
+    visit: Callable[..., Page], window: dict[str, Any]
+) -> None:
+    said = {"t0": "operation.misalignment_deg", "t0.by": "0.01", "show": "axial_thrust.design_force_n"}
+    said |= {"limit": "1500", "machines": "4096"}
+    page = visit("/", **window)
+    page.goto(f"{address_of('pahl-axial-displacement', '/spectrum/report')}&{urlencode(said)}", wait_until="commit")
+    bar = page.locator("progress:visible")
+    expect(page.locator(".progress:visible")).to_contain_text(re.compile("[1-9][0-9]* of [1-9][0-9]* points"))
+    done, total = (float(bar.get_attribute(name) or 0) for name in ("value", "max"))
+    assert 0.0 < done <= total
+    assert overflow(page) <= 0
+    expect(page.get_by_role("heading", name="Load spectrum")).to_be_visible()
+    expect(bar).to_have_count(0)
+    assert page.locator("h1").count() == 1

@@ -14,12 +14,23 @@ pytestmark = pytest.mark.service
 PAGE = re.compile(rb"/Type\s*/Page[^s]")
 
 
-@pytest.mark.parametrize("name", ["starter-industrial-scuffing", "pahl-axial-displacement"])
-def test_the_short_form_has_two_pages(browser: Browser, name: str) -> None:
-    case = asked(name, extent="short", author="A. Miller")
+TRAIN = pytest.param("starter-turbo-gear-drive-train", "short", 2, marks=pytest.mark.slow)
+
+
+@pytest.mark.parametrize(
+    ("name", "extent", "pages"),
+    [
+        ("starter-industrial-scuffing", "short", 2),
+        ("starter-industrial-scuffing", "", 4),
+        ("pahl-axial-displacement", "short", 2),
+        TRAIN,
+    ],
+)
+def test_a_report_has_its_pages(browser: Browser, name: str, extent: str, pages: int) -> None:
+    case = asked(name, extent=extent, author="A. Miller")
     if case.path == "/scuffing":
         case = Asked(case.path, [*case.pairs, ("model.lubrication", "closed_form")], case.views)
     page = browser.new_page()
     page.set_content(views.report(case, "").content.decode())
-    assert len(PAGE.findall(page.pdf(prefer_css_page_size=True))) == 2
+    assert len(PAGE.findall(page.pdf(prefer_css_page_size=True))) == pages
     page.close()

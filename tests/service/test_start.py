@@ -21,18 +21,14 @@ from tests.support.caches import copy_of_cache
 from tests.support.server import (
     PATIENCE_S,
     ROOT,
-    children,
-    command_line,
     descendants,
     faulty_server,
     free_port,
     running_server,
     started_server,
-    template,
     wait_until,
     wait_until_gone,
     wait_until_warm,
-    workers,
 )
 
 pytestmark = pytest.mark.service
@@ -54,6 +50,12 @@ def coupling_status(address: str) -> int:
     return httpx.post(address + COUPLING.endpoint, json=COUPLING.request, timeout=PATIENCE_S).status_code
 
 
+def count_progress(address: str) -> int:
+    """How many stages are neither at the beginning nor at the end."""
+    found = re.findall(r"(\d+) %", httpx.get(f"{address}/readyz", timeout=20).json()["detail"])
+    return sum(0 < int(each) < 100 for each in found)
+
+
 def test_cold_start_answers_coupling_first(tmp_path: Path) -> None:
     with started_server(environment={"NUMBA_CACHE_DIR": str(tmp_path)}, log_level="error") as (process, address):
         wait_until_open(address)
@@ -61,12 +63,13 @@ def test_cold_start_answers_coupling_first(tmp_path: Path) -> None:
         assert waiting.status_code == 503
         assert waiting.json()["type"].endswith("warming_up")
         assert int(waiting.headers["retry-after"]) > 0
-        assert "line contact 0 %" in waiting.json()["detail"]
+        assert "line contact " in waiting.json()["detail"]
         ready = httpx.get(f"{address}/readyz", timeout=5)
         assert ready.status_code == 503
         assert "coupling" in ready.json()["detail"]
-        wait_until(lambda: coupling_status(address) == 200, 60)  # 7 s on quiet cores, everything 80 s
+        wait_until(lambda: coupling_status(address) == 200, 60)
         assert httpx.get(f"{address}/readyz", timeout=5).status_code == 503  # the rest is not warm yet
+        wait_until(lambda: count_progress(address) > 0)
         family = descendants(process.pid)
         process.send_signal(signal.SIGINT)
         process.wait(PATIENCE_S)
@@ -74,13 +77,14 @@ def test_cold_start_answers_coupling_first(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGKILL])
-@pytest.mark.parametrize("after_s", [0.3, 1.5, 5.0])
+@pytest.mark.parametrize("after_s", [0.3, 1.5, 5.0, 9.0])
 def test_ends_at_any_moment_of_a_cold_start(tmp_path: Path, number: signal.Signals, after_s: float) -> None:
+    """Ctrl-C reaches all processes of the terminal's foreground group, other signals the service alone."""
     log = tmp_path / "log"
     with started_server(environment={"NUMBA_CACHE_DIR": str(tmp_path)}, log=log) as (process, _):
         time.sleep(after_s)
         family = descendants(process.pid)
-        process.send_signal(number)
+        (os.killpg if number == signal.SIGINT else os.kill)(process.pid, number)
         process.wait(PATIENCE_S)
         wait_until_gone(family)
     assert "Traceback" not in log.read_text()
@@ -96,7 +100,7 @@ def test_a_second_interrupt_leaves_no_traceback(tmp_path: Path) -> None:
     assert "Traceback" not in log.read_text()
 
 
-def test_port_in_use_is_said_at_once() -> None:
+def test_a_port_in_use_is_told() -> None:
     with socket.create_server(("127.0.0.1", 0)) as taken:
         port = taken.getsockname()[1]
         outcome = subprocess.run(
@@ -106,11 +110,11 @@ def test_port_in_use_is_said_at_once() -> None:
             check=False,
             capture_output=True,
             text=True,
-            timeout=PATIENCE_S,
+            timeout=60,
         )
-    assert outcome.returncode == 1
-    assert outcome.stderr == f"tribodrive: cannot listen on port {port} of 127.0.0.1: Address already in use\n"
-    assert outcome.stdout == ""
+    assert outcome.returncode == 3  # as uvicorn says that it could not start
+    assert "address already in use" in outcome.stderr
+    assert "Traceback" not in outcome.stderr
 
 
 def test_the_image_checks_the_port_it_serves() -> None:
@@ -125,9 +129,9 @@ def test_the_image_checks_the_port_it_serves() -> None:
             assert checked.returncode == outcome
 
 
-@pytest.mark.parametrize("after_s", [0.0, 0.05, 0.2, 0.5, 1.0, 2.0])
+@pytest.mark.parametrize("after_s", [0.0, 0.2, 1.0, 2.0, 4.0])
 def test_interrupts_of_the_start_say_nothing(tmp_path: Path, after_s: float) -> None:
-    """Ctrl-C reaches all processes of the terminal's foreground group. Counted from the first import of the service."""
+    """Counted from the first import of the service."""
     log = tmp_path / "log"
     command = [sys.executable, "-X", "importtime", "-m", "app"]
     with started_server(command, log=log, log_level="error") as (process, _):
@@ -137,7 +141,7 @@ def test_interrupts_of_the_start_say_nothing(tmp_path: Path, after_s: float) -> 
         os.killpg(process.pid, signal.SIGINT)
         assert process.wait(PATIENCE_S) == 130
         assert [line for line in log.read_text().splitlines() if not line.startswith("import time:")] == []
-        wait_until_gone(family)  # the template ends when its interpreter has started
+        wait_until_gone(family)
 
 
 @pytest.mark.parametrize("closed", [">&-", "<&- >&- 2>&-", "> >(head -n 1)"])
@@ -145,7 +149,7 @@ def test_runs_on_without_standard_streams(closed: str, tmp_path: Path) -> None:
     log = tmp_path / "log"
     command = ["bash", "-c", f"exec {sys.executable} -m app {closed}"]
     with started_server(command, log=log) as (process, address):
-        wait_until_warm(process, address, 60)
+        wait_until_warm(process, address)
         for _ in range(3):
             assert httpx.post(address + COUPLING.endpoint, json=COUPLING.request, timeout=20).status_code == 200
     assert "Traceback" not in log.read_text()
@@ -165,10 +169,10 @@ def test_the_unspecified_address_serves_both_families(tmp_path: Path) -> None:
     assert answered[-2:] == ["::1", "192.0.2.7"]
 
 
-def answer_after_a_start(cache: Path, log: Path, seconds: float = 120) -> bytes:
+def answer_after_a_start(cache: Path, log: Path) -> bytes:
     """What the service answers to a coupling with this cache."""
     with started_server(environment={"NUMBA_CACHE_DIR": str(cache)}, log=log, workers=2) as (process, address):
-        wait_until_warm(process, address, seconds)
+        wait_until_warm(process, address)
         answer = httpx.post(address + COUPLING.endpoint, json=COUPLING.request, timeout=20)
     assert answer.status_code == 200
     return answer.content
@@ -178,14 +182,15 @@ def answer_after_a_start(cache: Path, log: Path, seconds: float = 120) -> bytes:
 def whole(tmp_path_factory: pytest.TempPathFactory) -> bytes:
     """The answer with kernels that nobody damaged, about which nothing is said."""
     folder = tmp_path_factory.mktemp("whole")
-    answer = answer_after_a_start(copy_of_cache(folder / "cache"), folder / "log")
-    assert not re.search("broken|died", (folder / "log").read_text("utf-8"))
+    copy_of_cache(folder)
+    answer = answer_after_a_start(folder, folder / "log")
+    assert "died" not in (folder / "log").read_text("utf-8")
     return answer
 
 
 def machine_code(cache: Path) -> list[Path]:
     """The files of one module of the coupling."""
-    files = sorted(cache.glob("tooth_loads-*/*.nbc"))
+    files = sorted(cache.glob("*/tooth_loads.*.nbc"))
     assert len(files) > 5
     return files
 
@@ -196,93 +201,68 @@ def swap(files: list[Path]) -> None:
         file.write_bytes(content)
 
 
-def flip_a_bit(files: list[Path]) -> None:
-    content = bytearray(files[0].read_bytes())
-    content[len(content) // 2] ^= 1
-    files[0].write_bytes(content)
-
-
 def cut(files: list[Path]) -> None:
     for file in files:
         file.write_bytes(file.read_bytes()[:100])
 
 
-@pytest.mark.parametrize("damage", [flip_a_bit, cut])
-def test_damaged_kernels_are_noticed_and_compiled_again(
+@pytest.mark.parametrize("damage", [cut, swap])
+def test_kernels_that_kill_who_loads_them_are_compiled_anew(
     tmp_path: Path, whole: bytes, damage: Callable[[list[Path]], None]
 ) -> None:
-    cache, log = copy_of_cache(tmp_path / "cache"), tmp_path / "log"
-    damage(machine_code(cache))
-    assert answer_after_a_start(cache, log) == whole
-    lines = [line for line in log.read_text("utf-8").splitlines() if "broken kernel cache" in line]
-    assert lines
-    assert all("tooth_loads-" in line for line in lines)
-    assert answer_after_a_start(cache, log, 60) == whole
-    assert "broken" not in log.read_text("utf-8")
-
-
-def test_kernels_over_which_the_template_dies_twice_are_compiled_again(tmp_path: Path, whole: bytes) -> None:
-    """Damage of which no digest tells."""
-    cache, log = copy_of_cache(tmp_path / "cache"), tmp_path / "log"
-    for digest in cache.glob("*/sha256"):
-        digest.unlink()
-    swap(machine_code(cache))
-    assert answer_after_a_start(cache, log) == whole
-    lines = [line for line in log.read_text("utf-8").splitlines() if "compiled again" in line]
-    assert lines == ["two processes died while they loaded coupling: its kernels are compiled again"]
-    assert answer_after_a_start(cache, log, 60) == whole
+    folder, log = copy_of_cache(tmp_path), tmp_path / "log"
+    damage(machine_code(folder))
+    assert answer_after_a_start(tmp_path, log) == whole
+    assert "a process that compiled kernels died: all are compiled anew" in log.read_text("utf-8")
+    assert "died again" not in log.read_text("utf-8")
+    assert answer_after_a_start(tmp_path, log) == whole
     assert "died" not in log.read_text("utf-8")
 
 
-WITHOUT_ROOM = """
-import resource
-resource.setrlimit(resource.RLIMIT_FSIZE, (10_000, 10_000))
-from app.calculations import COUPLING
-from app.workers.stages import warm
-print(warm(COUPLING), warm(COUPLING))
-"""
-
-
-def test_kernels_that_cannot_be_written_are_compiled_in_memory(tmp_path: Path) -> None:
-    """As on a full disk; they count as missing each time."""
-    for _ in range(2):
-        outcome = subprocess.run(
-            [sys.executable, "-c", WITHOUT_ROOM],
-            env={**os.environ, "NUMBA_CACHE_DIR": str(tmp_path)},
-            cwd=ROOT,
-            check=True,
-            capture_output=True,
-            text=True,
-        )
-        first, second = map(int, outcome.stdout.split())
-        assert first > 2
-        assert second == 0
-        assert "could not be kept on disk" in outcome.stderr
+def test_a_folder_that_cannot_be_written_costs_time_alone(tmp_path: Path, whole: bytes) -> None:
+    (tmp_path / "file").touch()
+    log = tmp_path / "log"
+    variables = {"NUMBA_CACHE_DIR": str(tmp_path / "file" / "folder")}
+    with started_server(environment=variables, log=log, workers=1) as (process, address):
+        wait_until_warm(process, address)
+        assert httpx.post(address + COUPLING.endpoint, json=COUPLING.request, timeout=60).content == whole
+    assert log.read_text("utf-8").count("compiled kernels are not kept") == 1
 
 
 READ_ONLY = """
-findmnt -rno TARGET | while read -r place; do mount -o remount,bind,ro "$place"; done 2>/dev/null
+mount --bind CACHE CACHE
+findmnt -rno TARGET | grep -v '^CACHE$' | while read -r place; do mount -o remount,bind,ro "$place"; done 2>/dev/null
 exec "$@"
 """
 
 
 @pytest.mark.skipif(os.getuid() != 0, reason="root alone can remount folders")
-def test_needs_nothing_that_can_be_written(tmp_path: Path) -> None:
-    """No temporary folder, no home, and compiled kernels."""
-    (tmp_path / "tribodrive").mkdir()
-    copy_of_cache(tmp_path / "tribodrive" / "kernels")
-    own = ["env", "-u", "NUMBA_CACHE_DIR", f"XDG_CACHE_HOME={tmp_path}", "HOME=/nonexistent"]
-    command = ["unshare", "--mount", "sh", "-c", READ_ONLY, "sh", *own, sys.executable, "-m", "app"]
+def test_needs_nothing_to_be_writable_but_the_cache(tmp_path: Path) -> None:
+    """No temporary folder, no home."""
+    copy_of_cache(tmp_path)
+    writable = READ_ONLY.replace("CACHE", str(tmp_path))
+    command = [
+        "unshare",
+        "--mount",
+        "sh",
+        "-c",
+        writable,
+        "sh",
+        "env",
+        "HOME=/nonexistent",
+        sys.executable,
+        "-m",
+        "app",
+    ]
     log = tmp_path / "log"
-    with started_server(command, log=log, workers=2) as (process, address):
-        wait_until_warm(process, address, 60)
-        assert children(process.pid) == [template(process)]  # nothing else compiles
-        assert len(workers(process)) == 2
+    variables = {"NUMBA_CACHE_DIR": str(tmp_path)}
+    with started_server(command, log=log, workers=2, environment=variables) as (process, address):
+        wait_until_warm(process, address)
         figure = f"{COUPLING.endpoint}/figures/losses.svg"
-        assert httpx.post(address + figure, json=COUPLING.request, timeout=20).status_code == 200
+        assert httpx.post(address + figure, json=COUPLING.request, timeout=60).status_code == 200
     text = log.read_text("utf-8")
     assert "everything is warm" in text
-    assert not re.search("compiled|not on disk|Traceback", text)
+    assert not re.search("not kept|died|Traceback", text)
 
 
 SERVERS = {
@@ -304,27 +284,23 @@ def test_other_servers_serve_the_application(server: str, tmp_path: Path) -> Non
         address = f"http://127.0.0.1:{port}"
         if path:  # httpx leaves sockets open that cannot be connected
             wait_until(lambda: "running on" in log.read_text())
-        wait_until_warm(process, address, 120, path)
+        wait_until_warm(process, address, socket=path)
 
         def ask(method: str, place: str, **options: Any) -> httpx.Response:
             """An answer on a connection of its own, to whichever server process takes it."""
             with httpx.Client(transport=httpx.HTTPTransport(uds=str(path) if path else None), timeout=60) as client:
                 return client.request(method, address + place, **options)
 
-        wait_until(lambda: log.read_text("utf-8").count("served by another server") == processes, 120)
+        wait_until(lambda: log.read_text("utf-8").count("everything is warm") == processes, 120)
         answers = {ask("POST", COUPLING.endpoint, json=COUPLING.request).status_code for _ in range(4)}
-        assert answers <= {200, 503}  # the other process may still be loading
-        assert 200 in answers
+        assert answers == {200}
         prefix = "/below" if "prefix" in server else ""
         assert f'href="{prefix}/docs"' in ask("GET", "/").text  # a proxy strips the prefix
         family = descendants(process.pid)
-        templates = [pid for pid in family if len(children(pid)) and "app.workers.processes" in command_line(pid)]
-        assert len(templates) == processes
-        assert sum(len(children(pid)) for pid in templates) <= max(processes, os.cpu_count() or 2)
         process.terminate()
         process.wait(PATIENCE_S)
         wait_until_gone(family)
     text = log.read_text("utf-8")
     workers_each = max(1, (os.cpu_count() or 2) // processes)
-    assert text.count(f"served by another server with {workers_each} workers: limits of headers, conn") == processes
+    assert text.count(f"tribodrive: {workers_each} workers") == processes
     assert "Traceback" not in text

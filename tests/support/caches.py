@@ -1,28 +1,23 @@
-"""A folder with all compiled kernels. Tests copy the folder and damage the copy."""
+"""A folder with every kernel compiled, for tests that copy and damage it."""
 
 import shutil
 from functools import cache
 from pathlib import Path
 
-from app.workers.stages import content
-from solvers.kernel_cache import PACKAGE, folder_name, is_complete, roots
+from solvers.kernel_cache import FOLDER
 from tests.support.server import running_server
 
 
 @cache
 def complete_cache() -> Path:
-    """The folder in which the warm-up has left every kernel."""
+    """The folder in which a start has left every kernel."""
     with running_server(log_level="error"):
-        assert is_complete(content())
-    return next(root for root in roots() if root.is_dir() and any(root.glob("complete-*")))
+        assert FOLDER is not None
+    return FOLDER
 
 
-def copy_of_cache(target: Path) -> Path:
-    """The kernels of today's sources in a folder of one's own, marked as complete."""
-    target.mkdir()
-    for folder in {complete_cache() / folder_name(source) for source in PACKAGE.rglob("*.py")}:
-        if folder.is_dir():
-            shutil.copytree(folder, target / folder.name)
-    for mark in complete_cache().glob("complete-*"):
-        shutil.copy(mark, target)
-    return target
+def copy_of_cache(base: Path) -> Path:
+    """The kernels of today's sources in a base of one's own."""
+    folder = base / "tribodrive" / complete_cache().name
+    shutil.copytree(complete_cache(), folder)
+    return folder

@@ -6,6 +6,7 @@ It loads the kernels of two calculations only: a start takes a fraction of the t
 import os
 import signal
 import time
+import warnings
 from collections.abc import Sequence
 from unittest.mock import patch
 
@@ -15,11 +16,11 @@ from fastapi import FastAPI, Request
 from app.calculations import COUPLING, LOADS
 from app.command import serve
 from app.main import create_app
-from app.studies import engine
-from app.studies.points import Chunk, Question, solve_chunk
+from app.studies import engine, points
+from app.studies.points import Chunk, Point, Question, solve_chunk, solve_point
 from app.studies.requests import Overrides
 from app.workers import start_up
-from tests.support.server import HANGING, LONG
+from tests.support.server import HANGING, LONG, LONG_S, NAP, NAP_S
 
 STAGES = (COUPLING, LOADS)
 
@@ -42,23 +43,35 @@ def allocate(mebibytes: int) -> int:
     return int(np.ones(mebibytes * 2**17).size)
 
 
+def crash() -> None:
+    os.kill(os.getpid(), signal.SIGSEGV)
+
+
+def warn() -> None:
+    warnings.warn("deep inside", stacklevel=1)
+
+
 def fail_deep_inside() -> None:
     raise ZeroDivisionError("deep inside")
 
 
-def solve_chunk_that_may_hang(question: Question, overrides: Sequence[Overrides]) -> Chunk:
-    if any(HANGING in each.values() for each in overrides):
-        time.sleep(600)
-    for each in overrides:
-        if LONG in each.values():
-            time.sleep(3)
-    return solve_chunk(question, overrides)
+PAUSES_S = {HANGING: 600.0, LONG: LONG_S, NAP: NAP_S}
+
+
+def solve_point_after_a_pause(question: Question, overrides: Overrides) -> Point:
+    time.sleep(max((PAUSES_S.get(value, 0.0) for value in overrides.values()), default=0.0))
+    return solve_point(question, overrides)
+
+
+def solve_chunk_with_pauses(question: Question, overrides: Sequence[Overrides]) -> Chunk:
+    """Runs in a worker; a chunk that has taken long enough ends after its point, as any other does."""
+    with patch.object(points, "solve_point", solve_point_after_a_pause):
+        return solve_chunk(question, overrides)
 
 
 def create_faulty_app() -> FastAPI:
-    patch.object(engine, "solve_chunk", solve_chunk_that_may_hang).start()
-    content = " ".join(name for stage in STAGES for name in stage.examples)
-    patch.multiple(start_up, STAGES=STAGES, TRACKS=(STAGES,), content=lambda: content).start()
+    patch.object(engine, "solve_chunk", solve_chunk_with_pauses).start()
+    patch.object(start_up, "STAGES", STAGES).start()
     app = create_app()
 
     @app.post("/sleep/{seconds}")
@@ -80,10 +93,13 @@ def create_faulty_app() -> FastAPI:
     async def _(http: Request) -> None:
         await app.state.pool.calculate(http, fail_deep_inside)
 
-    @app.post("/worker")
-    async def _(http: Request) -> int:
-        result: int = await app.state.pool.calculate(http, os.getpid)
-        return result
+    @app.post("/crash")
+    async def _(http: Request) -> None:
+        await app.state.pool.calculate(http, crash)
+
+    @app.post("/warn")
+    async def _(http: Request) -> None:
+        await app.state.pool.calculate(http, warn)
 
     @app.post("/bug")
     async def _() -> None:
@@ -92,7 +108,12 @@ def create_faulty_app() -> FastAPI:
     return app
 
 
+def __getattr__(name: str) -> FastAPI:
+    """The application, made when uvicorn asks for it: workers import this module too."""
+    if name != "app":
+        raise AttributeError(name)
+    return create_faulty_app()
+
+
 if __name__ == "__main__":
     serve("tests.support.faulty_server:app")
-else:
-    app = create_faulty_app()

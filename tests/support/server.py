@@ -20,7 +20,8 @@ ROOT = Path(__file__).parents[2]
 START_UP_S = 1200.0  # kernels are compiled the first time, by several services side by side
 FAULTY = [sys.executable, "-m", "tests.support.faulty_server"]  # run, never imported: it patches the service
 HANGING = 1234.5  # a varied value whose point never ends there
-LONG = 987.5  # and one whose point takes three seconds
+LONG, LONG_S = 987.5, 3.0  # one whose point takes three seconds
+NAP, NAP_S = 876.5, 0.2  # and one whose point takes a fifth of a second
 PATIENCE_S = 30.0
 """For what takes well below a second on quiet cores: tests ask whether it happens, `benchmarks` how fast."""
 Server = tuple[subprocess.Popen[str], str]
@@ -141,14 +142,9 @@ def children(pid: int) -> list[int]:
     return []
 
 
-def template(process: subprocess.Popen[Any]) -> int:
-    """Process id of the fork server: the child that has been told so."""
-    return next(child for child in children(process.pid) if "app.workers.processes" in command_line(child))
-
-
 def workers(process: subprocess.Popen[Any]) -> list[int]:
     """Process ids of the workers."""
-    return children(template(process))
+    return [child for child in children(process.pid) if "anyio.to_process" in command_line(child)]
 
 
 def descendants(pid: int) -> set[int]:
@@ -185,12 +181,6 @@ def memory_mb(pid: int) -> float:
     """Resident memory of one process [MiB]."""
     pages = int(Path(f"/proc/{pid}/statm").read_text("ascii").split()[1])
     return pages * os.sysconf("SC_PAGE_SIZE") / 2**20
-
-
-def private_memory_mb(pid: int) -> float:
-    """Memory of one process that it shares with no other [MiB]."""
-    lines = Path(f"/proc/{pid}/smaps_rollup").read_text("ascii").splitlines()
-    return sum(int(line.split()[1]) for line in lines if line.startswith("Private_")) / 1024
 
 
 def send_signal(pid: int, number: signal.Signals) -> None:

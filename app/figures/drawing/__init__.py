@@ -1,4 +1,7 @@
-"""Draws figures with matplotlib: colours and fonts from `style` and its sheets, `panels` fills axes, `image` writes."""
+"""Drawing of figures with matplotlib.
+
+`style` and its sheets have colours and fonts, `panels` fills axes, `image` lays out and writes the image.
+"""
 
 import os
 from importlib.util import find_spec
@@ -7,7 +10,7 @@ from tempfile import gettempdir
 
 try:
     gettempdir()
-except FileNotFoundError:  # nothing can be written, and matplotlib wants a folder of its own: it gets that of its data
+except FileNotFoundError:  # no folder can be written, but matplotlib needs one: it gets that of its data
     specification = find_spec("matplotlib")
     assert specification is not None
     os.environ["MATPLOTLIBRC"] = str(Path(specification.origin or "").with_name("mpl-data"))

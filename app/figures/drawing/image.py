@@ -1,4 +1,4 @@
-"""From the data of a figure to the bytes of an image: sheet, layout and formats. Equal figures give equal bytes."""
+"""Images from the data of figures: sheet, layout and formats. Equal figures give equal bytes."""
 
 from dataclasses import replace
 from io import BytesIO
@@ -21,17 +21,18 @@ from app.figures.drawing.style import DPI, NARROW, TEXT, TITLE, WIDTH, themed
 from app.figures.wording import subscripts
 
 EDGE = 0.1  # inches around everything
-TITLE_LENGTH, LENGTH, BESIDE_LENGTH = 58, 84, 30  # characters of a line: of the title, of others, of axes beside others
-HEIGHTS = {1: 2.6, 2: 1.6, 3: 1.25}  # inches, of panels above each other
-PLANE, PLANE_BESIDE = 3.3, 1.8  # inches, height of a field over two axes, and of one beside others
-TOUCH = 0.025  # inches by which the boxes of two texts may meet: the room above and below their letters
-NARROW_HEIGHT = 0.66  # of the usual height, of axes in narrow figures
-ROW_HEIGHT = 0.3  # inches, of a row of bars with a name of up to two lines
-ABSCISSA = 0.45  # inches, ticks and name below axes
-TICKS = 0.35  # inches, least width of the names of ticks left of axes
+TITLE_LENGTH, LENGTH, BESIDE_LENGTH = 58, 84, 30  # characters per line: of the title, of others, of axes side by side
+HEIGHTS = {1: 2.6, 2: 1.6, 3: 1.25}  # inches, of panels above one another, by their number
+PLANE, PLANE_BESIDE = 3.3, 1.8  # inches, height of a plane, and of planes side by side
+TOUCH = 0.025  # inches by which the boxes of two texts may overlap: the space above and below their letters
+NARROW_HEIGHT = 0.66  # height of axes in narrow figures over the usual height
+ROW_HEIGHT = 0.3  # inches, of a bar with a name of up to two lines
+APART, FEWEST_TICKS = 0.05, 3  # inches between neighbouring tick labels; number of ticks that is always kept
+ABSCISSA = 0.45  # inches, height of ticks and name below axes
+TICKS = 0.35  # inches, least width of the tick labels left of axes
 LEGEND, BAR, END = 1.5, 1.1, 0.15  # inches right of axes: with a legend, with a colour bar, with neither
 CANVASES = {"svg": FigureCanvasSVG, "png": FigureCanvasAgg, "pdf": FigureCanvasPdf}
-# Neither date nor version, so that equal figures give equal bytes.
+# There is neither date nor version, so that equal figures give equal bytes.
 METADATA: dict[str, dict[str, str | None]] = {
     "svg": {"Date": None, "Creator": None},
     "png": {"Software": None},
@@ -40,7 +41,7 @@ METADATA: dict[str, dict[str, str | None]] = {
 
 
 def draw(figure: Figure, image_format: str, theme: ThemeName = "light") -> bytes:
-    """The image as svg, png or pdf."""
+    """Draw a figure as svg, png or pdf."""
     with themed(theme):
         sheet, _ = laid_out(figure)
         sheet.set_dpi(DPI[image_format])
@@ -51,9 +52,9 @@ def draw(figure: Figure, image_format: str, theme: ThemeName = "light") -> bytes
 
 
 class Place(NamedTuple):
-    """Where the axes of a panel lie in the image.
+    """Position of the axes of a panel in the image.
 
-    `box` is left, top, width and height as fractions of the image; `x` and `y` are the two ends of an axis and whether
+    `box` is left, top, width and height as fractions of the image. `x` and `y` are the two ends of an axis, and True if
     it is logarithmic.
     """
 
@@ -64,43 +65,43 @@ class Place(NamedTuple):
 
 
 def places(figure: Figure) -> list[Place]:
-    """Where the axes of each panel lie in the image."""
+    """Return the positions of the axes of all panels in the image."""
     with themed("light"):
         _, axes = laid_out(figure)
-    found = []
-    for panel, each in zip(figure.panels, axes, strict=True):
-        box = each.get_position()
-        x, y = (*each.get_xlim(), panel.x.log), (*each.get_ylim(), panel.y.log)
-        found.append(Place(panel, (box.x0, 1.0 - box.y1, box.width, box.height), x, y))
-    return found
+    positions = []
+    for panel, own_axes in zip(figure.panels, axes, strict=True):
+        box = own_axes.get_position()
+        x, y = (*own_axes.get_xlim(), panel.x.log), (*own_axes.get_ylim(), panel.y.log)
+        positions.append(Place(panel, (box.x0, 1.0 - box.y1, box.width, box.height), x, y))
+    return positions
 
 
 def size(figure: Figure) -> tuple[float, float]:
-    """Width and height of the image in inches."""
+    """Return width and height of the image in inches."""
     heights = [_height(panel, figure) for panel in figure.panels]
     body = max(heights, default=0.0) if figure.beside else sum(heights) + _gap(figure) * (len(heights) - 1)
     return _width(figure), _head(figure)[-1] + _heading(figure) + body + _abscissa(figure) + EDGE
 
 
 def _width(figure: Figure) -> float:
-    """Width of the image in inches."""
+    """Return the width of the image in inches."""
     return NARROW if figure.narrow else WIDTH
 
 
 def _letters(figure: Figure, length: int) -> int:
-    """How many characters fit into a line where so many fit into one of a figure of usual width."""
+    """Return the number of characters per line, from the number in a figure of the usual width."""
     return int(length * _width(figure) / WIDTH)
 
 
 def _head(figure: Figure) -> tuple[str, str, float, float]:
-    """Title and finding in lines, and how far below the top of the image the finding begins and the panels."""
+    """Return title and finding in lines, and the distances of the finding and the panels from the top in inches."""
     title, finding = fill(figure.title, _letters(figure, TITLE_LENGTH)), fill(figure.subtitle, _letters(figure, LENGTH))
     below = EDGE + LINE * TITLE * (1 + title.count("\n"))
     return title, finding, below, below + LINE * TEXT * (1 + finding.count("\n")) + EDGE
 
 
 def _height(panel: Panel, figure: Figure) -> float:
-    """Height of the axes of a panel in inches."""
+    """Return the height of the axes of a panel in inches."""
     height = _usual_height(panel, figure)
     return height if panel.rows or not figure.narrow else NARROW_HEIGHT * height
 
@@ -114,29 +115,29 @@ def _usual_height(panel: Panel, figure: Figure) -> float:
 
 
 def _heading(figure: Figure) -> float:
-    """Height of the titles and names of ordinates above axes, in inches."""
+    """Return the height of the titles and names of ordinates above axes, in inches."""
     names = 0 if all(panel.rows for panel in figure.panels) else 2 if figure.beside else 1
     names += max(map(legend_lines, figure.panels), default=0) if figure.narrow else 0
     return LINE * TEXT * (names + any(panel.title for panel in figure.panels)) + EDGE / 2
 
 
 def _shares_abscissa(figure: Figure) -> bool:
-    """Whether the panels stand above each other and have the same abscissa."""
+    """Return True if the panels stand above one another and have the same abscissa."""
     return not figure.beside and all(panel.x == figure.panels[0].x for panel in figure.panels)
 
 
 def _abscissa(figure: Figure) -> float:
-    """Height of ticks and name below axes in inches; in a narrow figure the name may have two lines."""
+    """Return the height of ticks and name below axes in inches; in a narrow figure the name may have two lines."""
     return ABSCISSA + LINE * TEXT * figure.narrow
 
 
 def _gap(figure: Figure) -> float:
-    """Distance between axes above each other in inches."""
+    """Return the distance between axes above one another in inches."""
     return _heading(figure) + (EDGE / 2 if _shares_abscissa(figure) else _abscissa(figure))
 
 
 def laid_out(figure: Figure) -> tuple[Sheet, list[Axes]]:
-    """The sheet with everything on it at its place, and the axes of the panels; inside the theme's settings."""
+    """Lay out a figure under the settings of a theme. Return the sheet and the axes of the panels."""
     (title, finding, below, _), (width, height) = _head(figure), size(figure)
     sheet = Sheet(figsize=(width, height), dpi=DPI["svg"])
     FigureCanvasAgg(sheet)  # measures texts
@@ -148,58 +149,60 @@ def laid_out(figure: Figure) -> tuple[Sheet, list[Axes]]:
         typeset = subscripts(text.get_text(), _symbol)
         if typeset != text.get_text():
             text.set(text=typeset, parse_math=True)
-    for each, panel in zip(axes, figure.panels, strict=True):
-        place_texts(each, panel)
+    for panel_axes, panel in zip(axes, figure.panels, strict=True):
+        place_texts(panel_axes, panel)
     return sheet, axes
 
 
 def narrowed(figure: Figure) -> Figure:
-    """Narrow a figure to a report's column; return it unchanged if panels stand side by side or texts would collide."""
+    """Return the figure in the width of a report's column.
+
+    A figure whose panels stand side by side, or whose texts would then collide, is returned unchanged.
+    """
     narrow = replace(figure, narrow=True)
     return figure if figure.beside or _collides(narrow) else narrow
 
 
 def _collides(figure: Figure) -> bool:
-    """Whether a text of the figure is cut or lies over another one."""
+    """Return True if a text of the figure is cut or overlaps another text."""
     with themed("light"):
         sheet, axes = laid_out(figure)
-        sheet.draw_without_rendering()  # names of axes and legends have their places then
-        texts = [text for each in axes for text in (*each.texts, each.title, each.xaxis.label, each.yaxis.label)]
-        for each in axes:
-            for axis in (each.xaxis, each.yaxis):
+        sheet.draw_without_rendering()  # places the names of axes and the legends
+        texts = list[Text]()
+        for panel_axes in axes:
+            texts += [*panel_axes.texts, panel_axes.title, panel_axes.xaxis.label, panel_axes.yaxis.label]
+            for axis in (panel_axes.xaxis, panel_axes.yaxis):
                 low, high = sorted(axis.get_view_interval())
                 texts += [tick.label1 for tick in axis.get_major_ticks() if low <= tick.get_loc() <= high]
-            texts += legend.get_texts() if (legend := each.get_legend()) else []
+            texts += legend.get_texts() if (legend := panel_axes.get_legend()) else []
         boxes = [text.get_window_extent() for text in (*sheet.texts, *texts) if text.get_visible() and text.get_text()]
         right, top = sheet.bbox.x1, sheet.bbox.y1
         if any(box.x0 < 0.0 or box.y0 < 0.0 or box.x1 > right or box.y1 > top for box in boxes):
             return True
-        shared = (Bbox.intersection(one, other) for one, other in combinations(boxes, 2))
-        return any(each and min(each.width, each.height) > TOUCH * sheet.dpi for each in shared)
+        overlaps = (Bbox.intersection(first, second) for first, second in combinations(boxes, 2))
+        return any(overlap and min(overlap.width, overlap.height) > TOUCH * sheet.dpi for overlap in overlaps)
 
 
 def _symbol(letter: str, subscript: str) -> str:
-    """A symbol for matplotlib to typeset."""
+    """Return a symbol in matplotlib's mathematical text."""
     return rf"${letter}_\mathrm{{{subscript.replace(',', '{,}')}}}$"
 
 
 def _axes(sheet: Sheet, figure: Figure) -> list[Axes]:
-    """Axes with their contents, and room around them for the names of ticks, legends and colour bars."""
+    """Draw the axes of all panels, with room around them for tick labels, legends and colour bars."""
     heights, (width, height) = [_height(panel, figure) for panel in figure.panels], size(figure)
     rows, columns = (1, len(heights)) if figure.beside else (len(heights), 1)
     ratios, share = None if figure.beside else heights, _shares_abscissa(figure)
     axes = list(sheet.subplots(rows, columns, squeeze=False, sharex=share, height_ratios=ratios).flat)
-    for each, panel in zip(axes, figure.panels, strict=True):
-        draw_panel(each, panel, _letters(figure, BESIDE_LENGTH if figure.beside else LENGTH), narrow=figure.narrow)
-        each.xaxis.label.set_visible(each is axes[-1] or not share)
-    for each, (before, panel) in zip(axes[1:], pairwise(figure.panels), strict=True):
-        each.yaxis.label.set_visible(not figure.beside or panel.y.label != before.y.label)
-    ticks = max(text.get_window_extent().width for each in axes for text in each.get_yticklabels())
+    length = _letters(figure, BESIDE_LENGTH if figure.beside else LENGTH)
+    for panel_axes, panel in zip(axes, figure.panels, strict=True):
+        draw_panel(panel_axes, panel, length, narrow=figure.narrow)
+        panel_axes.xaxis.label.set_visible(panel_axes is axes[-1] or not share)
+    for panel_axes, (before, panel) in zip(axes[1:], pairwise(figure.panels), strict=True):
+        panel_axes.yaxis.label.set_visible(not figure.beside or panel.y.label != before.y.label)
+    ticks = max(text.get_window_extent().width for panel_axes in axes for text in panel_axes.get_yticklabels())
     left = EDGE + max(TICKS, ticks / sheet.dpi) + EDGE / 2
-    ends = [
-        BAR if each.child_axes else LEGEND if each.get_legend() and not figure.narrow else END + _beyond(each)
-        for each in axes
-    ]
+    ends = [_room_right(panel_axes, narrow=figure.narrow) for panel_axes in axes]
     right, between = (ends[-1], left + max(ends[:-1], default=0.0)) if figure.beside else (max(ends), 0.0)
     sheet.subplots_adjust(
         left=left / width,
@@ -209,13 +212,34 @@ def _axes(sheet: Sheet, figure: Figure) -> list[Axes]:
         wspace=between * columns / (width - left - right - between * (columns - 1)),
         hspace=_gap(figure) * rows / sum(heights),
     )
+    for panel_axes in axes:
+        _thin_ticks(panel_axes)
     return axes
 
 
-def _beyond(axes: Axes) -> float:
-    """Inches that texts reach beyond the right end of axes: the values of rows, and half of the last tick's name.
+def _room_right(axes: Axes, *, narrow: bool) -> float:
+    """Return the room right of axes in inches, for a colour bar, a legend or texts."""
+    if axes.child_axes:
+        return BAR
+    return LEGEND if axes.get_legend() and not narrow else END + _overhang(axes)
 
-    Other texts have their place within the axes.
+
+def _thin_ticks(axes: Axes) -> None:
+    """Keep every second tick of a linear abscissa while the labels of two neighbours are too close to read."""
+    low, high = sorted(axes.get_xlim())
+    ticks = [tick for tick in axes.get_xticks() if low <= tick <= high]
+    while axes.get_xscale() == "linear" and len(ticks) > FEWEST_TICKS:
+        boxes = [text.get_window_extent() for text in axes.get_xticklabels() if text.get_visible() and text.get_text()]
+        if all(other.x0 - box.x1 >= APART * axes.figure.dpi for box, other in pairwise(boxes)):
+            return
+        ticks = ticks[::2]
+        axes.set_xticks(ticks)
+
+
+def _overhang(axes: Axes) -> float:
+    """Return the overhang of texts beyond the right end of axes in inches.
+
+    Only the values of rows and half of the last tick label extend beyond the end.
     """
     rows = dict[float, float]()
     for text in (text for text in axes.texts if text.get_gid() is None):

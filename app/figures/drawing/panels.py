@@ -1,4 +1,4 @@
-"""Draws the contents of one pair of axes: curves, bars, rows, maps, polygons, limits, spans, marks and names."""
+"""Drawing of the contents of axes: curves, bars, rows, maps, polygons, limits, spans, marks and names."""
 
 from dataclasses import replace
 from textwrap import fill
@@ -17,21 +17,21 @@ from app.figures.data import Line, Map, Panel, Role, Row, Scale, Values
 from app.figures.drawing.style import DASHES, LIMIT, TEXT, patch, written
 from app.figures.wording import NOISE, number, without_rounding
 
-FARTHEST_LEVEL = 4.0  # a limit beyond so many times the values is named at the edge instead of flattening them
-NAME_LENGTH, ROW_NAME_LENGTH = 17, 36  # characters of a line of a legend and of the name of a row
-BAR_SHARE, TINT = 0.8, 0.2  # of the spacing; opacity of fills
-LEGEND_COLUMNS = 2  # of a legend above narrow axes
+FARTHEST_LEVEL = 4.0  # times the range of the values; a limit farther away is named at the edge of the axes
+NAME_LENGTH, ROW_NAME_LENGTH = 17, 36  # characters per line of a legend, and of the name of a row
+BAR_SHARE, TINT = 0.8, 0.2  # share of bars in their spacing; opacity of fills
+LEGEND_COLUMNS = 2  # in a legend above narrow axes
 LINE = 1.3 / 72.0  # inches: height of a line of letters of one point
-NAME_BELOW = 36  # characters of a line below narrow axes
+NAME_BELOW = 36  # characters per line below narrow axes
 ROW = 0.52  # height of a row's bar
-RING = 5  # pixels
-SIDES = {"above": 1, "below": -1}  # of a point, on which its text is tried first; other texts stay where they are
-# Of a decade of ratios, and up to which ratio the ticks are evenly spaced instead.
+RING = 5  # pixels, half the side of the box around a mark
+SIDES = {"above": 1, "below": -1}  # side of a point on which its text is tried first; other texts are not moved
+# Ticks in a decade of ratios, and the greatest ratio up to which ticks are evenly spaced instead.
 RATIO_TICKS, LINEAR_RATIO = (1.0, 1.5, 2.0, 3.0, 5.0, 7.0), 1.5
-FEW_DECADES = 100.0  # up to this ratio of its ends a logarithmic axis has ticks between its powers of ten
-CROWDED = 0.08  # of the colour bar: a tick nearer to a critical value gives way
-BESIDE_ROWS = 0.4  # of the reach of rows, for texts at their ends
-WIDE = 0.15  # of the longest bar: the values of bounds farther apart are written
+FEW_DECADES = 100.0  # ratio of its ends up to which a logarithmic axis has ticks between the powers of ten
+CROWDED = 0.08  # of the colour bar; a tick nearer to a critical value is left out
+BESIDE_ROWS = 0.4  # of the range of rows; room for texts at their ends
+WIDE = 0.15  # of the longest bar; if bounds are farther apart, their values are written
 STEPS = (1, 2, 2.5, 5, 10)  # of ticks, times powers of ten
 NUMBERS = FuncFormatter(lambda value, _: number(value, digits=6))
 
@@ -39,10 +39,10 @@ Style = dict[str, Any]  # of matplotlib's artists
 
 
 def draw_panel(axes: Axes, panel: Panel, length: int, *, narrow: bool = False) -> None:
-    """Draw a panel; names of axes have at most `length` characters a line, and a legend of a narrow one is above it.
+    """Draw a panel, with at most `length` characters per line in the names of axes.
 
-    The name of the ordinate is a horizontal text above the axes. `place_texts` draws the texts of areas and moves
-    those of points.
+    The legend of a `narrow` panel is above it. The name of the ordinate is a horizontal text above the axes.
+    `place_texts` draws the texts of areas and moves those of points.
     """
     name = "" if panel.rows else fill(panel.y.label, length)
     axes.set(xscale="log" if panel.x.log else "linear", yscale="log" if panel.y.log else "linear")
@@ -63,7 +63,7 @@ def draw_panel(axes: Axes, panel: Panel, length: int, *, narrow: bool = False) -
     if panel.map is not None:
         _draw_map(axes, panel, panel.map)
     for bars in panel.bars:
-        _draw_bars(axes, bars, [each for each in panel.bars if each.role is bars.role])
+        _draw_bars(axes, bars, [other for other in panel.bars if other.role is bars.role])
     for line in panel.lines:
         _draw_line(axes, line)
     several = len({mark.hue for mark in panel.marks}) > 1
@@ -84,9 +84,9 @@ def draw_panel(axes: Axes, panel: Panel, length: int, *, narrow: bool = False) -
 
 
 def _draw_legend(axes: Axes, panel: Panel, *, narrow: bool) -> None:
-    """Draw the legend beside the axes, above them where a colour bar stands there or the figure is narrow."""
-    known = {str(each.get_label()): each for each in axes.get_legend_handles_labels()[0]}  # a name may be of several
-    if known and narrow:  # above the name of the ordinate: there is no room beside it
+    """Draw the legend beside the axes, or above them if a colour bar stands there or the figure is narrow."""
+    handles = {str(handle.get_label()): handle for handle in axes.get_legend_handles_labels()[0]}  # names may repeat
+    if handles and narrow:  # above the name of the ordinate, because there is no room beside it
         above = axes.transAxes + ScaledTranslation(
             0.0, LINE * TEXT * (1 + bool(panel.title)), axes.figure.dpi_scale_trans
         )
@@ -96,15 +96,15 @@ def _draw_legend(axes: Axes, panel: Panel, *, narrow: bool) -> None:
             "bbox_transform": above,
             "ncols": LEGEND_COLUMNS,
         }
-        axes.legend(known.values(), known, **style)
-    elif known and panel.map is not None:  # above, because the colour bar stands at the side
-        axes.legend(known.values(), known, loc="lower right", bbox_to_anchor=(1.0, 1.01), ncols=len(known))
-    elif known:
-        axes.legend(known.values(), known, bbox_to_anchor=(1.02, 1.0))
+        axes.legend(handles.values(), handles, **style)
+    elif handles and panel.map is not None:  # above, because the colour bar stands at the side
+        axes.legend(handles.values(), handles, loc="lower right", bbox_to_anchor=(1.0, 1.01), ncols=len(handles))
+    elif handles:
+        axes.legend(handles.values(), handles, bbox_to_anchor=(1.02, 1.0))
 
 
 def legend_lines(panel: Panel) -> int:
-    """Return how many lines the legend above a narrow panel has."""
+    """Return the number of lines of the legend above a narrow panel."""
     lines = [*(line.title for line in panel.lines if line.named), *(shape.title for shape in panel.shapes)]
     bars = [bars.title for bars in panel.bars] if len(panel.bars) > 1 else []
     names = dict.fromkeys([*lines, *bars, *(part.name for row in panel.rows for part in row.parts)])
@@ -113,7 +113,7 @@ def legend_lines(panel: Panel) -> int:
 
 
 def _end(axes: Axes, panel: Panel) -> None:
-    """The ends of the axes where they are asked for, else room around the data; no axis shows rounding errors."""
+    """Set the ends of the axes: as given, else with room around the data. No axis shows rounding errors."""
     if panel.equal:
         axes.set_aspect("equal", adjustable="box" if panel.x.limits else "datalim")
         axes.margins(0.08)
@@ -136,7 +136,7 @@ def _end(axes: Axes, panel: Panel) -> None:
 
 
 def _draw_fills(axes: Axes, panel: Panel) -> None:
-    """Areas, bands between curves, and polygons."""
+    """Draw areas, bands between curves, and polygons."""
     for area in panel.areas:
         axes.grid(visible=False)
         size = area.right - area.left, area.top - area.bottom
@@ -150,11 +150,11 @@ def _draw_fills(axes: Axes, panel: Panel) -> None:
 
 
 def _draw_line(axes: Axes, line: Line) -> None:
-    """A curve; a point whose neighbours have no value, which a line would not show, as a dot."""
-    known = np.isfinite(line.y)
-    alone = known & ~np.append(False, known[:-1]) & ~np.append(known[1:], False)
+    """Draw a curve. A point whose neighbours have no value is a dot, because a line would not show it."""
+    finite = np.isfinite(line.y)
+    alone = finite & ~np.append(False, finite[:-1]) & ~np.append(finite[1:], False)
     style: Style = {"color": line.hue, "linestyle": DASHES[line.role]}
-    if line.named and known.any():
+    if line.named and finite.any():
         style["label"] = fill(line.title, NAME_LENGTH)
     if alone.any():
         style |= {"marker": "o", "markersize": 2.6, "markevery": alone}
@@ -162,14 +162,14 @@ def _draw_line(axes: Axes, line: Line) -> None:
 
 
 def _bar_style(role: Role, color: str) -> Style:
-    """Filled, or the dashed outline of a variant."""
+    """Return the style of a bar: filled, or the dashed outline of a variant."""
     if role is Role.VARIANT:
         return {"facecolor": "none", "edgecolor": color, "linestyle": DASHES[role]}
     return {"facecolor": color}
 
 
 def _draw_bars(axes: Axes, bars: Line, beside: list[Line]) -> None:
-    """Bars of one of the series that stand beside each other."""
+    """Draw the bars of one of the series that stand beside one another."""
     pitch = float(np.diff(bars.x).min()) if len(bars.x) > 1 else 1.0
     width = BAR_SHARE * pitch / len(beside)
     left = bars.x - BAR_SHARE * pitch / 2 + beside.index(bars) * width
@@ -180,7 +180,7 @@ def _draw_bars(axes: Axes, bars: Line, beside: list[Line]) -> None:
 
 
 def _draw_rows(axes: Axes, panel: Panel) -> None:
-    """A horizontal bar with its value, or a line of dots, for each row; bars of a variant lie over its base."""
+    """Draw the rows as bars with their values, or as dots on a line; bars of a variant lie over those of the case."""
     own = [row for row in panel.rows if row.role is not Role.VARIANT]
     if not own:
         return
@@ -201,7 +201,7 @@ def _draw_rows(axes: Axes, panel: Panel) -> None:
 
 
 def _draw_dots(axes: Axes, place: int, row: Row) -> None:
-    """The values of a row on a line with names at its ends."""
+    """Draw the values of a row as dots on a line with names at its ends."""
     dots = sorted(row.dots, key=lambda dot: dot.value)
     axes.plot([dot.value for dot in dots], [place] * len(dots), color=rcParams["axes.edgecolor"], lw=3.0, zorder=1)
     for dot in dots:
@@ -211,7 +211,7 @@ def _draw_dots(axes: Axes, place: int, row: Row) -> None:
 
 
 def _draw_row(axes: Axes, place: int, row: Row) -> None:
-    """The bar of a row, or its parts joined end to end, and a line between its bounds."""
+    """Draw the bar of a row, or its parts end to end, and a line between its bounds."""
     left = 0.0
     for part in row.parts or [replace(row, name="", value=float(np.nan_to_num(row.value)))]:
         label = fill(part.name, NAME_LENGTH)
@@ -224,30 +224,31 @@ def _draw_row(axes: Axes, place: int, row: Row) -> None:
 
 
 def _write_value(axes: Axes, place: int, row: Row, panel: Panel) -> None:
-    """The value of a row at its right, then those of its bounds if they are far apart; rounding errors are zero."""
-    scale = max((abs(each.value) for each in panel.rows if np.isfinite(each.value)), default=0.0)
+    """Write the value of a row at its right, and its bounds if they are far apart; rounding errors become zero."""
+    scale = max((abs(other.value) for other in panel.rows if np.isfinite(other.value)), default=0.0)
     value, unit = without_rounding(row.value, scale), panel.x.unit
     text = number(value, unit) if np.isfinite(value) else "not calculated"
-    drawn = [end for each in panel.rows if each.name == row.name for end in (each.value, *(each.bounds or ()))]
-    written = _write(axes, text, (np.nanmax([0.0, *drawn]), place), 4, fontsize=TEXT, fontweight="bold")
+    same = [other for other in panel.rows if other.name == row.name]
+    ends = [end for other in same for end in (other.value, *(other.bounds or ()))]
+    written = _write(axes, text, (np.nanmax([0.0, *ends]), place), 4, fontsize=TEXT, fontweight="bold")
     if row.bounds is not None and row.bounds[1] - row.bounds[0] > WIDE * scale:
         low, high = (number(end) for end in row.bounds)
         _write(axes, f"({low} to {high})", (1, 0.5), 3, xycoords=written, color=rcParams["axes.labelcolor"])
 
 
 def _write(axes: Axes, text: str, xy: tuple[float, float], offset: float, **style: Any) -> Text:
-    """A text in the line of a point, so many typographic points to its right; to its left if negative."""
+    """Write a text at the height of a point, `offset` typographic points to its right, or to its left if negative."""
     style |= {"textcoords": "offset points", "va": "center_baseline", "ha": "left" if offset > 0.0 else "right"}
     return axes.annotate(text, xy, (offset, 0), bbox=patch(), **style)
 
 
 def _draw_map(axes: Axes, panel: Panel, chart: Map) -> None:
-    """Colours with their bar, thin contours at the bar's values, a dashed one at each critical value."""
+    """Draw a map: colours with their bar, thin contours at the ticks of the bar, dashed contours at critical values."""
     low, high = chart.ends
     norm = LogNorm(low, high) if chart.scale is Scale.RATIO else Normalize(low, high)
-    still = {Scale.RATIO: 1.0, Scale.SIGNED: 0.0}.get(chart.scale)  # beside it there is only noise
+    still = {Scale.RATIO: 1.0, Scale.SIGNED: 0.0}.get(chart.scale)  # a contour at this value would show only noise
     cmap = "cividis" if still is None else "RdBu_r"
-    # A single value of a coordinate holds everywhere on its axis.
+    # A single value of a coordinate applies to the whole axis.
     x, y = (
         along if along.size > 1 else np.array(axis.limits or along[0] + (-0.5, 0.5))
         for along, axis in ((chart.x, panel.x), (chart.y, panel.y))
@@ -256,7 +257,7 @@ def _draw_map(axes: Axes, panel: Panel, chart: Map) -> None:
     edges = _edges(x, panel.x.log), _edges(y, panel.y.log)
     colors = axes.pcolormesh(*edges, shown, cmap=cmap, norm=norm, rasterized=True)
     axes.grid(visible=False)
-    critical = {each.value: each.name for each in chart.critical if low <= each.value <= high}
+    critical = {level.value: level.name for level in chart.critical if low <= level.value <= high}
     bar = axes.figure.colorbar(colors, axes.inset_axes((1.04, 0.0, 0.035, 1.0)), format=NUMBERS)
     decades = chart.scale is Scale.RATIO and high > LINEAR_RATIO
     bar.locator = LogLocator(subs=RATIO_TICKS) if decades else MaxNLocator(nbins=6, steps=STEPS)
@@ -271,7 +272,7 @@ def _draw_map(axes: Axes, panel: Panel, chart: Map) -> None:
         bar.ax.remove()
         return
     bar.outline.set_visible(False)
-    bar.set_ticks([tick for tick in ticks if all(abs(norm(tick) - norm(each)) > CROWDED for each in critical)])
+    bar.set_ticks([tick for tick in ticks if all(abs(norm(tick) - norm(value)) > CROWDED for value in critical)])
     bar.set_label(f"{chart.title}, {chart.unit}" if chart.unit else chart.title)
     bar.ax.yaxis.set_ticks(list(critical), list(critical.values()), minor=True)
     bar.ax.tick_params(which="minor", labelcolor=LIMIT)
@@ -280,28 +281,31 @@ def _draw_map(axes: Axes, panel: Panel, chart: Map) -> None:
 
 
 def _edges(along: Values, log: bool) -> Values:
-    """Edges of the cells around points: midway between them on the scale of the axis; outer edges at the end points."""
-    drawn = np.log(along) if log else along
-    edges = np.concatenate([drawn[:1], (drawn[1:] + drawn[:-1]) / 2, drawn[-1:]])
+    """Return the edges of cells around points: midway on the scale of the axis, the outer edges at the end points."""
+    scaled = np.log(along) if log else along
+    edges = np.concatenate([scaled[:1], (scaled[1:] + scaled[:-1]) / 2, scaled[-1:]])
     return np.exp(edges) if log else edges
 
 
 def _draw_levels(axes: Axes, panel: Panel) -> None:
-    """Limits dashed in red and references dotted in grey, an arrow in the name of a distant one; zero if crossed."""
+    """Draw limits dashed in red, references dotted in grey, and a line at zero if the values have both signs.
+
+    The name of a level outside the axes has an arrow.
+    """
     if panel.map is None and not panel.rows and not panel.y.log and panel.y.limits is None:
         low, high = axes.dataLim.intervaly
         if panel.y.magnitude or low < 0.0 < high:
             line = axes.axhline(0.0, color=rcParams["axes.edgecolor"], linewidth=0.8, zorder=1)
             line.sticky_edges.y.append(0.0)
-    drawn = axes.dataLim.frozen()
+    data = axes.dataLim.frozen()
     for level in panel.levels:
-        low, high = drawn.intervalx if level.vertical else drawn.intervaly
+        low, high = data.intervalx if level.vertical else data.intervaly
         quantity, reach = panel.x if level.vertical else panel.y, FARTHEST_LEVEL * (high - low)
         if quantity.log or quantity.limits or low - reach <= level.value <= high + reach:
             (axes.axvline if level.vertical else axes.axhline)(level.value, **_level_style(level.limit))
     _end(axes, panel)
-    # From the top down, so that of two levels close together the lower one is named below.
-    for level in sorted(panel.levels, key=lambda each: (not each.vertical, -each.value)):
+    # Names are placed from the top down, so that the name of the lower of two close levels lies below it.
+    for level in sorted(panel.levels, key=lambda level: (not level.vertical, -level.value)):
         low, high = sorted(axes.get_xlim() if level.vertical else axes.get_ylim())
         below, above = (" ←", " →") if level.vertical else (" ↓", " ↑")
         text = level.name + (below if level.value < low else above if level.value > high else "") * bool(level.name)
@@ -313,21 +317,21 @@ def _draw_levels(axes: Axes, panel: Panel) -> None:
 
 
 def _level_style(limit: bool) -> Style:
-    """Of a limit, or of a reference."""
+    """Return the style of a limit or of a reference."""
     if limit:
         return {"color": LIMIT, "linestyle": (0, (5.0, 2.5)), "linewidth": 1.3}
     return {"color": rcParams["axes.labelcolor"], "linestyle": (0, (1.0, 2.0)), "linewidth": 1.0}
 
 
 def _name(axes: Axes, text: str, xy: tuple[float, float], xycoords: Any = "data", **style: Any) -> None:
-    """A text for a point, on a patch of background; `place_texts` finds its place."""
+    """Write a text for a point on a patch of background; `place_texts` moves it to its place."""
     style = {"textcoords": "offset points", "in_layout": False, "zorder": 6, "annotation_clip": False, **style}
     if text:
         axes.annotate(text, xy, (0, 0), xycoords, bbox=patch(), **style)
 
 
 def _keep_clear(axes: Axes, text: Text, room: Bbox, rings: list[Bbox]) -> None:
-    """Move the text of an area to another place in it where the ring of a point lies over its middle."""
+    """Move the text of an area to another place in the area if the ring of a point lies over its middle."""
     box = text.get_window_extent()
     free_x, free_y = (room.width - box.width) / 2, (room.height - box.height) / 2
     for across, up in ((0, 0), (0, 1), (0, -1), (1, 0), (-1, 0), (1, 1), (-1, 1), (1, -1), (-1, -1)):
@@ -340,20 +344,20 @@ def _keep_clear(axes: Axes, text: Text, room: Bbox, rings: list[Bbox]) -> None:
 
 
 def place_texts(axes: Axes, panel: Panel) -> None:
-    """Place the texts of areas, as many lines as fit, and those of points, beside them and clear of other texts."""
+    """Write the texts of areas, as many lines as fit, and move texts of points to places clear of other texts."""
     points = (axes.transData.transform((mark.x, mark.y)) for mark in panel.marks)
     rings = [Bbox([point - RING, point + RING]) for point in points]
     for area in panel.areas:
         room = Bbox([(area.left, area.bottom), (area.right, area.top)]).transformed(axes.transData)
-        middle = (area.left * area.right) ** 0.5, (area.bottom * area.top) ** 0.5  # of logarithmic axes
+        middle = (area.left * area.right) ** 0.5, (area.bottom * area.top) ** 0.5  # the axes of areas are logarithmic
         text = axes.text(*middle, area.text, color=rcParams["axes.labelcolor"], ha="center", va="center")
         while (box := text.get_window_extent()).width > room.width or box.height > room.height:
             text.set_text(text.get_text().rpartition("\n")[0])
         _keep_clear(axes, text, room, rings)
-    taken: list[BboxBase] = [each.get_window_extent() for each in axes.texts if each.get_gid() not in SIDES]
+    taken: list[BboxBase] = [text.get_window_extent() for text in axes.texts if text.get_gid() not in SIDES]
     taken += [*rings, axes.yaxis.label.get_window_extent(), axes.title.get_window_extent()]
     shapes = [line for line in axes.lines if line.get_linestyle() != "None"]
-    shapes += [bar for each in axes.containers for bar in each]
+    shapes += [bar for container in axes.containers for bar in container]
     curves = [shape.get_path().transformed(shape.get_transform()) for shape in shapes]
     point = axes.figure.dpi / 72.0
     for text in axes.texts:
@@ -361,7 +365,7 @@ def place_texts(axes: Axes, panel: Panel) -> None:
             continue
         text.set(ha="center", va="center")
         size, side = text.get_window_extent(), SIDES[str(text.get_gid())]
-        # The cheapest position: overlaps with other texts, crossed curves, room outside the axes and distance cost.
+        # Costs of a position: overlaps with other texts, crossed curves, room outside the axes, distance.
         costs = {}
         for reach in (7, 12, 20, 32, 48, 64):
             for across, up in ((0, side), (0, -side), (1, 0), (-1, 0), (1, 0.7), (-1, 0.7), (1, -0.7), (-1, -0.7)):
@@ -372,4 +376,4 @@ def place_texts(axes: Axes, panel: Panel) -> None:
                 costs[place] = crossed + 10.0 * sum(box.overlaps(other) for other in taken) + outside + reach / 32.0
         best = min(costs, key=costs.__getitem__)
         text.set_position((best[0] / point, best[1] / point))
-        taken.append(size.translated(*best))
+        taken.append(size.translated(*best).padded(2.0 * point))  # the patches of two texts keep apart

@@ -1,1 +1,1 @@
-"""What is drawn of each model's answers; nothing here knows how."""
+"""Data of the figures for the answers of all models, without any drawing."""

@@ -21,17 +21,17 @@ MAP_ENDS = {"overlap": (0.1, 10.0), "capacity": (0.01, 10.0)}  # of the axes, wi
 
 
 def friction_map(_: CouplingInputs, result: CouplingResult) -> Figure:
-    """Supply of oil against strength of film, with the nine areas and the distance to the next."""
+    """Draw the supply of oil against the strength of the film, with the nine areas and the distance to the next."""
     lubrication = result.lubrication
-    regime, found = lubrication.regime, (lubrication.contact_overlap, lubrication.load_capacity_coefficient)
-    overlap, capacity = (inf if each is None else each for each in found)  # at the edge of the map
+    regime, point = lubrication.regime, (lubrication.contact_overlap, lubrication.load_capacity_coefficient)
+    overlap, capacity = (inf if value is None else value for value in point)  # None stands at the edge of the map
     across, up = _around("overlap", overlap), _around("capacity", capacity)
     x = axis(lubrication, "contact_overlap", log=True, limits=across, ticks=_ticks(*OVERLAP_BOUNDARIES))
     y = axis(lubrication, "load_capacity_coefficient", log=True, limits=up, ticks=_ticks(*CAPACITY_BOUNDARIES))
     at = min(max(overlap, across[0]), across[1]), min(max(capacity, up[0]), up[1])
     distance = regime.distance_to_boundary
     away = "" if distance is None else f", a factor {number(exp(distance))} from the next area"
-    texts = ("∞" if value is None else number(value) for value in found)
+    texts = ("∞" if value is None else number(value) for value in point)
     panel = Panel(
         x=replace(x, title=f"{x.title} (right: worse supply of oil)"),
         y=replace(y, title=f"{y.title} (up: stronger film)"),
@@ -44,7 +44,7 @@ def friction_map(_: CouplingInputs, result: CouplingResult) -> Figure:
 
 
 def _around(which: str, value: float) -> tuple[float, float]:
-    """Ends of the map that hold the point, if a map can."""
+    """Return the ends of an axis of the map such that it contains a finite value."""
     low, high = MAP_ENDS[which]
     if not 0.0 < value < inf:
         return low, high
@@ -52,13 +52,13 @@ def _around(which: str, value: float) -> tuple[float, float]:
 
 
 def _ticks(low: float, high: float) -> list[float]:
-    """The boundaries and the decades that do not crowd them."""
+    """Return the boundaries, and the decades that are not too close to them."""
     decades = (10.0**exponent for exponent in range(-12, 13))
     return sorted({low, high, *(decade for decade in decades if decade <= low / 1.9 or decade >= high * 1.9)})
 
 
 def _areas(x: tuple[float, float], y: tuple[float, float]) -> list[Area]:
-    """The nine areas with what the model itself says of each."""
+    """Return the nine areas with their names and coefficients of friction from the model."""
     words = {"transition from mixed to boundary lubrication": "transition", "mixed lubrication, unstable": "unstable"}
     areas = []
     for bottom, top in pairwise((y[0], *CAPACITY_BOUNDARIES, y[1])):
@@ -80,15 +80,15 @@ def _band(low: float | None, high: float | None) -> str:
 
 
 def _to_boundary(overlap: float, capacity: float, distance: float) -> Line:
-    """From the point to the nearest boundary, along an axis."""
-    ways = [(each, capacity) for each in OVERLAP_BOUNDARIES] + [(overlap, each) for each in CAPACITY_BOUNDARIES]
+    """Return the line from the point to the nearest boundary along an axis."""
+    ways = [(bound, capacity) for bound in OVERLAP_BOUNDARIES] + [(overlap, bound) for bound in CAPACITY_BOUNDARIES]
     x, y = min(ways, key=lambda way: abs(abs(log(way[0] / overlap)) + abs(log(way[1] / capacity)) - distance))
     return Line(
         "to the next area", np.array([overlap, x]), np.array([capacity, y]), Hue.GREY, Role.REFERENCE, named=False
     )
 
 
-QUARTERS = tuple(45.0 * each for each in range(9))
+QUARTERS = tuple(45.0 * count for count in range(9))
 ROTOR = axis(Orbit, "rotor_angle", limits=(0.0, 360.0), ticks=QUARTERS)
 TOOTH = Axis("tooth position (tilt at 90° and 270°)", "°", limits=(0.0, 360.0), ticks=QUARTERS, symbol="φ")
 TILTS = [Span(82.0, 98.0, ""), Span(262.0, 278.0, "")]  # marks at 90° and 270°, wide enough to be seen
@@ -103,7 +103,7 @@ CONSTRAINTS = {
 
 
 def orbit(_: CouplingInputs, result: OrbitResult) -> Figure:
-    """Path of the sleeve centre in equal axes."""
+    """Draw the path of the sleeve centre, with the same scale on both axes."""
     path, largest = result.orbit, number(result.max_displacement, "µm")
     line = Line("path", np.append(path.x, path.x[0]), np.append(path.y, path.y[0]), named=False)
     panel = Panel(
@@ -118,7 +118,7 @@ def orbit(_: CouplingInputs, result: OrbitResult) -> Figure:
 
 
 def inertia_force(_: CouplingInputs, result: OrbitResult) -> Figure:
-    """Inertia force of the sleeve in both directions over the revolution."""
+    """Draw the inertia force of the sleeve in both directions over the revolution."""
     angle, force = result.orbit.rotor_angle, result.inertia_force
     directions = {"along x": np.append(force.x, force.x[0]), "along y": np.append(force.y, force.y[0])}
     lines = parts.lines(np.append(angle, angle[0] + 360.0), directions)
@@ -131,7 +131,7 @@ def inertia_force(_: CouplingInputs, result: OrbitResult) -> Figure:
 
 
 def orders(_: CouplingInputs, result: OrbitResult) -> Figure:
-    """Harmonics of the inertia force."""
+    """Draw the harmonics of the inertia force."""
     force = result.inertia_force
     amplitude = Axis("amplitude of the inertia force", "N", symbol="F_k")
     series = {"along x": force.harmonics_x, "along y": force.harmonics_y}
@@ -141,12 +141,12 @@ def orders(_: CouplingInputs, result: OrbitResult) -> Figure:
 
 
 def crowning_scan(inputs: RecommendationInputs, result: Recommendation) -> Figure:
-    """Least load capacity and largest overlap over the crowning ratio, the feasible window and the choice."""
+    """Draw least load capacity and largest overlap over the crowning ratio, the feasible range and the choice."""
     scan, best = result.scan, result.crowning_ratio
     ratio, capacity = scan.crowning_ratio, scan.min_load_capacity_coefficient
     if not ratio.size:
         raise NoFigure("no_contact_to_scan", "No crowning ratio gives a contact that can be computed")
-    # Down to a thousandth of the best: where the film tears off, its capacity falls to nothing.
+    # The axis ends at a thousandth of the best capacity, because the capacity of a film that tears off is zero.
     top = 10.0 ** np.ceil(np.log10(max(float(np.nanmax(capacity)), CAPACITY_BOUNDARIES[1])))
     x = axis(scan, "crowning_ratio", "crowning ratio (left: heavily, right: slightly crowned)", log=True)
     strength = axis(scan, "min_load_capacity_coefficient", log=True, limits=(top / 1e4, top))
@@ -164,7 +164,7 @@ def crowning_scan(inputs: RecommendationInputs, result: Recommendation) -> Figur
         marks.append(Mark(best, least, f"ε = {number(best)}, Tr = {number(least)}"))
         inside.append(best)
     window = [Span(min(inside), max(inside), "feasible")] if inside else []
-    areas = [Level(each, f"Tr = {each:g}") for each in CAPACITY_BOUNDARIES]
+    areas = [Level(bound, f"Tr = {bound:g}") for bound in CAPACITY_BOUNDARIES]
     ends = Level(OVERLAP_BOUNDARIES[0], "Pu = 1: supply of oil ends", limit=True)
     film = parts.curve(x, strength, ratio, capacity, levels=[*areas, *choice], spans=window)
     oil = parts.curve(
@@ -186,7 +186,7 @@ RECOMMENDATION_FIGURES = (
 
 
 def tooth_loads(inputs: CouplingInputs, result: CouplingResult) -> Figure:
-    """Tangential force of each tooth, mean and largest; the pitch deviations behind it."""
+    """Draw the tangential forces of the teeth with mean and maximum, and the pitch deviations that cause them."""
     load, deviations = result.load_distribution, inputs.coupling.pitch_errors
     curves, mean = load.curves, load.mean_tangential_force
     bars = Line("tangential force", curves.angle, curves.tangential_force)
@@ -204,7 +204,7 @@ def tooth_loads(inputs: CouplingInputs, result: CouplingResult) -> Figure:
 
 
 def tooth_motion(_: CouplingInputs, result: CouplingResult) -> Figure:
-    """What wears, what builds the film and what loads a tooth over a revolution."""
+    """Draw sliding velocity, hydrodynamic velocity and tangential displacement of a tooth over a revolution."""
     kinematics, limit = result.kinematics, result.limits.sliding_velocity_limit
     curves, lasting = kinematics.curves, Level(limit, f"lasting limit {number(limit, 'm/s')}", limit=True)
 
@@ -224,7 +224,7 @@ def tooth_motion(_: CouplingInputs, result: CouplingResult) -> Figure:
 
 
 def contact_track(_: CouplingInputs, result: CouplingResult) -> Figure:
-    """Where the contact is on the face, and how wide."""
+    """Draw position and width of the contact on the face over a revolution."""
     curves, lubrication = result.kinematics.curves, result.lubrication
     position, half, edge = (
         curves.contact_position,
@@ -236,7 +236,7 @@ def contact_track(_: CouplingInputs, result: CouplingResult) -> Figure:
         y=axis(curves, "contact_position", "position on the hub tooth from its middle", magnitude=False),
         lines=[Line("middle", curves.angle, position)],
         ribbons=[Ribbon("contact", curves.angle, position - half, position + half)],
-        levels=[Level(each, "edge of the face", limit=True) for each in (edge, -edge)],
+        levels=[Level(end, "edge of the face", limit=True) for end in (edge, -edge)],
     )
     overlap, reach = lubrication.contact_overlap, float(np.abs(position).max()) + half
     supply = "without travel no oil comes in" if overlap is None else f"overlap Pu = {number(overlap)}"
@@ -244,7 +244,7 @@ def contact_track(_: CouplingInputs, result: CouplingResult) -> Figure:
 
 
 def axial_thrust(inputs: CouplingInputs, result: CouplingResult) -> Figure:
-    """Which teeth slide which way, and the thrust that is left of the coaxial one."""
+    """Draw the thrust below its coaxial limit, and the directions in which the teeth slide."""
     thrust, curves, axial = result.axial_thrust, result.kinematics.curves, inputs.operation.axial_velocity
     rows = [
         Row("thrust", thrust.force, Hue.BLUE, (thrust.lower_bound, thrust.upper_bound)),
@@ -276,7 +276,7 @@ def axial_thrust(inputs: CouplingInputs, result: CouplingResult) -> Figure:
 
 
 def losses(_: CouplingInputs, result: CouplingResult) -> Figure:
-    """Moments on shaft and bearings, and the power that becomes heat."""
+    """Draw the moments on shaft and bearings, and the power lost as heat."""
     loss = result.losses
     moments = [
         Row("friction", loss.friction_moment, Hue.VERMILLION),

@@ -27,7 +27,7 @@ from solvers.scuffing.safety_results import Scuffing
 
 OWN = "own derivation"
 ROUND = np.linspace(0.0, 2.0 * pi, 181)  # a circle in steps of 2°
-WALLS = -1.05, 1.05  # of the clearance, with some room
+WALLS = -1.05, 1.05  # clearances, with some room
 NEWTONS = 1e3  # per kilonewton
 HUES = {
     "without coupling": Hue.ORANGE,
@@ -49,7 +49,7 @@ PARTS = (
 
 
 def flank_load(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
-    """Line load over the flank under the gap that all parts agreed on."""
+    """Draw the line load over the flank in equilibrium."""
     flank, load = result.flank, result.load
     panel = over_flank(face_width(inputs), flank, axis(flank, "line_load"), flank.line_load, load.max_line_load, None)
     if load.face_load_factor is None:
@@ -59,7 +59,7 @@ def flank_load(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
 
 
 def contact_temperature(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
-    """Contact temperature by Blok over the whole flank, with its corners."""
+    """Draw Blok's contact temperature over the whole flank."""
     flank, temperatures = result.flank, result.derived.temperatures
     grid, shown = flank.contact_temperature, axis(flank, "contact_temperature", "contact temperature")
     if temperatures.bulk is None:
@@ -72,7 +72,7 @@ def contact_temperature(inputs: DriveTrainInputs, result: DriveTrainResult) -> F
 
 
 def shaft_lines(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
-    """Displaced axes of both shafts in both planes, with the reactions of their bearings."""
+    """Draw the displaced axes of both shafts in both planes, with the reactions of their bearings."""
     states = result.shafts
     z = np.concatenate([state.curves.z for state in states])
     ends = float(z.min()), float(z.max())
@@ -90,57 +90,58 @@ def _shaft(inputs: DriveTrainInputs, name: str, given: Shaft, state: ShaftResult
     curves, marks = state.curves, []
     lines = parts.lines(curves.z, {"along X": curves.x, "along Y": curves.y})
     for plane, line in enumerate(lines):
-        for bearing, found in zip(given.bearings, state.bearings, strict=True):
+        for bearing, bearing_state in zip(given.bearings, state.bearings, strict=True):
             place = bearing.position / MM
-            reaction = without_rounding(found.reaction[plane], hypot(*found.reaction)) / NEWTONS
+            force = bearing_state.reaction
+            reaction = without_rounding(force[plane], hypot(*force)) / NEWTONS
             marks.append(Mark(place, float(np.interp(place, line.x, line.y)), number(reaction, "kN"), line.hue))
     return Panel(
         x=along,
         y=axis(curves, "x", f"displacement of the {name} shaft", magnitude=False, symbol="u, v"),
         lines=lines,
         marks=marks,
-        levels=[Level(each.position / MM, "hub", vertical=True) for each in inputs.couplings if each.shaft == name],
+        levels=[Level(hub.position / MM, "hub", vertical=True) for hub in inputs.couplings if hub.shaft == name],
         spans=[Span(inputs.face_start / MM, (inputs.face_start + face_width(inputs)) / MM, "face")],
     )
 
 
 def face_width(inputs: DriveTrainInputs) -> float:
-    """Face width of the gears [m]."""
+    """Return the face width of the gears [m]."""
     return inputs.mesh.distribution.gears.face_width
 
 
 def gap(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
-    """Gap over the face by shafts, heat and what is ground."""
-    found, curves = result.misalignment, result.misalignment.curves
+    """Draw the gap over the face by shafts, heat and modification."""
+    slopes, curves = result.misalignment, result.misalignment.curves
     gaps = {"shafts": curves.shaft, "heat": curves.thermal, "as ground": curves.modification, "total": curves.total}
     opened = axis(curves, "total", "gap, positive where the flanks part", magnitude=False)
-    tilt = number(without_rounding(found.shaft_slope, found.shaft_range))
-    heat = number(without_rounding(found.thermal_slope, found.thermal_range), "µm")
-    wanted = f"first estimate of the helix slope to grind {number(found.recommended_helix_slope, 'µm')}"
+    tilt = number(without_rounding(slopes.shaft_slope, slopes.shaft_range))
+    heat = number(without_rounding(slopes.thermal_slope, slopes.thermal_range), "µm")
+    wanted = f"first estimate of the helix slope to grind {number(slopes.recommended_helix_slope, 'µm')}"
     panel = Panel(x=face(face_width(inputs)), y=opened, lines=parts.lines(curves.position, gaps))
     return Figure(f"shafts {tilt}, heat {heat} over the face; {wanted}", [panel])
 
 
 def slope_parts(_: DriveTrainInputs, result: DriveTrainResult) -> Figure:
-    """Where the misalignment comes from."""
-    found = result.misalignment
-    causes = [Row(name, getattr(found.parts, part), hue) for name, part, hue in PARTS]
+    """Draw the slopes of the gap by their causes."""
+    slopes = result.misalignment
+    causes = [Row(name, getattr(slopes.parts, part), hue) for name, part, hue in PARTS]
     totals = [
-        Row("shafts, total", found.shaft_slope, Hue.PURPLE),
-        Row("heat", found.thermal_slope, Hue.VERMILLION),
-        Row("shafts and heat", found.total_slope, Hue.PURPLE),
+        Row("shafts, total", slopes.shaft_slope, Hue.PURPLE),
+        Row("heat", slopes.thermal_slope, Hue.VERMILLION),
+        Row("shafts and heat", slopes.total_slope, Hue.PURPLE),
     ]
     rows = [row for row in (*causes, *totals) if row.value != 0.0]
     if not rows:
         raise NoFigure("no_misalignment", "Neither shafts nor heat open a gap, so there is nothing to draw", "effects")
-    slope = axis(found, "total_slope", "slope of the gap over the face", magnitude=False)
+    slope = axis(slopes, "total_slope", "slope of the gap over the face", magnitude=False)
     largest = max(causes, key=lambda row: abs(row.value))
     finding = f"most by the {largest.name}: {number(largest.value, 'µm')}" if largest.value else "heat alone"
     return Figure(finding, [Panel(x=slope, y=Axis("cause"), rows=rows)])
 
 
 def effects_apart(inputs: DriveTrainInputs, result: DriveTrainResult) -> dict[str, Values]:
-    """Transverse force per face [N/mm] of the unit without each of its effects, and without all."""
+    """Compute the transverse force per face [N/mm] of the unit without single effects, and without all of them."""
     own, variants = inputs.effects, dict[str, Effects]()
     if own.shafts and inputs.acting_couplings:
         variants["without coupling"] = replace(own, coupling=False)
@@ -150,16 +151,18 @@ def effects_apart(inputs: DriveTrainInputs, result: DriveTrainResult) -> dict[st
     if own.thermal or own.shafts:
         variants["mesh alone"] = Effects(shafts=False, coupling=False, thermal=False)
     warm = as_warm(inputs, result)
-    plain = replace(warm, mesh=replace(warm.mesh, lubrication="closed_form"), states=("hot",))  # no film is asked for
-    solved = {name: solve(replace(plain, effects=effects)) for name, effects in variants.items()}
-    return {name: values(each.misalignment.curves.line_force / 1e3) for name, each in solved.items()}
+    plain = replace(
+        warm, mesh=replace(warm.mesh, lubrication="closed_form"), states=("hot",)
+    )  # the figure needs no film
+    results = {name: solve(replace(plain, effects=effects)) for name, effects in variants.items()}
+    return {name: values(variant.misalignment.curves.line_force / 1e3) for name, variant in results.items()}
 
 
 def face_load(inputs: DriveTrainInputs, result: DriveTrainResult, others: dict[str, Values]) -> Figure:
-    """Load along the face with all effects and without each."""
+    """Draw the load along the face with all effects, and without single effects."""
     curves, load = result.misalignment.curves, result.load
     if load.face_load_factor is None or load.face_load_at is None:
-        raise NoFigure("no_load", "Without load there is none along the face", "operation")
+        raise NoFigure("no_load", "Without load there is no line load to draw", "operation")
     lines = [Line("as asked", curves.position, curves.line_force)]
     lines += [Line(name, curves.position, force, HUES[name], Role.REFERENCE) for name, force in others.items()]
     y = axis(curves, "line_force", "transverse force per face, mean over the roll")
@@ -168,7 +171,7 @@ def face_load(inputs: DriveTrainInputs, result: DriveTrainResult, others: dict[s
 
 
 def journals(_: DriveTrainInputs, result: DriveTrainResult) -> Figure:
-    """Journal positions of the plain bearings in their clearances, and their paths as the load changes (Ocvirk)."""
+    """Draw the positions of the journals in their clearances, and their paths as the load changes (Ocvirk)."""
     wall = Line("clearance", np.cos(ROUND), np.sin(ROUND), Hue.GREY, named=False)
     across, up = (
         Axis(f"displacement over clearance, along {way}", magnitude=False, limits=WALLS, symbol=symbol)
@@ -176,16 +179,16 @@ def journals(_: DriveTrainInputs, result: DriveTrainResult) -> Figure:
     )
     panels, films = [], list[float]()
     used = (result.derived.pinion_shaft, result.derived.wheel_shaft)
-    for name, state, known in zip(("pinion", "wheel"), result.shafts, used, strict=True):
+    for name, state, shaft in zip(("pinion", "wheel"), result.shafts, used, strict=True):
         lines, marks = [], []
-        for index, (bearing, given) in enumerate(zip(state.bearings, known.bearings, strict=True)):
+        for index, (bearing, given) in enumerate(zip(state.bearings, shaft.bearings, strict=True)):
             if bearing.min_film is not None:
                 films.append(bearing.min_film)
             if bearing.eccentricity_ratio is None or given.radial_clearance is None:
                 continue
-            x, y = (float(each) / given.radial_clearance for each in bearing.displacement)
+            x, y = (float(part) / given.radial_clearance for part in bearing.displacement)
             hue = (Hue.BLUE, Hue.VERMILLION)[index]
-            named = name == "wheel"  # beside it
+            named = name == "wheel"  # the legend stands beside the last panel
             lines.append(Line(f"bearing {index + 1}", *_locus(x, y, bearing.reaction), hue, named=named))
             marks.append(Mark(x, y, f"ε = {number(bearing.eccentricity_ratio)}", hue))
         if lines:
@@ -199,29 +202,32 @@ def journals(_: DriveTrainInputs, result: DriveTrainResult) -> Figure:
 
 
 def _locus(x: float, y: float, reaction: Vector2) -> tuple[Values, Values]:
-    """From the middle of the clearance to a displacement over clearance, as the load grows in its direction."""
+    """Return the path of a journal from the middle of its clearance to its displacement, while the load grows.
+
+    The path and the displacement x, y are over the clearance. The direction of the load does not change.
+    """
     load = atan2(-reaction[1], -reaction[0])
     side = copysign(1.0, sin(atan2(y, x) - load))
     eccentricity = np.linspace(0.0, hypot(x, y), 60)
-    angle = np.array([load + side * attitude_angle(float(each)) for each in eccentricity])
+    angle = np.array([load + side * attitude_angle(float(ratio)) for ratio in eccentricity])
     return eccentricity * np.cos(angle), eccentricity * np.sin(angle)
 
 
 def thrust(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
-    """Axial load of both shafts between the bounds that the couplings' friction leaves."""
+    """Draw the axial load of both shafts between its bounds by the couplings' friction."""
     rows, usable, reversing = [], dict[float, list[str]](), []
     for name, given, state in zip(("pinion", "wheel"), inputs.shafts, result.shafts, strict=True):
-        found = state.thrust
-        known = None if found.lower is None or found.upper is None else (found.lower, found.upper)
-        rows.append(Row(f"{name} shaft", found.mesh, Hue.GREY if known is None else Hue.BLUE, known))
-        if found.reverses:
+        load = state.thrust
+        bounds = None if load.lower is None or load.upper is None else (load.lower, load.upper)
+        rows.append(Row(f"{name} shaft", load.mesh, Hue.GREY if bounds is None else Hue.BLUE, bounds))
+        if load.reverses:
             reversing.append(name)
         if given.ultimate_thrust is not None:
             usable.setdefault(0.5 * given.ultimate_thrust, []).append(name)
     levels = []
-    for load, names in usable.items():
+    for half, names in usable.items():
         text = "half the ultimate load" if len(usable) == 1 else f"half the ultimate, {names[0]}"
-        levels += [Level(end, name, limit=True, vertical=True) for end, name in ((load, text), (-load, ""))]
+        levels += [Level(end, name, limit=True, vertical=True) for end, name in ((half, text), (-half, ""))]
     title = "axial load towards +Z: of the mesh, and its bounds with the couplings"
     x = Axis(title, "N", magnitude=False, symbol="F_a")
     finding = f"friction can reverse the load of the {reversing[0]}" if reversing else "no load reverses"
@@ -229,27 +235,27 @@ def thrust(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
 
 
 def losses(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
-    """What the unit loses, and where."""
-    found, bearings = result.losses, (*inputs.pinion_shaft.bearings, *inputs.wheel_shaft.bearings)
-    plain = any(isinstance(each, JournalBearing) for each in bearings)  # no friction is known of other bearings
+    """Draw the power losses of the unit by their places."""
+    lost, bearings = result.losses, (*inputs.pinion_shaft.bearings, *inputs.wheel_shaft.bearings)
+    plain = any(isinstance(bearing, JournalBearing) for bearing in bearings)  # others have no known friction
     powers: tuple[tuple[str, float | None, Hue], ...] = (
-        ("plain bearings" if plain else "bearings", found.bearings if plain else None, Hue.BLUE),
-        ("mesh", found.mesh, Hue.VERMILLION),
-        ("pumping of air and mist", found.pumping, Hue.GREEN),
-        ("couplings", found.coupling, Hue.ORANGE),
+        ("plain bearings" if plain else "bearings", lost.bearings if plain else None, Hue.BLUE),
+        ("mesh", lost.mesh, Hue.VERMILLION),
+        ("pumping of air and mist", lost.pumping, Hue.GREEN),
+        ("couplings", lost.coupling, Hue.ORANGE),
     )
     if result.heat is not None:
         powers += (
-            ("oil brought to speed", found.oil_acceleration, Hue.SKY),
-            ("windage", found.windage, Hue.PURPLE),
-            ("other parts", found.other, Hue.GREY),
+            ("oil brought to speed", lost.oil_acceleration, Hue.SKY),
+            ("windage", lost.windage, Hue.PURPLE),
+            ("other parts", lost.other, Hue.GREY),
         )
     rows = [Row(name, np.nan if power is None else power, hue) for name, power, hue in powers]
     finding = "without the loss of the mesh, whose coefficient of friction is not known"
-    if found.total is not None:
-        finding = f"total {number(found.total / NEWTONS, 'kW')}"
-        if found.efficiency is not None:
-            finding += f", efficiency {number(100 * found.efficiency, '%', digits=4)}"
+    if lost.total is not None:
+        finding = f"total {number(lost.total / NEWTONS, 'kW')}"
+        if lost.efficiency is not None:
+            finding += f", efficiency {number(100 * lost.efficiency, '%', digits=4)}"
         if not plain:
             finding += "; without the bearings"
     return Figure(finding, [Panel(x=Axis("power lost", "W", symbol="P"), y=Axis("where"), rows=rows)])
@@ -260,9 +266,9 @@ def as_warm(inputs: DriveTrainInputs, result: DriveTrainResult) -> DriveTrainInp
     heat, kelvin = result.heat, UNITS["c"].offset
     if heat is None:
         return inputs
-    known = iter(heat.bearings)
+    plain_bearings = iter(heat.bearings)
     films = [
-        next(known).film + kelvin if isinstance(bearing, JournalBearing) else np.nan
+        next(plain_bearings).film + kelvin if isinstance(bearing, JournalBearing) else np.nan
         for shaft in inputs.shafts
         for bearing in shaft.bearings
     ]
@@ -283,38 +289,38 @@ def where_micropitting_starts(inputs: DriveTrainInputs, result: DriveTrainResult
 
 
 def wear(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
-    """Depth of wear over the flanks of pinion and wheel."""
+    """Draw the depth of wear over the flanks of pinion and wheel."""
     return micropitting.wear_on_flank(inputs.mesh, result)
 
 
 def where_heat_goes(_: DriveTrainInputs, result: DriveTrainResult) -> Figure:
-    """Heat supplied, out of the gears, and removed."""
-    return heat_balance.where_heat_goes(heat_balance.known(result.heat))
+    """Draw the heat supplied, the heat out of the gears, and the heat removed."""
+    return heat_balance.where_heat_goes(heat_balance.heat_of(result.heat))
 
 
 def temperatures(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
-    """Temperatures of flanks, bodies, bearings and casing."""
-    return heat_balance.temperatures(heat_balance.known(result.heat), oil_temperature(inputs))
+    """Draw the temperatures of flanks, bodies, bearings and casing."""
+    return heat_balance.temperatures(heat_balance.heat_of(result.heat), oil_temperature(inputs))
 
 
 def oil_temperature(inputs: DriveTrainInputs) -> float:
-    """Temperature of the supplied oil [°C]."""
+    """Return the temperature of the supplied oil [°C]."""
     return inputs.mesh.temperatures.oil - UNITS["c"].offset
 
 
 def curve_over_the_flow(_: DriveTrainInputs, result: DriveTrainResult) -> FlowCurve:
     """Solve the balance at a quarter to four times the oil flow, with the losses and loads of the case."""
-    heat = heat_balance.known(result.heat)
+    heat = heat_balance.heat_of(result.heat)
     assert result.over_the_flow is not None
     return result.over_the_flow(heat_balance.FLOWS * UNITS["l_per_min"].scale * heat.gear_flow)
 
 
 def oil_flow(inputs: DriveTrainInputs, result: DriveTrainResult, curve: FlowCurve) -> Figure:
-    """Flanks, drain and safety over the oil flow to the gears."""
+    """Draw flanks, drain and safety over the oil flow to the gears."""
     scuffing, oil, used = None, oil_temperature(inputs), result.derived.temperatures
     if result.safety is not None and result.safety.minimum and used.scuffing is not None and used.bulk is not None:
         scuffing = (used.scuffing, oil + (used.scuffing - oil) / result.safety.minimum - used.bulk)
-    return heat_balance.over_the_oil_flow(heat_balance.known(result.heat), curve, oil, scuffing)
+    return heat_balance.over_the_oil_flow(heat_balance.heat_of(result.heat), curve, oil, scuffing)
 
 
 LOAD_ALONE = Declaration("face-load", "Load along the face", OWN, partial(face_load, others={}))

@@ -1,4 +1,4 @@
-"""Figures of the heat balance: where the heat goes, how hot every part is, what the oil flow and the wetting do."""
+"""Figures of the heat balance: heat flows, temperatures of the parts, effects of oil flow and wetting."""
 
 from collections.abc import Sequence
 
@@ -18,9 +18,9 @@ from solvers.scuffing.thermal.practice import HIGH_RISK_BELOW, LOW_RISK_ABOVE
 from solvers.scuffing.thermal.temperatures import with_friction
 
 KILOWATT, KELVIN = UNITS["kw"].scale, UNITS["c"].offset
-ROOM = 0.3  # of the range, beside bars of temperatures: they do not start at zero
-SMALL = 2e-3  # of the heat supplied: smaller flows are left out
-FLOWS = np.geomspace(0.25, 4.0, 33)  # times that of the case
+ROOM = 0.3  # of the range; room beside bars of temperatures, which do not start at zero
+SMALL = 2e-3  # of the heat supplied; smaller flows are left out
+FLOWS = np.geomspace(0.25, 4.0, 33)  # times the flow of the case
 CASES = ("cool end of the band", "nominal", "hot end of the band")
 SUPPLY = {
     "friction of the mesh": "friction of the mesh",
@@ -41,8 +41,8 @@ BY_GEAR = {
 }
 
 
-def known(heat: Heat | None) -> Heat:
-    """Return the balance; raises NoFigure without one."""
+def heat_of(heat: Heat | None) -> Heat:
+    """Return the balance. Raises NoFigure if it is None."""
     if heat is None:
         raise NoFigure("no_oil", "Without an oil there is no heat balance", "lubricant")
     return heat
@@ -71,28 +71,28 @@ def where_heat_goes(heat: Heat) -> Figure:
 def _summed(
     heat: Heat, names: dict[str, str], *, origins: set[str] | None = None, targets: set[str] | None = None
 ) -> dict[str, float]:
-    """Return the flows from some places, or to some, summed by what carries them [kW], the largest first."""
+    """Return the heat flows from `origins` or to `targets`, summed by carrier [kW], the largest first."""
     powers: dict[str, float] = {}
     for flow in heat.flows:
         if (origins is None or flow.from_ in origins) and (targets is None or flow.to in targets):
             name = names[flow.carrier]
             powers[name] = powers.get(name, 0.0) + flow.power / KILOWATT
-    return dict(sorted(powers.items(), key=lambda each: -each[1]))
+    return dict(sorted(powers.items(), key=lambda name_and_power: -name_and_power[1]))
 
 
 def _out_of(heat: Heat, gear: str) -> dict[str, float]:
-    """Return the heat that leaves a gear by what carries it [kW]; negative where it comes in."""
+    """Return the heat that leaves a gear by carrier [kW]; negative if the heat enters the gear."""
     powers: dict[str, float] = {}
     for flow in heat.flows:
         inside = [place.startswith(f"{gear}_") for place in (flow.from_, flow.to)]
         if flow.carrier in BY_GEAR and inside[0] != inside[1]:
             name = BY_GEAR[flow.carrier][0]
             powers[name] = powers.get(name, 0.0) + (flow.power if inside[0] else -flow.power) / KILOWATT
-    return dict(sorted(powers.items(), key=lambda each: -each[1]))
+    return dict(sorted(powers.items(), key=lambda name_and_power: -name_and_power[1]))
 
 
 def temperatures(heat: Heat, oil: float) -> Figure:
-    """Draw the temperature of every node, flanks with their band, beside the oil [°C] and the standard's estimate."""
+    """Draw the temperatures of all nodes, flanks with their band, with the oil [°C] and the standard's estimate."""
     band = heat.band
     rows = [
         Row("pinion, loaded flank", heat.pinion.flank, Hue.VERMILLION, None if band is None else band.pinion_flank),
@@ -130,7 +130,7 @@ def curve_over_the_flow(inputs: ScuffingInputs, result: Scuffing) -> FlowCurve:
 
 
 def what_the_flow_does(heat: Heat, curve: FlowCurve) -> list[Panel]:
-    """Return flanks and drain over the oil flow, with the flow of the case."""
+    """Return panels of flanks and drain over the oil flow, with the flow of the case."""
     flow = curve.flow / UNITS["l_per_min"].scale
     lines = [
         Line("pinion flank", flow, curve.pinion_flank - KELVIN, Hue.VERMILLION),
@@ -153,7 +153,7 @@ def _own_flow(heat: Heat) -> Level:
 
 def oil_flow(inputs: ScuffingInputs, result: Scuffing, curve: FlowCurve) -> Figure:
     """Draw flanks, drain and safety of a pair over the oil flow, with the flows at which verdicts change."""
-    heat, safety, largest = known(result.heat), result.safety, result.flash.blok_max
+    heat, safety, largest = heat_of(result.heat), result.safety, result.flash.blok_max
     scuffing = None if safety is None or largest is None else (safety.scuffing, largest)
     return over_the_oil_flow(heat, curve, inputs.temperatures.oil - KELVIN, scuffing)
 
@@ -161,8 +161,8 @@ def oil_flow(inputs: ScuffingInputs, result: Scuffing, curve: FlowCurve) -> Figu
 def over_the_oil_flow(heat: Heat, curve: FlowCurve, oil: float, scuffing: tuple[float, float] | None) -> Figure:
     """Draw flanks and drain over the oil flow, and the safety with the flows at which its verdict changes.
 
-    `scuffing` are the scuffing temperature [°C] and the rise of the contact over the bulk [K], which the flow does not
-    change; `oil` is the temperature of the supplied oil [°C].
+    `scuffing` is the scuffing temperature [°C] and the rise of the contact above the bulk temperature [K]; both do not
+    depend on the flow. `oil` is the temperature of the supplied oil [°C].
     """
     panels = what_the_flow_does(heat, curve)
     if scuffing is not None:
@@ -170,7 +170,7 @@ def over_the_oil_flow(heat: Heat, curve: FlowCurve, oil: float, scuffing: tuple[
         bulk = (curve.pinion_flank + curve.wheel_flank) / 2 - KELVIN
         factors = _factors(limit, oil, bulk + rise)
         line = Line("safety", curve.flow / UNITS["l_per_min"].scale, factors, named=False)
-        marks = [mark for verdict in (HIGH_RISK_BELOW, LOW_RISK_ABOVE) for mark in _reached(line, verdict)]
+        marks = [mark for verdict in (HIGH_RISK_BELOW, LOW_RISK_ABOVE) for mark in _first_crossing(line, verdict)]
         y = axis(Safety, "blok_factor", "safety factor against scuffing")
         levels = [*_verdicts(factors), Level(heat.gear_flow, "", vertical=True)]
         panels.append(Panel(x=panels[0].x, y=y, lines=[line], marks=marks, levels=levels))
@@ -178,7 +178,7 @@ def over_the_oil_flow(heat: Heat, curve: FlowCurve, oil: float, scuffing: tuple[
 
 
 def _flank_change(heat: Heat, curve: FlowCurve) -> str:
-    """Say what twice the oil would bring."""
+    """Return the effect of twice the oil flow as a sentence."""
     double = float(np.interp(2.0, FLOWS, curve.pinion_flank)) - KELVIN
     if np.isnan(double):
         return f"pinion flank {number(heat.pinion.flank, '°C')}"
@@ -186,20 +186,20 @@ def _flank_change(heat: Heat, curve: FlowCurve) -> str:
 
 
 def _factors(scuffing: float, oil: float, contact: Values) -> Values:
-    """Return the safety against a scuffing temperature at contact temperatures [°C]; NaN where it has no meaning."""
-    return values([safety_factor(scuffing, oil, float(each)) if each > oil else None for each in contact])
+    """Return the safety factors at contact temperatures [°C]; NaN if the contact is not hotter than the oil."""
+    return values([safety_factor(scuffing, oil, float(at)) if at > oil else None for at in contact])
 
 
 def _verdicts(factors: Values) -> list[Level]:
-    """Return the limits of the verdicts that lie near the safeties."""
+    """Return the limits of the verdicts that are near the safety factors."""
     levels = [Level(HIGH_RISK_BELOW, "high risk below 1", limit=True)]
     if float(np.nanmax(factors)) > (HIGH_RISK_BELOW + LOW_RISK_ABOVE) / 2:
         levels.append(Level(LOW_RISK_ABOVE, "low risk above 2"))
     return levels
 
 
-def _reached(line: Line, limit: float) -> Sequence[Mark]:
-    """Return the first point at which a rising line reaches a value."""
+def _first_crossing(line: Line, limit: float) -> Sequence[Mark]:
+    """Return a mark at the first point at which a rising line reaches a limit; none if there is no such point."""
     above = np.flatnonzero(line.y >= limit)
     if above.size == 0 or above[0] == 0 or np.isnan(line.y[above[0] - 1]):
         return []
@@ -210,11 +210,11 @@ def _reached(line: Line, limit: float) -> Sequence[Mark]:
 
 def safety_over_the_band(inputs: ScuffingInputs, result: Scuffing) -> Figure:
     """Draw the safety over the bulk temperature, through the ends of the band and the nominal case."""
-    heat, safety, largest = known(result.heat), result.safety, result.flash.blok_max
+    heat, safety, largest = heat_of(result.heat), result.safety, result.flash.blok_max
     if safety is None or safety.blok_factor is None or largest is None:
         raise NoFigure("no_scuffing_temperature", "Safety needs a load and a scuffing temperature", "temperatures")
     if heat.band is None or heat.band.safety is None:
-        raise NoFigure("no_band", "Without a band of the balance there is one safety only", "cooling.band")
+        raise NoFigure("no_band", "Without a band of the heat balance there is only one safety factor", "cooling.band")
     oil = inputs.temperatures.oil - KELVIN
     cases = [(first + second) / 2 - KELVIN for first, second in heat.flank_cases]
     estimate = heat.estimates.iso_tr_13989_bulk

@@ -10,11 +10,11 @@ from app.figures.wording import number, percent
 from solvers.contact.ehl import LineContactInputs, LineContactResult
 
 ACROSS = "position across the contact, along the flow"
-THICK = 3.0  # film beyond so many central films is inlet and outlet, not contact
+THICK = 3.0  # central film thicknesses; a thicker film belongs to inlet and outlet
 
 
 def contact(_: LineContactInputs, result: LineContactResult) -> Figure:
-    """Pressure with Hertz, film and temperatures across the contact."""
+    """Draw pressure, Hertzian pressure, film and temperatures across the contact."""
     curves, film, half = present(result.curves), result.film, result.hertz.half_width
     central, zone = present(film.central), [Span(-half, half, "Hertz contact")]
     plain = parts.unnamed(zone)
@@ -45,7 +45,7 @@ def contact(_: LineContactInputs, result: LineContactResult) -> Figure:
 
 
 def film_temperature(_: LineContactInputs, result: LineContactResult) -> Figure:
-    """Temperature over contact and film."""
+    """Draw the temperature over contact and film."""
     field, surfaces = result.field, result.temperature
     if field is None or surfaces is None:
         raise _isothermal()
@@ -62,7 +62,7 @@ def film_temperature(_: LineContactInputs, result: LineContactResult) -> Figure:
 
 
 def heat(_: LineContactInputs, result: LineContactResult) -> Figure:
-    """Heat from shear and compression, and the heat that leaves by surfaces and flow."""
+    """Draw the heat from shear and compression, and the heat that leaves by surfaces and flow."""
     books = result.heat
     if books is None:
         raise _isothermal()

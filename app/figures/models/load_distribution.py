@@ -20,7 +20,7 @@ from solvers.gears.pair import meshing_path
 from solvers.scuffing.inputs import LoadDistributionInputs
 from solvers.scuffing.results import Flank, LoadDistribution, Place
 
-MOST_LINES = 12  # of contact on either side of one
+MOST_LINES = 12  # lines of contact on either side of the highest loaded line
 FIFTHS = (0.0, 0.2, 0.4, 0.6, 0.8, 1.0)  # ticks of an axis from 0 to 1
 PROFILE = Axis("profile (0: A, 1: E)", limits=(0.0, 1.0), ticks=FIFTHS, symbol="ξ")
 ROLL = Axis("roll position", "base pitches", limits=(0.0, 1.0), magnitude=False, symbol="φ")
@@ -29,12 +29,12 @@ NO_LOAD = "no load"
 
 
 def face(width: float) -> Axis:
-    """The axis along a face of this width [m]."""
+    """Return the axis along a face of this width [m]."""
     return Axis("position on the face, from the end that meshes first", "mm", limits=(0.0, width / MM), symbol="y")
 
 
 def section(gears_of: Callable[[Any], GearPairInputs]) -> Declaration:
-    """The figure of the gears of a calculation's inputs."""
+    """Return the declaration of the figure of the gears; `gears_of` gets them from the inputs of a calculation."""
     title = "Transverse section of the pair"
     return Declaration("section", title, "ISO 21771", lambda inputs, _: transverse_section(gears_of(inputs)))
 
@@ -42,7 +42,10 @@ def section(gears_of: Callable[[Any], GearPairInputs]) -> Declaration:
 def over_flank(
     width: float, flank: Flank | FlankMaps, shown: Axis, grid: Values, largest: float | None, at: Place | None
 ) -> Panel:
-    """A map of a quantity over the flank of a face width [m], its largest value marked at its place or in the map."""
+    """Return a map of a quantity over the flank of a face width [m].
+
+    Its largest value is marked at the place `at`, or at the largest value of the map if `at` is None.
+    """
     y = flank.face_fraction * width / MM
     ends = 0.0, max(float(np.nanmax(grid, initial=0.0)), largest or 0.0) or 1.0
     mapped = Map(shown.title, shown.unit, y, flank.profile_fraction, grid, range=ends)
@@ -56,7 +59,7 @@ def over_flank(
 
 
 def flank_load(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figure:
-    """Line load over the flank, its maximum over all roll positions marked."""
+    """Draw the line load over the flank with its maximum over all roll positions."""
     load, flank, shown = result.load, result.flank, axis(Flank, "line_load")
     panel = over_flank(inputs.gears.face_width, flank, shown, flank.line_load, load.max_line_load, load.max_at)
     spread = "" if load.face_load_factor is None else f", K_Hβ = {number(load.face_load_factor)}"
@@ -66,7 +69,7 @@ def flank_load(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figu
 
 
 def flank_pressure(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figure:
-    """Hertzian pressure over the flank, its maximum over all roll positions marked."""
+    """Draw the Hertzian pressure over the flank with its maximum over all roll positions."""
     largest, at, flank = result.pressure.max, result.pressure.max_at, result.flank
     panel = over_flank(inputs.gears.face_width, flank, axis(flank, "pressure"), flank.pressure, largest, at)
     finding = NO_LOAD
@@ -79,7 +82,7 @@ def flank_pressure(inputs: LoadDistributionInputs, result: LoadDistribution) -> 
 
 
 def modification(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figure:
-    """Gap between the unloaded flanks."""
+    """Draw the gap between the unloaded flanks."""
     flank, width, gap = result.flank, inputs.gears.face_width, _modified(result.flank)
     y = flank.face_fraction * width / MM
     mapped = Map("gap between the unloaded flanks", "µm", y, flank.profile_fraction, gap, Scale.SIGNED)
@@ -88,16 +91,17 @@ def modification(inputs: LoadDistributionInputs, result: LoadDistribution) -> Fi
 
 
 def _modified(flank: Flank) -> Values:
-    """The modification of flanks that have one."""
+    """Return the modification of the flanks. Raises NoFigure if they have none."""
     if not flank.modification.any():
         raise NoFigure("no_modification", "The flanks are not modified: the gap between them is zero", "modifications")
     return flank.modification
 
 
 def traces(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figure:
-    """Profile and helix charts of each gear, as if it alone were modified: removed material downwards.
+    """Draw profile and helix charts, as if one gear alone were modified; removed material points downwards.
 
-    Profiles stand in the middle of the face over the diameter of the gear, the helix in the middle of the profile.
+    Profiles are those in the middle of the face, over the diameter of the gear; the helix is that in the middle of the
+    profile.
     """
     flank, path = result.flank, meshing_path(inputs.gears)
     gap, pair, width = -_modified(flank), path.pair, inputs.gears.face_width
@@ -118,28 +122,28 @@ def traces(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figure:
         panels.append(parts.curve(x, depth, diameter, profile, hue, title=f"profile of the {name}", levels=points))
     along = flank.face_fraction * width / MM
     panels.append(parts.curve(face(width), depth, along, helix, title="helix of either"))
-    ranges = [number(float(np.ptp(each)), "µm") for each in (profile, helix)]
+    ranges = [number(float(np.ptp(trace)), "µm") for trace in (profile, helix)]
     return Figure(f"profile over {ranges[0]}, helix over {ranges[1]}, each as if on one gear alone", panels)
 
 
 def contact_line_load(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figure:
-    """Line load along the contact lines of the roll position at which it is largest.
+    """Draw the line load along the contact lines at the roll position with the largest line load.
 
-    A line of contact crosses the plane of action at the base helix angle; simultaneous ones are a transverse base pitch
-    apart.
+    A line of contact crosses the plane of action at the base helix angle. Simultaneous lines are one transverse base
+    pitch apart.
     """
     load, flank, geometry, width = result.load, result.flank, result.geometry, inputs.gears.face_width
     if load.max_at is None:
-        raise NoFigure("no_load", "Without load there is none along the face", "load")
+        raise NoFigure("no_load", "Without load there is no line load to draw", "load")
     y, start = flank.face_fraction * width / MM, load.max_at.face_fraction * width / MM
     profile = load.max_at.profile_fraction
-    if not geometry.base_helix_angle:  # lines lie along the rows of the map, between which the load may jump
+    if not geometry.base_helix_angle:  # lines are parallel to the rows of the map, between which the load may jump
         profile = flank.profile_fraction[int(np.argmax(flank.line_load.max(axis=1)))]
-    known = RegularGridInterpolator((flank.profile_fraction, y), flank.line_load, bounds_error=False)
+    line_load = RegularGridInterpolator((flank.profile_fraction, y), flank.line_load, bounds_error=False)
     lines = []
     for pitches in range(-MOST_LINES, MOST_LINES + 1):
         across = (start - y) * tan(radians(geometry.base_helix_angle)) + pitches * geometry.transverse_base_pitch
-        along = known(np.column_stack([profile + across / geometry.path_of_contact, y]))
+        along = line_load(np.column_stack([profile + across / geometry.path_of_contact, y]))
         if np.isfinite(along).sum() > 1:
             name = f"{abs(pitches)} {'ahead' if pitches > 0 else 'behind'}" if pitches else "highest loaded line"
             lines.append(Line(name, y, along, ORDER[pitches % len(ORDER)]))
@@ -151,7 +155,7 @@ def contact_line_load(inputs: LoadDistributionInputs, result: LoadDistribution) 
 
 
 def transmission_error(_: LoadDistributionInputs, result: LoadDistribution) -> Figure:
-    """Transmission error and length of contact over the roll, and the orders of the error."""
+    """Draw transmission error and length of contact over the roll, and the orders of the error."""
     error, lines = result.transmission_error, result.contact_lines
     y, mean = axis(error.curves, "error", magnitude=False), Level(error.mean, f"mean {number(error.mean, 'µm')}")
     length = axis(lines.curves, "length")
@@ -166,7 +170,7 @@ def transmission_error(_: LoadDistributionInputs, result: LoadDistribution) -> F
 
 
 def path_of_contact(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figure:
-    """Line load, pressure and sliding along the feature line."""
+    """Draw line load, pressure and sliding along the feature line."""
     curves, psi, pressure = result.feature_line, result.feature_line.psi, result.pressure.max
     points = path_points(inputs.gears)
     plain = parts.unnamed(points)
@@ -185,14 +189,14 @@ def path_of_contact(inputs: LoadDistributionInputs, result: LoadDistribution) ->
 
 
 def path_points(gears: GearPairInputs) -> list[Level]:
-    """The points A to E of the path of contact, as fractions of it."""
+    """Return the points A to E of the path of contact as fractions of its length."""
     path = meshing_path(gears)
     fractions = {name: (roll - path.start) / path.length for name, roll in points_of_contact(path).items()}
     return [Level(fraction, name, vertical=True) for name, fraction in fractions.items()]
 
 
 def stiffness(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figure:
-    """Stiffness of one pair along the path beside the standard's."""
+    """Draw the stiffness of one pair along the path, with that of the standard."""
     stiff, path = result.stiffness, meshing_path(inputs.gears)
     levels = [Level(stiff.standard_single, f"ISO 6336-1, one pair: {number(stiff.standard_single)}")]
     if stiff.mean_mesh is not None:
@@ -209,7 +213,7 @@ def stiffness(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figur
 
 
 def load_sharing(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figure:
-    """Load sharing factor beside the standard's diagram."""
+    """Draw the load sharing factor, with that of the standard."""
     curves, lines, finding = result.feature_line, list[Line](), NO_LOAD
     if curves.load_sharing is not None:
         lines.append(Line("this mesh", curves.psi, curves.load_sharing))
@@ -223,7 +227,7 @@ def load_sharing(inputs: LoadDistributionInputs, result: LoadDistribution) -> Fi
 
 
 def pair_share(_: LoadDistributionInputs, result: LoadDistribution) -> Figure:
-    """Share of the force on each line of contact over the roll."""
+    """Draw the shares of the lines of contact in the force over the roll."""
     if result.load.pair_share is None:
         raise NoFigure("no_load", "Without load no pair of teeth carries a share of it", "load")
     roll, lines = result.transmission_error.curves.roll_position, list[Line]()

@@ -18,14 +18,14 @@ from solvers.scuffing.micropitting.results import LocalFilm, Micropitting, Wear
 from solvers.scuffing.safety_results import HeatedFlank, Scuffing, ScuffingPath
 
 AS_DRAWN = "without modifications and misalignment"
-SHOWN_RATIOS = 2.5  # times the least, up to which ratios have colours of their own: at light edges films are thick
+SHOWN_RATIOS = 2.5  # times the least ratio; greater ratios, at lightly loaded edges, have the same colour
 FILM_OVER_ROUGHNESS = "film over roughness"
 
 
 def solve_unmodified(inputs: ScuffingInputs, *_: Scuffing) -> Scuffing | None:
-    """Solve the pair without its modifications and misalignment, in closed form. Values are in the units shown.
+    """Solve the pair without its modifications and misalignment in closed form; None if it has none.
 
-    None if the pair is that one.
+    The result is in the units shown.
     """
     if inputs.distribution.modifications == Modifications():
         return None
@@ -40,7 +40,7 @@ def where_it_starts(inputs: ScuffingInputs, result: Scuffing, plain: Scuffing | 
 
 
 def answered(answer: Micropitting | None) -> Micropitting:
-    """Return the answer, with a film that is known; raises NoFigure otherwise."""
+    """Return the answer. Raises NoFigure if it is None or has no film."""
     if answer is None:
         message = "Without an oil and the bulk temperature at which it enters there is no film"
         raise NoFigure("no_oil", message, "lubricant")
@@ -59,7 +59,7 @@ class _Case(NamedTuple):
 
     @property
     def grid(self) -> Values:
-        """Film ratio over the flank."""
+        """Film ratios over the flank."""
         return present(self.flank.micropitting_ratio)
 
 

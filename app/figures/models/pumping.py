@@ -16,25 +16,25 @@ from solvers.pumping.speed_scan import speed_scan
 
 HUES = {"pinion": Hue.BLUE, "wheel": Hue.VERMILLION}
 NO_FLOW = 1e-9  # g/s
-SPEEDS = 24  # of the scan, chosen: the curve looks smooth
-BEYOND = 1.5  # times the highest choking speed, where the scan ends
-LOWEST = 0.25  # of that, where it starts
+SPEEDS = 24  # in the scan; chosen: the curve looks smooth
+BEYOND = 1.5  # times the highest choking speed: end of the scan
+LOWEST = 0.25  # of the end of the scan: its start
 
 
 def spaces(result: PumpingResult) -> list[tuple[str, SpacesResult]]:
-    """The tooth spaces asked for, by their gear."""
+    """Return the calculated tooth spaces with the names of their gears."""
     both = (("pinion", result.pinion_spaces), ("wheel", result.wheel_spaces))
     return [(gear, space) for gear, space in both if space is not None]
 
 
 def critical_ratio(setup: PumpingSetup) -> float:
-    """Pressure over ambient pressure from which the flow into the surroundings is sonic (Eq. 7)."""
+    """Return the pressure over ambient pressure at which the flow into the surroundings becomes sonic (Eq. 7)."""
     exponent = setup.ambient.isentropic_exponent
     return float(((exponent + 1.0) / 2.0) ** (exponent / (exponent - 1.0)))
 
 
 def pressure_map(inputs: PumpingInputs, result: PumpingResult) -> Figure:
-    """Pressure over ambient pressure; the ratio at which clearances become sonic."""
+    """Draw the pressure over ambient pressure, with the ratio at which clearances become sonic."""
     sonic = critical_ratio(inputs.setup)
     panels = _maps(inputs, result, "pressure_ratio", Scale.RATIO, Level(sonic, f"sonic {number(sonic)}"))
     peak = max(space.peak_pressure_ratio for _, space in spaces(result))
@@ -43,7 +43,7 @@ def pressure_map(inputs: PumpingInputs, result: PumpingResult) -> Figure:
 
 
 def mach_map(inputs: PumpingInputs, result: PumpingResult) -> Figure:
-    """Axial Mach number, signed towards the end that meshes last; sonic both ways."""
+    """Draw the axial Mach number, positive towards the end that meshes last, with sonic flow in both directions."""
     panels = _maps(inputs, result, "axial_mach", Scale.SIGNED, Level(1.0, "sonic"), Level(-1.0, "sonic"))
     peak = max(space.peak_axial_mach for _, space in spaces(result))
     choked = [gear for gear, space in spaces(result) if space.axial_choked]
@@ -57,7 +57,7 @@ def mach_map(inputs: PumpingInputs, result: PumpingResult) -> Figure:
 
 
 def temperature_map(inputs: PumpingInputs, result: PumpingResult) -> Figure:
-    """Stagnation temperature above ambient."""
+    """Draw the rise of the stagnation temperature above ambient."""
     panels = _maps(inputs, result, "temperature_rise", Scale.SIGNED)
     peak = max(float(np.nanmax(panel.map.values)) for panel in panels if panel.map is not None)
     finding = f"up to {number(peak, 'K')} above ambient for a moment; the teeth see the mean over the stroke"
@@ -65,17 +65,17 @@ def temperature_map(inputs: PumpingInputs, result: PumpingResult) -> Figure:
 
 
 def _maps(inputs: PumpingInputs, result: PumpingResult, name: str, scale: Scale, *critical: Level) -> list[Panel]:
-    """A map of a part of the field for each gear's spaces, all in the same colours, extremes marked."""
+    """Return maps of a quantity of the field for the spaces of both gears, on one scale of colours, with extremes."""
     fields = {gear: space.field for gear, space in spaces(result)}
     grids: list[Values] = [getattr(field, name) for field in fields.values()]
     if any(grid is None for grid in grids):
         raise _without_temperatures()
-    # Of a ratio the smallest value says as much as the largest.
+    # The smallest value of a ratio matters as much as the largest.
     wording, extremes = (ratio, (False, True)) if scale is Scale.RATIO else (number, (False,))
     panels = []
     for gear, field in fields.items():
-        known = axis(field, name)
-        chart = Map(known.title, known.unit, field.position, field.angle, getattr(field, name), scale, critical)
+        quantity = axis(field, name)
+        chart = Map(quantity.title, quantity.unit, field.position, field.angle, getattr(field, name), scale, critical)
         chart = replace(chart, range=replace(chart, values=np.array(grids).ravel()).ends, bar=gear == [*fields][-1])
         panel = Panel(
             x=face(inputs.setup.gears.face_width),
@@ -90,19 +90,19 @@ def _maps(inputs: PumpingInputs, result: PumpingResult, name: str, scale: Scale,
 
 
 def scan(inputs: ChokingInputs, result: ChokingSpeeds) -> ChokingCurves:
-    """Exit Mach number and peak pressure at evenly spaced speeds around the choking speeds."""
-    found = [speed for speed in (result.radial_choking_speed, result.axial_choking_speed) if speed is not None]
+    """Compute exit Mach number and peak pressure at evenly spaced speeds around the choking speeds."""
+    speeds = [speed for speed in (result.radial_choking_speed, result.axial_choking_speed) if speed is not None]
     limit = inputs.search_limit / RPM
-    end = min(BEYOND * max(found), limit) if len(found) == 2 else limit
-    start = min([LOWEST * end, *(0.8 * speed for speed in found)])
+    end = min(BEYOND * max(speeds), limit) if len(speeds) == 2 else limit
+    start = min([LOWEST * end, *(0.8 * speed for speed in speeds)])
     return shown(speed_scan(inputs.setup, np.linspace(start, end, SPEEDS) * RPM))
 
 
 def choking(inputs: ChokingInputs, result: ChokingSpeeds, curves: ChokingCurves) -> Figure:
-    """Both against the limits of sonic flow, choking speeds marked.
+    """Draw peak pressure and exit Mach number over the speed, with their limits of sonic flow and the choking speeds.
 
-    Gas dynamics: where the gas in the outermost slice is itself supersonic, its own Mach number stands in place of the
-    one that an expansion to ambient pressure would ask for, and which is larger. The curve bends there.
+    The exit Mach number is that of an expansion to ambient pressure. If the gas in the outermost slice is supersonic
+    itself (gas dynamics), it is the smaller Mach number of this slice. The curve bends where that begins.
     """
     critical, mach, peak = critical_ratio(inputs.setup), curves.exit_mach, curves.peak_pressure_ratio
     clearances = [Level(critical, f"clearances sonic, {number(critical)}", limit=True)]
@@ -135,12 +135,12 @@ CHOKING_FIGURES = (
 
 
 def stroke(_: PumpingInputs, result: PumpingResult) -> Figure:
-    """Section left by the mating tooth and its clearances; flanks in contact shaded."""
+    """Draw the section that the mating tooth leaves and its clearances; contact of the flanks is shaded."""
     gear, first = spaces(result)[0]
-    found, curves = first.stroke, first.stroke.curves
+    course, curves = first.stroke, first.stroke.curves
     x = axis(curves, "angle", f"angle of the {gear} from the line of centres", magnitude=False)
     area = axis(curves, "area", "area left by the mating tooth")
-    contact = [Span(found.contact_start, found.contact_end, "driving flanks in contact")]
+    contact = [Span(course.contact_start, course.contact_end, "driving flanks in contact")]
     left = parts.curve(x, area, curves.angle, curves.area, spans=contact)
     clearances = [
         Line("behind, L₁", curves.angle, curves.clearance_left, Hue.VERMILLION),
@@ -152,12 +152,12 @@ def stroke(_: PumpingInputs, result: PumpingResult) -> Figure:
         Panel(x=x, y=y, lines=clearances, spans=parts.unnamed(contact)),
     ]
     return Figure(
-        f"the {gear}'s space shrinks from {number(found.max_area)} to {number(found.min_area, 'mm²')}", panels
+        f"the {gear}'s space shrinks from {number(course.max_area)} to {number(course.min_area, 'mm²')}", panels
     )
 
 
 def heating(inputs: PumpingInputs, result: PumpingResult) -> Figure:
-    """Stroke mean of the temperature along the face of both gears, hottest place marked."""
+    """Draw the temperature along the face as its mean over the stroke, with the hottest places of both gears."""
     lines, marks, texts = [], [], []
     for gear, space in spaces(result):
         profile, most = space.profile, space.max_temperature_rise
@@ -173,7 +173,7 @@ def heating(inputs: PumpingInputs, result: PumpingResult) -> Figure:
 
 
 def peak_pressure(inputs: PumpingInputs, result: PumpingResult) -> Figure:
-    """Largest pressure of the stroke along the face, with the ratio at which clearances become sonic."""
+    """Draw the largest pressure of the stroke along the face, with the ratio at which clearances become sonic."""
     lines, marks = [], []
     for gear, space in spaces(result):
         line = _along(inputs, gear, space.profile.position, space.profile.peak_pressure_ratio, HUES[gear])
@@ -195,7 +195,7 @@ def peak_pressure(inputs: PumpingInputs, result: PumpingResult) -> Figure:
 
 
 def lead_correction(inputs: PumpingInputs, result: PumpingResult) -> Figure:
-    """Thermal growth of the pinion's flank and what undoes it."""
+    """Draw the thermal growth of the pinion's flank and the lead correction that compensates it."""
     lead = result.lead_correction
     if lead is None:
         message = "A lead correction needs the temperatures of the pinion's spaces"
@@ -215,16 +215,16 @@ def lead_correction(inputs: PumpingInputs, result: PumpingResult) -> Figure:
 
 
 def pulsation(_: PumpingInputs, result: PumpingResult) -> Figure:
-    """Amplitudes of the mass flow at both ends by multiples of the meshing frequency."""
+    """Draw the amplitudes of the mass flow at both ends over the multiples of the meshing frequency."""
     pulse, frequency = result.pulsation, number(result.total.meshing_frequency, "Hz")
     series = {"end that meshes first": pulse.front_mass_flow, "end that meshes last": pulse.rear_mass_flow}
     amplitude = Axis("amplitude of the mass flow", "g/s", symbol="m_k")
     panel = parts.orders(f"multiple of the meshing frequency of {frequency}", amplitude, 1, series)
-    return Figure(f"up to {number(max(float(each.max()) for each in series.values()), 'g/s')}", [panel])
+    return Figure(f"up to {number(max(float(flow.max()) for flow in series.values()), 'g/s')}", [panel])
 
 
 def mass_flow(_: PumpingInputs, result: PumpingResult) -> Figure:
-    """What leaves and enters the tooth spaces of each gear at the ends, and the net flow out by exit."""
+    """Draw the mass flows that leave and enter the tooth spaces at the ends, and the net outward flow by exit."""
     exits = {gear: _exits(space) for gear, space in spaces(result)}
     still = all(abs(row.value) < NO_FLOW for rows in exits.values() for row in rows)
     x = Axis("mass flow (net: out; negative: in)", "g/s", limits=(0.0, 1.0) if still else None, symbol="m")
@@ -239,14 +239,14 @@ def mass_flow(_: PumpingInputs, result: PumpingResult) -> Figure:
 
 
 def _exits(space: SpacesResult) -> list[Row]:
-    flow, known = space.mass_flow, space.mass_flow.net_uncertainty
+    flow, error = space.mass_flow, space.mass_flow.net_uncertainty
     return [
         Row("first end: out", flow.front_out, Hue.BLUE),
         Row("first end: in", flow.front_in, Hue.BLUE),
-        Row("first end: net", flow.front, Hue.BLUE, (flow.front - known, flow.front + known)),
+        Row("first end: net", flow.front, Hue.BLUE, (flow.front - error, flow.front + error)),
         Row("last end: out", flow.rear_out, Hue.VERMILLION),
         Row("last end: in", flow.rear_in, Hue.VERMILLION),
-        Row("last end: net", flow.rear, Hue.VERMILLION, (flow.rear - known, flow.rear + known)),
+        Row("last end: net", flow.rear, Hue.VERMILLION, (flow.rear - error, flow.rear + error)),
         Row("radial clearances: net", flow.radial, Hue.GREEN),
         Row("grooves: net", flow.grooves, Hue.ORANGE),
         Row("given back between strokes", flow.reset, Hue.GREY),
@@ -254,12 +254,12 @@ def _exits(space: SpacesResult) -> list[Row]:
 
 
 def _grooves(inputs: PumpingInputs) -> list[Span]:
-    halves = ((each.position / MM, each.width / 2.0 / MM) for each in inputs.setup.grooves)
+    halves = ((groove.position / MM, groove.width / 2.0 / MM) for groove in inputs.setup.grooves)
     return [Span(middle - half, middle + half, "groove") for middle, half in halves]
 
 
 def _along(inputs: PumpingInputs, title: str, position: Values, items: Values, hue: Hue) -> Line:
-    """A line along the face, broken where a groove is."""
+    """Return a line along the face with gaps at the grooves."""
     middles = sorted(groove.position / MM for groove in inputs.setup.grooves)
     at = np.searchsorted(position, middles)
     return Line(title, np.insert(position, at, middles), np.insert(items, at, np.nan), hue)

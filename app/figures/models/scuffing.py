@@ -1,4 +1,4 @@
-"""Figures of the check against scuffing: over the flank and along the lines that are checked."""
+"""Figures of the check against scuffing, over the flank and along the evaluated lines."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
@@ -21,13 +21,13 @@ from solvers.scuffing.safety_results import Safety, Scuffing, ScuffingPath, Ther
 
 UNSOLVED = {"no_solution", "refused"}
 WARNED = "outside validity"
-ROOM = 0.06  # of the range, above and below the lines of panels on one scale
-FARTHEST = 4.0  # times the range of the lines: a level beyond is named at the edge instead of flattening them
-SHOWN_SAFETIES = 4.0  # times the least, up to which safeties are shown: at the pitch point nothing slides
+ROOM = 0.06  # of the range; room above and below the lines of panels on one scale
+FARTHEST = 4.0  # times the range of the lines; a level farther away is named at the edge of the axes
+SHOWN_SAFETIES = 4.0  # times the least safety; greater ones, near the pitch point without sliding, are cut off
 
 
 def temperature_on_flank(inputs: ScuffingInputs, result: Scuffing) -> Figure:
-    """Contact temperature by Blok over the flank, or its flash temperature without an oil, and the lines checked."""
+    """Draw Blok's contact temperature over the flank, or his flash temperature without an oil, and the lines."""
     flank, width = result.flank, inputs.distribution.gears.face_width
     contact, largest = result.contact_temperature, result.flash.blok_max
     shown = axis(flank, "flash_temperature", "flash temperature")
@@ -64,7 +64,7 @@ def heat_over_flank(width: float, flank: Flank | FlankMaps, shown: Axis, grid: V
 
 
 def contact_temperature(inputs: ScuffingInputs, result: Scuffing) -> Figure:
-    """Bulk and flash of both flanks by thermal EHL beside Blok, against the scuffing temperature."""
+    """Draw the contact temperature of both flanks by thermal EHL and by Blok, with the scuffing temperature."""
     _with_oil(result)
     contact, safety = present(result.contact_temperature), result.safety
     y = Axis("contact temperature, bulk and flash", "°C", magnitude=False, symbol="θ_B")
@@ -87,14 +87,14 @@ def contact_temperature(inputs: ScuffingInputs, result: Scuffing) -> Figure:
 
 
 def _bulk_of(result: Scuffing, surface: str) -> float:
-    """Return the bulk temperature [°C] of pinion or wheel if a heat balance tells their flanks apart, else of both."""
+    """Return the bulk temperature of pinion or wheel [°C] if there is a heat balance, else that of both."""
     if result.heat is not None and surface in {"pinion", "wheel"}:
         return result.heat.pinion.flank if surface == "pinion" else result.heat.wheel.flank
     return present(result.contact_temperature).bulk
 
 
 def _flashes(path: ScuffingPath) -> list[Line]:
-    """Flash temperatures along a path: of both flanks where they are known, and by Blok."""
+    """Return the flash temperatures along a path: of both flanks by thermal EHL, if it was solved, and by Blok."""
     lines = list[Line]()
     if path.thermal is not None:
         lines.append(Line("pinion", path.psi, path.thermal.pinion_flash, Hue.BLUE))
@@ -104,7 +104,7 @@ def _flashes(path: ScuffingPath) -> list[Line]:
 
 
 def _paths(result: Scuffing) -> dict[str, ScuffingPath]:
-    """Return the lines of the flank that are checked, by their names."""
+    """Return the evaluated lines of the flank by name."""
     if result.hottest_path is None:
         return {"feature line": result.path}
     across = number(present(result.flash.blok_at_face), "mm")
@@ -112,25 +112,25 @@ def _paths(result: Scuffing) -> dict[str, ScuffingPath]:
 
 
 def _along(inputs: ScuffingInputs, result: Scuffing, finding: str, panel: Callable[[ScuffingPath], Panel]) -> Figure:
-    """Return one panel per checked line, on one scale, with the points of the path and the invalid ranges."""
+    """Return a panel for each evaluated line, on one scale, with the points of the path and the invalid ranges."""
     points, panels = _points(inputs, result), list[Panel]()
     for path in _paths(result).values():
-        drawn = panel(path)
-        levels, spans = [*drawn.levels, *points], _warned(path)
+        line_panel = panel(path)
+        levels, spans = [*line_panel.levels, *points], _warned(path)
         if panels:
             levels, spans = parts.unnamed(levels), parts.unnamed(spans)
-        panels.append(replace(drawn, levels=levels, spans=spans))
+        panels.append(replace(line_panel, levels=levels, spans=spans))
     if len(panels) > 1:
         limits = _common_limits(panels)
         panels = [
-            replace(drawn, y=replace(drawn.y, limits=limits), title=f"along the {name}")
-            for name, drawn in zip(_paths(result), panels, strict=True)
+            replace(line_panel, y=replace(line_panel.y, limits=limits), title=f"along the {name}")
+            for name, line_panel in zip(_paths(result), panels, strict=True)
         ]
     return Figure(finding, panels, unsolved=_unsolved(result))
 
 
 def _common_limits(panels: Sequence[Panel]) -> tuple[float, float]:
-    """Return the ends of an ordinate that shows the lines of all panels and the levels that are not far off."""
+    """Return the ends of an ordinate that shows the lines of all panels and the levels near them."""
     axes = panels[0].y
     if axes.limits is not None:
         return axes.limits
@@ -145,7 +145,7 @@ def _common_limits(panels: Sequence[Panel]) -> tuple[float, float]:
 
 
 def _with_oil(result: Scuffing) -> None:
-    """Raise NoFigure without an oil and its temperature, which the figure needs."""
+    """Raise NoFigure if the case has no oil with its temperature."""
     if result.path is not None and result.contact_temperature is None:
         message = (
             "Without an oil and the bulk temperature at which it enters there is neither film nor contact temperature"
@@ -154,20 +154,20 @@ def _with_oil(result: Scuffing) -> None:
 
 
 def safety_along(inputs: ScuffingInputs, result: Scuffing) -> Figure:
-    """Scuffing temperature over contact temperature, both above that of the oil (Eq. 26), point by point."""
+    """Draw the safety factor at the points: scuffing over contact temperature, both above that of the oil (Eq. 26)."""
     _with_oil(result)
     if result.safety is None:
         raise NoFigure("no_scuffing_temperature", "Safety needs a scuffing temperature", "temperatures")
     oil = inputs.temperatures.oil - UNITS["c"].offset
     reserve = result.safety.scuffing - oil
-    drawn = {name: _safeties(result, path, oil, reserve) for name, path in _paths(result).items()}
-    lines = [line for along in drawn.values() for line in along]
+    safeties = {name: _safeties(result, path, oil, reserve) for name, path in _paths(result).items()}
+    lines = [line for along in safeties.values() for line in along]
     if not lines:
         raise NoFigure("no_rise", "The contact is nowhere hotter than the oil, so no safety is defined", "temperatures")
     least = parts.extreme(lines, least=True)[0]
     top = max(1.5, min(SHOWN_SAFETIES * least.y, *(1.1 * float(np.nanmax(line.y)) for line in lines)))
     name, method = next(
-        (name, line.title) for name, along in drawn.items() for line in along if np.nanmin(line.y) == least.y
+        (name, line.title) for name, along in safeties.items() for line in along if np.nanmin(line.y) == least.y
     )
     y = axis(Safety, "blok_factor", "safety factor against scuffing", limits=(0.0, top))
     limit = Level(1.0, "scuffing below 1", limit=True)
@@ -181,7 +181,7 @@ def safety_along(inputs: ScuffingInputs, result: Scuffing) -> Figure:
 
 
 def _safeties(result: Scuffing, path: ScuffingPath, oil: float, reserve: float) -> list[Line]:
-    """Return safety factors along a path by thermal EHL and by Blok, where the contact is hotter than the oil [°C]."""
+    """Return the safety factors along a path by thermal EHL and Blok; NaN if the contact is not hotter than the oil."""
     *flanks, blok = (replace(line, y=_bulk_of(result, line.title) + line.y) for line in _flashes(path))
     contacts = [replace(blok, role=Role.RESULT)]
     if flanks:
@@ -192,7 +192,7 @@ def _safeties(result: Scuffing, path: ScuffingPath, oil: float, reserve: float) 
 
 
 def film(inputs: ScuffingInputs, result: Scuffing) -> Figure:
-    """Minimum and central film, the formula, and the film that is as thick as the roughness."""
+    """Draw minimum and central film, the film by the formula, and the film that is as thick as the roughness."""
     _with_oil(result)
     thinnest, pair = present(result.film), inputs.distribution
     if thinnest.thickness_ratio is None:
@@ -236,8 +236,8 @@ def friction(inputs: ScuffingInputs, result: Scuffing) -> Figure:
     """Draw local friction and film pressure by thermal EHL along the lines, and the mean friction of Blok's formula."""
     _with_oil(result)
     mean = result.flash.friction_coefficient
-    solved = {name: (path.psi, path.thermal) for name, path in _paths(result).items() if path.thermal is not None}
-    if not solved:
+    solutions = {name: (path.psi, path.thermal) for name, path in _paths(result).items() if path.thermal is not None}
+    if not solutions:
         message = "Friction along the path comes from the thermal EHL solution only"
         raise NoFigure("closed_form", message, "model.lubrication")
     points, warned = _points(inputs, result), _warned(result.path)
@@ -245,8 +245,8 @@ def friction(inputs: ScuffingInputs, result: Scuffing) -> Figure:
 
     def panel(y: Axis, curve: str, hues: tuple[Hue, Hue]) -> Panel:
         lines = [
-            Line(name, psi, getattr(thermal, curve), hue, named=len(solved) > 1)
-            for (name, (psi, thermal)), hue in zip(solved.items(), hues, strict=False)
+            Line(name, psi, getattr(thermal, curve), hue, named=len(solutions) > 1)
+            for (name, (psi, thermal)), hue in zip(solutions.items(), hues, strict=False)
         ]
         marks = [mark for mark in parts.extreme(lines, y.unit) if mark.y > 0.0]
         return Panel(x=PATH, y=y, lines=lines, marks=marks)
@@ -258,9 +258,11 @@ def friction(inputs: ScuffingInputs, result: Scuffing) -> Figure:
         replace(coefficient, levels=levels, spans=warned),
         replace(pressure, levels=parts.unnamed(points), spans=parts.unnamed(warned)),
     ]
-    coefficients = np.concatenate([thermal.friction_coefficient for _, thermal in solved.values()])
-    known = coefficients[np.isfinite(coefficients)]
-    finding = f"μ from {number(float(known.min()))} to {number(float(known.max()))}" if known.size else "nowhere known"
+    coefficients = np.concatenate([thermal.friction_coefficient for _, thermal in solutions.values()])
+    finite = coefficients[np.isfinite(coefficients)]
+    finding = "nowhere known"
+    if finite.size:
+        finding = f"μ from {number(float(finite.min()))} to {number(float(finite.max()))}"
     return Figure(finding, panels, unsolved=_unsolved(result))
 
 
@@ -273,7 +275,7 @@ def _unsolved(result: Scuffing) -> int:
 
 
 def _warned(path: ScuffingPath) -> list[Span]:
-    """Stretches of a path whose points carry warnings, to the middle between points; the first is named."""
+    """Return the ranges of a path whose points have warnings, up to the middle between points; the first has a name."""
     psi, spans = path.psi, list[Span]()
     edges = np.concatenate([psi[:1], (psi[:-1] + psi[1:]) / 2.0, psi[-1:]])
     for status, group in groupby(range(psi.size), key=lambda place: path.status[place]):
@@ -285,18 +287,18 @@ def _warned(path: ScuffingPath) -> list[Span]:
 
 
 def _of_distribution(build: Build) -> Build:
-    """A figure of the load distribution that the check rests on."""
+    """Return the builder of a figure of the load distribution for the inputs and results of this calculation."""
     return lambda inputs, result: build(inputs.distribution, result.distribution)
 
 
 def _balanced(build: Build) -> Build:
-    """A figure of the heat balance alone."""
-    return lambda _, result: build(heat_balance.known(result.heat))
+    """Return the builder of a figure of the heat balance for the results of this calculation."""
+    return lambda _, result: build(heat_balance.heat_of(result.heat))
 
 
 def node_temperatures(inputs: ScuffingInputs, result: Scuffing) -> Figure:
-    """Temperatures of flanks, bodies and mist."""
-    return heat_balance.temperatures(heat_balance.known(result.heat), inputs.temperatures.oil - UNITS["c"].offset)
+    """Draw the temperatures of flanks, bodies and mist."""
+    return heat_balance.temperatures(heat_balance.heat_of(result.heat), inputs.temperatures.oil - UNITS["c"].offset)
 
 
 OWN = ("section", "flank-pressure")  # of the figures of the load distribution: where the pair can scuff
@@ -360,10 +362,10 @@ FIGURES = (
     Declaration("friction", "Friction and pressure along the path of contact", "Xue 2020, section IV", friction),
     *(
         replace(
-            each,
-            build=_of_distribution(each.build),
-            shown_at="" if each.name in OWN else "/v1/scuffing/load-distribution",
+            declaration,
+            build=_of_distribution(declaration.build),
+            shown_at="" if declaration.name in OWN else "/v1/scuffing/load-distribution",
         )
-        for each in load_distribution.FIGURES
+        for declaration in load_distribution.FIGURES
     ),
 )

@@ -1,4 +1,4 @@
-"""Figures of a unit that warms up: temperatures over time, and how the flanks carry meanwhile."""
+"""Figures of the warm-up of a unit: temperatures, load and safety over time."""
 
 import numpy as np
 
@@ -22,14 +22,14 @@ HUES = {
 
 def temperatures(_: WarmUpInputs, result: UnitWarmUp) -> Figure:
     """Draw the temperatures of all nodes over time, and the difference of the bodies with its greatest value."""
-    found = result.warm_up
-    curves, time = found.curves, axis(WarmUpCurves, "time")
+    course = result.warm_up
+    curves, time = course.curves, axis(WarmUpCurves, "time")
     lines = [
         Line(name.replace("_", " "), curves.time, curves.temperature[:, place], HUES.get(name, Hue.GREEN))
-        for place, name in enumerate(found.nodes)
+        for place, name in enumerate(course.nodes)
     ]
     difference = Line("pinion over wheel", curves.time, curves.difference, Hue.VERMILLION, named=False)
-    at, greatest = found.greatest_difference_at, found.greatest_difference
+    at, greatest = course.greatest_difference_at, course.greatest_difference
     mark = Mark(at, greatest, f"{number(greatest, 'K')} after {number(at, 's')}", difference.hue)
     finding = f"pinion's body {number(abs(greatest), 'K')} {'over' if greatest > 0.0 else 'below'} the wheel's"
     return Figure(
@@ -46,8 +46,8 @@ def alignment(_: WarmUpInputs, result: UnitWarmUp) -> Figure:
     own, time = result.alignment, axis(AlignmentOverTime, "time")
     factor = Line("face load factor", own.time, own.face_load_factor, Hue.BLUE, named=False)
     factor_axis = axis(AlignmentOverTime, "face_load_factor", magnitude=False)
-    known = [place for place, value in enumerate(own.face_load_factor) if np.isfinite(value)]
-    marks = [factor.mark(place, number(float(own.face_load_factor[place]))) for place in known]
+    finite = [place for place, value in enumerate(own.face_load_factor) if np.isfinite(value)]
+    marks = [factor.mark(place, number(float(own.face_load_factor[place]))) for place in finite]
     panels, finding = [Panel(x=time, y=factor_axis, lines=[factor], marks=marks)], ""
     if result.largest_face_load_factor is not None:
         finding = f"K_Hβ up to {number(result.largest_face_load_factor)}"

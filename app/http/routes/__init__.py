@@ -1,1 +1,1 @@
-"""The endpoints."""
+"""The endpoints and the pages."""

@@ -1,4 +1,4 @@
-"""One POST endpoint for every row of the table of calculations, and one for its figures, as images or as numbers."""
+"""A POST endpoint for each row of the table of calculations, and one for its figures as images or numbers."""
 
 from collections.abc import Callable
 from functools import partial
@@ -8,7 +8,7 @@ from fastapi import APIRouter, Body, Depends, HTTPException, Path, Query, Reques
 from pydantic import BaseModel
 
 from app.calculations import BY_PATH, CALCULATIONS, Calculation
-from app.evaluate import drawn, json_answer, refuse_endless
+from app.evaluate import answer_of, figure_of, refuse_endless
 from app.examples import examples
 from app.figures import MEDIA_TYPES, Format
 from app.figures.data import ThemeName
@@ -16,12 +16,11 @@ from app.http.json_route import JsonRoute
 from app.http.problems import documented
 from app.schema.model import Request as Model
 from app.schema.quantities import Output
-from app.workers.start_up import StartUp
 
 FORMATS: tuple[Format, ...] = tuple(MEDIA_TYPES)
-# A figure needs no script and no other address: styles and images are inside it.
+# A figure needs no script and no other address, because it contains its styles and images.
 ALONE = "default-src 'none'; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'"
-REFUSALS = documented(400, 408, 413, 415, 422, 431, 500, 503, 504)
+REFUSALS = documented(400, 413, 415, 422, 500, 503, 504)
 
 router = APIRouter(route_class=JsonRoute, responses=REFUSALS)
 figures = APIRouter(tags=["figures"])
@@ -33,34 +32,24 @@ class FigureSummary(BaseModel):
     endpoint: Annotated[str, Output("where to post the request")]
     name: Annotated[str, Output("name in the address")]
     title: Annotated[str, Output("what it shows")]
-    source: Annotated[str, Output("figures of the paper that it repeats")]
-    formats: Annotated[tuple[Format, ...], Output("formats in which it can be had")] = FORMATS
-
-
-def answer_of(path: str, request: Model) -> bytes:
-    """The answer of an endpoint to a request; runs in a worker."""
-    return json_answer(BY_PATH[path], request)
-
-
-def figure_of(name: str, image_format: Format, theme: ThemeName, path: str, request: Model) -> bytes:
-    """The figure of a case; runs in a worker."""
-    declaration = next(figure for figure in BY_PATH[path].figures if figure.name == name)
-    return drawn(BY_PATH[path], declaration, request, image_format, theme)
+    source: Annotated[str, Output("figure or section of the paper that it follows")]
+    formats: Annotated[tuple[Format, ...], Output("available formats")] = FORMATS
 
 
 async def calculated(http: Request, path: str, function: Callable[..., bytes], request: Model) -> bytes:
-    """The result of `function(path, request)` in a worker; raises WarmingUp, Unprocessable for endless requests."""
-    calculation = BY_PATH[path]
-    start_up: StartUp = http.app.state.start_up
-    if calculation.stage not in start_up.warm:
-        raise start_up.warming_up()
-    refuse_endless(calculation, request, http.app.state.settings.deadline_s)
-    made: bytes = await http.app.state.pool.calculate(http, function, path, request)
-    return made
+    """Return the result of `function(path, request)` from a worker.
+
+    Raises WarmingUp if the endpoint is not ready, Unprocessable if the request would take too long, and the errors of
+    the function and of the pool.
+    """
+    http.app.state.start_up.require(path)
+    refuse_endless(BY_PATH[path], request, http.app.state.settings.deadline_s)
+    content: bytes = await http.app.state.pool.calculate(http, function, path, request)
+    return content
 
 
 def _body_of(calculation: Calculation) -> Any:
-    """The type of the body of a calculation, with the examples of the docs page."""
+    """Return the type of a calculation's body, with the examples for the docs page."""
     shown: dict[str, Any] = {
         example.name: {"summary": example.title, "description": example.source, "value": example.request}
         for example in examples().values()
@@ -74,7 +63,7 @@ def _operation(calculation: Calculation) -> str:
 
 
 def add(router: APIRouter, calculation: Calculation) -> None:
-    """The endpoint of a row of the table."""
+    """Add the endpoint of a calculation to a router."""
 
     async def calculate(http: Request, body: Any) -> Response:
         content = await calculated(http, calculation.path, answer_of, body)
@@ -96,8 +85,8 @@ def add(router: APIRouter, calculation: Calculation) -> None:
 def _add_figures(calculation: Calculation) -> None:
     names = [figure.name for figure in calculation.figures]
 
-    async def known(http: Request) -> None:
-        """404 for an unknown figure or format, before the body is validated."""
+    async def check_name(http: Request) -> None:
+        """Answer 404 for an unknown figure or format, before the body is validated."""
         if http.path_params["name"] not in names or http.path_params["format"] not in FORMATS:
             raise HTTPException(404, f"Available figures: {', '.join(names)}; formats: {', '.join(FORMATS)}")
 
@@ -121,7 +110,7 @@ def _add_figures(calculation: Calculation) -> None:
         calculation.path + "/figures/{name}.{format}",
         show,
         methods=["POST"],
-        dependencies=[Depends(known)],
+        dependencies=[Depends(check_name)],
         route_class_override=JsonRoute,
         operation_id=f"{_operation(calculation)}_figure",
         summary=f"Figures: {calculation.summary}",
@@ -133,7 +122,7 @@ def _add_figures(calculation: Calculation) -> None:
 
 @figures.get("/v1/figures")
 async def list_figures() -> list[FigureSummary]:
-    """Every figure of every endpoint."""
+    """List the figures of all endpoints."""
     return [
         FigureSummary(endpoint=calculation.path, name=figure.name, title=figure.title, source=figure.source)
         for calculation in CALCULATIONS
@@ -141,7 +130,7 @@ async def list_figures() -> list[FigureSummary]:
     ]
 
 
-for each in CALCULATIONS:
-    add(router, each)
-    if each.figures:
-        _add_figures(each)
+for row in CALCULATIONS:
+    add(router, row)
+    if row.figures:
+        _add_figures(row)

@@ -1,9 +1,8 @@
-"""Start page, manual, and the pages of cases with the other views of a case under the same query."""
+"""Start page, manual, and the pages of cases with other views of a case under the same query."""
 
 import json
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import replace
 from http import HTTPStatus
 from mimetypes import guess_type
 from pathlib import PurePath
@@ -12,21 +11,20 @@ from urllib.parse import quote
 
 from fastapi import APIRouter, Request, Response
 from fastapi.responses import HTMLResponse, RedirectResponse
-from starlette._utils import get_route_path
 from starlette.exceptions import HTTPException
 
-from app.calculations import BY_PATH, CALCULATIONS, Calculation
+from app.calculations import CALCULATIONS, Calculation
 from app.errors import Unreadable, kind_of
-from app.examples import examples
 from app.figures import MEDIA_TYPES
 from app.http.problems import answer
 from app.manual import NAMES
 from app.pages import views
+from app.pages.asked import asked_in
 from app.pages.cases import Asked, key_of, opened
 from app.pages.manual import chapter_page, contents_page, functions_page
 from app.pages.overview import start_page
-from app.pages.query import WRITTEN, from_form, link, normalised, pairs_of_query, split_views
-from app.pages.templating import ASSETS, example_link, page_path, rendered
+from app.pages.query import link
+from app.pages.templating import ASSETS, page_path, rendered
 from app.settings import Settings
 from app.sources import SHORT_SOURCES
 
@@ -44,13 +42,13 @@ router = APIRouter(include_in_schema=False)
 
 @router.get("/")
 async def start(http: Request) -> Response:
-    """The start page."""
+    """Show the start page."""
     return html(start_page(root_of(http)))
 
 
 @router.get("/static/{name}")
 async def static(name: str) -> Response:
-    """Style, script and icon of the pages."""
+    """Send a style sheet, a script or the icon of the pages."""
     if name not in ASSETS:
         raise HTTPException(404, f"Available: {', '.join(ASSETS)}")
     return Response(ASSETS[name], media_type=guess_type(name)[0], headers={"Cache-Control": FOREVER})
@@ -58,7 +56,7 @@ async def static(name: str) -> Response:
 
 @router.post("/case", response_class=HTMLResponse)
 async def open_case(http: Request) -> Response:
-    """The page of a case that was saved as a file; one too long for a link is answered at once."""
+    """Redirect to the page of a case in a file. If the case is too long for a link, send the page itself."""
     if not http.headers.get("content-type", "").startswith("multipart/form-data"):
         raise HTTPException(415, "Send the file of a case as multipart/form-data")
     async with http.form(max_files=1, max_fields=0) as form:
@@ -73,25 +71,25 @@ async def open_case(http: Request) -> Response:
     return html(shown.content, shown.status)
 
 
-# Rendering a chapter takes a tenth of a second the first time: these are no coroutines, so that the server answers
-# meanwhile.
+# The first rendering of a chapter takes a tenth of a second. These functions are not coroutines, so that the server can
+# answer other requests meanwhile.
 
 
 @router.get("/manual")
 def contents(http: Request) -> Response:
-    """The table of contents of the manual."""
+    """Show the table of contents of the manual."""
     return html(contents_page(root_of(http)))
 
 
 @router.get("/manual/functions")
 def functions(http: Request) -> Response:
-    """The functions that implement the equations."""
+    """Show the functions that implement the equations."""
     return html(functions_page(root_of(http)))
 
 
 @router.get("/manual/{name}")
 def chapter(http: Request, name: str) -> Response:
-    """One chapter."""
+    """Show a chapter of the manual."""
     if name not in NAMES:
         raise HTTPException(404, f"Available chapters: {', '.join(NAMES)}, functions")
     return html(chapter_page(root_of(http), name))
@@ -126,10 +124,10 @@ def _add(calculation: Calculation) -> None:
 
     @router.api_route(f"{path}/case.json", methods=METHODS)
     async def saved(http: Request) -> Response:
-        """The case as it was typed, complete or not, as a JSON file of title, endpoint and request, like an example."""
+        """Send the case as typed, even if it is not complete, as a JSON file of title, endpoint and request."""
         asked, _ = await asked_of(http, calculation)
         content = {"title": asked.title, "endpoint": calculation.path, "request": asked.body}
-        name = "".join(each for each in asked.title if each.isalnum() or each in " -").strip() or PurePath(path).name
+        name = "".join(sign for sign in asked.title if sign.isalnum() or sign in " -").strip() or PurePath(path).name
         disposition = f"attachment; filename*=UTF-8''{quote(name)}.json"
         headers = {"Content-Security-Policy": DOCUMENT_POLICY, "Content-Disposition": disposition}
         return Response(json.dumps(content, indent=1, ensure_ascii=False), media_type=JSON, headers=headers)
@@ -149,10 +147,10 @@ def _add(calculation: Calculation) -> None:
 async def _answer(
     http: Request, calculation: Calculation, media: str, view: Callable[..., views.Shown], *arguments: Any
 ) -> Response:
-    """One view of the case in the query or the form; a query with empty fields is redirected to one without."""
+    """Send a view of the case in the query or the form; redirect a query with empty fields to one without."""
     asked, clean = await asked_of(http, calculation)
     if not clean and http.scope["method"] == "GET" and (asked.pairs or not asked.pressed):
-        return redirected(get_route_path(http.scope), asked)
+        return redirected(path_of(http), asked)
     if asked.pairs:
         http.app.state.start_up.require(calculation.path)
     shown = await _shown(http, asked, view, *arguments)
@@ -167,30 +165,17 @@ def redirected(place: str, asked: Asked) -> Response:
 
 
 async def asked_of(http: Request, calculation: Calculation) -> tuple[Asked, bool]:
-    """The case asked for, and whether its query was a link in the shortest form, without empty fields."""
+    """Return the requested case, and True if its query is a link in the shortest form, without empty fields."""
     text = http.url.query
     if http.scope["method"] == "POST":
         if http.headers.get("content-type", "").partition(";")[0].strip() != FORM:
             raise HTTPException(415, f"The content type must be {FORM}")
         text = (await http.body()).decode("ascii", "replace")
-    fields = pairs_of_query(text)
-    pressed = WRITTEN in dict(fields)
-    sent, looks = split_views(from_form(calculation.request, fields))
-    given = {name: value for name, value in looks.items() if value}
-    if (example := examples().get(dict(sent).get("example", ""))) is not None:
-        if example.endpoint != calculation.path:
-            raise Unreadable(f"{example.name} is an example of {page_path(BY_PATH[example.endpoint])}")
-        sent = pairs_of_query(example_link(calculation, example).partition("?")[2])
-        return Asked(page_path(calculation), sent, given, root=root_of(http)), False
-    pairs = normalised(calculation.request, sent)
-    asked = Asked(page_path(calculation), pairs, given, root=root_of(http))
-    kept, kept_ref = (http.app.state.answers.get(key_of(asked.path, each)) for each in (pairs, asked.ref_pairs))
-    asked = replace(asked, kept=kept, kept_ref=kept_ref, pressed=pressed)
-    return asked, not pressed and pairs == sent and given == looks
+    return asked_in(calculation, text, root_of(http), http.app.state.answers)
 
 
 def _kept(http: Request, path: str) -> Asked:
-    """The case whose hash is asked for, and its variant; 410 where an answer is not kept any more."""
+    """Return the case with the hash in the query, and its variant; raise status 410 if an answer is no longer kept."""
     query, answers = http.query_params, http.app.state.answers
     kept, kept_ref = (answers.get(key_of(path, [("case", query.get(name, ""))])) for name in ("case", "ref_case"))
     if kept is None or (query.get("ref_case") and kept_ref is None):
@@ -199,7 +184,7 @@ def _kept(http: Request, path: str) -> Asked:
 
 
 async def _shown(http: Request, asked: Asked, view: Callable[..., views.Shown], *arguments: Any) -> views.Shown:
-    """A view of a case, made in a worker; the answers that it needed are kept for other views of the case."""
+    """Return a view of a case from a worker, and keep the answers that it needed for other views of the case."""
     shown: views.Shown = await http.app.state.pool.calculate(http, view, asked, *arguments)
     for key, content in shown.keep.items():
         with suppress(ValueError):  # larger than all that may be kept
@@ -208,9 +193,9 @@ async def _shown(http: Request, asked: Asked, view: Callable[..., views.Shown], 
 
 
 def failed(http: Request, error: Exception) -> Response:
-    """An error as a page where the route has pages or a browser finds nothing, else as a problem document."""
+    """Return an error as a page if the route has pages or a browser asks for an unknown address, else as a document."""
     if isinstance(error, HTTPException):
-        if "text/html" not in http.headers.get("accept", "") or get_route_path(http.scope).startswith("/v1/"):
+        if "text/html" not in http.headers.get("accept", "") or path_of(http).startswith("/v1/"):
             return answer(http, error)
         title = HTTPStatus(error.status_code).phrase
         detail = "There is nothing at this address." if error.detail == title else error.detail
@@ -224,32 +209,43 @@ def failed(http: Request, error: Exception) -> Response:
 def problem_page(
     http: Request, status: int, title: str, detail: str, headers: dict[str, str] | None = None
 ) -> Response:
-    """A page that states why the request was not answered; where a file was sent, with the field for another one."""
-    place = get_route_path(http.scope).split("/")[1]
+    """Return a page that states why a request was not answered; after a file, with a field for another file."""
+    place = path_of(http).split("/")[1]
     return html(rendered("problem.html", root_of(http), title=title, detail=detail, place=place), status, headers)
 
 
 def root_of(http: Request) -> str:
-    """The prefix that a proxy puts before the addresses of the service."""
+    """Return the prefix that a proxy puts before the addresses of the service."""
     root: str = http.scope.get("root_path", "")
     return root
 
 
-def printed_host(http: Request) -> str:
-    """Scheme and host for what is printed: a host of the settings or this machine, else nothing.
+def path_of(http: Request) -> str:
+    """Return the address of a request without the prefix of a proxy."""
+    path: str = http.scope["path"]
+    return path.removeprefix(root_of(http))
 
-    What a client claims to ask is not repeated: it could lead the reader of a report to another service.
+
+def printed_host(http: Request) -> str:
+    """Return scheme and host for printed reports: a host of the settings or this machine, else an empty text.
+
+    A host that only the client names is not printed, because it could lead the reader of a report to another service.
     """
     limits: Settings = http.app.state.settings
-    known = http.url.netloc in limits.hosts or http.url.hostname in {*limits.hosts, "localhost", "127.0.0.1", "::1"}
-    return f"{http.url.scheme}://{http.url.netloc}" if known else ""
+    is_trusted = http.url.netloc in limits.hosts or http.url.hostname in {
+        *limits.hosts,
+        "localhost",
+        "127.0.0.1",
+        "::1",
+    }
+    return f"{http.url.scheme}://{http.url.netloc}" if is_trusted else ""
 
 
 def html(content: str | bytes, status: int = 200, headers: dict[str, str] | None = None) -> Response:
-    """A page under the strict policy."""
+    """Return a page with the strict policy for its content."""
     policy = {"Content-Security-Policy": PAGE_POLICY}
     return Response(content, status, media_type=HTML, headers=policy | (headers or {}))
 
 
-for each in CALCULATIONS:
-    _add(each)
+for row in CALCULATIONS:
+    _add(row)

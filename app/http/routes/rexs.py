@@ -1,7 +1,8 @@
 """Gear units from REXS files: read, shown as a page, and sent back with results."""
 
 from hashlib import sha256
-from typing import Annotated, Any
+from pathlib import PurePath
+from typing import Annotated, Any, NamedTuple
 
 from fastapi import APIRouter, HTTPException, Query, Request, Response
 from fastapi.responses import HTMLResponse, RedirectResponse
@@ -9,6 +10,7 @@ from fastapi.responses import HTMLResponse, RedirectResponse
 from app.errors import Unprocessable
 from app.http.problems import documented
 from app.http.routes.pages import html, problem_page, root_of
+from app.pages.query import REPORT_NAMES
 from app.rexs import answer
 from app.rexs.document import File
 from app.settings import MEBIBYTE, Settings
@@ -21,30 +23,45 @@ FILE = {"type": "string", "format": "binary"}
 
 
 def _body(types: tuple[str, ...], **form: dict[str, str]) -> dict[str, Any]:
-    """The body of an operation: a file of one of the types, or a form with the file and these parts."""
+    """Describe the body of an operation: a file of one of the types, or a form with the file and these parts."""
     schema = {
         "type": "object",
         "required": ["file"],
         "additionalProperties": False,
         "properties": {"file": FILE, **form},
     }
-    content = {**{each: {"schema": FILE} for each in types}, FORM: {"schema": schema}}
+    content = {**{media_type: {"schema": FILE} for media_type in types}, FORM: {"schema": schema}}
     return {"requestBody": {"required": True, "content": content}}
 
 
 UPLOAD = _body(DOCUMENTED_TYPES)
 UPLOAD_WITH_REQUEST = _body((), request={"type": "string", "description": "the stage's request as edited, JSON"})
 
-router = APIRouter(tags=["files"], responses=documented(400, 408, 413, 415, 422, 431, 500, 503, 504))
+
+class Upload(NamedTuple):
+    """A file as it was sent: its content, its name where a form has one, and the request beside it."""
+
+    content: bytes
+    name: str = ""
+    request: bytes | None = None
+
+
+router = APIRouter(tags=["files"], responses=documented(400, 413, 415, 422, 500, 503, 504))
 pages = APIRouter(include_in_schema=False)
 
 
-@router.post(answer.PATH, response_model=answer.GearUnit, openapi_extra=UPLOAD, operation_id="rexs")
+@router.post(
+    answer.PATH,
+    response_model=answer.GearUnit,
+    openapi_extra=UPLOAD,
+    operation_id="rexs",
+    summary="The stages of a gear unit's file (REXS) as ready requests",
+)
 async def read_unit(http: Request) -> Response:
-    """The stages of a gear unit as ready requests, and what is missing, assumed, not used or wrong in the file."""
-    content, _ = await _upload(http)
-    found = await http.app.state.pool.calculate(http, answer.unit_json, content, _most_bytes(http))
-    return Response(found, media_type="application/json")
+    """Read the stages of a gear unit as ready requests, and list values that are missing, assumed, unused or wrong."""
+    upload = await _upload(http)
+    unit = await http.app.state.pool.calculate(http, answer.unit_json, upload.content, _most_bytes(http))
+    return Response(unit, media_type="application/json")
 
 
 @router.post(
@@ -52,18 +69,20 @@ async def read_unit(http: Request) -> Response:
     response_class=Response,
     openapi_extra=UPLOAD_WITH_REQUEST,
     operation_id="rexs_results",
+    summary="A gear unit's file (REXS) with the results of a stage in it",
     responses={200: {"description": "the file with results", "content": {"application/xml": {"schema": FILE}}}},
 )
 async def write_results(
     http: Request, stage: Annotated[int, Query(description="id of the stage's component")]
 ) -> Response:
-    """The file with the numbers of a stage written to its component.
+    """Write the numbers of a stage into the file as attributes of its component.
 
-    Attributes of the standard where the quantity is the same, `custom_tribodrive_*` otherwise; all else is kept.
+    A quantity of the standard has the attribute of the standard; others have `custom_tribodrive_*`. The rest of the
+    file is kept.
     """
-    content, request = await _upload(http)
+    upload = await _upload(http)
     limits: Settings = http.app.state.settings
-    arguments = (content, _most_bytes(http), stage, request, limits.deadline_s)
+    arguments = (upload.content, _most_bytes(http), stage, upload.request, limits.deadline_s)
     file: File = await http.app.state.pool.calculate(http, answer.with_results, *arguments)
     headers = {"Content-Disposition": f'attachment; filename="results{file.suffix}"'}
     return Response(file.content, media_type=file.media_type, headers=headers)
@@ -71,23 +90,24 @@ async def write_results(
 
 @pages.get("/rexs")
 async def ask_for_unit(http: Request) -> Response:
-    """Where a file is chosen."""
+    """Redirect to the field for the file on the start page."""
     return RedirectResponse(f"{root_of(http)}/#rexs-file", 303)
 
 
 @pages.post("/rexs", response_class=HTMLResponse)
 async def open_unit(http: Request) -> Response:
-    """Redirect to the page of the unit, so that the back button returns to it. Send a page too large to keep.
+    """Redirect to the page of the unit, so that the back button returns to it.
 
-    A file that cannot be read is answered with the reason.
+    A page that is too large to keep is sent at once. A file that cannot be read is answered with the reason.
     """
     root = root_of(http)
     try:
-        content, _ = await _upload(http)
-        shown = await http.app.state.pool.calculate(http, answer.unit_html, root, content, _most_bytes(http))
+        upload = await _upload(http)
+        arguments = (upload.content, _most_bytes(http), upload.name)
+        shown = await http.app.state.pool.calculate(http, answer.unit_html, root, *arguments)
     except Unprocessable as error:
         return problem_page(http, 422, "The file cannot be read", error.message)
-    name = sha256(content).hexdigest()
+    name = sha256(upload.content).hexdigest()
     try:
         http.app.state.answers[_key(root, name)] = shown
     except ValueError:  # larger than all that may be kept
@@ -97,7 +117,7 @@ async def open_unit(http: Request) -> Response:
 
 @pages.get("/rexs/{name}", response_class=HTMLResponse)
 async def show_unit(http: Request, name: str) -> Response:
-    """The unit as a page while that is kept: stages, findings, and a link to every calculation."""
+    """Show the page of a unit while it is kept: stages, findings, and links to the calculations."""
     shown = http.app.state.answers.get(_key(root_of(http), name))
     if shown is None:
         return problem_page(http, 410, "The file has to be opened again", GONE)
@@ -105,22 +125,23 @@ async def show_unit(http: Request, name: str) -> Response:
 
 
 def _key(root: str, name: str) -> str:
-    """The key of a unit's page, whose links have the prefix of a proxy."""
+    """Return the key of a unit's page; its links depend on the prefix of a proxy."""
     return f"unit {name} {root}"
 
 
-async def _upload(http: Request) -> tuple[bytes, bytes | None]:
-    """The file, and beside it the request where the form has one."""
+async def _upload(http: Request) -> Upload:
+    """Return what was sent; raises HTTPException for another media type, Unprocessable for a form without a file."""
     media_type = http.headers.get("content-type", "").partition(";")[0].strip().lower()
     if media_type in TYPES:
-        return await http.body(), None
+        return Upload(await http.body())
     if media_type != FORM:
         raise HTTPException(415, f"send the file as {', '.join(DOCUMENTED_TYPES)} or as {FORM}")
     async with http.form(max_files=2, max_fields=2, max_part_size=_most_bytes(http)) as form:
         parts = {name: await part.read() if not isinstance(part, str) else part.encode() for name, part in form.items()}
+        name = getattr(form.get("file"), "filename", None) or ""
     if "file" not in parts:
         raise Unprocessable("missing", "the form needs a part named file", "file")
-    return parts["file"], parts.get("request") or None
+    return Upload(parts["file"], PurePath(name).name[: REPORT_NAMES["rexs_file"]], parts.get("request") or None)
 
 
 def _most_bytes(http: Request) -> int:

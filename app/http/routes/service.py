@@ -1,15 +1,12 @@
 """Examples, health and metrics."""
 
-import gzip
-from functools import lru_cache
 from typing import Annotated, Literal
 
-from fastapi import APIRouter, FastAPI, HTTPException, Path, Request, Response
-from fastapi.responses import JSONResponse
+from fastapi import APIRouter, HTTPException, Path, Request, Response
 from prometheus_client import CONTENT_TYPE_LATEST, generate_latest
 from pydantic import BaseModel
 
-from app.errors import WarmingUp, WorkerLost
+from app.errors import WorkerLost
 from app.examples import Example, ExampleSummary, examples
 from app.http.problems import documented
 from app.http.routes.pages import HTML, root_of
@@ -24,28 +21,28 @@ router = APIRouter(tags=["service"])
 
 
 class Health(BaseModel):
-    """The service answers."""
+    """The answer of a running service."""
 
     status: Annotated[Literal["ok"], Output("always ok: an answer is the message")] = "ok"
 
 
 class Readiness(BaseModel):
-    """Which calculations are ready, and how many workers."""
+    """Ready calculations, and the number of workers."""
 
     status: Annotated[Literal["ok"], Output("always ok: an answer is the message")] = "ok"
     warm: Annotated[list[str], Output("models, or parts of them, whose kernels are loaded")]
-    workers: Annotated[int, Output("worker processes that calculate or could")]
+    workers: Annotated[int, Output("number of worker processes that can calculate")]
 
 
 @router.get("/v1/examples")
 async def list_examples() -> list[ExampleSummary]:
-    """Every example, without its request."""
+    """List the examples without their requests."""
     return [*examples().values()]
 
 
 @router.get("/v1/examples/{name}", responses=documented(404, 422))
 async def show_example(name: Annotated[str, Path(description="name of the example", max_length=100)]) -> Example:
-    """One example with a ready request body."""
+    """Return an example with its request."""
     try:
         return examples()[name]
     except KeyError:
@@ -54,43 +51,24 @@ async def show_example(name: Annotated[str, Path(description="name of the exampl
 
 @router.get("/healthz")
 async def healthz() -> Health:
-    """Whether the service answers."""
+    """Return `ok` if the service answers."""
     return Health()
 
 
 @router.get("/readyz", responses=documented(503))
 async def readyz(http: Request) -> Readiness:
-    """Whether every calculation answers at once; 503 says how far the warm-up is. Never waits for a calculation."""
+    """Return `ok` if all calculations are ready, else 503 with the progress of the warm-up. Never waits."""
     start_up: StartUp = http.app.state.start_up
     pool: Pool = http.app.state.pool
-    if not start_up.complete:
-        raise WarmingUp(f"Kernels are being loaded or compiled: {start_up.report()}")
-    if pool.workers_alive == 0:
+    start_up.require_all()
+    if pool.alive <= 0:
         raise WorkerLost
-    return Readiness(warm=[stage.name for stage in start_up.warm], workers=pool.workers_alive)
-
-
-@router.get("/openapi.json", include_in_schema=False)
-async def openapi(http: Request) -> Response:
-    """The OpenAPI document."""
-    plain, packed = _document(http.app, http.scope.get("root_path", ""))
-    if "gzip" not in http.headers.get("accept-encoding", ""):
-        return Response(plain, media_type="application/json")
-    coded = {"Content-Encoding": "gzip", "Vary": "Accept-Encoding"}
-    return Response(packed, headers=coded, media_type="application/json")
-
-
-@lru_cache(maxsize=1)
-def _document(app: FastAPI, root: str) -> tuple[bytes, bytes]:
-    """The OpenAPI document below a prefix, plain and compressed; both take 10 ms, which many requests would add up."""
-    servers = {"servers": [{"url": root}]} if root else {}
-    plain = bytes(JSONResponse({**app.openapi(), **servers}).body)
-    return plain, gzip.compress(plain)
+    return Readiness(warm=start_up.warm, workers=pool.alive)
 
 
 @router.get("/docs", include_in_schema=False)
 async def docs(http: Request) -> Response:
-    """Swagger's page of the OpenAPI document."""
+    """Show the OpenAPI document on Swagger's page."""
     return Response(
         rendered("docs.html", root_of(http), assets=DOCS_ASSETS, description=http.app.description), media_type=HTML
     )
@@ -98,5 +76,5 @@ async def docs(http: Request) -> Response:
 
 @router.get("/metrics", response_class=Response, include_in_schema=False)
 async def metrics() -> Response:
-    """Counters in the Prometheus text format."""
+    """Return the metrics in the Prometheus text format."""
     return Response(generate_latest(), media_type=CONTENT_TYPE_LATEST)

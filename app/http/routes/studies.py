@@ -15,38 +15,40 @@ from starlette.types import Receive, Scope, Send
 from app.http.json_route import JsonRoute
 from app.http.problems import documented
 from app.studies.design import Design
-from app.studies.engine import PROGRESS_S, Clock, Line, Lines, Study, encoded, guarded, json_line
+from app.studies.engine import PROGRESS_S, Clock, Lines, Study, encoded, guarded
 from app.studies.requests import EXAMPLES
 from app.studies.sensitivity import Sensitivity
 from app.studies.spectrum import Spectrum
-from app.studies.sweep import Corners, Sweep, table_row
+from app.studies.sweep import Corners, Sweep, encoder
 
 Format = Literal["ndjson", "csv"]
 MEDIA_TYPES: dict[Format, str] = {"ndjson": "application/x-ndjson", "csv": "text/csv"}
-READING_S = 10.0  # beyond the study's deadline, for a client that reads slowly
+READING_S = 10.0  # after the study's deadline, for a client that reads slowly
 
 
 class StudyStream(StreamingResponse):
-    """Lines as they come; when the client leaves, or has not read all after so many seconds, the study ends."""
+    """A response with the lines of a study as they come.
+
+    The study ends if the client leaves, or has not read all lines within a number of seconds.
+    """
 
     def __init__(self, pieces: AsyncGenerator[bytes, None], seconds: float, stack: ExitStack, **options: Any) -> None:
         super().__init__(pieces, **options)
         self._pieces, self._seconds, self._stack = pieces, seconds, stack
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Send everything."""
         with self._stack:
             async with aclosing(self._pieces), asyncio.timeout(self._seconds):
                 await super().__call__(scope, receive, send)
 
 
 async def planned(http: Request, planner: Callable[[int, float], Any], most: int) -> Any:
-    """The result of `planner` in a worker, for at most `most` points with the service's deadline each."""
+    """Return the result of `planner` from a worker, for at most `most` points under the deadline of a calculation."""
     return await http.app.state.pool.calculate(http, planner, most, http.app.state.settings.deadline_s)
 
 
 async def begun(http: Request, study: Study, progress_s: float = PROGRESS_S) -> tuple[Lines, Clock]:
-    """The lines of a study that counts among the running ones, and its clock."""
+    """Return the lines of a study, which has its place among the running studies, and its clock."""
     clock = Clock(study.total)
     lines = study.lines(await http.app.state.studies.pool(), clock)
     return guarded(lines, clock, http.app.state.settings.study_deadline_s, progress_s), clock
@@ -60,7 +62,7 @@ async def streamed(
     headers: dict[str, str] | None = None,
     progress_s: float = PROGRESS_S,
 ) -> Response:
-    """The response made of the lines of a study, which counts among the running ones until it ends."""
+    """Return the response with the lines of a study; the study has a place among the running ones until it ends."""
     with ExitStack() as stack:
         stack.enter_context(http.app.state.studies.place())
         content = pieces(*await begun(http, study, progress_s))
@@ -70,7 +72,7 @@ async def streamed(
 
 
 async def started(http: Request, kind: type[Study], body: BaseModel, written_as: Format = "ndjson") -> Response:
-    """The stream of a study, which is checked in a worker before the first line."""
+    """Check a study in a worker, then return the stream of its lines."""
     http.app.state.start_up.require()
     study: Study = await planned(http, partial(kind, body), getattr(http.app.state.settings, kind.most))
     http.app.state.start_up.require(study.question.endpoint)
@@ -78,28 +80,19 @@ async def started(http: Request, kind: type[Study], body: BaseModel, written_as:
     return await streamed(http, study, lambda lines, _: encoded(lines, encode), MEDIA_TYPES[written_as])
 
 
-def encoder(study: Study, written_as: str) -> Callable[[Line], bytes]:
-    """Writes the lines of a study; those of a sweep also as the rows of a table."""
-    if isinstance(study, Sweep) and written_as == "csv":
-        return partial(table_row, study.points, study.outputs)
-    return json_line
-
-
 def wanted_format(http: Request, named: Format) -> Format:
-    """By `format` in the query, else the first that the client accepts, else NDJSON."""
+    """Return the format in the query, else the first that the client accepts, else NDJSON."""
     if "format" in http.query_params:
         return named
     accepted = [part.partition(";")[0].strip().lower() for part in http.headers.get("accept", "").split(",")]
     return next((name for media in accepted for name, own in MEDIA_TYPES.items() if media == own), "ndjson")
 
 
-router = APIRouter(
-    tags=["studies"], route_class=JsonRoute, responses=documented(400, 408, 413, 415, 422, 431, 500, 503, 504)
-)
+router = APIRouter(tags=["studies"], route_class=JsonRoute, responses=documented(400, 413, 415, 422, 500, 503, 504))
 
 
 def _add(kind: type[Study], answer: Callable[..., Coroutine[Any, Any, Response]], *formats: Format) -> None:
-    """The endpoint of a kind of study."""
+    """Add the endpoint of a kind of study."""
     answer.__annotations__["body"] = Annotated[kind.model, Body(openapi_examples=EXAMPLES[kind.path])]
     content = {MEDIA_TYPES[each]: {"schema": {"type": "string"}} for each in formats}
     router.add_api_route(
@@ -128,7 +121,7 @@ async def sweep(
         Format, Query(alias="format", description="JSON a line, or a table; the Accept header can choose it too")
     ] = "ndjson",
 ) -> Response:
-    """The lines of a sweep, or its table."""
+    """Return the lines of a sweep, or its table."""
     return await started(http, Sweep, body, wanted_format(http, written_as))
 
 

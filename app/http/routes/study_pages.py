@@ -1,9 +1,8 @@
-"""Pages of studies, which are sent while the lines of the study arrive, and their files."""
+"""Pages of studies, sent while the lines of the study arrive, and their files."""
 
 import asyncio
-import logging
-from collections.abc import AsyncGenerator, Callable
-from contextlib import aclosing, suppress
+from collections.abc import Callable
+from contextlib import aclosing
 from functools import partial
 from typing import Any
 
@@ -12,34 +11,27 @@ from fastapi.responses import HTMLResponse
 
 from app import figures
 from app.calculations import CALCULATIONS, Calculation
-from app.errors import ClientGone, DeadlineExceeded, StudyEnded, WorkerLost
+from app.errors import StudyEnded
 from app.http.routes import pages
-from app.http.routes.studies import MEDIA_TYPES, begun, encoder, planned, streamed
+from app.http.routes.studies import MEDIA_TYPES, begun, planned, streamed
 from app.pages.cases import Asked
 from app.pages.studies import PAGES
 from app.pages.studies import page as study_page
 from app.pages.studies.page import StudyPage
+from app.pages.studies.stream import pieces, report_pieces
 from app.pages.study_links import study_links
 from app.pages.templating import page_path
-from app.studies.engine import Clock, Line, Lines, encoded, twice_if_lost
-from app.workers.pool import disconnected
+from app.studies.engine import encoded, twice_if_lost
+from app.studies.sweep import encoder
+from app.workers.pool import unless_gone
 
 LINE_TYPES = {str(name): media for name, media in MEDIA_TYPES.items()}
 IMAGE_TYPES = {str(name): media for name, media in figures.MEDIA_TYPES.items()}
-FIRST_FRAME_S = 0.3  # until a page shows its first points
-FRAME_SHARE = 0.3  # of the time a study has run passes until its page is drawn again
-LONGEST_PAUSE_S = 4.0  # between two drawings of a page, however long the study runs
 PROGRESS_S = 0.5  # between two looks at a study whose lines take longer
-NOT_DRAWN = (
-    b'<div class="frame"><p class="warning">The figure could not be drawn; the files hold the points.</p>'
-    b'<span class="ready" hidden></span></div>'
-)
-
-logger = logging.getLogger("tribodrive")
 
 
 def not_from_another_site(http: Request) -> None:
-    """403 where a page of another site asks for a study, which would occupy every core for minutes."""
+    """Answer 403 if a page of another site asks for a study, which would occupy all cores for minutes."""
     asks = http.url.query or http.method == "POST"
     if asks and http.headers.get("sec-fetch-site") == "cross-site":
         raise HTTPException(403, "A page of another site cannot start a study; open the address directly")
@@ -49,7 +41,7 @@ router = APIRouter(include_in_schema=False, dependencies=[Depends(not_from_anoth
 
 
 def _add(calculation: Calculation, own: type[StudyPage]) -> None:
-    """The page of a study of a calculation's cases, its lines and its figures."""
+    """Add the page of a study of a calculation, with its lines, figures and report."""
     path = f"{page_path(calculation)}/{own.link.name}"
     policy = {"Content-Security-Policy": pages.DOCUMENT_POLICY}
 
@@ -66,12 +58,13 @@ def _add(calculation: Calculation, own: type[StudyPage]) -> None:
     async def figure(http: Request, name: str, image_format: str) -> Response:
         if name not in own.figures or image_format not in IMAGE_TYPES:
             raise HTTPException(404, f"Available figures: {', '.join(own.figures)}; formats: {', '.join(IMAGE_TYPES)}")
-        drawn = await _made(http, await checked(http), study_page.file, name, image_format)
-        return Response(drawn, media_type=IMAGE_TYPES[image_format], headers=policy)
+        content = await _made(http, await checked(http), study_page.file, name, image_format)
+        return Response(content, media_type=IMAGE_TYPES[image_format], headers=policy)
 
     async def report(http: Request) -> Response:
-        content = await _made(http, await checked(http), study_page.report, pages.printed_host(http))
-        return Response(content, media_type=pages.HTML, headers=policy)
+        found = await checked(http)
+        parts = partial(report_pieces, http.app.state.studies.own, found, pages.printed_host(http))
+        return await streamed(http, found.study, parts, pages.HTML, policy, PROGRESS_S)
 
     async def checked(http: Request) -> StudyPage:
         asked, _ = await pages.asked_of(http, calculation)
@@ -85,7 +78,7 @@ def _add(calculation: Calculation, own: type[StudyPage]) -> None:
 
 
 async def _page(http: Request, calculation: Calculation, own: type[StudyPage], path: str) -> Response:
-    """A study's page; whole where there is nothing to calculate."""
+    """Send the page of a study: as a stream, or as a whole if there is nothing to calculate."""
     asked, clean = await pages.asked_of(http, calculation)
     if not clean and http.scope["method"] == "GET":
         return pages.redirected(path, asked)
@@ -93,46 +86,23 @@ async def _page(http: Request, calculation: Calculation, own: type[StudyPage], p
     if opened.page.study is None:
         return pages.html(opened.head + opened.tail, opened.status)
     headers = {"Content-Security-Policy": pages.PAGE_POLICY}
-    return await streamed(http, opened.page.study, partial(_pieces, http, opened), pages.HTML, headers, PROGRESS_S)
+    return await streamed(
+        http, opened.page.study, partial(pieces, http.app.state.studies.own, opened), pages.HTML, headers, PROGRESS_S
+    )
 
 
 async def _planned(http: Request, own: type[StudyPage], asked: Asked, view: Callable[..., Any]) -> Any:
-    """The study of a case, or its page, from a worker."""
+    """Return the study of a case, or its page, from a worker."""
     if asked.pairs:
         http.app.state.start_up.require(asked.calculation.path)
     return await planned(http, partial(view, own, asked), getattr(http.app.state.settings, own.plan.most))
 
 
-async def _pieces(http: Request, opened: study_page.Opened, lines: Lines, clock: Clock) -> AsyncGenerator[bytes, None]:
-    """The page of a study: head, results so far that replace each other, tail."""
-    yield opened.head
-    received, due = list[Line](), FIRST_FRAME_S
-    async with aclosing(lines):
-        async for group in lines:
-            received += [line for line in group if line["type"] != "progress"]
-            has_ended = bool(received) and received[-1]["type"] in {"end", "error"}
-            if clock.done and clock.elapsed_s >= due and not has_ended:
-                yield await _part(http, study_page.drawn, opened.page, received, clock.done)
-                due = clock.elapsed_s + min(max(FRAME_SHARE * clock.elapsed_s, FIRST_FRAME_S), LONGEST_PAUSE_S)
-    yield await _part(http, study_page.drawn, opened.page, received)
-    yield opened.tail
-
-
-async def _part(http: Request, view: Callable[..., bytes], *arguments: Any) -> bytes:
-    """The result of a view in a worker, or a note that it failed: the page has begun, its status is sent."""
-    made: bytes = NOT_DRAWN
-    try:
-        with suppress(WorkerLost, DeadlineExceeded):
-            made = await twice_if_lost(http.app.state.studies.own(), view, *arguments)
-    except Exception:
-        logger.exception("a part of a study's page failed")
-    return made
-
-
 async def _made(http: Request, study: StudyPage, view: Callable[..., bytes | str], *arguments: Any) -> bytes:
-    """The result of a view of all lines of a study in a worker; the study ends when the client leaves.
+    """Run a study to its end and return a view of its lines from a worker.
 
-    Raises StudyEnded at an error, HTTPException where the view answers why there is nothing, and ClientGone.
+    Raises StudyEnded if the study ends with an error, HTTPException with the reason if there is nothing to show, and
+    ClientGone if the client leaves; then the study ends too.
     """
 
     async def work() -> bytes:
@@ -141,22 +111,14 @@ async def _made(http: Request, study: StudyPage, view: Callable[..., bytes | str
             received = [line async for group in lines for line in group if line["type"] != "progress"]
         if received[-1]["type"] == "error":
             raise StudyEnded(received[-1]["message"])
-        made: bytes | str = await twice_if_lost(http.app.state.studies.own(), view, study, received, *arguments)
-        if isinstance(made, str):
-            raise HTTPException(404, made)
-        return made
+        shown: bytes | str = await twice_if_lost(http.app.state.studies.own(), view, study, received, *arguments)
+        if isinstance(shown, str):
+            raise HTTPException(404, shown)
+        return shown
 
     with http.app.state.studies.place():
-        working, gone = asyncio.create_task(work()), asyncio.create_task(disconnected(http))
-        try:
-            await asyncio.wait({working, gone}, return_when=asyncio.FIRST_COMPLETED)
-            if not working.done():
-                raise ClientGone
-            return working.result()
-        finally:
-            working.cancel()
-            gone.cancel()
-            await asyncio.gather(working, gone, return_exceptions=True)
+        content: bytes = await unless_gone(http, asyncio.create_task(work()))
+        return content
 
 
 for each in CALCULATIONS:

@@ -190,6 +190,12 @@ form.addEventListener("submit", (event) => {
 // Escape puts a field's help away until the field is entered again.
 form.addEventListener("keydown", (event) => { if (event.key === "Escape") event.target.closest(".field")?.classList.add("quiet"); });
 form.addEventListener("focusin", () => form.querySelectorAll(".quiet").forEach((field) => field.classList.remove("quiet")));
+// Help between the fields stays until the button is up: what is clicked below it does not move away from the pointer.
+document.addEventListener("mousedown", () => {
+  const field = document.activeElement?.closest("#form .field");
+  field?.classList.add("held");
+  window.addEventListener("mouseup", () => setTimeout(() => field?.classList.remove("held")), { once: true });
+});
 document.addEventListener("click", (event) => {
   const link = event.target.closest("a[href^='#']");
   if (link) { event.preventDefault(); goTo(link.getAttribute("href")); }

@@ -34,15 +34,12 @@ function finish() {
   document.querySelectorAll(".plot").forEach((plot) => (plot.dataset.study ? prepareStudy(plot) : plot.dataset.content && prepareChart(plot)));
 }
 
-// A report of a study calculates it again: until it comes, a bar says so.
+// The report of one case comes when that is calculated; the report of the study itself counts its points.
 document.addEventListener("click", (event) => {
   const link = event.target.closest("a[href*='/report?']");
-  if (!link || event.ctrlKey || event.metaKey || event.shiftKey) return;
-  const bar = document.createElement("progress");
-  bar.setAttribute("aria-label", "the report is calculated");
-  link.after(bar);
+  if (!link || link.pathname.startsWith(location.pathname) || event.ctrlKey || event.metaKey || event.shiftKey) return;
   document.getElementById("state").textContent = "The report is calculated …";
-  window.addEventListener("pageshow", () => { bar.remove(); document.getElementById("state").textContent = ""; }, { once: true });
+  window.addEventListener("pageshow", () => { document.getElementById("state").textContent = ""; }, { once: true });
 });
 
 // The point under the pointer or the arrow keys; a click or the Enter key opens its case.

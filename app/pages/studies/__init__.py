@@ -1,6 +1,7 @@
 """Pages of studies, each below that of the case.
 
 page            what they share: before, during and after the calculation; made in workers
+stream          the page while its lines arrive
 sweep           one field or two varied
 spectrum        a load spectrum with tolerances: probabilities and losses
 sensitivity     which input moves an output most

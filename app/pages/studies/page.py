@@ -4,6 +4,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from http import HTTPStatus
 from itertools import groupby
 from typing import Any, NamedTuple
 
@@ -11,7 +12,7 @@ from app.calculations import Calculation
 from app.errors import Unprocessable, Unreadable
 from app.figures import Format, written
 from app.figures.data import Figure
-from app.pages.cases import REFUSED, Asked, Case, Fault, faults_of, solved
+from app.pages.cases import FILE_NAMES, REFUSED, Asked, Case, Fault, faults_of, solved
 from app.pages.charts import embedded
 from app.pages.form import FieldView
 from app.pages.query import CASES, LONGEST_QUERY, STUDY_NAMES, link, pairs_of, written_of
@@ -239,7 +240,8 @@ class StudyPage(ABC):
 
     def view(self, below: str) -> str:
         """The address of this page with `below` appended to its path: a file, a figure, the report."""
-        views = {name: text for name, text in self.views.items() if name in STUDY_NAMES or name == "theme"}
+        kept = STUDY_NAMES | {"theme", *FILE_NAMES}
+        views = {name: text for name, text in self.views.items() if name in kept}
         return link(f"{self.asked.path}/{self.link.name}{below}", self.asked.pairs, **views, sources=SHORT_SOURCES)
 
     @property
@@ -300,7 +302,7 @@ def opened(kind: type[StudyPage], asked: Asked, most: int, deadline_s: float) ->
         asked=asked,
         calculation=page.calculation,
         groups=groups,
-        hidden=[pair for pair in (*asked.pairs, ("theme", asked.theme)) if pair[1]],
+        hidden=[pair for pair in (*asked.pairs, ("theme", asked.theme), *asked.file.items()) if pair[1]],
         other_faults=[fault for fault in page.faults if fault.path not in controls],
         written=written_of(asked.calculation.request, [*asked.pairs, *texts.items()]),
         frames=FRAMES,
@@ -368,11 +370,27 @@ def file(page: StudyPage, lines: list[Line], name: str, image_format: Format) ->
     return written(found.figures[name], image_format, page.asked.theme or "light")
 
 
+def report_head(page: StudyPage) -> bytes:
+    """Return the beginning of the document that shows how far the study of a report is, then the report."""
+    return rendered("report_progress.html", page.asked.root, page=page).encode()
+
+
+def report_progress(page: StudyPage, done: int, *, has_ended: bool = False, problem: str = "") -> bytes:
+    """Return how many points of the study of a report are calculated, or why the report does not come."""
+    known = {"page": page, "done": done, "has_ended": has_ended, "problem": problem}
+    return rendered("report_points.html", page.asked.root, **known).encode()
+
+
 def report(page: StudyPage, lines: list[Line], host: str) -> bytes:
-    """The report of the case, with a section about the study."""
+    """Return style and body of the report of the case with a section about the study, to follow its progress."""
     section = {
         "title": page.link.label,
         "link": "" if page.too_long else page.view(""),
         "found": page.result(lines),
     }
-    return case_report(page.asked, host, section).content
+    shown = case_report(page.asked, host, section)
+    if shown.status != HTTPStatus.OK:
+        problem = "The case that the study varies cannot be calculated itself; its page says why."
+        return report_progress(page, page.study.total, problem=problem)
+    head, _, body = shown.content.partition(b"<body>")
+    return head[head.index(b"<style>") : head.index(b"</head>")] + body

@@ -1,8 +1,9 @@
 """A load spectrum: cases as a table to paste, tolerances beside the fields that scatter, probabilities and losses."""
 
 import csv
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from types import MappingProxyType
 from typing import Any, NamedTuple
 
 from app.calculations import Calculation
@@ -145,9 +146,11 @@ def _heading(calculation: Calculation, path: str) -> str:
     return titled(leaf) if meant == Column(path) else path
 
 
-def address_of(endpoint: Calculation, request: Pairs, body: dict[str, Any]) -> str:
-    """The page of a study of the interface, with the first of its limits."""
-    views = {"cases": table_of(endpoint, body["cases"])}
+def address_of(
+    endpoint: Calculation, request: Pairs, body: dict[str, Any], file: Mapping[str, str] = MappingProxyType({})
+) -> str:
+    """Return the page of a study of the interface, with the first of its limits, and the file it was read from."""
+    views = {**file, "cases": table_of(endpoint, body["cases"])}
     for place, each in enumerate((body.get("tolerances") or {"inputs": []})["inputs"]):
         law, name = each["distribution"], f"t{place}"
         match each:

@@ -15,17 +15,25 @@ LOWEST_VISCOSITY = 7e-5  # Pa s; Roelands' law ends at 6.31e-5
 HIGHEST_VISCOSITY_UNDER_PRESSURE = 1e100  # Pa s; glass begins at 1e12
 LOWEST_TEMPERATURE = ROELANDS_POLE_TEMPERATURE + 60.0  # K; no oil flows there
 HIGHEST_PRESSURE = 4e9  # Pa
-THICKEST_FILM = 1e4  # in b^2/R, which is what the surfaces deform by
+THICKEST_FILM = 1e4  # in b^2/R, the scale of the deformation of the surfaces
 THINNEST_FILM = 1e-9  # m, the length of an oil's molecule
 MIN_NODES = 41  # chosen: the coarsest mesh that is accepted
 MIN_FILM_NODES = 5  # three inside the film: the fewest that show a maximum of temperature between the surfaces
 
 
 def check(inputs: LineContactInputs) -> None:
-    """Refuse what has no solution or lies outside the laws of the lubricant.
+    """Refuse a contact that has no solution or lies outside the laws of the lubricant.
 
-    Raises InvalidInput: no_load, no_entrainment, stationary_surface, viscosity_range, temperature_range,
-    pressure_range, load_range, film_range, resolution.
+    Parameters
+    ----------
+    inputs : LineContactInputs
+        The contact.
+
+    Raises
+    ------
+    InvalidInput
+        `no_load`, `no_entrainment`, `stationary_surface`, `viscosity_range`, `temperature_range`, `pressure_range`,
+        `load_range`, `film_range` or `resolution`.
     """
     _check_motion(inputs)
     _check_resolution(inputs)
@@ -34,7 +42,18 @@ def check(inputs: LineContactInputs) -> None:
 
 
 def lightest(inputs: LineContactInputs) -> LineContactInputs:
-    """The same contact under the least load that is not refused as too light (`load_range`)."""
+    """Find the same contact under the least load that `check` accepts.
+
+    Parameters
+    ----------
+    inputs : LineContactInputs
+        The contact.
+
+    Returns
+    -------
+    LineContactInputs
+        The contact with the least line load that is not refused as `load_range`; its own load if that is accepted.
+    """
 
     def excess(logarithm: float) -> float:
         loaded = replace(inputs, contact=replace(inputs.contact, line_load=exp(logarithm)))
@@ -75,7 +94,7 @@ def _check_resolution(inputs: LineContactInputs) -> None:
 
 
 def _check_oil(inputs: LineContactInputs) -> None:
-    """Viscosity and temperatures; an isothermal film knows the inlet temperature only."""
+    """Check viscosity and temperatures; an isothermal film has the inlet temperature only."""
     oil, temperatures = inputs.lubricant, inputs.temperatures
     if oil.viscosity < LOWEST_VISCOSITY:
         raise InvalidInput(
@@ -92,14 +111,17 @@ def _check_oil(inputs: LineContactInputs) -> None:
             raise InvalidInput(
                 "viscosity_range",
                 f"the oil's laws give it a viscosity of 10^{logarithm / log(10.0):.2g} Pa s at {temperature:g} K, "
-                f"beyond {LOWEST_VISCOSITY:g} to {HIGHEST_VISCOSITY:g} Pa s; temperatures must lie nearer to the "
-                "reference temperature, or the temperature-viscosity coefficient be smaller",
+                f"beyond {LOWEST_VISCOSITY:g} to {HIGHEST_VISCOSITY:g} Pa s; bring the temperatures nearer to "
+                "the reference temperature, or lower the temperature-viscosity coefficient",
                 "temperature_viscosity",
             )
 
 
 def _check_load(inputs: LineContactInputs) -> None:
-    """Pressure and the film to be expected: thick against the deformation it is no elastic contact any more."""
+    """Check the pressure and the expected film.
+
+    If the film is thick compared with the deformation, the contact is not elastic any more.
+    """
     scales = groups(inputs)
     if scales.maximum_pressure > HIGHEST_PRESSURE:
         raise InvalidInput("pressure_range", "the Hertzian pressure must not exceed 4 GPa", "line_load")
@@ -108,17 +130,17 @@ def _check_load(inputs: LineContactInputs) -> None:
         raise InvalidInput(
             "viscosity_range",
             f"the oil's laws give it more than {HIGHEST_VISCOSITY_UNDER_PRESSURE:g} Pa s at the Hertzian pressure of "
-            f"{scales.maximum_pressure * 1e-9:.2g} GPa; the pressure-viscosity coefficient or the load must be "
-            "smaller, or (Roelands) the viscosity higher",
+            f"{scales.maximum_pressure * 1e-9:.2g} GPa; lower the pressure-viscosity coefficient or the load, "
+            "or (Roelands) raise the viscosity",
             "pressure_viscosity",
         )
     gap = expected_gap(inputs)
     if gap > THICKEST_FILM:
         raise InvalidInput(
             "load_range",
-            f"the film would be more than {THICKEST_FILM:g} times as thick as the surfaces deform (Moes' load "
-            f"parameter M = {scales.moes_m:.2g}): they are rigid, and no elastic contact is left to compute; raise "
-            "the line load, or lower speed or viscosity",
+            f"the film would be more than {THICKEST_FILM:g} times as thick as the deformation of the surfaces "
+            f"(Moes' load parameter M = {scales.moes_m:.2g}): the surfaces are practically rigid, and the contact is "
+            "not elastic; raise the line load, or lower speed or viscosity",
             "line_load",
         )
     if gap * scales.gap_scale < THINNEST_FILM:
@@ -131,6 +153,6 @@ def _check_load(inputs: LineContactInputs) -> None:
 
 
 def _log_viscosity(inputs: LineContactInputs, pressure: float, temperature: float) -> float:
-    """ln(eta / Pa s), which is a number where the viscosity itself is not."""
+    """Return ln(eta/Pa s), which stays finite if the viscosity itself overflows."""
     laws = inputs.lubricant.laws
     return float(log_viscosity(laws, pressure_part(laws, pressure)[0], temperature)[0])

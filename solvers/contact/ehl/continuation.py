@@ -1,4 +1,4 @@
-"""Solution of a contact without a neighbour: resolution, limit of steps, nested meshes, retries when a step fails."""
+"""Solution of a contact without a neighbour: resolution, limit of steps, nested meshes, retries after a failure."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -16,26 +16,26 @@ from solvers.contact.ehl.rheology import REE_EYRING
 from solvers.contact.ehl.state import State, Work, no_steps, work_arrays
 from solvers.contact.ehl.temperature import march_temperatures
 
-STEPS_A_SOLVE = 60  # limit of Newton steps; what has not converged by then is tried another way
+STEPS_A_SOLVE = 60  # limit of Newton steps; a solve that has not converged by then is tried in another way
 STEPS_IN_ALL = 500.0  # in Newton steps at 121 x 21 nodes, about a quarter of a second
-STEPS_ON_FINEST = 25  # that even a very fine mesh is given
-STEPS_TO_REFINE = 100.0  # in the same units, for each contact on finer meshes
+STEPS_ON_FINEST = 25  # least number of steps at the finest mesh, however fine it is
+STEPS_TO_REFINE = 100.0  # in the same units, per contact, for solves on finer meshes
 Stage = Literal["isothermal", "coupling"]
 
 COARSEST = 61  # nodes of the first of the nested meshes, chosen for speed
 TIGHT = (1e-5, 0.01)  # of P and of temperature [K]
-LOOSE = (1e-3, 1.0)  # for meshes that only give the next one its start: relative residual, change of temperature [K]
-MARCH = 5  # steps that a march of temperatures lasts at most
-# Shares of the speed, a factor of 3 apart, when the full speed does not converge at once
+LOOSE = (1e-3, 1.0)  # of P and of temperature [K], for meshes that only give the start of the next mesh
+MARCH = 5  # steps that a march of temperatures costs at most
+# Shares of the speed, a factor of 3 apart, if the full speed does not converge at once
 SPEED_STEPS = (1 / 27, 1 / 9, 1 / 3)
 SOFT_STRESSES = tuple(5e6 * 2.0**k for k in range(10))  # Pa
 
 
 @dataclass(frozen=True, slots=True)
 class Resolution:
-    """What meshes to use: graded for a film of `gap` (in b^2/R), `nodes` along, `film_nodes` across it.
+    """The meshes to use: graded for a film of `gap` (in b^2/R), `nodes` along, `film_nodes` across it.
 
-    The isothermal film that a thermal one starts from is at `entry_temperature` [K].
+    A thermal film starts from an isothermal film at `entry_temperature` [K].
     """
 
     gap: float
@@ -47,9 +47,9 @@ class Resolution:
 
 @dataclass(slots=True)
 class Budget:
-    """Newton steps left, in units of a step at 121 x 21 nodes; it bounds every solve.
+    """Remaining Newton steps, in units of a step at 121 x 21 nodes; they limit every solve.
 
-    What is spent of a part is spent of the whole it is a part `of`.
+    Steps that are spent from a part are also spent from the whole budget `of` which it is a part.
     """
 
     remaining: float
@@ -57,15 +57,15 @@ class Budget:
     of: "Budget | None" = None
 
     def part(self, most: float = inf) -> "Budget":
-        """A budget within this one, of at most so many units."""
+        """Return a part of this budget, of at most `most` units."""
         return Budget(min(most, self.remaining), of=self)
 
     def steps(self, resolution: Resolution, nodes: int) -> int:
-        """Steps affordable at `nodes` nodes, at most those of one solve."""
+        """Return the number of affordable steps at `nodes` nodes, at most that of one solve."""
         return min(STEPS_A_SOLVE, int(self.remaining / price(resolution, nodes)))
 
     def charge(self, resolution: Resolution, nodes: int, steps: int) -> None:
-        """Pay for Newton steps taken."""
+        """Pay for Newton steps."""
         self.pay(steps * price(resolution, nodes), steps)
 
     def pay(self, units: float, steps: int = 0) -> None:
@@ -77,12 +77,12 @@ class Budget:
 
 
 def budget_for(resolution: Resolution) -> Budget:
-    """What one contact may take."""
+    """Return the budget of one contact."""
     return Budget(max(STEPS_IN_ALL, STEPS_ON_FINEST * price(resolution, resolution.nodes)))
 
 
 def price(resolution: Resolution, nodes: int) -> float:
-    """Time of a step over that of one at 121 x 21 nodes: columns, dense products, dense factors (fitted)."""
+    """Return the time of a step relative to that at 121 x 21 nodes: columns, dense products, dense factors (fitted)."""
     relative = nodes / 121
     if resolution.thermal:
         return relative**2 * (0.4 + 0.4 * resolution.film_nodes / 21 + 0.2 * relative)
@@ -102,7 +102,7 @@ class Attempt:
 
 
 def solve_cold(problem: Problem, resolution: Resolution, budget: Budget) -> Attempt:
-    """Solve from the Hertzian pressure, by several attempts in turn; if all fail, the one that came nearest."""
+    """Solve from the Hertzian pressure by several attempts in turn; if all fail, return the nearest one."""
     nearest: Attempt | None = None
     for attempt in _attempts(problem, resolution, budget):
         if attempt.converged:
@@ -116,13 +116,13 @@ def solve_cold(problem: Problem, resolution: Resolution, budget: Budget) -> Atte
 
 
 def _distance(attempt: Attempt) -> tuple[int, float]:
-    """How far from a solution: by the mesh reached, then by the last change of pressure."""
+    """Return the distance from a solution: by the mesh reached, then by the last change of pressure."""
     change = float(attempt.state.history[0].pressure_change)
     return -attempt.grid.x.size, change if np.isfinite(change) else np.inf
 
 
 def _attempts(problem: Problem, resolution: Resolution, budget: Budget) -> Iterator[Attempt]:
-    """Ways to a solution, cheapest first."""
+    """Yield attempts in different ways, the cheapest first."""
     coarse = _start(problem, resolution, budget)
     yield _climb(problem, resolution, coarse, _levels(resolution.nodes, 2.0), budget)
     yield _climb(problem, resolution, _start(problem, resolution, budget), _levels(resolution.nodes, 1.25), budget)
@@ -133,7 +133,7 @@ def _attempts(problem: Problem, resolution: Resolution, budget: Budget) -> Itera
 
 
 def _levels(nodes: int, ratio: float) -> list[int]:
-    """Numbers of nodes from the coarsest mesh up, each at most `ratio` (about) finer than the last."""
+    """Return numbers of nodes from the coarsest mesh up, at most about `ratio` finer from one to the next."""
     levels = [min(COARSEST, nodes)]
     while levels[-1] < nodes:
         finer = round((levels[-1] - 1) * ratio / 2) * 2 + 1
@@ -142,7 +142,7 @@ def _levels(nodes: int, ratio: float) -> list[int]:
 
 
 def _start(problem: Problem, resolution: Resolution, budget: Budget) -> Attempt:
-    """Isothermal solution on the coarsest mesh and one march of temperatures at it."""
+    """Return the isothermal solution on the coarsest mesh, with one march of temperatures."""
     grid = grid_for(resolution.gap, min(COARSEST, resolution.nodes))
     work = work_arrays(grid.x.size, resolution.film_nodes)
     state = _dry_state(grid, resolution)
@@ -160,9 +160,9 @@ def _start(problem: Problem, resolution: Resolution, budget: Budget) -> Attempt:
 
 
 def _dry_state(grid: Grid, resolution: Resolution) -> State:
-    """Hertzian pressure, scaled to carry the load on this mesh, over a film of the expected thickness.
+    """Return Hertzian pressure, scaled to carry the load on this mesh, over a film of the expected thickness.
 
-    A thick film spreads it over (2 R h)^1/2.
+    A thick film spreads the pressure over (2 R h)^1/2.
     """
     width = max(1.0, sqrt(2.0 * resolution.gap))
     pressure = np.sqrt(np.maximum(1.0 - (grid.x / width) ** 2, 0.0))
@@ -178,7 +178,7 @@ def _dry_state(grid: Grid, resolution: Resolution) -> State:
 
 
 def _climb(problem: Problem, resolution: Resolution, start: Attempt, levels: Sequence[int], budget: Budget) -> Attempt:
-    """Solve on each mesh from the one before; coarse meshes need not converge, only get near."""
+    """Solve on one mesh after the other; coarse meshes need not converge but only come near."""
     attempt = start
     if not resolution.thermal and len(levels) == 1:
         return attempt
@@ -203,7 +203,7 @@ def polish(
     tolerances: tuple[float, float],
     budget: Budget,
 ) -> Attempt:
-    """Newton on one mesh, from the state given, which is changed."""
+    """Solve by Newton's method on one mesh from the given state, which is changed."""
     work = work_arrays(grid.x.size, resolution.film_nodes)
     steps = budget.steps(resolution, grid.x.size)
     state.history[:] = no_steps()
@@ -218,7 +218,7 @@ def polish(
 
 
 def interpolate(state: State, x: FloatArray, onto: FloatArray) -> State:
-    """The state on another mesh, linear between nodes."""
+    """Return the state on another mesh, linear between nodes."""
     right = np.searchsorted(x, onto).clip(1, x.size - 1)
     share = ((onto - x[right - 1]) / (x[right] - x[right - 1])).clip(0.0, 1.0)[:, None]
     pressure = np.interp(onto, x, state.pressure)
@@ -232,7 +232,7 @@ def interpolate(state: State, x: FloatArray, onto: FloatArray) -> State:
 
 
 def _from_slow_film(problem: Problem, resolution: Resolution, budget: Budget) -> Attempt:
-    """Both speeds raised in steps on the coarsest mesh: thin films settle easily."""
+    """Solve with both speeds raised in steps on the coarsest mesh: thin films converge easily."""
     attempt: Attempt | None = None
     for factor in (*SPEED_STEPS, 1.0):
         slower = problem._replace(
@@ -250,7 +250,7 @@ def _from_slow_film(problem: Problem, resolution: Resolution, budget: Budget) ->
 
 
 def _from_soft_film(problem: Problem, resolution: Resolution, budget: Budget) -> Attempt:
-    """Shear stiffened in steps on the coarsest mesh, from a small Eyring stress to the one asked for."""
+    """Solve with the Eyring stress raised in steps on the coarsest mesh, up to the given one."""
     attempt: Attempt | None = None
     reached = 0.0
     for stress in SOFT_STRESSES:

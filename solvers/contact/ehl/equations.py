@@ -42,7 +42,7 @@ class Columns(NamedTuple):
 
 
 class Carried(NamedTuple):
-    """What carries heat: held fixed by every Newton step, renewed after it.
+    """Carriers of heat: every Newton step holds them fixed, and they are renewed after it.
 
     Stream function psi [kg/(s m)] (n, k), share of oil (n,), density of the oil that is compressed [kg/m^3] (n, m).
     """
@@ -53,9 +53,10 @@ class Carried(NamedTuple):
 
 
 class Residual(NamedTuple):
-    """What is left of the equations of mass over the flux scale (n,), of the load, and of heat (n, k).
+    """Residuals of the equations of mass, divided by the flux scale (n,), of the load, and of heat (n, k).
 
-    Mass is P and heat is a temperature [K] where the chapter gives these; the other rows of heat are [W/m^2].
+    Where the chapter prescribes P or a temperature, the residual is P or a temperature [K]. The other residuals of heat
+    are in W/m^2.
     """
 
     mass: Numbers
@@ -79,7 +80,6 @@ def density(laws: FluidLaws, p: Numbers, t: Numbers) -> Numbers:
     -------
     (...) array
         Density [kg/m^3].
-
     """
     p = np.where(p.real > 0.0, p, 0.0)
     compression = laws.pressure_density * p / (1.0 + 1.7e-9 * p)
@@ -102,7 +102,6 @@ def viscosity(laws: FluidLaws, p: Numbers, t: Numbers) -> Numbers:
     -------
     (...) array
         Viscosity [Pa s].
-
     """
     p = np.where(p.real > 0.0, p, 0.0)
     if laws.roelands == 0:
@@ -125,13 +124,12 @@ def effective_fluidity(problem: Problem, tau: Numbers, eta: Numbers) -> Numbers:
     tau : (n, m) array
         Shear stress in every interval [Pa].
     eta : (n, m) array
-        Viscosity there [Pa s].
+        Viscosity in every interval [Pa s].
 
     Returns
     -------
     (n, m) array
         Effective fluidity [1/(Pa s)].
-
     """
     if problem.rheology == NEWTONIAN:
         return np.asarray(1.0 / eta)
@@ -158,7 +156,6 @@ def mid_film_stress(problem: Problem, eta: Numbers, g: Numbers, h: Numbers) -> N
     -------
     (n,) array
         Stress [Pa].
-
     """
     zeta, dz = _intervals(eta.shape[1])
     slide = (problem.speed_2 - problem.speed_1) / h
@@ -195,7 +192,6 @@ def columns(problem: Problem, p: Numbers, g: Numbers, h: Numbers, t: Numbers) ->
     -------
     Columns
         Density, stress and rate of every interval, flow coefficients and stream functions.
-
     """
     zeta, dz = _intervals(t.shape[1] - 1)
     t_mid = 0.5 * (t[:, 1:] + t[:, :-1])
@@ -240,7 +236,6 @@ def uniform_columns(problem: Problem, p: Numbers, g: Numbers, h: Numbers) -> tup
         Flow coefficient A [s].
     b : (n,) array
         Flow coefficient B [kg/(m^2 s)].
-
     """
     inlet = np.full(p.shape, problem.inlet)
     rho, eta = density(problem.laws, p, inlet), viscosity(problem.laws, p, inlet)
@@ -281,7 +276,6 @@ def face_fluxes(grid: Grid, pressure: Numbers, film: Numbers, a: Numbers, b: Num
     -------
     (n - 1,) array
         Mass flux over b^2/R [kg/(m^2 s)].
-
     """
     dx, d = np.diff(grid.x), b * film
     ratio = np.concatenate([[-0.5], 0.5 * dx[1:] / dx[:-1]])
@@ -292,7 +286,7 @@ def face_fluxes(grid: Grid, pressure: Numbers, film: Numbers, a: Numbers, b: Num
 
 
 def balance_of_mass(pressure: Numbers, cavitated: BoolArray, flux: Numbers) -> Numbers:
-    """Return what flows out of every node less what flows in, and P where the chapter gives that (Eq. E7).
+    """Return outflow minus inflow of every node, or P where the chapter prescribes it (Eq. E7).
 
     Parameters
     ----------
@@ -307,7 +301,6 @@ def balance_of_mass(pressure: Numbers, cavitated: BoolArray, flux: Numbers) -> N
     -------
     (n,) array
         Residual [-].
-
     """
     mass = pressure.astype(flux.dtype)
     inside = np.flatnonzero(~cavitated[1:-1]) + 1
@@ -331,7 +324,6 @@ def film_thickness(grid: Grid, pressure: Numbers, separation: Any) -> Numbers:
     -------
     (n,) array
         H = h R/b^2 [-].
-
     """
     return np.asarray(separation + 0.5 * grid.x**2 + grid.deflection @ pressure)
 
@@ -354,7 +346,6 @@ def pressure_gradient(grid: Grid, pressure: Numbers, cavitated: BoolArray) -> Nu
     -------
     (n,) array
         Gradient [-].
-
     """
     n = grid.x.size
     node = np.arange(n)
@@ -366,7 +357,7 @@ def pressure_gradient(grid: Grid, pressure: Numbers, cavitated: BoolArray) -> Nu
 
 
 def balance_of_load(grid: Grid, pressure: Numbers) -> Any:
-    """Return the integral of P less pi/2, what carries the load (Eq. 22).
+    """Return the integral of P minus pi/2, which carries the load (Eq. 22).
 
     Parameters
     ----------
@@ -379,7 +370,6 @@ def balance_of_load(grid: Grid, pressure: Numbers) -> Any:
     -------
     number
         Residual [-].
-
     """
     return grid.weights @ pressure - 0.5 * np.pi
 
@@ -387,7 +377,7 @@ def balance_of_load(grid: Grid, pressure: Numbers) -> Any:
 def carried_heat(
     problem: Problem, pressure: Numbers, film: Numbers, cavitated: BoolArray, flux: Numbers, at: Columns
 ) -> Carried:
-    """Return what carries heat along: psi with one mass flow in all columns, and the share of oil (Eqs. E8.1, E8.2).
+    """Return the carriers of heat: psi with one mass flow in all columns, and the share of oil (Eqs. E8.1, E8.2).
 
     Parameters
     ----------
@@ -400,7 +390,7 @@ def carried_heat(
     cavitated : (n,) array of bool
         Nodes of broken film.
     flux : (n - 1,) array
-        Mass flux through the faces between nodes [kg/(s m)]; that where the pressure is largest counts.
+        Mass flux through the faces between nodes [kg/(s m)]; the one at the largest pressure is used.
     at : Columns
         The film across every node.
 
@@ -408,7 +398,6 @@ def carried_heat(
     -------
     Carried
         Stream function, share of oil and density.
-
     """
     m_dot = flux[pressure.argmax()]
     psi = at.couette + (m_dot - at.couette[:, -1:]) * at.poiseuille
@@ -421,10 +410,10 @@ def carried_heat(
 def balance_of_heat(
     problem: Problem, grid: Grid, g: Numbers, h: Numbers, t: Numbers, at: Columns, carried: Carried
 ) -> Numbers:
-    """Return the heat that every cell loses less the heat that arises in it.
+    """Return the heat that every cell loses minus the heat that arises in it.
 
-    Eqs. E8, E15. Cells reach half way to their neighbours along and across. Those at the surfaces are half cells: what
-    they lack is the heat that comes out of the solid.
+    Eqs. E8, E15. Cells reach half way to their neighbours along and across. The cells at the surfaces are half cells;
+    their residual is the heat that comes out of the solid.
 
     Parameters
     ----------
@@ -441,13 +430,12 @@ def balance_of_heat(
     at : Columns
         The film across every node.
     carried : Carried
-        What carries heat along.
+        Carriers of heat.
 
     Returns
     -------
     (n, k) array
-        Residual [W/m^2]; of the first column, whose temperatures are given, zero.
-
+        Residual [W/m^2]; zero in the first column, whose temperatures are given.
     """
     n, k = t.shape
     m = k - 1
@@ -492,7 +480,6 @@ def surface_temperatures(problem: Problem, grid: Grid, q_1: Numbers, q_2: Number
         Temperature of surface 1 [K].
     surface_2 : (n,) array
         Temperature of surface 2 [K].
-
     """
     return (
         problem.bulk_1 + problem.surface_heating_1 * (grid.heat @ q_1),
@@ -518,7 +505,6 @@ def inlet_temperatures(problem: Problem, h: float, t: Numbers, m_dot: float) -> 
     -------
     (k,) array
         Temperature [K].
-
     """
     zeta = np.linspace(0.0, 1.0, t.shape[1])
     mean = m_dot / (problem.laws.density * h)
@@ -538,7 +524,7 @@ def residual(
     t: Numbers,
     carried: Carried | None = None,
 ) -> Residual:
-    """Return what is left of the equations of a thermal contact; P, H0 and temperatures that solve them leave nothing.
+    """Return the residuals of a thermal contact; they are zero if P, H0 and the temperatures solve the equations.
 
     Parameters
     ----------
@@ -555,13 +541,12 @@ def residual(
     t : (n, k) array
         Temperature [K].
     carried : Carried, optional
-        What Newton's method holds fixed; left out, it follows from the state.
+        Carriers of heat, which Newton's method holds fixed; by default they follow from the state.
 
     Returns
     -------
     Residual
-        Of mass, load and heat.
-
+        Residuals of mass, load and heat.
     """
     film = film_thickness(grid, pressure, separation)
     h, p = film * problem.gap_scale, pressure * problem.maximum_pressure
@@ -582,7 +567,7 @@ def residual(
 def isothermal_residual(
     problem: Problem, grid: Grid, cavitated: BoolArray, pressure: Numbers, separation: Any
 ) -> tuple[Numbers, Any]:
-    """Return what is left of the equations of an isothermal contact; P and H0 that solve them leave nothing.
+    """Return the residuals of an isothermal contact; they are zero if P and H0 solve the equations.
 
     Parameters
     ----------
@@ -603,7 +588,6 @@ def isothermal_residual(
         Residual of mass over the flux scale [-].
     load : number
         Residual of the load [-].
-
     """
     film = film_thickness(grid, pressure, separation)
     h, p = film * problem.gap_scale, pressure * problem.maximum_pressure
@@ -620,7 +604,7 @@ def _intervals(m: int) -> tuple[Numbers, float]:
 
 
 def _half_way(layers: Numbers) -> Numbers:
-    """Return the sums of all layers below and half of its own for every layer (n, m)."""
+    """Return, for every layer (n, m), the sum of all layers below it and half of itself."""
     return np.asarray(np.cumsum(layers, axis=1) - 0.5 * layers)
 
 

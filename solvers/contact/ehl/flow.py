@@ -1,6 +1,6 @@
-"""Flow through each column of the film: its coefficients A and B, its stream functions, and what changes them.
+"""Flow through the columns of the film: its coefficients A and B, its stream functions and their derivatives.
 
-Two passes over the columns: `evaluate_columns` has the values, `linearise_columns` their derivatives.
+Two passes run over the columns: `evaluate_columns` computes the values, `linearise_columns` their derivatives.
 """
 
 from typing import NamedTuple
@@ -22,9 +22,9 @@ PLACE = floats("p", "g", "h")
 
 
 class FlowCoefficients(NamedTuple):
-    """Of the mass flux m = B h - A h^3 dp/dx at each node (n,): ln A and B (of COEFFICIENT).
+    """ln A and B of the mass flux m = B h - A h^3 dp/dx at all nodes (n,), of COEFFICIENT.
 
-    Derivatives are total ones: where temperature is unknown they include its response.
+    The derivatives are total ones: if the temperature is unknown, they include its response.
     """
 
     log_a: RecordArray
@@ -32,7 +32,7 @@ class FlowCoefficients(NamedTuple):
 
 
 def flow_coefficients(nodes: int) -> FlowCoefficients:
-    """Room for the coefficients of `nodes` nodes."""
+    """Return zeroed coefficients for `nodes` nodes."""
     return FlowCoefficients(records(nodes, COEFFICIENT), records(nodes, COEFFICIENT))
 
 
@@ -46,9 +46,9 @@ def evaluate_columns(
     film: Film,
     coefficients: FlowCoefficients,
 ) -> None:
-    """Viscosity, shear and flow of columns start..stop from their nodal temperatures (n, k) [K].
+    """Compute viscosity, shear and flow of columns start..stop from their nodal temperatures (n, k) [K].
 
-    `at` has p, G and h of every column (n,), of PLACE.
+    `at` holds p, G and h of all columns (n,), of PLACE.
     """
     for i in range(start, stop):
         p, g, h = at[i].p, at[i].g, at[i].h
@@ -61,10 +61,10 @@ def evaluate_columns(
 
 @inlined_kernel
 def flow_moments(i: int, film: Film) -> None:
-    """Integrals across column i: F0 = int phi, F1 = int phi zeta, N0 = int phi R, N1 = int phi zeta R.
+    """Compute the integrals across column i: F0 = int phi, F1 = int phi zeta, N0 = int phi R, N1 = int phi zeta R.
 
-    phi = rate/stress, zeta from the middle of the film, R(zeta) the density above zeta; R of the whole film is its mean
-    density.
+    phi is rate/stress, and zeta is measured from the middle of the film. R(zeta) is the density integrated above zeta;
+    over the whole film it is the mean density.
     """
     rho, effective, moments = film.shear.density, film.shear.effective, film.moments
     m = rho.shape[1]
@@ -82,10 +82,26 @@ def flow_moments(i: int, film: Film) -> None:
 
 @inlined_kernel
 def flow(problem: Problem, i: int, h: float, film: Film, coefficients: FlowCoefficients) -> None:
-    """Flow coefficients A = F1 N0/F0 - N1 and B = u1 R + du N0/F0 of column i, and its stream functions.
+    """Compute the flow coefficients A and B and the stream functions of column i, in place.
 
-    Eqs. 17, E7.1, the density varying across the film as well. The stream functions are the integrals up to each node
-    of rho (u1 + du J0/F0) and of rho (F1 J0/F0 - J1)/A, with J0 and J1 the integrals of phi and phi zeta.
+    Parameters
+    ----------
+    problem : Problem
+        Constants of the contact.
+    i : int
+        Number of the column.
+    h : float
+        Film thickness [m].
+    film : Film
+        Shear and moments of the columns; receives the stream functions.
+    coefficients : FlowCoefficients
+        Receives ln A and B.
+
+    Notes
+    -----
+    Eqs. 17, E7.1, with a density that varies across the film as well: A = F1 N0/F0 - N1 and B = u1 R + du N0/F0. The
+    stream functions are the integrals up to each node of rho (u1 + du J0/F0) and of rho (F1 J0/F0 - J1)/A, where J0 and
+    J1 are the integrals of phi and phi zeta.
     """
     rho, effective, moments, flows = film.shear.density, film.shear.effective, film.moments[i], film.flow
     m, u1, du = rho.shape[1], problem.speed_1, problem.speed_2 - problem.speed_1
@@ -114,7 +130,7 @@ def linearise_columns(
     film: Film,
     coefficients: FlowCoefficients,
 ) -> None:
-    """Derivatives of what `evaluate_columns` left in columns start..stop: of tau_m, ln A and B."""
+    """Compute the derivatives of tau_m, ln A and B of columns start..stop, which `evaluate_columns` has evaluated."""
     for i in range(start, stop):
         stress_response(problem, i, at[i].h, film)
         flow_slopes(problem, i, at[i].p, film, coefficients)
@@ -122,10 +138,10 @@ def linearise_columns(
 
 @inlined_kernel
 def flow_slopes(problem: Problem, i: int, p: float, film: Film, coefficients: FlowCoefficients) -> None:
-    """Derivatives of ln A and B of column i by p, G, h (at fixed temperatures) and by nodal temperature.
+    """Compute the derivatives of ln A and B of column i by p, G, h (at fixed temperatures) and by nodal temperature.
 
-    Every interval counts by its phi and by its density; phi depends on p and temperature directly and, by the stress,
-    on all that tau_m depends on.
+    An interval contributes by its phi and by its density. phi depends on p and temperature directly, and through the
+    stress on everything that tau_m depends on.
     """
     shear, moments, flows, mid = film.shear, film.moments[i], film.flow, film.mid
     m, u1, du = shear.density.shape[1], problem.speed_1, problem.speed_2 - problem.speed_1

@@ -10,27 +10,39 @@ from solvers.arrays import FloatArray, frozen
 from solvers.compiled import kernel
 
 SHORTEST_INLET = 4.0  # half widths of the contact upstream of its centre, chosen
-CLEARANCE = 40.0  # undeformed gap at the inlet over the central film
+CLEARANCE = 40.0  # ratio of the undeformed gap at the inlet to the central film
 
 
 @kernel
 def _log_integral(t: float) -> float:
-    """Antiderivative of ln|t|."""
+    """Return the antiderivative of ln|t|."""
     return t * np.log(abs(t)) - t if t != 0.0 else 0.0
 
 
 @kernel
 def _log_moment(t: float) -> float:
-    """Antiderivative of t ln|t|."""
+    """Return the antiderivative of t ln|t|."""
     return 0.5 * t * t * np.log(abs(t)) - 0.25 * t * t if t != 0.0 else 0.0
 
 
 @kernel
 def deflection_matrix(x: FloatArray) -> FloatArray:
-    """K with H = H0 + X^2/2 + K P, exact for pressures linear between the nodes x (n,); shape (n, n).
+    """Compute the matrix K of elastic deflection, with the film thickness H = H0 + X^2/2 + K P.
 
-    The integral -(1/pi) int P ln|X - X'| dX' of Eq. 21. The paper's E is the E' of Hertz and its ln|x - s| has an
-    arbitrary length unit, absorbed by H0; here b.
+    Parameters
+    ----------
+    x : FloatArray
+        Nodes (n,) [half widths].
+
+    Returns
+    -------
+    FloatArray
+        Matrix K (n, n), exact for pressures that are linear between the nodes.
+
+    Notes
+    -----
+    K is the integral -(1/pi) int P ln|X - X'| dX' of Eq. 21. The E of the paper is the E' of Hertz, and its ln|x - s|
+    has an arbitrary unit of length, which H0 absorbs; here the unit is b.
     """
     n = x.size
     matrix = np.zeros((n, n))
@@ -50,9 +62,21 @@ def deflection_matrix(x: FloatArray) -> FloatArray:
 
 @kernel
 def heat_matrix(x: FloatArray) -> FloatArray:
-    """Wt with int_{x_0}^{x_i} q(s) (x_i - s)^-1/2 ds = sum_j Wt[i, j] q_j, exact for q linear between nodes.
+    """Compute the matrix Wt with int_{x_0}^{x_i} q(s) (x_i - s)^-1/2 ds = sum_j Wt[i, j] q_j.
 
-    `x` (n,) increasing; shape (n, n). Carslaw and Jaeger's moving line source at high Peclet number (Eq. 24).
+    Parameters
+    ----------
+    x : FloatArray
+        Nodes (n,), increasing [half widths].
+
+    Returns
+    -------
+    FloatArray
+        Matrix Wt (n, n), exact for heat fluxes q that are linear between the nodes.
+
+    Notes
+    -----
+    Moving line source of Carslaw and Jaeger at a high Peclet number (Eq. 24).
     """
     n = x.size
     matrix = np.zeros((n, n))
@@ -69,9 +93,9 @@ def heat_matrix(x: FloatArray) -> FloatArray:
 
 
 class Grid(NamedTuple):
-    """Nodes x (n,) in half widths, with the matrices (n, n) and quadrature weights (n,) that depend on them alone.
+    """Nodes x (n,) in half widths, with the matrices (n, n) and quadrature weights (n,) that depend on the nodes only.
 
-    `deflection` is K, `heat` is Wt; the trapezoidal weights of the nodes are also the widths of their cells.
+    `deflection` is K and `heat` is Wt. The trapezoidal weights of the nodes are also the widths of their cells.
     """
 
     x: FloatArray
@@ -81,12 +105,12 @@ class Grid(NamedTuple):
 
 
 def grid_for(gap: float, nodes: int) -> Grid:
-    """Mesh graded for a film of `gap` (in b^2/R), rounded to a power of sqrt(2) so that few meshes serve all."""
+    """Return a mesh for a film of `gap` (in b^2/R), rounded to a power of sqrt(2) so that contacts share meshes."""
     return _grid(round(2.0 * log2(gap)), nodes)
 
 
 def inlet_length(gap: float) -> float:
-    """Distance of the inlet from the centre that a film of `gap` needs, in half widths."""
+    """Return the distance of the inlet from the centre that a film of `gap` needs, in half widths."""
     return max(SHORTEST_INLET, sqrt(2.0 * CLEARANCE * gap))
 
 
@@ -100,9 +124,9 @@ def _grid(half_octaves: int, nodes: int) -> Grid:
 
 
 def _graded(gap: float, nodes: int) -> FloatArray:
-    """Nodes that equidistribute 1/spacing between inlet and outlet (n,).
+    """Return nodes that equidistribute 1/spacing between inlet and outlet (n,).
 
-    A film much thicker than b^2/R carries its pressure over (2 R h)^1/2 rather than b, which then needs no resolution.
+    A film much thicker than b^2/R has its pressure over (2 R h)^1/2 instead of b; the scale b then needs no resolution.
     """
     inlet = -inlet_length(gap)
     outlet = max(1.25, 1.0 + 1.2 * gap ** (2 / 3))

@@ -1,6 +1,6 @@
 """Inputs of a lubricated line contact, in SI units."""
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Literal
 
 from solvers.lubricants import Lubricant
@@ -13,7 +13,7 @@ Rheology = Literal["ree_eyring", "newtonian"]
 
 @record
 class Contact:
-    """Two cylinders rolling and sliding on a film that enters with the surfaces' mean speed."""
+    """Two cylinders that roll and slide on a film, which enters with the mean speed of the surfaces."""
 
     line_load: float = quantity("line load", "w", XUE, unit="n_per_mm", gt=0, le=1e5, text="load per length of contact")
     radius: float = quantity(
@@ -55,7 +55,7 @@ class Contact:
 
     @property
     def slide_roll_ratio(self) -> float:
-        """(u1 - u2) / mean speed [-]."""
+        """Slide-roll ratio (u1 - u2)/um [-]."""
         return (self.speed_1 - self.speed_2) / self.entrainment_speed
 
 
@@ -138,9 +138,9 @@ class Model:
     film_nodes: int = quantity("nodes across the film", "N_z", default=21, ge=7, le=61, advanced=True)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class LineContactInputs:
-    """One line contact; its oil has no default."""
+    """Inputs of one line contact; the oil has no default."""
 
     contact: Contact
     surface_1: Solid = field(default_factory=Solid)

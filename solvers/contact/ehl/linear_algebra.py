@@ -14,7 +14,7 @@ PANEL = 8  # columns eliminated together, chosen for speed
 
 @kernel
 def dot(a: FloatArray, b: FloatArray) -> float:
-    """Scalar product of two vectors (n,)."""
+    """Return the scalar product of two vectors (n,)."""
     total = 0.0
     for j in range(a.size):
         total += a[j] * b[j]
@@ -30,7 +30,7 @@ def add_scaled(factor: float, x: FloatArray, y: FloatArray) -> None:
 
 @inlined_kernel
 def row_product(matrix: FloatArray, i: int, start: int, stop: int, vector: FloatArray) -> float:
-    """Scalar product of columns start..stop of row i with the same part of a vector (n,), in four partial sums."""
+    """Return the scalar product of columns start..stop of row i with the same part of a vector (n,), in four sums."""
     s0, s1, s2, s3 = 0.0, 0.0, 0.0, 0.0
     last = stop - (stop - start) % 4
     for j in range(start, last, 4):
@@ -45,7 +45,7 @@ def row_product(matrix: FloatArray, i: int, start: int, stop: int, vector: Float
 
 @inlined_kernel
 def _factor_panel(matrix: FloatArray, pivots: IntArray, start: int, stop: int) -> None:
-    """Eliminate within columns start..stop, exchanging whole rows."""
+    """Eliminate within columns start..stop; whole rows are exchanged."""
     n = pivots.size
     for k in range(start, stop):
         pivot = k
@@ -66,7 +66,7 @@ def _factor_panel(matrix: FloatArray, pivots: IntArray, start: int, stop: int) -
 
 @inlined_kernel
 def _subtract_panel(matrix: FloatArray, i: int, start: int, stop: int) -> None:
-    """From row i, behind column `stop`, its share of each of the eight rows of a panel, in one pass."""
+    """Subtract the shares of the eight rows of a panel from row i, behind column `stop`, in one pass."""
     k = start
     f0, f1, f2, f3 = matrix[i, k], matrix[i, k + 1], matrix[i, k + 2], matrix[i, k + 3]
     f4, f5, f6, f7 = matrix[i, k + 4], matrix[i, k + 5], matrix[i, k + 6], matrix[i, k + 7]
@@ -78,7 +78,7 @@ def _subtract_panel(matrix: FloatArray, i: int, start: int, stop: int) -> None:
 
 @kernel
 def factor(matrix: FloatArray, pivots: IntArray) -> None:
-    """LU factorisation (n, n) with row pivoting, in place, by panels of eight columns; `pivots` (n,)."""
+    """Factor a matrix (n, n) by LU with row pivoting, in place, in panels of eight columns; `pivots` (n,)."""
     n = pivots.size
     for start in range(0, n, PANEL):
         stop = min(start + PANEL, n)
@@ -94,7 +94,7 @@ def factor(matrix: FloatArray, pivots: IntArray) -> None:
 
 @kernel
 def substitute(factors: FloatArray, pivots: IntArray, vector: FloatArray) -> None:
-    """Solve with the factors of `factor` for `vector` (n,), in place."""
+    """Solve for `vector` (n,) with the factors of `factor`, in place."""
     n = pivots.size
     for k in range(n):
         pivot = pivots[k]
@@ -107,31 +107,31 @@ def substitute(factors: FloatArray, pivots: IntArray, vector: FloatArray) -> Non
 
 @kernel
 def multiply(matrix: FloatArray, vector: FloatArray, product: FloatArray) -> None:
-    """Matrix (n, n) times vector (n,), into `product`."""
+    """Multiply a matrix (n, n) by a vector (n,), into `product`."""
     n = vector.size
     for i in range(n):
         product[i] = row_product(matrix, i, 0, n, vector)
 
 
 @kernel
-def solved(matrix: FloatArray, residual: FloatArray, step: FloatArray) -> bool:
-    """Newton's step (n,) against a residual (n,); False where the system has no finite solution.
+def solve_step(matrix: FloatArray, residual: FloatArray, step: FloatArray) -> bool:
+    """Compute Newton's step (n,) for a residual (n,); return False if the system has no finite solution.
 
-    For one right-hand side alone LAPACK is quickest; who calls from Python asks for one thread of it (`blas_threads`).
+    LAPACK is fastest for a single right-hand side. A caller from Python limits it to one thread (`blas_threads`).
     """
     try:
         step[:] = np.linalg.solve(matrix, -residual)
-    except Exception:  # noqa: BLE001  numba knows no narrower one
+    except Exception:  # noqa: BLE001  numba cannot catch a narrower one
         return False
     return bool(np.all(np.isfinite(step)))
 
 
 @kernel
 def extend_basis(basis: FloatArray, hessenberg: FloatArray, rotations: FloatArray, rhs: FloatArray, j: int) -> float:
-    """Orthogonalise basis[j + 1] (the operator's product with basis[j]) and update the least-squares problem.
+    """Orthogonalise basis[j + 1] (the operator's product with basis[j]) and return the norm of the residual.
 
-    Modified Gram-Schmidt and Givens rotations (Saad and Schultz, 1986). Shapes: basis (m + 1, n), hessenberg (m, m)
-    by columns in rows, rotations (m, 2), rhs (m + 1,). Returns the norm of the residual.
+    The least-squares problem is updated by modified Gram-Schmidt and Givens rotations (Saad and Schultz, 1986). Shapes:
+    basis (m + 1, n), hessenberg (m, m) by columns in rows, rotations (m, 2), rhs (m + 1,).
     """
     vector = basis[j + 1]
     column = hessenberg[j]

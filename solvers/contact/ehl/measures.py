@@ -15,31 +15,34 @@ from solvers.contact.ehl.results import (
     ContactTemperature,
 )
 
-PEAK_ZONE = 0.1  # half widths behind the centre: what lies before is the Hertz maximum
+PEAK_ZONE = 0.1  # half widths behind the centre: a maximum before it is the Hertzian one
 
 
 def load_error(attempt: Attempt) -> float:
-    """Relative difference between the integral of pressure and the load."""
+    """Return the relative difference between the integral of the pressure and the load."""
     return abs(float(attempt.grid.weights @ attempt.state.pressure) / (0.5 * np.pi) - 1.0)
 
 
 def film_heights(problem: Problem, attempt: Attempt) -> FloatArray:
-    """Film thickness at the nodes (n,) [m]."""
+    """Return the film thickness at the nodes (n,) [m]."""
     return attempt.work.height * problem.gap_scale
 
 
 def temperature_range(attempt: Attempt) -> float:
-    """Hottest less coldest place [K]; within the tolerance of temperature no balance of heat can be told."""
+    """Return the difference between the highest and lowest temperature [K].
+
+    If it is within the tolerance of the temperatures, the heat balance cannot be checked.
+    """
     return float(np.ptp(attempt.state.temperature))
 
 
 def at_place(attempt: Attempt, values: FloatArray, place: float = 0.0) -> float:
-    """Value in the centre or at another place [half widths], linear between nodes."""
+    """Return the value in the centre or at another place [half widths], linear between nodes."""
     return float(np.interp(place, attempt.grid.x, values))
 
 
 def pressure(problem: Problem, attempt: Attempt) -> ContactPressure:
-    """Centre, maximum and second maximum of pressure."""
+    """Return the centre, maximum and second maximum of the pressure."""
     x, p = attempt.grid.x, attempt.state.pressure
     peak = int(p.argmax())
     inner = np.flatnonzero((p[1:-1] > p[:-2]) & (p[1:-1] >= p[2:])) + 1
@@ -55,7 +58,7 @@ def pressure(problem: Problem, attempt: Attempt) -> ContactPressure:
 
 
 def temperature(problem: Problem, attempt: Attempt) -> ContactTemperature:
-    """Maxima of temperature in the film and on the faces."""
+    """Return the maxima of the temperature in the film and on the surfaces."""
     t, x = attempt.state.temperature, attempt.grid.x * problem.half_width
     film, mid = t.max(axis=1), mid_film(t)
     first, second = t[:, 0], t[:, -1]
@@ -74,15 +77,31 @@ def temperature(problem: Problem, attempt: Attempt) -> ContactTemperature:
 
 
 def mid_film(t: FloatArray) -> FloatArray:
-    """Temperature half way between the surfaces (n,), of columns (n, k)."""
+    """Return the temperature half way between the surfaces (n,), of columns (n, k)."""
     middle = (t.shape[1] - 1) // 2
     return np.asarray(0.5 * (t[:, middle] + t[:, t.shape[1] // 2]))
 
 
 def friction(problem: Problem, attempt: Attempt, inputs: LineContactInputs) -> ContactFriction:
-    """Traction of the film: mid-film stress, and that on each face, from which it differs by half of h dp/dx.
+    """Compute the friction of the film from the mid-film stress, and from the stress at both surfaces.
 
-    Eq. E9.
+    Parameters
+    ----------
+    problem : Problem
+        Constants of the contact.
+    attempt : Attempt
+        Converged state.
+    inputs : LineContactInputs
+        The contact.
+
+    Returns
+    -------
+    ContactFriction
+        Coefficients of friction, power and largest stresses.
+
+    Notes
+    -----
+    Eq. E9. The stress at the surfaces differs from the mid-film stress by half of h dp/dx.
     """
     work, contact = attempt.work, inputs.contact
     p = attempt.state.pressure * problem.maximum_pressure
@@ -103,25 +122,42 @@ def friction(problem: Problem, attempt: Attempt, inputs: LineContactInputs) -> C
 
 
 def friction_by_node(problem: Problem, attempt: Attempt, inputs: LineContactInputs) -> FloatArray:
-    """What the mid-film stress at each node adds to the coefficient of friction (n,), with the sign of the sliding."""
+    """Return the contribution of the nodes to the coefficient of friction (n,), with the sign of the sliding."""
     return np.asarray(_share(problem, attempt, inputs) * attempt.work.film.mid.stress)
 
 
 def _share(problem: Problem, attempt: Attempt, inputs: LineContactInputs) -> FloatArray:
-    """What a stress at each node adds to the coefficient of friction (n,) [1/Pa]."""
+    """Return the contribution of a unit stress at each node to the coefficient of friction (n,) [1/Pa]."""
     width = attempt.grid.weights * problem.half_width
     return width * attempt.work.heat.fluid_fraction / inputs.contact.line_load
 
 
 def heat_by_node(problem: Problem, attempt: Attempt) -> FloatArray:
-    """Heat by shear in all columns (n,) [W/m]; the first, whose temperatures are given, counts none."""
+    """Return the heat of shear in all columns (n,) [W/m]; 0 in the first, whose temperatures are given."""
     heat = attempt.grid.weights * attempt.work.heat.generated * problem.half_width
     heat[0] = 0.0
     return np.asarray(heat)
 
 
 def heat(problem: Problem, attempt: Attempt) -> ContactHeat:
-    """The heat balance of all columns but the first, whose temperatures are given (Eq. E10)."""
+    """Compute the heat balance of all columns except the first, whose temperatures are given.
+
+    Parameters
+    ----------
+    problem : Problem
+        Constants of the contact.
+    attempt : Attempt
+        Converged state.
+
+    Returns
+    -------
+    ContactHeat
+        Heat generated, conducted into the surfaces and convected, and the error of the balance.
+
+    Notes
+    -----
+    Eq. E10.
+    """
     heats, t = attempt.work.heat, attempt.state.temperature
     width = attempt.grid.weights[1:] * problem.half_width
     generated = float(heat_by_node(problem, attempt).sum())
@@ -144,12 +180,12 @@ def heat(problem: Problem, attempt: Attempt) -> ContactHeat:
 
 
 def _layer_edges(stream: FloatArray) -> FloatArray:
-    """Stream function between the cells of the nodes across the film (k + 1,)."""
+    """Return the stream function between the cells of the nodes across the film (k + 1,)."""
     return np.concatenate([stream[:1], 0.5 * (stream[1:] + stream[:-1]), stream[-1:]])
 
 
 def curves(problem: Problem, attempt: Attempt, thermal: bool) -> ContactCurves:
-    """Pressure, film, shear stress, temperatures and heat fluxes along the contact."""
+    """Return pressure, film, shear stress, temperatures and heat fluxes along the contact."""
     x, t = attempt.grid.x, attempt.state.temperature
     return ContactCurves(
         x=frozen(x * problem.half_width),
@@ -167,7 +203,7 @@ def curves(problem: Problem, attempt: Attempt, thermal: bool) -> ContactCurves:
 
 
 def field(problem: Problem, attempt: Attempt) -> ContactField:
-    """Temperatures across the film."""
+    """Return the temperatures across the film."""
     t = attempt.state.temperature
     return ContactField(
         x=frozen(attempt.grid.x * problem.half_width),

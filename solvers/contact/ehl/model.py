@@ -18,7 +18,7 @@ from solvers.contact.ehl.problem import (
     peclet_number,
     problem,
 )
-from solvers.contact.ehl.refinement import refined
+from solvers.contact.ehl.refinement import refine
 from solvers.contact.ehl.results import (
     Convergence,
     Derived,
@@ -30,15 +30,28 @@ from solvers.contact.ehl.results import (
 )
 from solvers.lubricants import Lubricant, oil_in_use
 
-WORST_BALANCE = 1e-3  # of the heat: ten times what is warned of (`notices.BALANCE_ERROR`)
-WORST_LOAD = 1e-9  # of the load: far above rounding, far below what is shown
+WORST_BALANCE = 1e-3  # of the heat: ten times the limit of the warning (`notices.BALANCE_ERROR`)
+WORST_LOAD = 1e-9  # of the load: far above rounding, far below the digits shown
 WORST_DEPARTURE = 0.1  # K
 
 
 def solve(inputs: LineContactInputs) -> LineContactResult:
-    """Pressure, film, temperature and friction of one contact.
+    """Compute pressure, film, temperature and friction of one contact.
 
-    Raises InvalidInput as `inputs.check` does; what cannot be converged is a result with status no_solution.
+    Parameters
+    ----------
+    inputs : LineContactInputs
+        The contact.
+
+    Returns
+    -------
+    LineContactResult
+        The results; if the iteration does not converge, their status is "no_solution".
+
+    Raises
+    ------
+    InvalidInput
+        What `checks.check` raises.
     """
     check(inputs)
     constants = problem(inputs, groups(inputs))
@@ -49,7 +62,7 @@ def solve(inputs: LineContactInputs) -> LineContactResult:
 
 
 def resolution_for(inputs: LineContactInputs) -> Resolution:
-    """Mesh of the contact, graded for the film to expect."""
+    """Return the mesh of the contact, graded for the expected film."""
     model = inputs.model
     return Resolution(
         gap=expected_gap(inputs),
@@ -67,9 +80,9 @@ def conclude(
     attempt: Attempt,
     iterations: int,
 ) -> LineContactResult:
-    """Everything read off an attempt, on a finer mesh if it needs one; why not, if it fails any criterion.
+    """Return the results of an attempt, on a finer mesh if necessary; return the reason if it fails a criterion.
 
-    `iterations` led to the attempt.
+    `iterations` is the number of iterations that led to the attempt.
     """
     scales = groups(inputs)
     dimensionless = _dimensionless(inputs, scales)
@@ -97,23 +110,23 @@ def conclude(
     if not attempt.converged:
         return replace(unsolved, warnings=(*notices, failure_notice(unsolved.convergence)))
     steps = Budget(STEPS_TO_REFINE)
-    attempt, error = refined(inputs, constants, resolution, attempt, steps)
+    attempt, error = refine(inputs, constants, resolution, attempt, steps)
     convergence = _convergence(inputs, attempt, iterations + steps.spent)
-    found = _read(inputs, constants, attempt, replace(unsolved, convergence=convergence))
-    stage = _failed_criterion(attempt, found)
+    result = _read(inputs, constants, attempt, replace(unsolved, convergence=convergence))
+    stage = _failed_criterion(attempt, result)
     if stage is not None:
-        convergence = replace(found.convergence, stage=stage)
+        convergence = replace(result.convergence, stage=stage)
         return replace(unsolved, convergence=convergence, warnings=(*notices, failure_notice(convergence)))
-    assert found.friction is not None
-    notices += result_notices(found.film, found.friction, found.heat)
+    assert result.friction is not None
+    notices += result_notices(result.film, result.friction, result.heat)
     notices += mesh_notices(error)
-    return replace(found, status="ok_with_warnings" if notices else "ok", mesh_error=error, warnings=tuple(notices))
+    return replace(result, status="ok_with_warnings" if notices else "ok", mesh_error=error, warnings=tuple(notices))
 
 
 def _read(
     inputs: LineContactInputs, constants: Problem, attempt: Attempt, unsolved: LineContactResult
 ) -> LineContactResult:
-    """The result with every quantity of a settled state."""
+    """Return the result with all quantities of a converged state."""
     thermal = inputs.model.thermal
     curves = measures.curves(constants, attempt, thermal)
     field = measures.field(constants, attempt) if thermal else None
@@ -131,9 +144,9 @@ def _read(
     )
 
 
-def _failed_criterion(attempt: Attempt, found: LineContactResult) -> Stage | None:
-    """The check that a converged state fails, if any: load, heat balance, or the solved equations."""
-    convergence, heat = found.convergence, found.heat
+def _failed_criterion(attempt: Attempt, result: LineContactResult) -> Stage | None:
+    """Return the check that a converged state fails: load, heat balance or the solved equations; None if it passes."""
+    convergence, heat = result.convergence, result.heat
     if convergence.load_error >= WORST_LOAD:
         return convergence.stage
     if heat is not None and heat.balance_error >= WORST_BALANCE and measures.temperature_range(attempt) >= TIGHT[1]:
@@ -183,7 +196,7 @@ def _film(inputs: LineContactInputs, constants: Problem, attempt: Attempt) -> Fi
 
 
 def warm_up() -> None:
-    """Compile, or load from the cache, every kernel, by small solves; flags choose the laws, not other code."""
+    """Compile every kernel by small solves, or load it from the cache; flags choose the laws, not other code."""
     contact = Contact(line_load=1e5, radius=0.01, speed_1=2.0, speed_2=1.5)
     for model in (Model(nodes=61), Model(nodes=61, thermal=False)):
         solve(LineContactInputs(contact, model=model, lubricant=Lubricant()))

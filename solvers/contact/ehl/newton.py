@@ -7,7 +7,7 @@ from solvers.compiled import inlined_kernel, kernel
 from solvers.contact.ehl.flow import FlowCoefficients
 from solvers.contact.ehl.grid import Grid
 from solvers.contact.ehl.heat import factor_columns
-from solvers.contact.ehl.linear_algebra import combine_basis, dot, extend_basis, factor, solved, substitute
+from solvers.contact.ehl.linear_algebra import combine_basis, dot, extend_basis, factor, solve_step, substitute
 from solvers.contact.ehl.problem import Problem
 from solvers.contact.ehl.reynolds import (
     PATIENCE,
@@ -34,17 +34,38 @@ LARGEST_PRESSURE_STEP = 0.3  # of the Hertzian pressure: viscosity is exponentia
 LARGEST_TEMPERATURE_STEP = 40.0  # K
 LOWEST_TEMPERATURE = 200.0  # K, of iterates
 FIRST_DAMPING = 30.0  # of the temperatures, in units of their conduction across the film
-FROZEN = 1e4  # damping beyond which more is of no use
-SHORT_STEP = 3e-3  # of P, behind which the Jacobian still holds
-SHRINKING = 0.1  # what the next step is of such a one, if it does
+FROZEN = 1e4  # more damping than this has no effect
+SHORT_STEP = 3e-3  # of P; the Jacobian still holds after such a step
+SHRINKING = 0.1  # ratio of a step to the step before, if the steps shrink
 
 
 @inlined_kernel
 def uniform_film(problem: Problem, i: int, p: float, g: float, h: float, coefficients: FlowCoefficients) -> float:
-    """Flow coefficients of column i at the inlet temperature; returns the mid-film stress [Pa].
+    """Compute the flow coefficients of column i at the inlet temperature.
 
-    `g` is h dp/dx [Pa]. A = rho/(12 eta) for a Newtonian oil, times what the law of shear makes of it; B = rho um
-    (Eq. E7.2).
+    Parameters
+    ----------
+    problem : Problem
+        Constants of the contact.
+    i : int
+        Number of the column.
+    p : float
+        Pressure [Pa].
+    g : float
+        Film thickness times pressure gradient, h dp/dx [Pa].
+    h : float
+        Film thickness [m].
+    coefficients : FlowCoefficients
+        Receives ln A and B with their derivatives.
+
+    Returns
+    -------
+    float
+        Mid-film stress [Pa].
+
+    Notes
+    -----
+    Eq. E7.2: A = rho/(12 eta) for a Newtonian oil, times a factor of the law of shear; B = rho um.
     """
     laws = problem.laws
     term, term_slope = pressure_part(laws, p)
@@ -62,7 +83,10 @@ def uniform_film(problem: Problem, i: int, p: float, g: float, h: float, coeffic
 
 @kernel
 def evaluate_isothermal(problem: Problem, grid: Grid, state: State, work: Work) -> None:
-    """Film, stress and flow of every column at the inlet temperature. Film that is broken reaches the end."""
+    """Compute film, stress and flow of all columns at the inlet temperature.
+
+    The film stays broken up to the end of the mesh.
+    """
     state.cavitated[-1] = state.cavitated[-2]
     film_shape(grid, state.pressure, state.separation[0], work.height)
     pressure_gradients(grid.x, state.pressure, state.cavitated, work.gradient)
@@ -79,10 +103,11 @@ def evaluate_isothermal(problem: Problem, grid: Grid, state: State, work: Work) 
 def solve_isothermal(
     problem: Problem, grid: Grid, state: State, work: Work, max_iterations: int, tolerance: float
 ) -> bool:
-    """Newton for (P, H0) from the pressures given, in place; whether it converged. It is evaluated into `work`.
+    """Solve for (P, H0) by Newton's method from the given pressures, in place; return whether it converged.
 
-    Pressure changes are first clipped node by node, later scaled as a whole; a node behind the centre whose pressure
-    falls below zero joins the broken film, and leaves it when more oil flows in than out.
+    The solution is evaluated into `work`. Pressure changes are first clipped node by node, and later scaled as a whole.
+    A node behind the centre whose pressure falls below zero joins the broken film; it leaves the broken film when more
+    oil flows in than out.
     """
     n = grid.x.size
     jacobian, residual, step = np.empty((n + 1, n + 1)), np.empty(n + 1), np.empty(n + 1)
@@ -94,7 +119,7 @@ def solve_isothermal(
         changed = release_cavitated(work.faces, state.cavitated, rupture_tolerance)
         balance_of_mass(grid, state.pressure, state.cavitated, work.faces, residual)
         assemble_jacobian(grid, state.cavitated, work.faces, jacobian)
-        if not solved(jacobian, residual, step):
+        if not solve_step(jacobian, residual, step):
             return False
         largest = np.abs(step[:n]).max()
         state.history[0].pressure_change = largest
@@ -115,7 +140,7 @@ def solve_isothermal(
 
 @kernel
 def include_temperature(work: Work) -> None:
-    """Make the derivatives of A and B total: with the response of temperature."""
+    """Make the derivatives of A and B total ones, by adding the response of the temperature."""
     log_a, b, responses = work.coefficients.log_a, work.coefficients.b, work.heat.column.responses
     a_slopes, b_slopes = work.film.flow.log_a_by_temperature, work.film.flow.b_by_temperature
     n, nodes = a_slopes.shape
@@ -142,7 +167,10 @@ def include_temperature(work: Work) -> None:
 def add_temperature_changes(
     work: Work, cavitated: BoolArray, step: FloatArray, given: FloatArray, residual: FloatArray
 ) -> None:
-    """Add to `residual` what a temperature step does to the balance of mass, beyond the responses `given`."""
+    """Add to `residual` the effect of a temperature step on the balance of mass.
+
+    The part of the step that the responses `given` already contain is left out.
+    """
     n, nodes = step.shape
     log_a, b = np.zeros(n), np.zeros(n)
     a_slopes, b_slopes = work.film.flow.log_a_by_temperature, work.film.flow.b_by_temperature
@@ -160,7 +188,7 @@ def add_temperature_changes(
 def pressure_responses(
     problem: Problem, grid: Grid, work: Work, cavitated: BoolArray, step: FloatArray, given: FloatArray
 ) -> None:
-    """Temperature change (n, k) that a step (n + 1,) in (P, H0) implies at fixed upstream temperatures."""
+    """Compute the temperature change (n, k) that a step (n + 1,) in (P, H0) causes at fixed upstream temperatures."""
     n = grid.x.size
     change, slopes = np.empty(n), np.empty(n)
     film_shape(grid, step[:n], step[n], change)
@@ -187,10 +215,10 @@ def transport_response(
     step_t: FloatArray,
     change: FloatArray,
 ) -> None:
-    """Correction `change` (n + 1,) of a step (n + 1,) in (P, H0) for the heat that is transported downstream.
+    """Compute the correction `change` (n + 1,) of a step (n + 1,) in (P, H0) for heat transported downstream.
 
-    The factored Jacobian has the response of each column to its own pressure, not the transport of heat from column to
-    column by oil and surfaces. `given` and `step_t` (n, k) are work arrays for temperatures.
+    The factored Jacobian contains the response of a column to its own pressure, but not the transport of heat from
+    column to column by oil and surfaces. `given` and `step_t` (n, k) are work arrays for temperatures.
     """
     pressure_responses(problem, grid, work, cavitated, step, given)
     temperature_step(problem, grid, work.film, work.heat, given, 0.0, step_t)
@@ -211,11 +239,11 @@ def newton_step(
     step: FloatArray,
     step_t: FloatArray,
 ) -> None:
-    """Step (n + 1,) in (P, H0) and (n, k) in T from the linearised equations.
+    """Compute the step (n + 1,) in (P, H0) and (n, k) in T from the linearised equations.
 
-    What the factored Jacobian leaves out enters through GMRES, preconditioned with it. It corrects the step of the
-    Jacobian alone, so that the load is met whenever it stops; where the first correction is so small that its square
-    is within tolerance, that is all.
+    GMRES, preconditioned with the factored Jacobian, adds what the Jacobian leaves out. It corrects the step of the
+    Jacobian alone, so that the load is met after any number of corrections. If the square of the first correction is
+    within tolerance, that correction is enough.
     """
     n, nodes = step_t.shape
     given, change = np.zeros((n, nodes)), np.zeros(n + 1)
@@ -248,7 +276,7 @@ def newton_step(
 def factor_jacobian(
     problem: Problem, grid: Grid, state: State, work: Work, jacobian: FloatArray, pivots: IntArray
 ) -> None:
-    """The factored system for (P, H0), with the responses of the columns."""
+    """Assemble and factor the system for (P, H0), with the responses of the columns."""
     include_temperature(work)
     mass_flux_slopes(problem, grid, work.height, work.gradient, state.cavitated, work.coefficients, work.faces)
     assemble_jacobian(grid, state.cavitated, work.faces, jacobian)
@@ -257,7 +285,7 @@ def factor_jacobian(
 
 @kernel
 def take_step(grid: Grid, state: State, step: FloatArray, step_t: FloatArray, scale: float) -> tuple[float, bool]:
-    """Move all unknowns by `scale` times the step, less where the film would close; see `apply_pressure_step`."""
+    """Move all unknowns by `scale` times the step, or less if the film would close; see `apply_pressure_step`."""
     taken, joined = apply_pressure_step(grid, state.pressure, state.separation, state.cavitated, step, scale)
     n, nodes = step_t.shape
     for i in range(n):
@@ -276,12 +304,13 @@ def solve_coupled(
     pressure_tolerance: float,
     temperature_tolerance: float,
 ) -> bool:
-    """Simultaneous Newton for (T, P, H0), in place; whether it converged. What it found is evaluated into `work`.
+    """Solve for (T, P, H0) by one Newton iteration, in place; return whether it converged.
 
-    It has when both steps are within tolerance and taken whole, the broken film unchanged and no guard in action. A
-    step that is too long to trust is not taken but repeated with temperatures damped (implicit pseudo-time); the
-    damping fades as the steps shrink. Steps that stop shrinking are relaxed. Behind a short step that was taken whole
-    the Jacobian is that of before, as long as each step is far shorter than the last.
+    The solution is evaluated into `work`. The iteration has converged if both steps are within tolerance and were not
+    shortened, the broken film has not changed and no guard has acted. A step that is too long is not taken; it is
+    computed again with damped temperatures (implicit pseudo-time). The damping decreases as the steps shrink. If the
+    steps stop shrinking, they are relaxed. After a small full step the Jacobian is reused, as long as the steps keep
+    shrinking fast.
     """
     n, nodes = state.temperature.shape
     jacobian, residual = np.empty((n + 1, n + 1)), np.empty(n + 1)

@@ -1,4 +1,4 @@
-"""Warnings of the line contact: one for every range that is left."""
+"""Warnings of the line contact: one per exceeded range."""
 
 from collections.abc import Iterator
 
@@ -25,13 +25,13 @@ LARGEST_MESH_ERROR = 0.02  # chosen: the accuracy asked of film, friction and te
 FAILURES: dict[Stage, str] = {
     "isothermal": "the isothermal film did not converge",
     "coupling": "pressures and temperatures did not converge together",
-    "heat_balance": "the solution leaves the heat balance open",
+    "heat_balance": "the solution does not close the heat balance",
     "verification": "the solution contradicts the heat that flows into its surfaces or the oil that enters",
 }
 
 
 def input_notices(inputs: LineContactInputs, groups: Dimensionless) -> list[Notice]:
-    """What can be said before the solution."""
+    """Return the warnings that follow from the inputs."""
     notices = []
     model = inputs.model
     slowest = min(groups.peclet_1, groups.peclet_2)
@@ -49,8 +49,8 @@ def input_notices(inputs: LineContactInputs, groups: Dimensionless) -> list[Noti
         notices.append(
             Notice(
                 "newtonian_low_slip",
-                "Newtonian: traction not reliable for |slide-roll ratio| < 0.3, where no heat limits it; "
-                "use ree_eyring",
+                "the traction of a Newtonian oil is not reliable for |slide-roll ratio| < 0.3, because no heat limits "
+                "it; use ree_eyring",
                 "rheology",
             )
         )
@@ -58,7 +58,7 @@ def input_notices(inputs: LineContactInputs, groups: Dimensionless) -> list[Noti
 
 
 def result_notices(film: FilmThickness, friction: ContactFriction, heat: ContactHeat | None) -> list[Notice]:
-    """What the solution shows."""
+    """Return the warnings that follow from the solution."""
     notices = []
     if film.minimum is not None and film.minimum < THIN_FILM:
         notices.append(
@@ -72,7 +72,8 @@ def result_notices(film: FilmThickness, friction: ContactFriction, heat: Contact
         notices.append(
             Notice(
                 "high_traction",
-                f"shear stress reaches {friction.traction_ratio:.2g} of the pressure; oils shear at 0.05 to 0.08 of it",
+                f"shear stress reaches {friction.traction_ratio:.2g} of the pressure; oils shear at 0.05 to 0.08 of "
+                "the pressure",
                 "rheology",
             )
         )
@@ -84,19 +85,19 @@ def result_notices(film: FilmThickness, friction: ContactFriction, heat: Contact
 
 
 def mesh_notices(error: MeshError | None) -> list[Notice]:
-    """What the mesh leaves uncertain."""
+    """Return the warnings about the accuracy of the mesh."""
     if error is None:
         return [Notice("mesh_error", "the error of the mesh could not be estimated; compare with more nodes", "nodes")]
     if error.largest <= LARGEST_MESH_ERROR:
         return []
     worst = [
-        f"{name.replace('_', ' ')} {value:.1%}" for name, value in error.known.items() if value > LARGEST_MESH_ERROR
+        f"{name.replace('_', ' ')} {value:.1%}" for name, value in error.estimates.items() if value > LARGEST_MESH_ERROR
     ]
-    return [Notice("mesh_error", f"the mesh leaves more than 2 % of error: {', '.join(worst)}; raise nodes", "nodes")]
+    return [Notice("mesh_error", f"the mesh causes errors above 2 %: {', '.join(worst)}; raise nodes", "nodes")]
 
 
 def failure_notice(convergence: Convergence) -> Notice:
-    """Why there is no solution."""
+    """Return the warning that says why there is no solution."""
     message = f"{FAILURES[convergence.stage]} on {convergence.nodes} nodes; try other nodes or ree_eyring"
     return Notice("not_converged", message, "nodes", rank="invalid")
 

@@ -1,4 +1,4 @@
-"""A sequence of contacts, as along the flank of a gear: each starts from its neighbour."""
+"""A sequence of contacts, as along the flank of a gear: the solution of a contact starts from its neighbours."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
@@ -27,44 +27,59 @@ from solvers.contact.ehl.results import LineContactResult
 from solvers.contact.ehl.state import State, no_steps
 from solvers.errors import InvalidInput
 
-# Most steps from a start extrapolated from the neighbours. Where pressure falls steeply between two nodes, the discrete
-# equations have one solution for each pair of nodes between which the fall can lie. A start that needs more steps tends
-# to end in a neighbouring one of these, so the contact is solved again from no start, as it is alone.
+# Largest number of steps from a start that is extrapolated from the neighbours. If the pressure falls steeply between
+# two nodes, the discrete equations have one solution per pair of nodes between which the fall can lie. A start that
+# needs more steps often ends in the solution of a neighbouring pair, so the contact is solved again as if alone.
 STEPS_FROM_NEIGHBOURS = 5.0
-MOST_KNOWN = 5  # states that are extrapolated: more only add the errors that they were left with
-HOPELESS = 12  # failures in a row, from no start too; the contacts after them rarely converge
-SHARE_WITHOUT_HOPE = 0.1  # of the steps of a contact alone, for each contact after that many failures
+MOST_STATES = 5  # states that are extrapolated: more states only add their remaining errors
+HOPELESS = 12  # consecutive failures, solves without a start included; the contacts after them rarely converge
+SHARE_WITHOUT_HOPE = 0.1  # share of the steps of a contact alone, after `HOPELESS` failures
 
 
 @dataclass(slots=True)
 class _Walk:
-    """The last solved states of the path, their mesh, and the number of failures in a row."""
+    """The last solved states of the path, their mesh, and the number of consecutive failures."""
 
-    known: list[State] = field(default_factory=list)
+    states: list[State] = field(default_factory=list)
     grid: Grid | None = None
     failures: int = 0
 
     def move_to(self, grid: Grid) -> None:
-        """Interpolate the known states onto a mesh, unless it is theirs."""
+        """Interpolate the states onto a mesh, unless they are on it."""
         if self.grid is not None and self.grid is not grid:
-            self.known = [interpolate(state, self.grid.x, grid.x) for state in self.known]
+            self.states = [interpolate(state, self.grid.x, grid.x) for state in self.states]
         self.grid = grid
 
-    def arrive(self, solved: State | None) -> None:
-        """Record a contact as solved, or as failed (None)."""
-        self.known = [] if solved is None else [*self.known[1 - MOST_KNOWN :], solved]
-        self.failures = self.failures + 1 if solved is None else 0
+    def arrive(self, state: State | None) -> None:
+        """Record the state of a solved contact, or a failure (None)."""
+        self.states = [] if state is None else [*self.states[1 - MOST_STATES :], state]
+        self.failures = self.failures + 1 if state is None else 0
 
 
 def solve_path(contacts: Sequence[LineContactInputs]) -> list[LineContactResult]:
-    """Solve neighbouring contacts, each on its own mesh; each result is that of the contact solved alone.
+    """Solve neighbouring contacts, each contact on its own mesh.
 
-    Each contact but the first starts from pressures, temperatures and separation extrapolated from those before it.
-    One that does not converge from there within a few steps is solved as if it were alone. One that fails then as well
-    has no result and does not stop the others. After many failures in a row each contact has fewer steps until one
-    converges.
+    Parameters
+    ----------
+    contacts : sequence of LineContactInputs
+        Contacts in the order of the path; all share one model.
 
-    Raises InvalidInput as `check` does, and mixed_models unless all contacts share one model.
+    Returns
+    -------
+    list of LineContactResult
+        Results of the contacts, as if each was solved alone.
+
+    Raises
+    ------
+    InvalidInput
+        What `check` raises, and `mixed_models` if the contacts do not share one model.
+
+    Notes
+    -----
+    Every contact except the first starts from pressures, temperatures and separation that are extrapolated from the
+    contacts before it. If it does not converge from there within a few steps, it is solved as if it were alone. If this
+    fails as well, the contact has no result, and the others are still solved. After many consecutive failures a contact
+    is given fewer steps, until one converges.
     """
     for inputs in contacts:
         check(inputs)
@@ -75,7 +90,7 @@ def solve_path(contacts: Sequence[LineContactInputs]) -> list[LineContactResult]
 
 
 def _solve_next(inputs: LineContactInputs, walk: _Walk) -> LineContactResult:
-    """Solve a contact from its neighbours; without them, or where that fails, from no start."""
+    """Solve a contact from its neighbours; without neighbours, or if this fails, solve it alone."""
     constants = problem(inputs, groups(inputs))
     resolution = resolution_for(inputs)
     spent = Budget(inf)
@@ -88,23 +103,23 @@ def _solve_next(inputs: LineContactInputs, walk: _Walk) -> LineContactResult:
 
 
 def _attempts(constants: Problem, resolution: Resolution, walk: _Walk, spent: Budget) -> Iterator[Attempt]:
-    """From the neighbours, then as a contact alone."""
+    """Yield an attempt from the neighbours, then one as for a contact alone."""
     grid = grid_for(resolution.gap, resolution.nodes)
     walk.move_to(grid)
-    if walk.known:
-        guess = _guess(walk.known)
+    if walk.states:
+        guess = _guess(walk.states)
         most = STEPS_FROM_NEIGHBOURS * price(resolution, resolution.nodes)
         yield polish(constants, resolution, grid, guess, TIGHT, spent.part(most))
     share = 1.0 if walk.failures < HOPELESS else SHARE_WITHOUT_HOPE
     yield solve_cold(constants, resolution, spent.part(share * budget_for(resolution).remaining))
 
 
-def _guess(known: Sequence[State]) -> State:
-    """The next state, extrapolated and made physical; what is broken in the last one stays so."""
-    last = known[-1]
-    film = _extrapolated(np.array([np.append(state.pressure, state.separation) for state in known]))
+def _guess(states: Sequence[State]) -> State:
+    """Return the next state, extrapolated and made physical; nodes broken in the last state stay broken."""
+    last = states[-1]
+    film = _extrapolated(np.array([np.append(state.pressure, state.separation) for state in states]))
     pressure = np.where(last.cavitated, 0.0, np.maximum(film[:-1], 0.0))
-    temperature = _extrapolated(np.array([state.temperature for state in known]))
+    temperature = _extrapolated(np.array([state.temperature for state in states]))
     return State(
         pressure=pressure,
         separation=film[-1:].copy(),
@@ -115,9 +130,9 @@ def _guess(known: Sequence[State]) -> State:
 
 
 def _extrapolated(rows: FloatArray) -> FloatArray:
-    """The next of `rows` (m, ...) by Newton's backward differences: as many orders as shrink, row by row of the last.
+    """Return the next of `rows` (m, ...) by Newton's backward differences, of as many orders as keep shrinking.
 
-    The difference of an order is what all below it would have missed the last one by.
+    The difference of an order is the error with which all lower orders extrapolate the last row.
     """
     differences = [rows[-1]]
     while len(rows) > 1:

@@ -1,4 +1,4 @@
-"""The constants of one contact: dimensionless groups, published film formulas, and the parameters the kernels take."""
+"""Constants of one contact: dimensionless groups, published film formulas, and parameters for the kernels."""
 
 from dataclasses import dataclass
 from functools import lru_cache
@@ -34,9 +34,23 @@ class Groups:
 
 @lru_cache(maxsize=256)
 def groups(inputs: LineContactInputs, temperature: float | None = None) -> Groups:
-    """Hertz contact and Moes parameters M = W U^-1/2, L = alpha E' U^1/4 (Eq. E2).
+    """Compute the Hertzian contact and the parameters of Moes.
 
-    The viscosity is that at the inlet temperature unless another `temperature` [K] is given.
+    Parameters
+    ----------
+    inputs : LineContactInputs
+        The contact.
+    temperature : float, optional
+        Temperature of the viscosity; None: the inlet temperature [K].
+
+    Returns
+    -------
+    Groups
+        Half width, pressure, scales and parameters M = W U^-1/2 and L = alpha E' U^1/4.
+
+    Notes
+    -----
+    Eq. E2.
     """
     contact, lubricant = inputs.contact, inputs.lubricant
     modulus = hertz.reduced_modulus(inputs.surface_1, inputs.surface_2)
@@ -57,9 +71,10 @@ def groups(inputs: LineContactInputs, temperature: float | None = None) -> Group
 
 
 def entry_temperature(inputs: LineContactInputs) -> float:
-    """Temperature [K] that the oil can be expected to have where the film forms.
+    """Return the temperature [K] that the oil is expected to have where the film forms.
 
-    Between that of the surfaces and that of the inlet, by the Peclet number rho c um h^2/(lambda b) of the film.
+    It lies between the temperatures of the surfaces and of the inlet, by the Peclet number rho c um h^2/(lambda b) of
+    the film.
     """
     temperatures, oil = inputs.temperatures, inputs.lubricant
     if not inputs.model.thermal:
@@ -76,23 +91,51 @@ def entry_temperature(inputs: LineContactInputs) -> float:
 
 
 def moes_central_film(m: float, l: float) -> float:
-    """Central film thickness (h/R) U^-1/2 of the isothermal, incompressible line contact (Nijenbanning and others).
+    """Compute the central film thickness of the isothermal, incompressible line contact (Nijenbanning and others).
 
+    Parameters
+    ----------
+    m : float
+        Load parameter M of Moes [-].
+    l : float
+        Lubricant parameter L of Moes [-].
+
+    Returns
+    -------
+    float
+        Film thickness (h/R) U^-1/2 [-].
+
+    Notes
+    -----
     Eq. E3.
     """
     return _moes_film(l, (3.0 / m, 2.621 * m**-0.2, 1.287 * l ** (2 / 3), 1.311 * m**-0.125 * l**0.75))
 
 
 def moes_minimum_film(m: float, l: float) -> float:
-    """Minimum film thickness (h/R) U^-1/2 of the isothermal, incompressible line contact (Nijenbanning and others).
+    """Compute the minimum film thickness of the isothermal, incompressible line contact (Nijenbanning and others).
 
+    Parameters
+    ----------
+    m : float
+        Load parameter M of Moes [-].
+    l : float
+        Lubricant parameter L of Moes [-].
+
+    Returns
+    -------
+    float
+        Film thickness (h/R) U^-1/2 [-].
+
+    Notes
+    -----
     Eq. E3.
     """
     return _moes_film(l, (2.45 / m, 2.05 * m**-0.2, 1.05 * l ** (2 / 3), 0.96 * m**-0.125 * l**0.75))
 
 
 def _moes_film(l: float, asymptotes: tuple[float, float, float, float]) -> float:
-    """Blend of the rigid and elastic, isoviscous and piezoviscous asymptotes (RI, EI, RP, EP)."""
+    """Blend the rigid and elastic, isoviscous and piezoviscous asymptotes (RI, EI, RP, EP)."""
     rigid_isoviscous, elastic_isoviscous, rigid_piezoviscous, elastic_piezoviscous = asymptotes
     s = (7.0 + 8.0 * exp(-2.0 * elastic_isoviscous / rigid_isoviscous)) / 5.0
     isoviscous = rigid_isoviscous ** (7 / 3) + elastic_isoviscous ** (7 / 3)
@@ -103,19 +146,22 @@ def _moes_film(l: float, asymptotes: tuple[float, float, float, float]) -> float
 
 
 def moes_gap(contact: Groups) -> float:
-    """The Moes central film thickness in units of b^2/R: what the mesh is graded by; without load infinite."""
+    """Return the central film thickness of Moes in units of b^2/R; infinite without load.
+
+    The mesh is graded by it.
+    """
     if contact.moes_m < NO_LOAD:
         return inf
     return moes_central_film(contact.moes_m, contact.moes_l) * pi / (8.0 * contact.moes_m)
 
 
 def expected_gap(inputs: LineContactInputs) -> float:
-    """Central film to expect at the temperature where it forms, in b^2/R."""
+    """Return the expected central film at the temperature at which the film forms, in b^2/R."""
     return moes_gap(groups(inputs, entry_temperature(inputs)))
 
 
 def dowson_higginson_film(inputs: LineContactInputs) -> float:
-    """Minimum film thickness [m] of Dowson and Higginson, the viscosity taken at the inlet temperature."""
+    """Return the minimum film thickness [m] of Dowson and Higginson, with the viscosity at the inlet temperature."""
     contact, scales = inputs.contact, groups(inputs)
     return dowson_higginson_minimum(
         viscosity=scales.viscosity,
@@ -128,9 +174,10 @@ def dowson_higginson_film(inputs: LineContactInputs) -> float:
 
 
 class Problem(NamedTuple):
-    """SI; surface_heating_i = (b / (pi rho_i c_i u_i lambda_i))^1/2 [K m^2/W] turns Wt q into a flash temperature.
+    """Constants of a contact for the kernels, in SI units.
 
-    `flux_scale` is rho0 um b^2/R; `rheology` is the place of the law in `inputs.Rheology`.
+    surface_heating_i = (b/(pi rho_i c_i u_i lambda_i))^1/2 [K m^2/W] turns Wt q into a flash temperature. `flux_scale`
+    is rho0 um b^2/R. `rheology` is the position of the law in `inputs.Rheology`.
     """
 
     laws: FluidLaws
@@ -152,7 +199,7 @@ class Problem(NamedTuple):
 
 
 def problem(inputs: LineContactInputs, scales: Groups) -> Problem:
-    """Gather the constants of a contact."""
+    """Return the constants of a contact for the kernels."""
     contact, oil, temperatures = inputs.contact, inputs.lubricant, inputs.temperatures
     thermal = inputs.model.thermal
     return Problem(
@@ -181,5 +228,24 @@ def _surface_heating(solid: Solid, speed: float, scales: Groups) -> float:
 
 
 def peclet_number(solid: Solid, speed: float, scales: Groups) -> float:
-    """Pe = u b rho c / (2 lambda) [-]; below about 5 heat also spreads along the surface (Eq. E11)."""
+    """Compute the Peclet number of a surface.
+
+    Parameters
+    ----------
+    solid : Solid
+        Material of the surface.
+    speed : float
+        Speed u of the surface [m/s].
+    scales : Groups
+        Half width b of the contact.
+
+    Returns
+    -------
+    float
+        Peclet number [-]; below about 5 heat also spreads along the surface.
+
+    Notes
+    -----
+    Eq. E11: Pe = u b rho c/(2 lambda).
+    """
     return speed * scales.half_width * solid.density * solid.specific_heat / (2.0 * solid.thermal_conductivity)

@@ -1,8 +1,8 @@
 """Accuracy of a finished contact: the error estimated from half as many nodes, and balances checked by separate code.
 
-Only what is reported enters: curves, field and inputs in SI units. The temperature of each surface must be that of its
-bulk plus the rise caused by the heat flux into it, the oil must enter at the given temperature, and no point may be
-colder than the coldest of surfaces and inlet by more than the decompression of the oil explains.
+Only reported values are used: curves, field and inputs in SI units. The temperature of each surface must equal its bulk
+temperature plus the rise by the heat flux into it. The oil must enter at the given temperature. No point may be colder
+than the coldest of surfaces and inlet by more than the decompression of the oil explains.
 """
 
 from dataclasses import dataclass, replace
@@ -24,22 +24,26 @@ from solvers.materials import Solid
 FINEST = 481  # chosen: the cost of the dense solution grows with the third power of the nodes
 STEPS_ON_FINER = 20.0  # Newton steps that a refinement may take, chosen
 STEPS_ON_COARSER = 12  # Newton steps of the comparison with half as many nodes, chosen
-# A step of the contact on half the nodes after which its numbers are known well enough: dP, dT [K].
+# A contact on half the nodes is accurate enough after a step within dP, dT [K].
 NEAR = (0.12, 12.0)
-# What is left of the difference that half as many nodes make: 1/3 in second order. Where pressure falls steeply from
-# one node to the next, half as many nodes have the fall between the same two, wherever it ought to be, and agree with
-# the others more than either do with the truth: all of their difference is left where it falls by p_H/2.
+# Error that is left, as a share of the difference to half as many nodes: 1/3 in second order. If the pressure falls
+# steeply from one node to the next, both meshes have the fall between the same two nodes, wherever it should be. They
+# then agree better with each other than with the truth: from a fall of p_H/2 on, the error is the whole difference.
 SECOND_ORDER = 1 / 3
-LEFT = {"friction": 1 / 2, "generated_heat": 1 / 2}  # less than second order is observed where heat decides
-LEFT_BY_FALL = 2.0  # per fall in p_H: all of the difference is left from p_H/2 on
-AT_INLET = {"central_film", "centre_pressure"}  # decided there, whatever the pressure does at the outlet
-BEFORE_SPIKES = 0.5  # half widths behind the centre: spikes of pressure stand further back
+LEFT = {"friction": 1 / 2, "generated_heat": 1 / 2}  # where heat decides, the observed order is below two
+LEFT_BY_FALL = 2.0  # per fall in p_H: the error is the whole difference from a fall of p_H/2 on
+AT_INLET = {"central_film", "centre_pressure"}  # the inlet decides them, whatever the pressure does at the outlet
+BEFORE_SPIKES = 0.5  # half widths behind the centre: pressure spikes lie further downstream
 SURFACES = {"surface_1_flash": 0, "surface_2_flash": -1}  # places across the film
-LEAST = {"friction": 1e-3, "surface_1_flash": 25.0, "surface_2_flash": 25.0}  # [-], [K]: smaller numbers count as these
+LEAST = {
+    "friction": 1e-3,
+    "surface_1_flash": 25.0,
+    "surface_2_flash": 25.0,
+}  # [-], [K]: smaller results are compared with these
 
 
 def departure(inputs: LineContactInputs, curves: ContactCurves, field: ContactField) -> float:
-    """The largest departure [K] of temperatures from what they must be."""
+    """Return the largest difference [K] between temperatures and what they must be."""
     contact, bulk = inputs.contact, inputs.temperatures
     t = field.temperature
     fluxes = (curves.surface_1_heat_flux, curves.surface_2_heat_flux)
@@ -59,11 +63,27 @@ def departure(inputs: LineContactInputs, curves: ContactCurves, field: ContactFi
 
 
 def surface_heating(solid: Solid, speed: float, x: FloatArray, flux: FloatArray) -> FloatArray:
-    """Temperature rise (n,) [K] of a surface under a heat flux [W/m^2] that is linear between positions x (n,) [m].
+    """Compute the temperature rise of a surface under a heat flux that is linear between positions.
 
-    Strip sources on a fast half-space (Carslaw and Jaeger): (pi rho c lambda u)^-1/2 int q(s) (x - s)^-1/2 ds.
+    Parameters
+    ----------
+    solid : Solid
+        Material of the surface.
+    speed : float
+        Speed u of the surface [m/s].
+    x : FloatArray
+        Positions (n,) [m].
+    flux : FloatArray
+        Heat flux into the surface (n,) [W/m^2].
 
-    Eq. E12.
+    Returns
+    -------
+    FloatArray
+        Temperature rise (n,) [K].
+
+    Notes
+    -----
+    Eq. E12: strip sources on a fast half-space (Carslaw and Jaeger), (pi rho c lambda u)^-1/2 int q(s) (x - s)^-1/2 ds.
     """
     effusivity_squared = solid.density * solid.specific_heat * solid.thermal_conductivity
     return strip_integral(x, flux) / sqrt(pi * effusivity_squared * speed)
@@ -71,7 +91,10 @@ def surface_heating(solid: Solid, speed: float, x: FloatArray, flux: FloatArray)
 
 @kernel
 def strip_integral(x: FloatArray, flux: FloatArray) -> FloatArray:
-    """The integral of q(s) (x - s)^-1/2 up to each x (n,), by parts: 2 q_0 (x - x_0)^1/2 + int 2 q' (x - s)^1/2 ds."""
+    """Compute the integral of q(s) (x - s)^-1/2 up to each x (n,).
+
+    By parts it is 2 q_0 (x - x_0)^1/2 + int 2 q' (x - s)^1/2 ds.
+    """
     n = x.size
     slope = np.empty(n)
     before = 0.0
@@ -90,9 +113,10 @@ def strip_integral(x: FloatArray, flux: FloatArray) -> FloatArray:
 
 
 def inlet_departure(inputs: LineContactInputs, t: FloatArray) -> float:
-    """How far [K] the first column of t (n, k) is off.
+    """Return the error [K] of the first column of t (n, k).
 
-    Its walls are at bulk temperature; oil has that of the inlet or, where it leaves, of the column behind.
+    Its walls have their bulk temperatures. Oil that enters has the temperature of the inlet, oil that leaves that of
+    the next column.
     """
     bulk = inputs.temperatures
     walls = max(abs(t[0, 0] - bulk.surface_1), abs(t[0, -1] - bulk.surface_2))
@@ -102,10 +126,10 @@ def inlet_departure(inputs: LineContactInputs, t: FloatArray) -> float:
 
 
 def undercooling(inputs: LineContactInputs, curves: ContactCurves, t: FloatArray) -> float:
-    """How much colder [K] the coldest place of t (n, k) is than bulk, inlet and decompression explain.
+    """Return by how much [K] t (n, k) is colder at its coldest place than bulk, inlet and decompression explain.
 
-    Decompression takes q = 0.00065 T u |dp/dx| h per area, which cools the surfaces by its strip integral and the
-    film between them by q h/(8 lambda).
+    Decompression takes q = 0.00065 T u |dp/dx| h per area. It cools the surfaces by its strip integral and the film
+    between them by q h/(8 lambda).
     """
     bulk, contact, oil = inputs.temperatures, inputs.contact, inputs.lubricant
     missing = min(bulk.surface_1, bulk.surface_2, bulk.inlet) - float(t.min())
@@ -124,7 +148,7 @@ def undercooling(inputs: LineContactInputs, curves: ContactCurves, t: FloatArray
 class Comparison:
     """The results of a contact and of the same contact on half the nodes, in groups named as in `MeshError`.
 
-    With the steepest fall of P from one node to the next and the kinks of the surfaces' temperatures [K].
+    `fall` is the steepest fall of P from one node to the next; `kinks` are the kinks of the surface temperatures [K].
     """
 
     fine: dict[str, tuple[float, ...]]
@@ -133,11 +157,11 @@ class Comparison:
     kinks: dict[str, float]
 
     def smooth_error(self) -> MeshError:
-        """What is left where nothing is steep: the part of the error that more nodes soon mend."""
+        """Return the error that is left without spikes and kinks, which more nodes soon reduce."""
         return self._error(0.0, {})
 
     def error(self) -> MeshError:
-        """What is left, that of spikes included: no mesh here resolves those, and they may take more of it than one."""
+        """Return the error that is left, including that of spikes, which no mesh here resolves."""
         return self._error(min(LEFT_BY_FALL * self.fall, 1.0), self.kinks)
 
     def _error(self, left_at_spike: float, kinks: dict[str, float]) -> MeshError:
@@ -147,22 +171,23 @@ class Comparison:
             left = max(LEFT.get(name, SECOND_ORDER), 0.0 if name in AT_INLET else left_at_spike)
             missing = max(left * moved, kinks.get(name, 0.0))
             errors[name] = missing / max(abs(sum(parts)), LEAST.get(name, 0.0))
-        # What passes the centre flows where the film is thinnest, too.
+        # The oil that passes the centre also passes the thinnest place.
         errors["minimum_film"] = max(errors["minimum_film"], errors["central_film"])
         return MeshError(**errors)
 
 
-def refined(
+def refine(
     inputs: LineContactInputs, constants: Problem, resolution: Resolution, attempt: Attempt, budget: Budget
 ) -> tuple[Attempt, MeshError | None]:
-    """A converged attempt on a mesh fine enough for its numbers, and the error left in them (None: not known).
+    """Return a converged attempt on a fine enough mesh, and the error left in its results (None: not known).
 
-    It stays on its mesh if that is fine enough, the finest or all that was asked for, and if the finer one does not
-    converge within the steps left. What decides is the contact itself, never how its solution was found.
+    The attempt stays on its mesh if this is fine enough, is the finest, or if no refinement is asked for, or if the
+    finer one does not converge within the steps left. The decision depends on the contact only, never on the way to its
+    solution.
     """
-    found = compared(inputs, constants, resolution, attempt)
-    while inputs.model.refine_mesh and not acceptable(found) and resolution.nodes < FINEST:
-        resolution = replace(resolution, nodes=finer_nodes(resolution.nodes, found))
+    comparison = compare(inputs, constants, resolution, attempt)
+    while inputs.model.refine_mesh and not is_acceptable(comparison) and resolution.nodes < FINEST:
+        resolution = replace(resolution, nodes=finer_nodes(resolution.nodes, comparison))
         grid = grid_for(resolution.gap, resolution.nodes)
         guess = interpolate(attempt.state, attempt.grid.x, grid.x)
         steps = budget.part(STEPS_ON_FINER * price(resolution, resolution.nodes))
@@ -170,29 +195,32 @@ def refined(
         if not finer.converged:
             break
         attempt = finer
-        found = compared(inputs, constants, resolution, attempt)
-    return attempt, None if found is None else found.error()
+        comparison = compare(inputs, constants, resolution, attempt)
+    return attempt, None if comparison is None else comparison.error()
 
 
-def acceptable(found: Comparison | None) -> bool:
-    """Whether a mesh is so fine that a finer one is not worth its price."""
-    return found is not None and found.smooth_error().largest <= LARGEST_MESH_ERROR
+def is_acceptable(comparison: Comparison | None) -> bool:
+    """Return whether a finer mesh is not worth its price."""
+    return comparison is not None and comparison.smooth_error().largest <= LARGEST_MESH_ERROR
 
 
-def finer_nodes(nodes: int, found: Comparison | None) -> int:
-    """Nodes that bring an error of second order below the limit, in steps of sqrt(2) so that meshes are shared."""
-    excess = 4.0 if found is None else min(found.smooth_error().largest / LARGEST_MESH_ERROR, 16.0)
+def finer_nodes(nodes: int, comparison: Comparison | None) -> int:
+    """Return a number of nodes with a second-order error below the limit.
+
+    It grows in steps of sqrt(2), so that contacts share meshes.
+    """
+    excess = 4.0 if comparison is None else min(comparison.smooth_error().largest / LARGEST_MESH_ERROR, 16.0)
     half_octaves = max(ceil(log2(excess)), 1)
     return min(round((nodes - 1) * sqrt(2.0) ** half_octaves) + 1, FINEST)
 
 
-def compared(
+def compare(
     inputs: LineContactInputs, constants: Problem, resolution: Resolution, attempt: Attempt
 ) -> Comparison | None:
-    """A contact beside the same on every other node (Richardson); None if that is not found.
+    """Return the comparison of a contact with the same on every other node (Richardson); None if that is not solved.
 
-    So near is that contact that one Newton step mostly finds it; a spike or a film that runs hot takes more, as half
-    the nodes keep the peak they are given.
+    The contact on half the nodes is so near that mostly one Newton step solves it. A spike or a hot film needs more
+    steps, because half the nodes keep the peak that they are given.
     """
     grid = grid_for(resolution.gap, resolution.nodes // 2 + 1)
     state = interpolate(attempt.state, attempt.grid.x, grid.x)
@@ -200,33 +228,33 @@ def compared(
     coarse = polish(constants, resolution, grid, state, NEAR, steps)
     if not coarse.converged:
         return None
-    fine, other = (_parts(inputs, constants, found) for found in (attempt, coarse))
-    if not all(isfinite(sum(parts)) for found in (fine, other) for parts in found.values()):
+    fine, other = (_parts(inputs, constants, state) for state in (attempt, coarse))
+    if not all(isfinite(sum(parts)) for values in (fine, other) for parts in values.values()):
         return None
     kinks = {name: _kink(attempt, surface) for name, surface in SURFACES.items()} if inputs.model.thermal else {}
     return Comparison(fine, other, _steepest_fall(attempt), kinks)
 
 
 def _steepest_fall(attempt: Attempt) -> float:
-    """The largest fall of P from one node to the next, behind the centre."""
+    """Return the largest fall of P from one node to the next, behind the centre."""
     return float(-np.diff(attempt.state.pressure[attempt.grid.x > 0.0]).min())
 
 
 def _kink(attempt: Attempt, surface: int) -> float:
-    """How far a surface's temperature at one node behind the centre stands above the mean of both neighbours [K].
+    """Return by how much a surface temperature behind the centre exceeds the mean of both neighbours [K].
 
-    The heat of a spike that no other node sees: as much again comes with a node that stands nearer to it.
+    It is the heat of a spike that only one node sees: a node nearer to the spike would receive as much again.
     """
     t = attempt.state.temperature[attempt.grid.x > 0.0, surface]
     return float((t[1:-1] - 0.5 * (t[:-2] + t[2:])).max())
 
 
 def _parts(inputs: LineContactInputs, constants: Problem, attempt: Attempt) -> dict[str, tuple[float, ...]]:
-    """The results of a contact except local maxima, by the names of `MeshError`, as sums of parts.
+    """Return the results of a contact except local maxima, by the names of `MeshError`, as sums of parts.
 
     Friction, heat and flash temperatures are divided where the pressure spike begins. With more nodes the film is
-    thicker, so that there is less heat before the spike, and the spike is sharper, so that there is more behind it. The
-    sum of both can be equal on two meshes although it is not converged; the parts differ.
+    thicker, so that less heat arises before the spike; the spike is sharper, so that more heat arises behind it. The
+    sum can therefore be equal on two meshes although it has not converged; the parts differ.
     """
     heights = measures.film_heights(constants, attempt)
     parts: dict[str, tuple[float, ...]] = {
@@ -246,6 +274,6 @@ def _parts(inputs: LineContactInputs, constants: Problem, attempt: Attempt) -> d
 
 
 def _before_and_behind(attempt: Attempt, by_node: FloatArray) -> tuple[float, float]:
-    """Sums of what the nodes before and behind the place where spikes begin contribute (n,)."""
+    """Return the sums of the contributions (n,) of the nodes before and behind the place where spikes begin."""
     before = attempt.grid.x <= BEFORE_SPIKES
     return float(by_node[before].sum()), float(by_node[~before].sum())

@@ -11,17 +11,17 @@ from solvers.contact.ehl.grid import Grid
 from solvers.contact.ehl.linear_algebra import multiply
 from solvers.contact.ehl.problem import Problem
 
-PATIENCE = 10  # iterations before the rupture tolerance counts
+PATIENCE = 10  # iterations before the rupture tolerance applies
 RUPTURE_TOLERANCE = 5e-3  # of the flux
-HALVINGS = 12  # a step of 1/4096 of Newton's no longer helps
+HALVINGS = 12  # a step below 1/4096 of Newton's step does not help
 
 
 class FaceFluxes(NamedTuple):
-    """Mass flux (divided by flux_scale) through the face right of each node, and its derivatives.
+    """Mass flux (divided by flux_scale) through the face on the right of each node, and its derivatives.
 
-    Shapes: flux, conductance A H^3/dX (n,); by_b (n, 2): B of the node and of its neighbour upstream (at the first
-    face: downstream); by_log_a (n, 2): ln A of nodes i, i+1; by_pressure (n, 5): nodes i-2..i+2; by_film (n, 3): nodes
-    i-1..i+1.
+    Shapes: flux and conductance A H^3/dX (n,); by_b (n, 2), by B of the node and of its upstream neighbour (at the
+    first face: downstream neighbour); by_log_a (n, 2), by ln A of nodes i and i+1; by_pressure (n, 5), by nodes
+    i-2..i+2; by_film (n, 3), by nodes i-1..i+1.
     """
 
     flux: FloatArray
@@ -33,7 +33,7 @@ class FaceFluxes(NamedTuple):
 
 
 def face_arrays(nodes: int) -> FaceFluxes:
-    """Room for the faces of `nodes` nodes."""
+    """Return zeroed arrays for the faces of `nodes` nodes."""
     flux, conductance = np.zeros((2, nodes))
     by_b, by_log_a = np.zeros((2, nodes, 2))
     return FaceFluxes(flux, conductance, by_b, by_log_a, np.zeros((nodes, 5)), np.zeros((nodes, 3)))
@@ -41,7 +41,23 @@ def face_arrays(nodes: int) -> FaceFluxes:
 
 @kernel
 def film_shape(grid: Grid, pressure: FloatArray, separation: float, film: FloatArray) -> None:
-    """H = H0 + X^2/2 + K P into `film` (Eq. 21)."""
+    """Compute the film thickness H = H0 + X^2/2 + K P at all nodes, in place.
+
+    Parameters
+    ----------
+    grid : Grid
+        Mesh with n nodes.
+    pressure : FloatArray
+        Pressures P (n,) [Hertzian pressure].
+    separation : float
+        Rigid separation H0 [b^2/R].
+    film : FloatArray
+        Receives H (n,) [b^2/R].
+
+    Notes
+    -----
+    Eq. 21.
+    """
     multiply(grid.deflection, pressure, film)
     for i in range(film.size):
         film[i] += separation + 0.5 * grid.x[i] ** 2
@@ -49,7 +65,7 @@ def film_shape(grid: Grid, pressure: FloatArray, separation: float, film: FloatA
 
 @kernel
 def gradient_stencil(x: FloatArray, i: int, cavitated: BoolArray) -> tuple[int, int, float]:
-    """The two nodes whose pressure difference makes dP/dX at node i, and its factor."""
+    """Return the two nodes whose pressure difference gives dP/dX at node i, and its factor."""
     n = x.size
     left, right = max(i - 1, 0), min(i + 1, n - 1)
     if cavitated[i]:
@@ -61,10 +77,24 @@ def gradient_stencil(x: FloatArray, i: int, cavitated: BoolArray) -> tuple[int, 
 
 @kernel
 def pressure_gradients(x: FloatArray, pressure: FloatArray, cavitated: BoolArray, gradient: FloatArray) -> None:
-    """dP/dX at the nodes: central, one-sided at the inlet, zero where the film is broken (Eq. E14).
+    """Compute dP/dX at all nodes, in place.
 
-    The last node before the rupture looks forward, so that its gradient vanishes with its pressure: a node can join
-    the broken film without a jump.
+    Parameters
+    ----------
+    x : FloatArray
+        Nodes (n,) [half widths].
+    pressure : FloatArray
+        Pressures P (n,) [Hertzian pressure].
+    cavitated : BoolArray
+        Whether the film is broken at the nodes (n,).
+    gradient : FloatArray
+        Receives dP/dX (n,) [-].
+
+    Notes
+    -----
+    Eq. E14: the difference is central, one-sided at the inlet, and zero where the film is broken. At the last node
+    before the rupture the difference is forward, so that the gradient vanishes with the pressure: a node can join the
+    broken film without a jump.
     """
     for i in range(x.size):
         left, right, factor = gradient_stencil(x, i, cavitated)
@@ -73,7 +103,10 @@ def pressure_gradients(x: FloatArray, pressure: FloatArray, cavitated: BoolArray
 
 @kernel
 def _log_mean(a: float, b: float) -> tuple[float, float]:
-    """Logarithmic mean of e^a and e^b and its logarithmic derivative by a; exact for an exponential between nodes."""
+    """Return the logarithmic mean of e^a and e^b and its logarithmic derivative by a.
+
+    The mean is exact for an exponential between the nodes.
+    """
     half = 0.5 * (a - b)
     middle = np.exp(0.5 * (a + b))
     if abs(half) < 1e-2:
@@ -93,10 +126,27 @@ def mass_fluxes(
     coefficients: FlowCoefficients,
     faces: FaceFluxes,
 ) -> None:
-    """Fluxes m = B H - A H^3 dP/dX through the faces between nodes, with their derivatives by ln A and B.
+    """Compute the mass fluxes through the faces between the nodes, and their derivatives by ln A and B, in place.
 
-    Eqs. E7, E13. The Couette part is extrapolated from the two nodes upstream (second order; first order upwinding
-    thickens the film by 12 per cent), the Poiseuille part uses the logarithmic mean of A.
+    Parameters
+    ----------
+    problem : Problem
+        Constants of the contact.
+    x : FloatArray
+        Nodes (n,) [half widths].
+    pressure : FloatArray
+        Pressures P (n,) [Hertzian pressure].
+    film : FloatArray
+        Film thickness H (n,) [b^2/R].
+    coefficients : FlowCoefficients
+        Coefficients ln A and B of the nodes.
+    faces : FaceFluxes
+        Receives fluxes and derivatives.
+
+    Notes
+    -----
+    Eqs. E7, E13: m = B H - A H^3 dP/dX. The Couette part is extrapolated from the two nodes upstream, of second order;
+    first-order upwinding makes the film 12 per cent thicker. The Poiseuille part uses the logarithmic mean of A.
     """
     couette_scale, poiseuille_scale = _flux_scales(problem)
     log_a, b = coefficients.log_a, coefficients.b
@@ -122,9 +172,10 @@ def mass_flux_slopes(
     coefficients: FlowCoefficients,
     faces: FaceFluxes,
 ) -> None:
-    """Derivatives of `mass_fluxes` by the pressures and the film around each face.
+    """Compute the derivatives of `mass_fluxes` by the pressures and the film around each face.
 
-    First those of B and ln A of each node by P at the node and beside it, and by H: p, G = h dp/dx and h decide them.
+    First come the derivatives of B and ln A of each node by P at the node and beside it, and by H; B and ln A depend on
+    p, G = h dp/dx and h.
     """
     n, (couette_scale, _), b, log_a = grid.x.size, _flux_scales(problem), coefficients.b, coefficients.log_a
     slope = problem.maximum_pressure / problem.half_width
@@ -159,14 +210,17 @@ def mass_flux_slopes(
 
 @inlined_kernel
 def _flux_scales(problem: Problem) -> tuple[float, float]:
-    """Factors of B H and of A H^3 dP/dX in units of the flux scale."""
+    """Return the factors of B H and of A H^3 dP/dX in units of the flux scale."""
     couette = problem.gap_scale / problem.flux_scale
     return couette, couette * problem.gap_scale**2 * problem.maximum_pressure / problem.half_width
 
 
 @inlined_kernel
 def _upstream(x: FloatArray, i: int) -> tuple[int, float]:
-    """Node upstream of node i, and its weight in the extrapolation of B H to the face right of i; first face: mean."""
+    """Return the node upstream of node i, and its weight in the extrapolation of B H to the face on the right of i.
+
+    At the first face it returns the downstream node and the weight of the mean.
+    """
     if i == 0:
         return 1, 0.5
     return i - 1, -0.5 * (x[i + 1] - x[i]) / (x[i] - x[i - 1])
@@ -176,7 +230,7 @@ def _upstream(x: FloatArray, i: int) -> tuple[int, float]:
 def add_flux_changes(
     faces: FaceFluxes, cavitated: BoolArray, log_a: FloatArray, b: FloatArray, residual: FloatArray
 ) -> None:
-    """Add to `residual` (n + 1,) what changes of ln A and B at the nodes (n,) do to the balance of mass."""
+    """Add to `residual` (n + 1,) the effect of changes of ln A and B at the nodes (n,) on the balance of mass."""
     before = 0.0
     for i in range(cavitated.size - 1):
         other = i - 1 if i > 0 else 1
@@ -191,7 +245,25 @@ def add_flux_changes(
 def balance_of_mass(
     grid: Grid, pressure: FloatArray, cavitated: BoolArray, faces: FaceFluxes, residual: FloatArray
 ) -> None:
-    """Residual (n + 1,) of d(flux)/dx = 0, of P = 0 where the film is broken, and of the load (Eqs. E7, 22)."""
+    """Compute the residual of the balance of mass, of the broken film and of the load, in place.
+
+    Parameters
+    ----------
+    grid : Grid
+        Mesh with n nodes.
+    pressure : FloatArray
+        Pressures P (n,) [Hertzian pressure].
+    cavitated : BoolArray
+        Whether the film is broken at the nodes (n,).
+    faces : FaceFluxes
+        Mass fluxes through the faces.
+    residual : FloatArray
+        Receives the residual (n + 1,): d(flux)/dx = 0, or P = 0 where the film is broken, then the load [-].
+
+    Notes
+    -----
+    Eqs. E7, 22.
+    """
     n = grid.x.size
     residual[n] = -0.5 * np.pi
     for i in range(n):
@@ -204,7 +276,7 @@ def balance_of_mass(
 
 @kernel
 def assemble_jacobian(grid: Grid, cavitated: BoolArray, faces: FaceFluxes, jacobian: FloatArray) -> None:
-    """Derivatives of the residual of `balance_of_mass` by P_0..P_n-1, H0."""
+    """Compute the derivatives of the residual of `balance_of_mass` by P_0..P_n-1 and H0."""
     n = grid.x.size
     deflection, by_film, by_pressure = grid.deflection, faces.by_film, faces.by_pressure
     for i in range(n):
@@ -212,7 +284,7 @@ def assemble_jacobian(grid: Grid, cavitated: BoolArray, faces: FaceFluxes, jacob
             jacobian[i, :] = 0.0
             jacobian[i, i] = 1.0
             continue
-        # The faces right and left of a node know the film at four nodes between them.
+        # The faces right and left of a node depend on the film at four nodes.
         far, left, here, right = max(i - 2, 0), i - 1, i, i + 1
         by_far, by_left = -by_film[i - 1, 0], by_film[i, 0] - by_film[i - 1, 1]
         by_here, by_right = by_film[i, 1] - by_film[i - 1, 2], by_film[i, 2]
@@ -234,10 +306,10 @@ def assemble_jacobian(grid: Grid, cavitated: BoolArray, faces: FaceFluxes, jacob
 
 @kernel
 def release_cavitated(faces: FaceFluxes, cavitated: BoolArray, tolerance: float) -> bool:
-    """Return broken nodes into which more flows than leaves to the full film; whether there were any.
+    """Return broken nodes with more inflow than outflow to the full film; return whether there were any.
 
-    `tolerance` is the imbalance, relative to the flux, that a broken node may keep: without it one node at the
-    rupture can change sides for ever.
+    `tolerance` is the imbalance, relative to the flux, that a broken node may keep. Without it one node at the rupture
+    can change sides for ever.
     """
     changed = False
     for i in range(1, cavitated.size - 1):
@@ -256,10 +328,10 @@ def apply_pressure_step(
     step: FloatArray,
     scale: float,
 ) -> tuple[float, bool]:
-    """Move (P, H0) by `scale` times the step (n + 1,), less where the film would close; returns what was taken.
+    """Move (P, H0) by `scale` times the step (n + 1,), or less if the film would close.
 
-    Nodes behind the centre whose pressure falls below zero join the broken film; whether any did is returned too. At
-    both ends there is none, whatever another mesh left there.
+    Nodes behind the centre whose pressure falls below zero join the broken film. Both the scale that was taken and
+    whether any node joined are returned. At both ends the pressure is zero, whatever another mesh left there.
     """
     n = grid.x.size
     trial, film = np.empty(n), np.empty(n)

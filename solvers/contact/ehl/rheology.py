@@ -1,8 +1,9 @@
 """How oil shears: all that the solver knows of the laws of Newton and of Ree and Eyring.
 
-A law says three things: at which stress half way across a column slides at u2 - u1, how fast every interval shears
-under its stress, with the derivative by the stress, and what both amount to in a film at one temperature. Each has one
-function per law, and one that chooses by `Problem.rheology`. tau = tau_m + G (zeta - 1/2) with G = h dp/dx.
+A law gives three things: the stress half way across a column at which it slides at u2 - u1; the shear rate of an
+interval under its stress, with its derivative by the stress; and both of them in a film at one temperature. Each of the
+three has one function per law and one function that chooses by `Problem.rheology`. tau = tau_m + G (zeta - 1/2) with G
+= h dp/dx.
 """
 
 import numpy as np
@@ -12,12 +13,12 @@ from solvers.contact.ehl.problem import Problem
 from solvers.contact.ehl.shear import Shear
 
 REE_EYRING, NEWTONIAN = range(2)  # in the order of `inputs.Rheology`
-STRESS_LIMIT = 300.0  # of |h dp/dx| / (2 tau0): exp(300)^2 is still a number
+STRESS_LIMIT = 300.0  # of |h dp/dx| / (2 tau0): exp(300)^2 does not overflow
 
 
 @kernel
 def limited_gradient(problem: Problem, g: float) -> float:
-    """G = h dp/dx, kept where exp(G/(2 tau0)) is a number; a solution never needs it."""
+    """Return G = h dp/dx, limited so that exp(G/(2 tau0)) does not overflow; a solution never reaches the limit."""
     if problem.rheology == NEWTONIAN:
         return g
     bound = 2.0 * STRESS_LIMIT * problem.eyring_stress
@@ -26,7 +27,30 @@ def limited_gradient(problem: Problem, g: float) -> float:
 
 @inlined_kernel
 def mid_film_stress(problem: Problem, i: int, g: float, h: float, shear: Shear) -> float:
-    """Stress tau_m half way across column i [Pa] at which the film slides at u2 - u1 (Eq. E6)."""
+    """Compute the stress half way across column i at which the film slides at u2 - u1.
+
+    Parameters
+    ----------
+    problem : Problem
+        Constants of the contact.
+    i : int
+        Number of the column.
+    g : float
+        Film thickness times pressure gradient, h dp/dx [Pa].
+    h : float
+        Film thickness [m].
+    shear : Shear
+        Fluidity of the columns.
+
+    Returns
+    -------
+    float
+        Stress tau_m [Pa].
+
+    Notes
+    -----
+    Eq. E6.
+    """
     if problem.rheology == NEWTONIAN:
         return _newtonian_mid_stress(problem, i, g, h, shear)
     return _eyring_mid_stress(problem, i, g, h, shear)
@@ -46,7 +70,7 @@ def _newtonian_mid_stress(problem: Problem, i: int, g: float, h: float, shear: S
 
 @inlined_kernel
 def _eyring_mid_stress(problem: Problem, i: int, g: float, h: float, shear: Shear) -> float:
-    """Closed form for e^a, where tau_m = tau0 a; the form for du < 0 is the conjugate, free of cancellation."""
+    """Solve for tau_m = tau0 a in closed form for e^a; the form for du < 0 is the conjugate, free of cancellation."""
     m = shear.fluidity.shape[1]
     tau0, dz = problem.eyring_stress, 1.0 / m
     growth, ratio = np.exp(g * (0.5 * dz - 0.5) / tau0), np.exp(g * dz / tau0)  # e^(G (zeta - 1/2)/tau0) grows by
@@ -64,8 +88,23 @@ def _eyring_mid_stress(problem: Problem, i: int, g: float, h: float, shear: Shea
 
 @inlined_kernel
 def shear_rates(problem: Problem, i: int, g: float, tau_m: float, shear: Shear) -> None:
-    """Stress, shear rate and effective fluidity of every interval of column i, and their derivatives by the stress.
+    """Compute stress, shear rate and effective fluidity of column i and their derivatives by the stress, in place.
 
+    Parameters
+    ----------
+    problem : Problem
+        Constants of the contact.
+    i : int
+        Number of the column.
+    g : float
+        Film thickness times pressure gradient, h dp/dx [Pa].
+    tau_m : float
+        Mid-film stress [Pa].
+    shear : Shear
+        Fluidity of the columns; receives the values of all intervals.
+
+    Notes
+    -----
     Eqs. E4, E5.
     """
     if problem.rheology == NEWTONIAN:
@@ -76,7 +115,7 @@ def shear_rates(problem: Problem, i: int, g: float, tau_m: float, shear: Shear) 
 
 @inlined_kernel
 def _newtonian_rates(i: int, g: float, tau_m: float, shear: Shear) -> None:
-    """Rate tau/eta."""
+    """Compute the rate tau/eta of all intervals."""
     m = shear.fluidity.shape[1]
     for j in range(m):
         tau, fluidity = tau_m + g * ((j + 0.5) / m - 0.5), shear.fluidity[i, j]
@@ -86,7 +125,7 @@ def _newtonian_rates(i: int, g: float, tau_m: float, shear: Shear) -> None:
 
 @inlined_kernel
 def _eyring_rates(problem: Problem, i: int, g: float, tau_m: float, shear: Shear) -> None:
-    """Rate (tau0/eta) sinh s with s = tau/tau0: its value and derivative share one exponential, e^s."""
+    """Compute the rate (tau0/eta) sinh s with s = tau/tau0; value and derivative share one exponential, e^s."""
     m = shear.fluidity.shape[1]
     per_tau0, dz = 1.0 / problem.eyring_stress, 1.0 / m
     e_s, ratio = np.exp((tau_m + g * (0.5 * dz - 0.5)) * per_tau0), np.exp(g * dz * per_tau0)
@@ -107,11 +146,29 @@ def _eyring_rates(problem: Problem, i: int, g: float, tau_m: float, shear: Shear
 
 @inlined_kernel
 def uniform_shear(problem: Problem, log_eta: float, g: float, h: float) -> tuple[float, float, float, float, float]:
-    """What shear does to a film at one temperature: ln(12 eta A/rho), its derivatives by ln eta, G and h, and tau_m.
+    """Compute the effect of shear on a film at one temperature.
 
-    Newtonian: nothing. Ree-Eyring with s = G/(2 tau0): sinh a = eta du s/(tau0 h sinh s), tau_m = tau0 a and
-    12 eta A/rho = cosh a 3 (s cosh s - sinh s)/s^3 (Eq. E7.2). `sigma` is s/sinh s, `phi` the last factor, both by
-    series near s = 0; slopes are those of their logarithms.
+    Parameters
+    ----------
+    problem : Problem
+        Constants of the contact.
+    log_eta : float
+        Logarithm of the viscosity, ln(eta/Pa s) [-].
+    g : float
+        G = h dp/dx [Pa].
+    h : float
+        Film thickness [m].
+
+    Returns
+    -------
+    tuple of float
+        Logarithm ln(12 eta A/rho) [-], its derivatives by ln eta [-], by G [1/Pa] and by h [1/m], and tau_m [Pa].
+
+    Notes
+    -----
+    Eq. E7.2. A Newtonian oil has A = rho/(12 eta). For Ree-Eyring with s = G/(2 tau0): sinh a = eta du s/(tau0 h sinh
+    s), tau_m = tau0 a and 12 eta A/rho = cosh a 3 (s cosh s - sinh s)/s^3. `sigma` is s/sinh s and `phi` is the last
+    factor, both by series near s = 0; their slopes are those of their logarithms.
     """
     du = problem.speed_2 - problem.speed_1
     if problem.rheology == NEWTONIAN:

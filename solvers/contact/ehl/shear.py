@@ -1,4 +1,4 @@
-"""The film across each column: its arrays, its viscosities and densities, and how its stress responds to a change."""
+"""The film across the columns: its arrays, viscosities and densities, and the response of its stress."""
 
 from typing import NamedTuple
 
@@ -11,10 +11,10 @@ from solvers.lubricants import density, log_viscosity, pressure_part
 
 
 class Shear(NamedTuple):
-    """How the oil shears in every interval, and how dense it is there (n, m).
+    """Shear and density of the oil in all intervals (n, m).
 
-    Fluidity 1/eta and its logarithmic derivatives by temperature and pressure, stress [Pa], rate [1/s], stiffness
-    d rate/d stress, effective fluidity rate/stress and its derivative by stress.
+    Fluidity 1/eta and its logarithmic derivatives by temperature and pressure, stress [Pa], rate [1/s], stiffness d
+    rate/d stress, effective fluidity rate/stress and its derivative by stress.
     """
 
     fluidity: FloatArray
@@ -29,10 +29,11 @@ class Shear(NamedTuple):
 
 
 class Flow(NamedTuple):
-    """Flow between surface 1 and every node, and its derivatives by nodal temperature, (n, m + 1).
+    """Flow between surface 1 and the nodes, and its derivatives by nodal temperature, all (n, m + 1).
 
-    stream (function) [kg/(m s)], couette (its part without pressure gradient), poiseuille (the shape, from 0 to 1, of
-    its part with it); derivatives of the flow coefficients ln A and B by nodal temperature.
+    `stream` is the stream function [kg/(m s)], `couette` is its part without pressure gradient, and `poiseuille` is the
+    shape, from 0 to 1, of its part with pressure gradient. The derivatives are those of the flow coefficients ln A and
+    B.
     """
 
     stream: FloatArray
@@ -43,7 +44,7 @@ class Flow(NamedTuple):
 
 
 MOMENTS = floats("density", "f0", "f1", "n0", "n1")
-"""Results of `flow.flow_moments`: the mean density R and the integrals F0, F1, N0 and N1 across the film."""
+"""Integrals across the film from `flow.flow_moments`: the mean density R, and F0, F1, N0 and N1."""
 
 
 class MidFilm(NamedTuple):
@@ -57,7 +58,7 @@ class MidFilm(NamedTuple):
 
 
 class Film(NamedTuple):
-    """Across each of n columns; m intervals of equal height, m + 1 nodes; `moments` (n,) of MOMENTS."""
+    """The film across n columns with m intervals of equal height and m + 1 nodes; `moments` (n,) is of MOMENTS."""
 
     shear: Shear
     moments: RecordArray
@@ -66,7 +67,7 @@ class Film(NamedTuple):
 
 
 def film_arrays(nodes: int, film_nodes: int) -> Film:
-    """Room for `nodes` columns."""
+    """Return zeroed arrays for `nodes` columns."""
     shear = Shear(*np.zeros((len(Shear._fields), nodes, film_nodes - 1)))
     flow = Flow(*np.zeros((len(Flow._fields), nodes, film_nodes)))
     stress, by_p, by_g, by_h = np.zeros((4, nodes))
@@ -75,7 +76,7 @@ def film_arrays(nodes: int, film_nodes: int) -> Film:
 
 @inlined_kernel
 def viscosities(problem: Problem, i: int, temperature: FloatArray, p: float, shear: Shear) -> None:
-    """Fluidity 1/eta and density rho of each interval of column i at its mean temperature, by the laws of the oil."""
+    """Compute fluidity 1/eta and density of all intervals of column i at their mean temperatures, in place."""
     laws, m = problem.laws, temperature.shape[1] - 1
     term, term_slope = pressure_part(laws, p)
     base, _, by_heating = density(laws, p, laws.reference_temperature)
@@ -90,7 +91,10 @@ def viscosities(problem: Problem, i: int, temperature: FloatArray, p: float, she
 
 @inlined_kernel
 def stress_response(problem: Problem, i: int, h: float, film: Film) -> None:
-    """Compute in place how the mid-film stress varies with temperatures, p, G and h at constant sliding speed."""
+    """Compute the derivatives of the mid-film stress by temperatures, p, G and h at constant sliding speed, in place.
+
+    They hold for any law of shear.
+    """
     shear, mid, m = film.shear, film.mid, film.shear.stress.shape[1]
     height, total, by_p, by_g = 1.0 / m, 0.0, 0.0, 0.0
     for j in range(m):

@@ -1,4 +1,4 @@
-"""The unknowns of a contact, the arrays a solution works in, and the evaluation of one state."""
+"""The unknowns of a contact, the work arrays of a solution, and the evaluation of one state."""
 
 from typing import NamedTuple, cast
 
@@ -14,14 +14,14 @@ from solvers.contact.ehl.reynolds import FaceFluxes, face_arrays, film_shape, ma
 from solvers.contact.ehl.rheology import limited_gradient
 from solvers.contact.ehl.shear import Film, film_arrays
 
-# Columns from which passes start; not literals, for each of which numba would compile the passes once more.
+# First columns of the passes. They are not literals, because numba would compile the passes again for each literal.
 FIRST, NEXT = cast("int", np.int64(0)), cast("int", np.int64(1))
 
 
 class State(NamedTuple):
     """Unknowns at n nodes along and k across: pressure/p_H (n,), rigid separation H0 (1,), temperature (n, k) [K].
 
-    `cavitated` (n,) marks the nodes of broken film; `history` (1,) keeps the number of iterations and the last changes
+    `cavitated` (n,) marks the nodes of broken film. `history` (1,) holds the number of iterations and the last changes
     max|dP| and max|dT| [K] (NaN: none).
     """
 
@@ -33,16 +33,16 @@ class State(NamedTuple):
 
 
 def no_steps() -> RecordArray:
-    """The history of a state that no step has been taken from: no change is known."""
+    """Return the history of a state before the first step: its changes are NaN."""
     history = records(1, floats("iterations", "pressure_change", "temperature_change"))
     history.pressure_change = history.temperature_change = np.nan
     return history
 
 
 class Work(NamedTuple):
-    """Quantities that follow from a state: film H and dP/dX (n,); place, flow, film and heat of every column.
+    """Quantities that follow from a state: film H and dP/dX (n,); place, flow, film and heat of all columns.
 
-    `at` (n,) of PLACE has pressure, pressure gradient and film in SI.
+    `at` (n,) of PLACE has pressure, h dp/dx and film thickness in SI units.
     """
 
     height: FloatArray
@@ -55,7 +55,7 @@ class Work(NamedTuple):
 
 
 def work_arrays(nodes: int, film_nodes: int) -> Work:
-    """Room for one evaluation."""
+    """Return zeroed arrays for one evaluation."""
     return Work(
         np.zeros(nodes),
         np.zeros(nodes),
@@ -69,7 +69,7 @@ def work_arrays(nodes: int, film_nodes: int) -> Work:
 
 @kernel
 def evaluate_flow(problem: Problem, grid: Grid, state: State, work: Work) -> bool:
-    """Film, stress and flow of every column; whether the guard on the pressure gradient acted."""
+    """Compute film, stress and flow of all columns; return whether the guard on the pressure gradient acted."""
     film_shape(grid, state.pressure, state.separation[0], work.height)
     pressure_gradients(grid.x, state.pressure, state.cavitated, work.gradient)
     slope, limited = problem.maximum_pressure / problem.half_width, False
@@ -86,9 +86,26 @@ def evaluate_flow(problem: Problem, grid: Grid, state: State, work: Work) -> boo
 
 @kernel
 def fluid_fractions(problem: Problem, state: State, work: Work) -> float:
-    """Fill the gap with the share of fluid that the flux needs where the film is broken; returns the flux (Eq. E8.2).
+    """Compute the fraction of the gap that oil fills at all nodes, in place.
 
-    It is taken where the pressure is largest, since there it does not depend on the pressure gradient.
+    Parameters
+    ----------
+    problem : Problem
+        Constants of the contact.
+    state : State
+        Pressures and broken nodes.
+    work : Work
+        Flow of the columns; receives the fractions (n,) [-].
+
+    Returns
+    -------
+    float
+        Mass flux per width [kg/(m s)].
+
+    Notes
+    -----
+    Eq. E8.2. Where the film is broken, oil fills the share of the gap that carries the flux. The flux is taken at the
+    largest pressure, because it does not depend on the pressure gradient there.
     """
     flux = work.faces.flux[state.pressure.argmax()] * problem.flux_scale
     for i in range(state.pressure.size):
@@ -99,11 +116,22 @@ def fluid_fractions(problem: Problem, state: State, work: Work) -> float:
 
 @kernel
 def match_stream(problem: Problem, state: State, work: Work) -> None:
-    """Make every column carry the same mass (Eq. E8.1).
+    """Compute stream functions by which all columns carry the same mass, in place.
 
-    A full column makes up for what the surfaces do not drag with the profile of pressure flow; a broken one keeps the
-    profile of the last full one in a fraction of the gap. So convection conserves mass on the way to the solution,
-    too.
+    Parameters
+    ----------
+    problem : Problem
+        Constants of the contact.
+    state : State
+        Pressures and broken nodes.
+    work : Work
+        Flow of the columns; receives their stream functions.
+
+    Notes
+    -----
+    Eq. E8.1. A full column carries the rest of the flux, which the surfaces do not drag, with the profile of pressure
+    flow. A broken column keeps the profile of the last full one in a fraction of the gap. Convection thus conserves
+    mass during the iteration, too.
     """
     flow, heat = work.film.flow, work.heat
     flux = fluid_fractions(problem, state, work)
@@ -120,9 +148,9 @@ def match_stream(problem: Problem, state: State, work: Work) -> None:
 
 @kernel
 def evaluate_state(problem: Problem, grid: Grid, state: State, work: Work) -> bool:
-    """Residual of all columns and faces; whether the guard on the pressure gradient acted.
+    """Compute the residual of all columns and faces; return whether the guard on the pressure gradient acted.
 
-    Film that is broken reaches the end.
+    The film stays broken up to the end of the mesh.
     """
     state.cavitated[-1] = state.cavitated[-2]
     limited = evaluate_flow(problem, grid, state, work)
@@ -134,9 +162,9 @@ def evaluate_state(problem: Problem, grid: Grid, state: State, work: Work) -> bo
 
 @kernel
 def linearise_state(problem: Problem, state: State, work: Work, damping: float) -> None:
-    """Derivatives of the columns of an evaluated state, solved for their responses; `damping` see linearise_balances.
+    """Compute the derivatives of the columns of an evaluated state; `damping` is that of `linearise_balances`.
 
-    What carries heat along is held fixed: the stream function, the fluid fraction, the density that is compressed.
+    The carriers of heat are held fixed: the stream function, the fluid fraction and the density that is compressed.
     """
     n = work.at.size
     linearise_columns(problem, FIRST, n, work.at, work.film, work.coefficients)

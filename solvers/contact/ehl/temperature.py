@@ -22,15 +22,16 @@ from solvers.contact.ehl.shear import Film
 from solvers.contact.ehl.state import State, Work
 
 LARGEST_STEP = 40.0  # K
-COLUMN_ITERATIONS = 60  # limit; a column that has not converged by then does not
-REVERSE_SWEEPS = 3  # chosen: each sweep carries the heat of oil that flows back once against the direction of the march
+COLUMN_ITERATIONS = 60  # limit; a column that has not converged by then does not converge at all
+REVERSE_SWEEPS = 3  # chosen: one sweep carries the heat of reverse flow once against the direction of the march
 
 
 @kernel
 def march_temperatures(problem: Problem, grid: Grid, state: State, work: Work) -> None:
-    """First temperatures at given pressures: columns without pressure gradient in one Couette flow, solved in turn.
+    """Compute first temperatures at given pressures: columns of one Couette flow, solved one after the other.
 
-    Each starts from the one before it, so that they stay on the branch that the inlet is on.
+    The columns have no pressure gradient. A column starts from the one before it, so that all stay on the same branch
+    of solutions as the inlet.
     """
     film, heat, temperature = work.film, work.heat, state.temperature
     n, nodes = temperature.shape
@@ -67,7 +68,7 @@ def march_temperatures(problem: Problem, grid: Grid, state: State, work: Work) -
 
 @kernel
 def last_reverse(convection: Convection) -> int:
-    """The last column into which oil flows from the right; 0: none."""
+    """Return the last column into which oil flows from the right; 0 if there is none."""
     n, nodes = convection.from_right.shape
     for i in range(n - 2, 0, -1):
         for k in range(nodes):
@@ -78,7 +79,7 @@ def last_reverse(convection: Convection) -> int:
 
 @inlined_kernel
 def _relax_column(i: int, film: Film, heat: Heat, given: FloatArray, weight: float, step: FloatArray) -> None:
-    """Temperature step of column i from those of its neighbours and of the surfaces upstream; `given` is added."""
+    """Compute the temperature step of column i from its neighbours and the surfaces upstream, and add `given`."""
     from_left, from_right, residual = heat.convection.from_left, heat.convection.from_right, heat.column.residual
     n, m = step.shape[0], step.shape[1] - 1
     for k in range(m + 1):
@@ -99,8 +100,8 @@ def temperature_step(
 ) -> None:
     """Solve the linearised heat balance of all columns for `step` (n, k), with the responses `given` to pressure.
 
-    A march along the flow; columns with reverse flow are swept backward in between, their right neighbours lagging.
-    The residual counts with `weight`: 1 for a Newton step, 0 for the derivative alone.
+    The solution marches along the flow. Columns with reverse flow are swept backward in between, with the previous step
+    of their right neighbours. `weight` multiplies the residual: 1 for a Newton step, 0 for the derivative alone.
     """
     n, last = step.shape[0], step.shape[1] - 1
     surfaces, residual = heat.surfaces, heat.column.residual
@@ -123,10 +124,24 @@ def temperature_step(
 
 @kernel
 def inlet_step(problem: Problem, work: Work, temperature: FloatArray, step: FloatArray) -> None:
-    """First column of `step`: walls at bulk temperature, oil that enters at that of the inlet (Eq. E8.3).
+    """Compute the temperature step of the first column, in place.
 
-    Oil that leaves has the temperature of the column behind. Which does what follows from the flux and a uniform
-    viscosity, so that it cannot change with the temperatures it decides on.
+    Parameters
+    ----------
+    problem : Problem
+        Constants of the contact.
+    work : Work
+        Flow of the columns.
+    temperature : FloatArray
+        Temperatures (n, k) [K].
+    step : FloatArray
+        Temperature step (n, k) [K]; receives the first column.
+
+    Notes
+    -----
+    Eq. E8.3. The walls have their bulk temperatures, oil that enters has the temperature of the inlet, and oil that
+    leaves has that of the next column. The flux and a uniform viscosity decide where oil enters, so that the decision
+    does not depend on the temperatures that follow from it.
     """
     nodes = step.shape[1]
     u1, u2 = problem.speed_1, problem.speed_2

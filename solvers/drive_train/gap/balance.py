@@ -1,11 +1,11 @@
 """The gap over the face at which mesh and shafts are in equilibrium.
 
-A gap distributes the load over the face, and that load bends the shafts into a gap: the two have to be equal. Unknown
-is the gap g at the stations; the residual is g minus the gap that shafts, bearings and couplings have under the load
-that g gives. Newton's step is (I - D B) dg = -R with B = dQ/dg of the mesh (mean over a base pitch: the mesh frequency
-lies far above any bending or film frequency, so the shafts follow the mean) and D the derivative of the gap by Q, the
-couplings included. The mean of the gap belongs to the transmission error and is taken out. The iteration starts on a
-coarse mesh of roll positions and slices, where most of its steps are made.
+A gap distributes the load over the face, and this load bends the shafts into a gap; the two gaps have to be equal. The
+unknown is the gap g at the stations. The residual R is g minus the gap of shafts, bearings and couplings under the load
+that belongs to g. Newton's step is (I - D B) dg = -R. B = dQ/dg is the derivative of the mesh force, as its mean over a
+base pitch: the mesh frequency lies far above any bending or film frequency, so the shafts follow the mean. D is the
+derivative of the gap by Q, with the couplings. The mean of the gap belongs to the transmission error and is subtracted.
+The iteration starts with fewer roll positions and slices, where it makes most of its steps.
 """
 
 from dataclasses import dataclass, replace
@@ -14,7 +14,7 @@ import numpy as np
 
 from solvers.arrays import FloatArray
 from solvers.drive_train.gap.face_curves import face_mean
-from solvers.drive_train.gap.hub_balance import HubLoads, Yielding, free_hubs, respond, solved
+from solvers.drive_train.gap.hub_balance import HubLoads, Yielding, free_hubs, respond, solve_linear
 from solvers.drive_train.shafts.influence import Unit
 from solvers.errors import NoSolution
 from solvers.scuffing.contact_lines import roll_positions
@@ -25,19 +25,19 @@ from solvers.scuffing.model import PreparedMesh
 from solvers.scuffing.modification import kinks_along_face, kinks_along_path
 
 TOLERANCE = 1e-12  # m
-ITERATIONS = 40  # chosen: what has not converged by then does not
-COARSER = 4  # times fewer roll positions and slices, by which the gap changes by a nanometre
+ITERATIONS = 40  # chosen: an iteration that needs more does not converge
+COARSER = 4  # divisor of roll positions and slices; it changes the gap by a nanometre
 ROUGH_TOLERANCE = 1e-9  # m
 ROUGH_ITERATIONS = 10  # the start need not be exact
-LEAST_STEP = 1 / 64  # chosen: six halvings, then the step is taken as it is
+LEAST_STEP = 1 / 64  # chosen: after six halvings the step is accepted
 
 
 @dataclass(frozen=True, slots=True)
 class LoadedMesh:
-    """The mesh under a gap `fixed` [m] at points of the face, the stations among them, and the shafts' on top.
+    """The mesh with a gap `fixed` [m] that does not depend on the load, to which the shafts' gap is added.
 
-    `scale` turns the force of its contacts into the transverse force that the shafts carry. Lines that run along the
-    face have whole numbers of slices between stations, or some would get more of them than others.
+    `fixed` stands at points of the face, among which are the stations. `scale` converts the force of the contacts into
+    the transverse force that the shafts carry.
     """
 
     prepared: PreparedMesh
@@ -49,11 +49,11 @@ class LoadedMesh:
 
     @property
     def transmitted(self) -> float:
-        """Transverse force F_bt that the shafts carry [N], without the load factors of the contacts."""
+        """Transverse force F_bt on the shafts [N], without the load factors of the contacts."""
         return self.scale * self.force * self.prepared.path.plane.cos_base_helix
 
     def under(self, gap: FloatArray) -> Mesh:
-        """The mesh with the shafts' gap [m] at the stations."""
+        """Return the mesh with the shafts' gap at the stations [m] added."""
         points = np.linspace(0.0, self.stations[-1], self.fixed.size)
         mesh = self.prepared.mesh
         lead = self.fixed + np.interp(points, self.stations, gap)
@@ -61,31 +61,32 @@ class LoadedMesh:
 
     @property
     def coarser(self) -> "LoadedMesh":
-        """The same mesh at fewer roll positions and slices."""
+        """The same mesh with fewer roll positions and slices."""
         given, form = self.prepared, self.prepared.mesh.gap
         count = given.rolls.phase.size // COARSER
         rolls = roll_positions(given.path.plane, count, kinks_along_path(form), kinks_along_face(form))
         return replace(self, prepared=replace(given, rolls=rolls), slices=self.slices // COARSER)
 
     def respond(self, gap: FloatArray, start: FaceResponse | None = None) -> FaceResponse:
-        """Force of the contacts at the stations, from the response to a similar gap."""
+        """Compute the force of the contacts at the stations; the iteration starts from a similar response, `start`."""
         count, slices = self.stations.size, self.slices
+        # Contact lines of a spur pair run along the face: each interval between stations gets the same number.
         if self.prepared.path.plane.tan_base_helix == 0.0:
             slices = -(-slices // (count - 1)) * (count - 1)
         return face_response(self.under(gap), self.prepared.rolls, self.force, slices, count, start)
 
     def balance(self, gap: FloatArray, near: FaceResponse | None = None) -> LoadBalance:
-        """The balance of the load with the shafts' gap [m], from the response to a similar gap."""
+        """Solve the load balance with the shafts' gap [m]; the iteration starts from a similar response, `near`."""
         start = None if near is None else (near.error, near.log_load)
         return balance_load(self.under(gap), self.prepared.rolls, self.force, self.slices, start)
 
 
 @dataclass(frozen=True, slots=True)
 class Equilibrium:
-    """Gap [m] at the stations (mean taken out and kept), the loads of all ports, those of the hubs, the balance.
+    """Equilibrium of mesh and shafts: gap at the stations without its mean [m], the mean, loads of ports and hubs.
 
-    `by_gap` [N/m] is the derivative of the force at the stations by a gap added there: the mesh's answer with the
-    shafts' behind it.
+    `by_gap` [N/m] is the derivative of the force at the stations by an additional gap there, to which both mesh and
+    shafts respond.
     """
 
     gap: FloatArray
@@ -99,9 +100,30 @@ class Equilibrium:
 
 
 def equilibrium(unit: Unit, mesh: LoadedMesh, start: FloatArray | None = None) -> Equilibrium:
-    """Newton's iteration on the gap, from a known one, else from that of a coarse mesh under a uniform load (Eq. D11).
+    """Find the gap at which mesh and shafts are in equilibrium, by Newton's iteration.
 
-    Raises NoSolution drive_train with the residual [um] where it does not converge.
+    Parameters
+    ----------
+    unit : Unit
+        Shafts, bearings and couplings.
+    mesh : LoadedMesh
+        The mesh.
+    start : FloatArray of shape (stations,), optional
+        Gap from which the iteration starts [m]; by default it starts from the gap of a coarse mesh.
+
+    Returns
+    -------
+    Equilibrium
+        The gap, and loads and responses at this gap.
+
+    Raises
+    ------
+    NoSolution
+        `drive_train` with the residual [um] if the iteration does not converge.
+
+    Notes
+    -----
+    Eq. D11.
     """
     hubs = free_hubs(unit, uniform_force(mesh.transmitted, unit.stations.size))
     if start is None:
@@ -109,16 +131,23 @@ def equilibrium(unit: Unit, mesh: LoadedMesh, start: FloatArray | None = None) -
     state = _evaluate(unit, mesh, start, hubs, None)
     for iteration in range(1, ITERATIONS + 1):
         if state.size <= TOLERANCE:
-            return _settled(mesh, state, iteration)
+            return _equilibrium_at(mesh, state, iteration)
         state = _advance(unit, mesh, state)
-    raise NoSolution("drive_train", "shafts and mesh found no common gap", {"residual_um": state.size * 1e6})
+    raise NoSolution(
+        "drive_train",
+        "the iteration for the common gap of shafts and mesh did not converge",
+        {"residual_um": state.size * 1e6},
+    )
 
 
 def _rough(unit: Unit, mesh: LoadedMesh, hubs: HubLoads) -> tuple[FloatArray, HubLoads]:
-    """About the gap, and the loads of the hubs: how near they are is for the mesh itself to say."""
+    """Return an approximate gap and the loads of the hubs, by an iteration with a coarse mesh from a uniform load.
+
+    The result need not have converged; the iteration with the full mesh decides.
+    """
     count = unit.stations.size
     answer = respond(unit, uniform_force(mesh.transmitted, count), hubs)
-    state = _evaluate(unit, mesh, centred(answer.motion[:count]), answer.hubs, None)
+    state = _evaluate(unit, mesh, remove_mean(answer.motion[:count]), answer.hubs, None)
     for _ in range(ROUGH_ITERATIONS):
         if state.size <= ROUGH_TOLERANCE:
             break
@@ -126,8 +155,8 @@ def _rough(unit: Unit, mesh: LoadedMesh, hubs: HubLoads) -> tuple[FloatArray, Hu
     return state.gap, state.answer.hubs
 
 
-def _settled(mesh: LoadedMesh, state: "_State", iterations: int) -> Equilibrium:
-    """What a gap that its load leaves means."""
+def _equilibrium_at(mesh: LoadedMesh, state: "_State", iterations: int) -> Equilibrium:
+    """Return the equilibrium at a converged state."""
     answer, by_gap = state.answer, mesh.scale * state.response.derivative
     return Equilibrium(
         gap=state.gap,
@@ -135,7 +164,7 @@ def _settled(mesh: LoadedMesh, state: "_State", iterations: int) -> Equilibrium:
         loads=np.concatenate([mesh.scale * state.response.force, answer.hubs.loads]),
         hubs=answer.hubs,
         balance=mesh.balance(state.gap, state.response),
-        by_gap=solved(_matrix(mesh, state).T, by_gap.T).T,
+        by_gap=solve_linear(_matrix(mesh, state).T, by_gap.T).T,
         iterations=iterations,
         residual=state.size,
     )
@@ -156,18 +185,21 @@ class _State:
 def _evaluate(unit: Unit, mesh: LoadedMesh, gap: FloatArray, hubs: HubLoads, before: FaceResponse | None) -> _State:
     response = mesh.respond(gap, before)
     answer = respond(unit, mesh.scale * response.force, hubs)
-    return _State(gap, response, answer, gap - centred(answer.motion[: gap.size]))
+    return _State(gap, response, answer, gap - remove_mean(answer.motion[: gap.size]))
 
 
 def _matrix(mesh: LoadedMesh, state: _State) -> FloatArray:
-    """I - D B."""
-    by_force = _centred_rows(state.answer.derivative)
+    """Return Newton's matrix I - D B."""
+    by_force = _remove_mean_of_rows(state.answer.derivative)
     return np.asarray(np.eye(state.gap.size) - mesh.scale * by_force @ state.response.derivative)
 
 
 def _advance(unit: Unit, mesh: LoadedMesh, state: _State) -> _State:
-    """The state after Newton's step, halved while the residual does not fall or the parts find no balance there."""
-    step, share = centred(solved(_matrix(mesh, state), -state.residual)), 1.0
+    """Return the state after Newton's step.
+
+    The step is halved as long as the residual does not fall, or a part of the unit has no solution there.
+    """
+    step, share = remove_mean(solve_linear(_matrix(mesh, state), -state.residual)), 1.0
     while True:
         try:
             following = _evaluate(unit, mesh, state.gap + share * step, state.answer.hubs, state.response)
@@ -181,18 +213,18 @@ def _advance(unit: Unit, mesh: LoadedMesh, state: _State) -> _State:
 
 
 def uniform_force(force: float, stations: int) -> FloatArray:
-    """A force [N] spread evenly over the face, at its stations."""
+    """Return the shares at the stations of a force [N] that is spread evenly over the face."""
     weights = np.ones(stations)
     weights[0] = weights[-1] = 0.5
     return force * weights / (stations - 1)
 
 
-def centred(gap: FloatArray) -> FloatArray:
-    """The gap without its mean over the face."""
+def remove_mean(gap: FloatArray) -> FloatArray:
+    """Return the gap minus its mean over the face."""
     return gap - face_mean(gap)
 
 
-def _centred_rows(derivative: FloatArray) -> FloatArray:
-    """The derivative of the gap without its mean."""
+def _remove_mean_of_rows(derivative: FloatArray) -> FloatArray:
+    """Return the derivative of the gap minus that of its mean."""
     mean = (derivative.sum(axis=0) - 0.5 * (derivative[0] + derivative[-1])) / (derivative.shape[0] - 1)
     return np.asarray(derivative - mean)

@@ -1,4 +1,7 @@
-"""Curves over the face at equidistant stations, linear between them: mean, slope and crown by exact integrals."""
+"""Mean, slope and crown of curves over the face.
+
+The curves are linear between equidistant stations; their integrals are exact.
+"""
 
 import numpy as np
 
@@ -6,24 +9,54 @@ from solvers.arrays import FloatArray
 
 
 def face_mean(values: FloatArray) -> float:
-    """Mean over the face."""
+    """Return the mean over the face."""
     return float(np.trapezoid(values) / (values.size - 1))
 
 
 def face_slope(values: FloatArray) -> float:
-    """Rise from y = 0 to b of the straight line of least squares: 12 int (eta - 1/2) v d eta (Eq. D13)."""
+    """Compute the slope of a curve: the rise over the face of the straight line fitted by least squares.
+
+    Parameters
+    ----------
+    values : FloatArray of shape (stations,)
+        The curve at the stations.
+
+    Returns
+    -------
+    float
+        12 int (eta - 1/2) v d eta, the rise from y = 0 to y = b, in the unit of the values.
+
+    Notes
+    -----
+    Eq. D13.
+    """
     eta, value, weight = _gauss(values)
     return float(12 * np.sum(weight * (eta - 0.5) * value))
 
 
 def face_crown(values: FloatArray) -> float:
-    """C of C (2 eta - 1)^2 by least squares: (15/2) int P2(2 eta - 1) v d eta, P2 = (3 t^2 - 1) / 2 (Eq. D13)."""
+    """Compute the crown of a curve: the height C of the parabola C (2 eta - 1)^2 fitted by least squares.
+
+    Parameters
+    ----------
+    values : FloatArray of shape (stations,)
+        The curve at the stations.
+
+    Returns
+    -------
+    float
+        (15/2) int P2(2 eta - 1) v d eta with P2(t) = (3 t^2 - 1) / 2, in the unit of the values.
+
+    Notes
+    -----
+    Eq. D13.
+    """
     eta, value, weight = _gauss(values)
     return float(7.5 * np.sum(weight * (1.5 * (2 * eta - 1) ** 2 - 0.5) * value))
 
 
 def _gauss(values: FloatArray) -> tuple[FloatArray, FloatArray, float]:
-    """Two Gauss points an interval, exact up to cubes: places, values there and weight."""
+    """Return places, values and weight of two Gauss points per interval, which integrate cubic functions exactly."""
     steps = values.size - 1
     shares = np.array([0.5 - 0.5 / np.sqrt(3), 0.5 + 0.5 / np.sqrt(3)])
     eta = (np.arange(steps)[:, None] + shares) / steps

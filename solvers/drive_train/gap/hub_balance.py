@@ -1,7 +1,7 @@
 """Tilts of the coupling hubs in equilibrium with the loads of the couplings.
 
-A hub's tilt x = rest + lever (motion of the hub) bends the shaft by loads p(x), and these move the hub. Newton's step
-on x has the matrix I - lever D dp/dx, D the derivative of the hubs' motion by their loads.
+A hub has the tilt x = rest + lever (motion of the hub). The coupling's loads p(x) bend the shaft, which moves the hub.
+Newton's step on x has the matrix I - lever D dp/dx, where D is the derivative of the hubs' motion by their loads.
 """
 
 from dataclasses import dataclass
@@ -14,19 +14,19 @@ from solvers.drive_train.shafts.influence import Unit
 from solvers.errors import InvalidInput, NoSolution
 
 TILT_TOLERANCE = 1e-13  # rad
-TILT_ITERATIONS = 30  # chosen: beyond it the balance is followed along its path
-LEAST_STEP = 1 / 64  # chosen: six halvings, then the step is taken as it is
-LEAST_SIZE = 1e-9  # rad, of tilts along a path
-LONGEST, SHORTEST, LONGER = 0.3, 1e-6, 1.5  # steps along a path, in units of the tilts' own size
-FARTHEST = 2.0  # from the end of a step, in its lengths
-PATH_POINTS = 500  # chosen: ends a search that finds no balance
-PATH_ITERATIONS = 6  # chosen: beyond it a shorter step is tried
-PATH_TOLERANCE = 1e-6  # of the tilts' own size
+TILT_ITERATIONS = 30  # chosen: after them the solution path is followed
+LEAST_STEP = 1 / 64  # chosen: after six halvings the step is accepted
+LEAST_SIZE = 1e-9  # rad; least scale of the tilts along the path
+LONGEST, SHORTEST, LONGER = 0.3, 1e-6, 1.5  # steps along the path in scales of the tilts; growth of a step
+FARTHEST = 2.0  # largest distance from the end of a step, in step lengths
+PATH_POINTS = 500  # chosen: ends a search without a balance
+PATH_ITERATIONS = 6  # chosen: after them a shorter step is tried
+PATH_TOLERANCE = 1e-6  # in scales of the tilts
 
 
 @dataclass(frozen=True, slots=True)
 class HubLoads:
-    """Tilts [rad] of all hubs, four a coupling, the loads they cause at the couplings' ports, five each, and dp/dx."""
+    """Tilts of all hubs, four per coupling [rad], loads at the ports, five per coupling [N, N m], and dp/dx."""
 
     tilts: FloatArray
     loads: FloatArray
@@ -35,9 +35,9 @@ class HubLoads:
 
 @dataclass(frozen=True, slots=True)
 class Yielding:
-    """Motion of the ports under a force over the face and the hubs' loads it causes, and its derivative by the force.
+    """Motion of the ports under a force over the face and the hub loads that follow, and its derivative by the force.
 
-    The derivative (stations, stations) [m/N] has the hubs' answer in it.
+    The derivative (stations, stations) [m/N] includes the response of the hubs.
     """
 
     hubs: HubLoads
@@ -46,10 +46,10 @@ class Yielding:
 
 
 def free_hubs(unit: Unit, force: FloatArray) -> HubLoads:
-    """The hubs on shafts that a force over the face bends, and the couplings not: where the iteration begins.
+    """Return the hubs on shafts bent by a force over the face [N] but not by the couplings.
 
-    A hub on shafts that nothing bends may not tilt at all, and there its friction is as stiff as it gets. Raises
-    InvalidInput where such a tilt is none of the coupling model's.
+    The iteration begins there. On shafts without any bending a hub may have no tilt at all, at which its friction is
+    stiffest. Raises InvalidInput if a tilt is out of the range of the coupling model.
     """
     ports = unit.couplings
     if not ports:
@@ -59,30 +59,50 @@ def free_hubs(unit: Unit, force: FloatArray) -> HubLoads:
 
 
 def respond(unit: Unit, force: FloatArray, start: HubLoads) -> Yielding:
-    """Motion of the ports under a force over the face, with coupling loads that fit the tilts they cause (Eq. D12).
+    """Compute the motion of the ports under a force over the face, with the hubs in balance.
 
-    The iteration begins at the loads in `start`. If it does not converge it begins again at the hubs without coupling
-    loads, and then at the tilts to which these move while the coupling loads are raised from zero in steps.
+    Parameters
+    ----------
+    unit : Unit
+        Shafts, bearings and couplings.
+    force : FloatArray of shape (stations,)
+        Transverse force at the stations [N].
+    start : HubLoads
+        Tilts and loads of the hubs from which the iteration starts.
 
-    Raises InvalidInput where a free hub tilts too far for the coupling model, and NoSolution drive_train with the
-    residual of the tilts [rad].
+    Returns
+    -------
+    Yielding
+        The motion of the ports [m, rad] and its derivative.
+
+    Raises
+    ------
+    InvalidInput
+        If a hub on shafts without coupling loads tilts too far for the coupling model.
+    NoSolution
+        `drive_train` with the residual of the tilts [rad] if no iteration converges.
+
+    Notes
+    -----
+    Eq. D12. If the iteration from `start` does not converge, it starts again at the hubs without coupling loads, and
+    then at the tilts which these hubs reach while the coupling loads grow from zero.
     """
-    found, residual = _solve(unit, force, start)
-    if found is None:
+    yielding, residual = _solve(unit, force, start)
+    if yielding is None:
         free = free_hubs(unit, force)
-        found, residual = _solve(unit, force, free)
-        if found is None:
-            found, residual = _solve(unit, force, _grown(unit, force, free))
-    if found is None:
+        yielding, residual = _solve(unit, force, free)
+        if yielding is None:
+            yielding, residual = _solve(unit, force, _raise_loads(unit, force, free))
+    if yielding is None:
         raise NoSolution("drive_train", "the tilts of the couplings' hubs did not converge", {"tilt_rad": residual})
-    return found
+    return yielding
 
 
 @dataclass(frozen=True, slots=True)
-class _Tilted:
-    """Hubs at some tilts, the motion of the ports that follows, and how far from these tilts that motion is.
+class _State:
+    """Hubs at some tilts, the motion of the ports, and the residual: the tilts minus those that belong to this motion.
 
-    `by_tilts` and `by_share` are the residual's derivatives by the tilts and by the share of the loads that acts.
+    `by_tilts` and `by_share` are the derivatives of the residual by the tilts and by the share of the loads that acts.
     """
 
     hubs: HubLoads
@@ -97,12 +117,12 @@ class _Tilted:
         return float(np.max(np.abs(self.residual), initial=0.0))
 
 
-def _tilted(unit: Unit, force: FloatArray, hubs: HubLoads, share: float = 1.0) -> _Tilted:
-    """The residual of the tilts where a share of the couplings' loads acts."""
+def _evaluate(unit: Unit, force: FloatArray, hubs: HubLoads, share: float = 1.0) -> _State:
+    """Return the state of the hubs while a share of the couplings' loads acts."""
     levers, own = _levers(unit.couplings), force.size
     motion, derivative = unit.motion(np.concatenate([force, share * hubs.loads]))
     through = levers @ derivative[own:, own:]
-    return _Tilted(
+    return _State(
         hubs=hubs,
         motion=motion,
         derivative=derivative,
@@ -113,21 +133,21 @@ def _tilted(unit: Unit, force: FloatArray, hubs: HubLoads, share: float = 1.0) -
 
 
 def _solve(unit: Unit, force: FloatArray, hubs: HubLoads) -> tuple[Yielding | None, float]:
-    """Newton's iteration on the tilts, and the last residual [rad]."""
-    state = _tilted(unit, force, hubs)
+    """Find the balance of the tilts by Newton's iteration; None if it fails. Also return the last residual [rad]."""
+    state = _evaluate(unit, force, hubs)
     for _ in range(TILT_ITERATIONS):
         if state.size <= TILT_TOLERANCE:
             return _yielding(unit, force.size, state), state.size
         try:
-            step = solved(state.by_tilts, -state.residual)
+            step = solve_linear(state.by_tilts, -state.residual)
         except NoSolution:
             break
         state = _advance(unit, force, state, step)
     return None, state.size
 
 
-def solved(matrix: FloatArray, right: FloatArray) -> FloatArray:
-    """The solution of a linear system. Raises NoSolution drive_train where the matrix is singular."""
+def solve_linear(matrix: FloatArray, right: FloatArray) -> FloatArray:
+    """Solve a linear system. Raises NoSolution `drive_train` if the matrix is singular."""
     try:
         return np.asarray(np.linalg.solve(matrix, right), dtype=float)
     except np.linalg.LinAlgError as error:
@@ -135,51 +155,52 @@ def solved(matrix: FloatArray, right: FloatArray) -> FloatArray:
         raise NoSolution("drive_train", message, {"reciprocal_condition": 0.0}) from error
 
 
-def _advance(unit: Unit, force: FloatArray, state: _Tilted, step: FloatArray) -> _Tilted:
-    """The state after a step, halved while the residual does not fall or the parts refuse such tilts."""
+def _advance(unit: Unit, force: FloatArray, state: _State, step: FloatArray) -> _State:
+    """Return the state after a step, halved as long as the residual does not fall or a part rejects the tilts."""
     share = 1.0
     while True:
-        following = _attempted(unit, force, state.hubs.tilts + share * step)
+        following = _try_tilts(unit, force, state.hubs.tilts + share * step)
         if following is not None and (following.size < state.size or share < LEAST_STEP):
             return following
         share /= 2
 
 
-def _attempted(unit: Unit, force: FloatArray, tilts: FloatArray, share: float = 1.0) -> _Tilted | None:
-    """The state at tilts that may be so far off that coupling or bearing refuse them."""
+def _try_tilts(unit: Unit, force: FloatArray, tilts: FloatArray, share: float = 1.0) -> _State | None:
+    """Return the state at tilts; None if the model of coupling or bearing rejects them."""
     try:
-        return _tilted(unit, force, _hub_loads(unit.couplings, tilts), share)
+        return _evaluate(unit, force, _hub_loads(unit.couplings, tilts), share)
     except (InvalidInput, NoSolution):
         return None
 
 
-def _yielding(unit: Unit, count: int, state: _Tilted) -> Yielding:
-    """What the unit yields to a force over the face once its hubs are in balance."""
+def _yielding(unit: Unit, count: int, state: _State) -> Yielding:
+    """Return the motion of the unit and its derivative, once its hubs are in balance."""
     mesh, hubs = state.derivative[:count], state.derivative[count:]
-    through = solved(state.by_tilts, _levers(unit.couplings) @ hubs[:, :count])
+    through = solve_linear(state.by_tilts, _levers(unit.couplings) @ hubs[:, :count])
     return Yielding(state.hubs, state.motion, mesh[:, :count] + mesh[:, count:] @ state.hubs.by_tilts @ through)
 
 
-def _grown(unit: Unit, force: FloatArray, free: HubLoads) -> HubLoads:
-    """Where the hubs go from the free ones as the couplings' loads grow from nothing to the whole.
+def _raise_loads(unit: Unit, force: FloatArray, free: HubLoads) -> HubLoads:
+    """Follow the hubs from their tilts without coupling loads while these loads grow from zero to the whole.
 
-    Friction that falls as a hub slides faster lets a hub jump between sliding and sticking, and there the path turns
-    back in the share of the loads. So it is followed by its own length, every hub's tilts measured by their size: a
-    point is Newton's on the plane across the last direction (Allgower and Georg 2003, chapter 2).
+    Friction that falls with the sliding velocity lets a hub jump between sliding and sticking, and there the share of
+    the loads decreases along the path. The path is therefore followed by its length, with the tilts of a hub in units
+    of their size. Newton's iteration finds the points on a plane normal to the last direction (Allgower and Georg 2003,
+    chapter 2).
     """
-    share, state, length = 0.0, _tilted(unit, force, free, 0.0), LONGEST
+    share, state, length = 0.0, _evaluate(unit, force, free, 0.0), LONGEST
     direction = np.append(np.zeros(free.tilts.size), 1.0)
     for _ in range(PATH_POINTS):
         scale = _sizes(state.hubs.tilts)
-        direction = _along(state, scale, direction)
-        reached = _on_path(unit, force, state, share, scale, length * direction)
-        while reached is None and length > SHORTEST:
+        direction = _path_direction(state, scale, direction)
+        point = _find_on_path(unit, force, state, share, scale, length * direction)
+        while point is None and length > SHORTEST:
             length /= 2
-            reached = _on_path(unit, force, state, share, scale, length * direction)
-        if reached is None:
+            point = _find_on_path(unit, force, state, share, scale, length * direction)
+        if point is None:
             return state.hubs
         before, tilts = share, state.hubs.tilts
-        share, state = reached
+        share, state = point
         if share >= 1.0:
             part = (1.0 - before) / (share - before)
             return _hub_loads(unit.couplings, tilts + part * (state.hubs.tilts - tilts))
@@ -188,45 +209,48 @@ def _grown(unit: Unit, force: FloatArray, free: HubLoads) -> HubLoads:
 
 
 def _sizes(tilts: FloatArray) -> FloatArray:
-    """The size of every hub's tilt [rad], for both its components."""
+    """Return the scale of every tilt: the size of the hub's tilt [rad], for both components."""
     return np.repeat(np.maximum(np.hypot(tilts[::2], tilts[1::2]), LEAST_SIZE), 2)
 
 
-def _along(state: _Tilted, scale: FloatArray, direction: FloatArray) -> FloatArray:
-    """The path's direction at a point, the way it came from; tilts in their scale."""
-    found = solved(_across(state, scale, direction), np.append(np.zeros(scale.size), 1.0))
-    return np.asarray(found / np.linalg.norm(found))
+def _path_direction(state: _State, scale: FloatArray, direction: FloatArray) -> FloatArray:
+    """Return the unit vector along the path, forward with respect to the last direction; tilts in their scale."""
+    tangent = solve_linear(_path_matrix(state, scale, direction), np.append(np.zeros(scale.size), 1.0))
+    return np.asarray(tangent / np.linalg.norm(tangent))
 
 
-def _across(state: _Tilted, scale: FloatArray, direction: FloatArray) -> FloatArray:
-    """The derivative of the residual and of the way along a direction, by tilts in their scale and by the share."""
+def _path_matrix(state: _State, scale: FloatArray, direction: FloatArray) -> FloatArray:
+    """Return the matrix of Newton's step on the path, by the tilts in their scale and by the share.
+
+    Its last row is the derivative of the distance along `direction`, the others are those of the residual.
+    """
     return np.vstack([np.column_stack([state.by_tilts * scale, state.by_share]) / scale[:, None], direction])
 
 
-def _on_path(
-    unit: Unit, force: FloatArray, start: _Tilted, share: float, scale: FloatArray, step: FloatArray
-) -> tuple[float, _Tilted] | None:
-    """Share and state on the plane across a step, near its end; None where Newton's iteration does not find them."""
+def _find_on_path(
+    unit: Unit, force: FloatArray, start: _State, share: float, scale: FloatArray, step: FloatArray
+) -> tuple[float, _State] | None:
+    """Return share and state on the plane normal to a step at its end; None if Newton's iteration fails."""
     length = float(np.linalg.norm(step))
     place = step
     for _ in range(PATH_ITERATIONS):
         there = share + float(place[-1])
-        state = _attempted(unit, force, start.hubs.tilts + scale * place[:-1], there)
+        state = _try_tilts(unit, force, start.hubs.tilts + scale * place[:-1], there)
         if state is None or np.linalg.norm(place - step) > FARTHEST * length:
             return None
         rest = state.residual / scale
         if np.max(np.abs(rest)) <= PATH_TOLERANCE:
             return there, state
-        across = np.append(-rest, step @ (step - place) / length)
+        right = np.append(-rest, step @ (step - place) / length)
         try:
-            place = place + solved(_across(state, scale, step / length), across)
+            place = place + solve_linear(_path_matrix(state, scale, step / length), right)
         except NoSolution:
             return None
     return None
 
 
 def _hub_loads(ports: tuple[CouplingPort, ...], tilts: FloatArray) -> HubLoads:
-    """Loads of all couplings at their tilts, and their derivative."""
+    """Return the loads of all couplings at the tilts of their hubs, and their derivative."""
     loads, derivative = np.zeros(LOADS * len(ports)), np.zeros((LOADS * len(ports), tilts.size))
     for k, port in enumerate(ports):
         own, by = slice(LOADS * k, LOADS * (k + 1)), slice(TILTS * k, TILTS * (k + 1))

@@ -1,4 +1,4 @@
-"""Where the gap over the face comes from, by superposition of the loads, and what to grind against it."""
+"""The gap over the face, its causes by superposition of the loads, and the modifications that compensate it."""
 
 import numpy as np
 
@@ -15,39 +15,39 @@ from solvers.scuffing.modification import gaps_at
 
 
 def misalignment(
-    inputs: DriveTrainInputs, unit: Unit, mesh: LoadedMesh, thermal: ThermalLead, found: Equilibrium
+    inputs: DriveTrainInputs, unit: Unit, mesh: LoadedMesh, thermal: ThermalLead, equilibrium: Equilibrium
 ) -> Misalignment:
-    """The gap by shafts and heat, its causes, and the correction that undoes both."""
-    even = _even_gap(inputs, unit, mesh, found) + _at_stations(thermal.lead, unit.stations.size)
+    """Return the gap by shafts and heat, its causes, and the modifications that compensate it."""
+    even = _even_gap(inputs, unit, mesh, equilibrium) + _at_stations(thermal.lead, unit.stations.size)
     return Misalignment(
-        shaft_slope=face_slope(found.gap),
-        shaft_crown=face_crown(found.gap),
-        shaft_range=float(np.ptp(found.gap)),
-        shaft_mean=found.mean_gap,
-        parts=gap_parts(unit, found.loads) if inputs.effects.shafts else Parts(*([0.0] * 10)),
+        shaft_slope=face_slope(equilibrium.gap),
+        shaft_crown=face_crown(equilibrium.gap),
+        shaft_range=float(np.ptp(equilibrium.gap)),
+        shaft_mean=equilibrium.mean_gap,
+        parts=gap_parts(unit, equilibrium.loads) if inputs.effects.shafts else Parts(*([0.0] * 10)),
         thermal_slope=face_slope(thermal.lead),
         thermal_crown=face_crown(thermal.lead),
         thermal_range=float(np.ptp(thermal.lead)),
         thermal_profile_slope=thermal.profile_slope,
         base_pitch=thermal.base_pitch,
-        total_slope=face_slope(found.gap) + face_slope(thermal.lead),
+        total_slope=face_slope(equilibrium.gap) + face_slope(thermal.lead),
         recommended_helix_slope=-face_slope(even),
         recommended_lead_crowning=-face_crown(even),
         recommended_profile_slope=-thermal.profile_slope,
-        curves=_curves(inputs, unit, mesh, thermal, found),
+        curves=_curves(inputs, unit, mesh, thermal, equilibrium),
     )
 
 
-def _even_gap(inputs: DriveTrainInputs, unit: Unit, mesh: LoadedMesh, found: Equilibrium) -> FloatArray:
-    """The shafts' gap under a load spread evenly over the face."""
+def _even_gap(inputs: DriveTrainInputs, unit: Unit, mesh: LoadedMesh, equilibrium: Equilibrium) -> FloatArray:
+    """Return the shafts' gap under a load spread evenly over the face [m]."""
     count = unit.stations.size
     if not inputs.effects.shafts:
         return np.zeros(count)
-    return respond(unit, uniform_force(mesh.transmitted, count), found.hubs).motion[:count]
+    return respond(unit, uniform_force(mesh.transmitted, count), equilibrium.hubs).motion[:count]
 
 
 def gap_parts(unit: Unit, loads: FloatArray) -> Parts:
-    """Slopes of the gap by the loads of the ports."""
+    """Return the slope of the gap by each cause, under the loads of the ports."""
     count = unit.stations.size
     force, hubs = loads[:count], loads[count:]
     axial = np.arange(hubs.size) % LOADS == LOADS - 1
@@ -79,9 +79,12 @@ def gap_parts(unit: Unit, loads: FloatArray) -> Parts:
 
 
 def _curves(
-    inputs: DriveTrainInputs, unit: Unit, mesh: LoadedMesh, thermal: ThermalLead, found: Equilibrium
+    inputs: DriveTrainInputs, unit: Unit, mesh: LoadedMesh, thermal: ThermalLead, equilibrium: Equilibrium
 ) -> GapCurves:
-    """Gaps over the face; the modification's at the pitch point, without profile relief, mean taken out."""
+    """Return the gaps over the face.
+
+    The gap by the modification is that at the pitch point without profile modifications, minus its mean.
+    """
     plane, count = mesh.prepared.path.plane, unit.stations.size
     form = mesh.prepared.mesh.gap._replace(profile_slope=0.0, profile_crowning=0.0, tip_relief=0.0, root_relief=0.0)
     ground = gaps_at(form, np.full(count, plane.path_length / 2), unit.stations)
@@ -92,14 +95,14 @@ def _curves(
     return GapCurves(
         position=frozen(unit.stations),
         z=frozen(unit.frame.positions(inputs.face_start, plane.face_width, unit.stations)),
-        shaft=frozen(found.gap),
+        shaft=frozen(equilibrium.gap),
         thermal=frozen(lead),
         modification=frozen(ground),
-        total=frozen(found.gap + lead + ground),
-        line_force=frozen(found.loads[:count] / widths),
+        total=frozen(equilibrium.gap + lead + ground),
+        line_force=frozen(equilibrium.loads[:count] / widths),
     )
 
 
 def _at_stations(curve: FloatArray, count: int) -> FloatArray:
-    """A curve on more points, among them the stations."""
+    """Pick the values at the stations from a curve that has further points between them."""
     return curve[:: (curve.size - 1) // (count - 1)]

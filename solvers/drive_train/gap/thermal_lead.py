@@ -1,9 +1,10 @@
-"""Lead and profile errors of gears that are warmer than their drawings: heat, and the gas they pump.
+"""Lead and profile errors of gears that are warmer than the temperature of their drawings.
 
-Heating enlarges a body in proportion: every point moves by eps = alpha_L dT times its distance from the axis and along
-it. Along the line of action that is the excess eps_1 (s_A + x) + tan beta_b int_0^y eps_1 of the pinion and eps_2 (N -
-s_A - x) - tan beta_b int_0^y eps_2 of the wheel. Both hot alike, nothing is left along a contact line but the base
-pitch. Own derivation, checked against a brute-force helicoid.
+The temperature of the teeth and the gas that they pump heat the gears. A heated body grows in proportion: a point moves
+by eps = alpha_L dT times its distance from the axis, and eps times its distance along the axis. In the direction of the
+line of action the flanks of the pinion grow by eps_1 (s_A + x) + tan beta_b int_0^y eps_1, and those of the wheel by
+eps_2 (N - s_A - x) - tan beta_b int_0^y eps_2. If both gears are equally hot, only the base pitch changes and the
+contact lines stay parallel. Own derivation, checked against the numerical geometry of a heated helicoid.
 """
 
 from dataclasses import dataclass
@@ -25,9 +26,9 @@ EXPANSION = 12e-6  # of steel, 1/K
 
 @dataclass(frozen=True, slots=True)
 class GasHeat:
-    """Rise [K] of the gas over the ambient in the spaces of pinion and wheel, at positions over the face [m].
+    """Temperature rise of the gas above the ambient in the tooth spaces [K], at positions on the face [m].
 
-    `power` [W] is that of both gears, `powers` of pinion and wheel.
+    `power` [W] is the pumping power of both gears, `powers` [W] are those of pinion and wheel.
     """
 
     pinion_position: FloatArray
@@ -41,10 +42,10 @@ class GasHeat:
 
 @dataclass(frozen=True, slots=True)
 class ThermalLead:
-    """At the stations: metal temperature rises from pumping [K], gap by heat [m], mean 0; and what does not vary there.
+    """Gap by heat at the stations, with mean 0 [m], and the temperature rise of the metal by pumping [K].
 
-    profile_slope [m] belongs to the lead: only together do they leave parallel contact lines parallel. base_pitch [m]
-    is by how much the pinion's base pitch grows over the wheel's.
+    `profile_slope` [m] belongs to the lead: only both together keep parallel contact lines parallel. `base_pitch` [m]
+    is the growth of the pinion's base pitch minus that of the wheel's.
     """
 
     lead: FloatArray
@@ -56,30 +57,46 @@ class ThermalLead:
 
 @lru_cache(maxsize=64)
 def gas_heat(setup: PumpingSetup, pinion_speed: float) -> GasHeat:
-    """The pumped gas; remembered, for a study varies other things most of the time.
+    """Compute the temperature rise of the pumped gas; results are cached, because most studies vary other inputs.
 
-    Raises what `pumping.solve` raises.
+    Raises the errors of `pumping.solve`.
     """
-    result = pumping.solve(PumpingInputs(setup, pinion_speed))
-    (at_pinion, pinion), (at_wheel, wheel) = _profile(result.pinion_spaces), _profile(result.wheel_spaces)
-    spaces = (result.pinion_spaces, result.wheel_spaces)
-    powers = [0.0 if one is None else one.pumping_power for one in spaces]
+    pumped = pumping.solve(PumpingInputs(setup, pinion_speed))
+    (at_pinion, pinion), (at_wheel, wheel) = _profile(pumped.pinion_spaces), _profile(pumped.wheel_spaces)
+    spaces = (pumped.pinion_spaces, pumped.wheel_spaces)
+    powers = [0.0 if result is None else result.pumping_power for result in spaces]
     return GasHeat(
-        at_pinion, pinion, at_wheel, wheel, result.total.pumping_power, (powers[0], powers[1]), result.warnings
+        at_pinion, pinion, at_wheel, wheel, pumped.total.pumping_power, (powers[0], powers[1]), pumped.warnings
     )
 
 
 def _profile(spaces: SpacesResult | None) -> tuple[FloatArray, FloatArray]:
-    """Positions and rises, no rise where the flow has no temperature of its own."""
+    """Return positions on the face and temperature rises; no rise if the flow model has no temperature."""
     if spaces is None or spaces.profile.temperature_rise is None:
         return np.zeros(1), np.zeros(1)
     return spaces.profile.position, spaces.profile.temperature_rise
 
 
 def thermal_lead(inputs: DriveTrainInputs, path: PathOfContact, stations: FloatArray) -> ThermalLead:
-    """The gap that heat opens at the stations y [m] and what it does to the profile (Eq. D10).
+    """Compute the gap by heat over the face and the profile slope that belongs to it.
 
-    lead = -[eps_1 s_C + tan beta_b int eps_1 + eps_2 (N - s_C) - tan beta_b int eps_2] + mean;
+    Parameters
+    ----------
+    inputs : DriveTrainInputs
+        The unit.
+    path : PathOfContact
+        Path of contact of its gear pair.
+    stations : FloatArray of shape (stations,)
+        Positions y on the face from the end that meshes first [m].
+
+    Returns
+    -------
+    ThermalLead
+        Gap, profile slope and base pitch deviation [m], temperature rises by pumping [K].
+
+    Notes
+    -----
+    Eq. D10: lead = -[eps_1 s_C + tan beta_b int eps_1 + eps_2 (N - s_C) - tan beta_b int eps_2] + mean;
     profile slope = -(mean eps_1 - mean eps_2) g_alpha.
     """
     heat, ratio = inputs.heat, path.pair.pinion.teeth / path.pair.wheel.teeth
@@ -107,11 +124,11 @@ def thermal_lead(inputs: DriveTrainInputs, path: PathOfContact, stations: FloatA
 
 
 def no_heat(stations: FloatArray) -> ThermalLead:
-    """Gears as warm as their drawings."""
+    """Return the thermal lead of gears at the temperature of their drawings: zero."""
     nothing = np.zeros(stations.size)
     return ThermalLead(nothing, 0.0, 0.0, nothing, nothing)
 
 
 def _integral(stations: FloatArray, values: FloatArray) -> FloatArray:
-    """Integral from y = 0 to every station, by trapezia."""
+    """Return the integral from y = 0 to every station, by the trapezoidal rule."""
     return np.append(0.0, np.cumsum(np.diff(stations) * (values[1:] + values[:-1]) / 2))

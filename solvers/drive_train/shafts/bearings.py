@@ -1,4 +1,4 @@
-"""Stiffness of bearings: the short plain bearing's film (DuBois and Ocvirk, NACA 1157, 1953), springs, rigid ones."""
+"""Bearings under load: film of short plain bearings (DuBois and Ocvirk, NACA 1157, 1953), springs, rigid bearings."""
 
 from dataclasses import dataclass
 from math import atan2, cos, hypot, pi, sin, sqrt
@@ -10,15 +10,15 @@ from solvers.compiled import kernel
 from solvers.drive_train.inputs import Bearing, JournalBearing, LinearBearing
 from solvers.errors import NoSolution
 
-LARGEST_ECCENTRICITY = 0.999  # chosen: a thousandth of the clearance is below the roughness of any journal
+LARGEST_ECCENTRICITY = 0.999  # chosen: the film, a thousandth of the clearance, is thinner than any roughness
 
 
 @dataclass(frozen=True, slots=True)
 class BearingState:
-    """A loaded bearing: displacement [m] of the shaft without the bore's offset, and its derivative [m/N].
+    """A loaded bearing: displacement of the shaft without the bore's offset [m], and its derivative by the load [m/N].
 
-    Of a plain bearing also the eccentricity ratio, the attitude angle of the displacement against the load [rad], the
-    thinnest film [m], load per projected area [Pa] and friction power [W]; None else.
+    A plain bearing has an eccentricity ratio, the attitude angle between load and displacement [rad], the thinnest film
+    [m], a load per projected area [Pa] and a friction power [W]. These are None, and the power 0, for other bearings.
     """
 
     load: FloatArray
@@ -33,31 +33,95 @@ class BearingState:
 
 @kernel
 def load_number(eccentricity: float) -> float:
-    """Load of the short bearing over eta omega (D/2) L^3 / (4 c^2), with the film where pressure is positive (pi).
+    """Compute the dimensionless load of a short bearing.
 
-    Eq. D4.
+    Parameters
+    ----------
+    eccentricity : float
+        Eccentricity ratio [-].
+
+    Returns
+    -------
+    float
+        Load over eta omega (D/2) L^3 / (4 c^2) [-].
+
+    Notes
+    -----
+    Eq. D4, for a film over the half of the circumference where the pressure is positive.
     """
     square = eccentricity**2
     return eccentricity / (1 - square) ** 2 * sqrt(pi**2 * (1 - square) + 16 * square)
 
 
 def attitude_angle(eccentricity: float) -> float:
-    """Angle of the displacement against the load, in the sense of rotation: tan phi = pi sqrt(1 - e^2) / (4 e).
+    """Compute the angle from the load to the displacement, in the sense of rotation.
 
+    Parameters
+    ----------
+    eccentricity : float
+        Eccentricity ratio e [-].
+
+    Returns
+    -------
+    float
+        Attitude angle phi [rad], with tan phi = pi sqrt(1 - e^2) / (4 e).
+
+    Notes
+    -----
     Eq. D5.
     """
     return atan2(pi * sqrt(1 - eccentricity**2), 4 * eccentricity)
 
 
 def film_force(bearing: JournalBearing, speed: float) -> float:
-    """Eta omega (D/2) L^3 / (4 c^2) [N] at the shaft's speed [rad/s] (Eq. D4)."""
+    """Compute the force by which the load of a short bearing is made dimensionless.
+
+    Parameters
+    ----------
+    bearing : JournalBearing
+        The bearing.
+    speed : float
+        Angular speed of the shaft [rad/s].
+
+    Returns
+    -------
+    float
+        Eta omega (D/2) L^3 / (4 c^2) [N].
+
+    Notes
+    -----
+    Eq. D4.
+    """
     return bearing.viscosity * speed * bearing.diameter / 2 * bearing.width**3 / (4 * bearing.clearance**2)
 
 
 def bearing_state(bearing: Bearing, load: FloatArray, speed: float, rotation: float) -> BearingState:
-    """The bearing under a load (X, Y) [N] at the shaft's speed [rad/s] and sense of rotation (Eq. D5).
+    """Compute displacement and flexibility of a bearing under a load.
 
-    Raises NoSolution journal where a film would have to be thinner than a thousandth of the clearance.
+    Parameters
+    ----------
+    bearing : JournalBearing, LinearBearing or RigidBearing
+        The bearing.
+    load : FloatArray of shape (2,)
+        Load (X, Y) on the bearing [N].
+    speed : float
+        Angular speed of the shaft [rad/s].
+    rotation : float
+        Sense of rotation of the shaft, +1 if counter-clockwise about Z, else -1.
+
+    Returns
+    -------
+    BearingState
+        The loaded bearing.
+
+    Raises
+    ------
+    NoSolution
+        `journal` if the film would be thinner than a thousandth of the clearance.
+
+    Notes
+    -----
+    Eq. D5.
     """
     if isinstance(bearing, JournalBearing):
         return _journal(bearing, load, speed, rotation)
@@ -92,31 +156,31 @@ def _journal(bearing: JournalBearing, load: FloatArray, speed: float, rotation: 
 
 
 def _friction(bearing: JournalBearing, speed: float, eccentricity: float) -> float:
-    """Friction power [W]: that of a film as thick as the clearance over sqrt(1 - e^2)."""
+    """Return the friction power [W]: that of the concentric bearing over sqrt(1 - e^2)."""
     concentric = 2 * pi * bearing.viscosity * speed**2 * (bearing.diameter / 2) ** 3 * bearing.width
     return concentric / (bearing.clearance * sqrt(1 - eccentricity**2))
 
 
 def friction_and_eccentricity(bearing: JournalBearing, load: float, speed: float) -> tuple[float, float]:
-    """Friction power [W] and eccentricity ratio of a plain bearing under a load [N] at a speed [rad/s].
+    """Compute friction power [W] and eccentricity ratio of a plain bearing under a load [N] at a speed [rad/s].
 
-    Raises NoSolution journal as `bearing_state` does.
+    Raises NoSolution `journal` as `bearing_state` does.
     """
     eccentricity = _eccentricity(load / film_force(bearing, speed))
     return _friction(bearing, speed, eccentricity), eccentricity
 
 
 def _eccentricity(load: float) -> float:
-    """The eccentricity ratio that carries a load number."""
+    """Return the eccentricity ratio at a load number."""
     if load > load_number(LARGEST_ECCENTRICITY):
         message = "a plain bearing's film cannot carry its load; it would be thinner than a thousandth of the clearance"
         raise NoSolution("journal", message, {"load_number": load})
-    return _carrying(load)
+    return _invert_load_number(load)
 
 
 @kernel
-def _carrying(load: float) -> float:
-    """Newton's steps from the right: the load number is convex, so they descend to its root."""
+def _invert_load_number(load: float) -> float:
+    """Solve for the eccentricity ratio from the right: the load number is convex, so Newton's steps only decrease."""
     eccentricity, before = LARGEST_ECCENTRICITY, 1.0
     while eccentricity < before:
         before = eccentricity
@@ -126,17 +190,17 @@ def _carrying(load: float) -> float:
 
 @kernel
 def _load_slope(eccentricity: float) -> float:
-    """Derivative of `load_number`."""
+    """Return the derivative of `load_number`."""
     rest, root = 1 - eccentricity**2, sqrt(pi**2 * (1 - eccentricity**2) + 16 * eccentricity**2)
     return root / rest**2 + 4 * eccentricity**2 * root / rest**3 + eccentricity**2 * (16 - pi**2) / (rest**2 * root)
 
 
 def _attitude_slope(eccentricity: float) -> float:
-    """Derivative of `attitude_angle`."""
+    """Return the derivative of `attitude_angle`."""
     rest = 1 - eccentricity**2
     return -4 * pi / (sqrt(rest) * (pi**2 * rest + 16 * eccentricity**2))
 
 
 def _turn(angle: float) -> FloatArray:
-    """Rotation matrix."""
+    """Return a rotation matrix."""
     return np.array([[cos(angle), -sin(angle)], [sin(angle), cos(angle)]])

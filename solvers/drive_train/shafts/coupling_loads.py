@@ -1,13 +1,14 @@
 """Moments and forces of a gear coupling on its shaft, as functions of the tilts of both its hubs.
 
-Hub A is the unit's, hub B the machine's; the machine lies on the side `towards` (+1 along Z) at the hub distance l. The
-sleeve's slope is (c_B - c_A) / (towards l), and the tilt of a hub is its slope minus the sleeve's, a vector d = delta e
-in the planes X and Y. Loads are conjugate to slopes, m = -Z x M: with a = M_s + M_e and M_l
+Hub A sits on the unit's shaft, hub B on the machine's shaft. The machine lies at the hub distance l on the side
+`towards` (+1 along Z). The sleeve's slope is (c_B - c_A) / (towards l). The tilt of a hub is its slope minus the
+sleeve's, a vector d = delta e in the planes X and Y. Moments are conjugate to slopes, m = -Z x M. With a = M_s + M_e
+the loads are
     on the hub       m = -a e + s (M_l - s_d T delta / 2) Z x e
-    on its shaft     f = -a e / l + s (M_l + s_d T delta / 2) Z x e / l     times `towards`, of both hubs
-M_l is the frictional moment, M_s and M_e act against the tilt; s is the sense of rotation, s_d = +1 where the hub
-drives the sleeve. The sign of T delta / 2 differs between hub and sleeve because the torque bisects their axes. Along Z
-the shaft is pushed by the part tau of the friction limit, which is the smaller one of both hubs.
+    on its shaft     f = -a e / l + s (M_l + s_d T delta / 2) Z x e / l     times `towards`, summed over both hubs
+M_l is the frictional moment; M_s and M_e act against the tilt. s is the sense of rotation; s_d is +1 if the hub drives
+the sleeve. The sign of T delta / 2 differs between hub and sleeve because the torque's axis bisects their axes. Along Z
+the coupling pushes the shaft with the share tau of the friction limit, the smaller limit of both hubs.
 """
 
 from collections.abc import Iterator
@@ -30,15 +31,15 @@ from solvers.notices import Notice
 
 LOADS = 5  # of a coupling on its shaft: F_X, F_Y, m_X, m_Y, F_Z
 TILTS = 4  # of a coupling: hub A and hub B in both planes
-STEP = 1e-4  # of the tilt, for differences
-LEAST_TILT = 1e-12  # rad; below it nothing is tilted
+STEP = 1e-4  # relative step of the tilt, for differences
+LEAST_TILT = 1e-12  # rad; smaller tilts are none
 
 
 @dataclass(frozen=True, slots=True)
 class HubMoments:
-    """Of one hub: straightening moment a = M_s + M_e and loss moment M_l [N m]; friction and thrust limit [N].
+    """Moments of one hub: straightening moment a = M_s + M_e and loss moment M_l [N m], and its limit of thrust [N].
 
-    `sticks` where no tooth slides; `share` is the friction moment over the one of full sliding.
+    The hub `sticks` if no tooth slides. `share` is the friction moment over that of full sliding.
     """
 
     straightening: float
@@ -51,10 +52,10 @@ class HubMoments:
 
 @dataclass(frozen=True, slots=True)
 class CouplingPort:
-    """A coupling as the shaft meets it; torque [N m] and speed [rad/s] of its shaft, sense of rotation of its shaft.
+    """A coupling at its shaft, with the torque [N m], speed [rad/s] and sense of rotation of this shaft.
 
-    The tilts of both hubs are `rest` + `lever` @ (U, V, slopes of the shaft at the hub, its motion along Z).
-    `sleeve_weight` (X, Y) [N] rests on the hub.
+    The tilts of both hubs are `rest` + `lever` @ (U, V, both slopes, motion along Z) of the shaft at the unit's hub.
+    `sleeve_weight` (X, Y) [N] is the part of the sleeve's weight on this hub.
     """
 
     inputs: UnitCoupling
@@ -69,13 +70,13 @@ class CouplingPort:
 
     @property
     def length(self) -> float:
-        """Hub distance, negative where the machine lies towards -Z [m]."""
+        """Hub distance, negative if the machine lies towards -Z [m]."""
         distance = self.inputs.coupling.hub_distance
         return distance if self.inputs.machine_side == "plus" else -distance
 
     @property
     def driving(self) -> tuple[float, float]:
-        """S_d of the hubs A and B: the machine drives the pinion, the wheel drives its machine."""
+        """Signs s_d of the hubs A and B: one machine drives the pinion, the wheel drives the other machine."""
         return (-1.0, 1.0) if self.inputs.shaft == "pinion" else (1.0, -1.0)
 
 
@@ -89,7 +90,10 @@ def coupling_port(
     down: FloatArray,
     gravity: float,
 ) -> CouplingPort:
-    """The coupling of a shaft; `down` is the direction of gravity [m/s^2], against which the machine's shaft grows."""
+    """Return the coupling at its shaft.
+
+    `down` (X, Y) is the unit vector of gravity, against which the machine's shaft grows; `gravity` is in [m/s^2].
+    """
     offset = np.array(inputs.offset) - (0.0 if inputs.alignment is None else inputs.alignment.growth) * down
     distance = inputs.coupling.hub_distance if inputs.machine_side == "plus" else -inputs.coupling.hub_distance
     one, none, axial = np.eye(2), np.zeros((2, 2)), np.zeros((2, 1))
@@ -107,8 +111,22 @@ def coupling_port(
 
 
 def sliding_tilt(port: CouplingPort, friction: float) -> float:
-    """Tilt delta_0 = kt mu T / (z r_o^2 cos alpha c_a) [rad] up to which the teeth yield instead of sliding.
+    """Compute the tilt of a hub at which its teeth begin to slide; below it they yield elastically.
 
+    Parameters
+    ----------
+    port : CouplingPort
+        The coupling at its shaft.
+    friction : float
+        Coefficient of friction mu [-].
+
+    Returns
+    -------
+    float
+        Tilt delta_0 = kt mu T / (z r_o^2 cos alpha c_a) [rad].
+
+    Notes
+    -----
     Eq. D8.
     """
     coupling = port.inputs.coupling
@@ -118,15 +136,42 @@ def sliding_tilt(port: CouplingPort, friction: float) -> float:
 
 
 def axial_share(port: CouplingPort) -> float:
-    """Part of the friction left for tilting, kt = cos(pi tau / 2), where the part tau acts axially (Eq. D7)."""
+    """Compute the share of the friction that resists the tilting if another share acts axially.
+
+    Parameters
+    ----------
+    port : CouplingPort
+        The coupling at its shaft, with the axial share tau.
+
+    Returns
+    -------
+    float
+        Share kt = cos(pi tau / 2) [-].
+
+    Notes
+    -----
+    Eq. D7.
+    """
     return cos(pi * min(abs(port.inputs.thrust_fraction), 1.0) / 2)
 
 
 def elastic_plastic(ratio: float) -> tuple[float, float]:
-    """Loss moment and elastic moment of a hub, as fractions of the moment of full sliding (Eq. D9).
+    """Compute loss moment and elastic moment of a hub whose teeth yield before they slide.
 
-    `ratio` (beta) is the tilt over the tilt at which sliding begins. The moments are the first harmonic of the
-    hysteresis loop that springs with a sliding limit run through in a revolution.
+    Parameters
+    ----------
+    ratio : float
+        Tilt over the tilt at which sliding begins, beta [-].
+
+    Returns
+    -------
+    tuple of float
+        Loss moment and elastic moment over the moment of full sliding [-].
+
+    Notes
+    -----
+    Eq. D9. The moments are the first harmonic of the hysteresis loop which springs with a sliding limit describe in one
+    revolution.
     """
     if ratio <= 1.0:
         return 0.0, pi * ratio / 4
@@ -135,14 +180,35 @@ def elastic_plastic(ratio: float) -> tuple[float, float]:
 
 
 def regularised(ratio: float) -> tuple[float, float]:
-    """Full sliding at any tilt but the smallest, without an elastic moment: for comparison."""
+    """Return loss moment and elastic moment of a hub that slides at all but the smallest tilts, for comparison."""
     return ratio / sqrt(ratio**2 + 1), 0.0
 
 
 def hub_moments(port: CouplingPort, tilt: float) -> HubMoments:
-    """Moments of one hub at a tilt [rad] > 0, and no more of the coupling's model than they take (Eq. D7).
+    """Compute the moments of one hub at a tilt.
 
-    Raises what `coupling.solve` raises, its fields prefixed.
+    Parameters
+    ----------
+    port : CouplingPort
+        The coupling at its shaft.
+    tilt : float
+        Tilt of the hub, greater than 0 [rad].
+
+    Returns
+    -------
+    HubMoments
+        The moments [N m] and the limit of thrust [N].
+
+    Raises
+    ------
+    InvalidInput
+        The errors of `coupling.solve`, with the field of the coupling in the unit.
+    NoSolution
+        The errors of `coupling.solve`.
+
+    Notes
+    -----
+    Eq. D7. To save time, only the needed parts of the coupling's model are evaluated.
     """
     given = _operating_point(port, tilt)
     geometry = tooth_geometry(given.coupling)
@@ -152,14 +218,14 @@ def hub_moments(port: CouplingPort, tilt: float) -> HubMoments:
         film = film_state(given, geometry, mesh)
         check_contact(film, geometry)
         friction = friction_coefficient(given.friction, film.overlap, film.load_capacity_coefficient, abs(mesh.sliding))
-        found = losses(given, geometry, loaded_mesh(given, mesh), friction)
-    limit, full = sliding_tilt(port, friction), axial_share(port) * found.friction_moment
+        sliding = losses(given, geometry, loaded_mesh(given, mesh), friction)
+    limit, full = sliding_tilt(port, friction), axial_share(port) * sliding.friction_moment
     loss, elastic, ratio = 0.0, 0.0, np.inf
     if limit > 0.0:
         ratio = tilt / limit
         loss, elastic = elastic_plastic(ratio) if port.law == "elastic_plastic" else regularised(ratio)
     return HubMoments(
-        straightening=found.contact_shift_moment + full * elastic,
+        straightening=sliding.contact_shift_moment + full * elastic,
         loss=full * loss,
         friction_coefficient=friction,
         thrust_limit=coaxial_limit(given.coupling, port.torque, friction),
@@ -169,7 +235,7 @@ def hub_moments(port: CouplingPort, tilt: float) -> HubMoments:
 
 
 def hub_warnings(port: CouplingPort, tilt: float) -> tuple[Notice, ...]:
-    """What the coupling model says of a hub at a tilt [rad]."""
+    """Return the warnings of the coupling model for a hub at a tilt [rad]."""
     with _prefixed(port):
         return gear_coupling.solve(_operating_point(port, tilt)).warnings
 
@@ -183,17 +249,33 @@ def _operating_point(port: CouplingPort, tilt: float) -> CouplingInputs:
 
 @contextmanager
 def _prefixed(port: CouplingPort) -> Iterator[None]:
-    """Refusals of the coupling model name the coupling as well."""
+    """Prefix the fields in errors of the coupling model with the coupling of the unit."""
     try:
         yield
-    except InvalidInput as refusal:
-        field = f"couplings.{port.index}" + ("" if refusal.field is None else f".{refusal.field}")
-        raise InvalidInput(refusal.code, refusal.message, field) from refusal
+    except InvalidInput as error:
+        field = f"couplings.{port.index}" + ("" if error.field is None else f".{error.field}")
+        raise InvalidInput(error.code, error.message, field) from error
 
 
 def coupling_loads(port: CouplingPort, tilts: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Loads (F_X, F_Y, m_X, m_Y, F_Z) on the unit's shaft by both hubs' tilts (4,) [rad], and their derivative.
+    """Compute the loads of a coupling on the unit's shaft, and their derivative by the tilts of its hubs.
 
+    Parameters
+    ----------
+    port : CouplingPort
+        The coupling at its shaft.
+    tilts : FloatArray of shape (4,)
+        Tilts of hub A and hub B in both planes [rad].
+
+    Returns
+    -------
+    loads : FloatArray of shape (5,)
+        F_X, F_Y [N], m_X, m_Y [N m], F_Z [N].
+    derivative : FloatArray of shape (5, 4)
+        Derivative of the loads by the tilts [N/rad, N m/rad].
+
+    Notes
+    -----
     Eq. D6.
     """
     loads, derivative = np.zeros(LOADS), np.zeros((LOADS, TILTS))
@@ -217,10 +299,10 @@ def coupling_loads(port: CouplingPort, tilts: FloatArray) -> tuple[FloatArray, F
 
 
 def _polar(tilt: FloatArray, moments: FloatArray, slopes: FloatArray, torque: float) -> tuple[FloatArray, FloatArray]:
-    """-a e + (b + torque delta) Z x e of a tilt delta e, and its derivative by the tilt's components.
+    """Return -a e + (b + torque delta) Z x e for a tilt delta e, and its derivative by the components of the tilt.
 
-    `moments` begins with a and b, `slopes` with their derivatives by delta; below the least tilt both are proportional
-    to it.
+    `moments` begins with a and b, `slopes` with their derivatives by delta. Below `LEAST_TILT`, a and b are
+    proportional to delta.
     """
     size = hypot(*tilt)
     direction = tilt / size if size > 0.0 else np.array([1.0, 0.0])
@@ -233,6 +315,6 @@ def _polar(tilt: FloatArray, moments: FloatArray, slopes: FloatArray, torque: fl
 
 
 def _moments_and_limit(port: CouplingPort, tilt: float) -> FloatArray:
-    """Straightening a [N m], loss moment with the sense of rotation's sign [N m] and limit of thrust [N] of a hub."""
+    """Return straightening moment, loss moment with the sign of the rotation [N m], and thrust limit [N] of a hub."""
     hub = hub_moments(port, tilt)
     return np.array([hub.straightening, port.rotation * hub.loss, hub.thrust_limit])

@@ -1,4 +1,4 @@
-"""The unit's frame: where the mesh force acts on both shafts and which way it points."""
+"""The unit's frame of reference: where the mesh force acts on both shafts, and in which direction."""
 
 from dataclasses import dataclass
 from math import cos, sin
@@ -14,12 +14,12 @@ Z_AXIS = np.array([0.0, 0.0, 1.0])  # along the shafts
 
 @dataclass(frozen=True, slots=True)
 class Frame:
-    """Directions and arms in X, Y, Z.
+    """Directions and lever arms in X, Y, Z.
 
-    `rotation` is +1 where the pinion turns counter-clockwise about Z, -1 else; `face_direction` is +1 where the face
-    coordinate y, which begins at the end that meshes first, runs along Z. `radial` points from pinion to wheel,
-    `transverse_force` along the transverse force on the pinion; `force` is the force on the pinion per unit transverse
-    force. `arms` are those of the pitch point from the pinion's and the wheel's axis [m].
+    `rotation` is +1 if the pinion turns counter-clockwise about Z, else -1. The face coordinate y begins at the end
+    that meshes first; `face_direction` is +1 if y runs along Z, else -1. `radial` points from pinion to wheel,
+    `transverse_force` in the direction of the transverse force on the pinion. `force` is the whole force on the pinion
+    per unit transverse force. `arms` point from the axes of pinion and wheel to the pitch point [m].
     """
 
     rotation: float
@@ -31,20 +31,34 @@ class Frame:
     down: FloatArray
 
     def shaft_rotation(self, shaft: int) -> float:
-        """Sense of rotation of the pinion's (0) and the wheel's (1) shaft."""
+        """Return the sense of rotation of the pinion's (0) or the wheel's (1) shaft."""
         return self.rotation if shaft == 0 else -self.rotation
 
     def positions(self, face_start: float, face_width: float, y: FloatArray) -> FloatArray:
-        """Z [m] of points of the face at distances y [m] from the end that meshes first."""
+        """Return Z [m] of points on the face at distances y [m] from the end that meshes first."""
         return face_start + y if self.face_direction > 0.0 else face_start + (face_width - y)
 
 
 def frame(arrangement: Arrangement, path: PathOfContact) -> Frame:
-    """The frame of a unit (Eq. D1).
+    """Compute the frame of reference of a unit.
 
-    e_t = sigma Z x e_r is the velocity of the pinion at C; the flank force on the pinion opposes it,
-    n_t = -(cos a_wt e_t + sin a_wt e_r); a helix adds -tan beta_b along y, and y runs along -sigma h Z. A spur pair
-    meshes everywhere at once: there y runs along -sigma Z, whatever its hand is said to be.
+    Parameters
+    ----------
+    arrangement : Arrangement
+        Position and rotation of the unit.
+    path : PathOfContact
+        Path of contact of its gear pair.
+
+    Returns
+    -------
+    Frame
+        Directions [-] and lever arms [m].
+
+    Notes
+    -----
+    Eq. D1. e_t = sigma Z x e_r is the direction of the pinion's velocity at C. The flank force on the pinion opposes
+    it: n_t = -(cos a_wt e_t + sin a_wt e_r). A helix adds -tan beta_b along y, and y runs along -sigma h Z. A spur pair
+    meshes over the whole face at once: for it y runs along -sigma Z, whatever its hand in the inputs is.
     """
     pair = path.pair
     rotation = 1.0 if arrangement.rotation == "counterclockwise" else -1.0

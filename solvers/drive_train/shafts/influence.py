@@ -1,9 +1,10 @@
 """Shafts, bearings and couplings as one elastic system: gap at stations of the face, motion of the hubs.
 
-A station's transverse force Q loads both shafts by force, tilting moment and torque; the same coefficients give the gap
-from their motions. So with A the coefficients and C the shafts' flexibility the elastic gap is A^T C A Q, symmetric and
-never negative, and Q A^T C A Q is twice the strain energy. The bearings are ports as well: they take L q and, displaced
-by u, move the ports by L^T u.
+The ports of the system are the stations of the face and the hubs of the couplings. The transverse force Q at a station
+loads both shafts with a force, a tilting moment and a torque; the coefficients A of these loads also give the gap from
+the motion of the shafts. With the shafts' flexibility C the elastic gap is A^T C A Q. Its matrix is symmetric and
+positive semidefinite, and Q A^T C A Q is twice the strain energy. Loads q of the ports put L q on the bearings, and
+displacements u in the bearings move the ports by L^T u.
 """
 
 from dataclasses import dataclass
@@ -22,11 +23,12 @@ from solvers.gears.pair import PathOfContact
 
 @dataclass(frozen=True, slots=True)
 class ShaftPorts:
-    """One shaft and how its ports load its nodes: `loads` (2 planes, 2N, ports), `torques` (N, ports).
+    """A shaft, and the loads on its N nodes per unit load of the ports: `loads` (2 planes, 2N, ports), `torques`.
 
-    `mesh_loads` are the same of the stations' transverse forces alone. Loads that do not change, as vectors
-    (2 planes, 2N): `weight` with half a sleeve, `collar` under the axial force of the mesh. Under that of a coupling on
-    the pinion the collar is part of `loads`.
+    `torques` has the shape (N, ports). `mesh_loads` (2 planes, 2N, stations) holds the transverse forces of the
+    stations alone. Two loads (2 planes, 2N) do not change: `weight`, with that of half a sleeve, and `collar`, the
+    moment of the thrust collar under the axial force of the mesh. The collar's moment under the thrust of the pinion's
+    coupling is part of `loads`.
     """
 
     model: ShaftModel
@@ -41,26 +43,28 @@ class ShaftPorts:
 
     @property
     def fixed(self) -> FloatArray:
-        """All loads that do not change."""
+        """Loads that do not change."""
         return self.weight + self.collar
 
     def motion(self, loads: FloatArray) -> FloatArray:
-        """Elastic motion (2 planes, 2N) of the nodes between bearings at rest."""
+        """Return the elastic motion (2 planes, 2N) of the nodes under nodal loads while the bearings are at rest."""
         return np.asarray(loads @ self.model.flexibility)
 
     def reading(self, motion: FloatArray) -> FloatArray:
-        """What the ports see of a motion of the nodes (2 planes, 2N)."""
+        """Return the motion of the ports that follows from a motion of the nodes (2 planes, 2N)."""
         return np.asarray(np.einsum("dnp,dn->p", self.loads, motion))
 
 
 @dataclass(frozen=True, slots=True)
 class Unit:
-    """The system by its ports, the n stations of the face first, then five a coupling: U, V, the slopes there, along Z.
+    """The elastic system of a unit at its ports: the stations of the face, then five ports per coupling.
 
-    The last is the collar's answer to the coupling's thrust, and nothing without a collar.
+    A coupling's ports are U, V, both slopes and the motion along Z at the unit's hub. The motion along Z is the
+    response of the thrust collar to the coupling's thrust, and 0 without a collar.
 
-    `elastic` (ports, ports) [m/N, ...] between bearings at rest, `rest` the motion of the ports under loads that do not
-    change; the bearings (pinion's two, wheel's two; X and Y) take `bearing_loads` @ q + `bearing_rest` [N].
+    `elastic` (ports, ports) [m/N, ...] is the flexibility with the bearings at rest, `rest` the motion of the ports
+    under the loads that do not change. Under loads q of the ports the bearings carry `bearing_loads` @ q +
+    `bearing_rest` [N], in the order of the pinion's two and the wheel's two, with X and Y of each bearing.
     """
 
     frame: Frame
@@ -74,7 +78,7 @@ class Unit:
     offsets: FloatArray
 
     def bearings(self, loads: FloatArray) -> list[BearingState]:
-        """The four bearings under the loads of the ports."""
+        """Return the states of the four bearings under the loads of the ports."""
         carried = self.bearing_loads @ loads + self.bearing_rest
         return [
             bearing_state(bearing, carried[4 * i + 2 * k : 4 * i + 2 * k + 2], side.speed, side.rotation)
@@ -83,7 +87,7 @@ class Unit:
         ]
 
     def motion(self, loads: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Motion of the ports under their loads, and its derivative (ports, ports)."""
+        """Return the motion of the ports under their loads, and its derivative (ports, ports)."""
         states = self.bearings(loads)
         displacement = np.concatenate([state.displacement for state in states]) + self.offsets
         yielding = np.zeros((8, 8))
@@ -94,7 +98,24 @@ class Unit:
 
 
 def unit(inputs: DriveTrainInputs, path: PathOfContact) -> Unit:
-    """The unit's shafts, bearings and couplings ready to be loaded (Eq. D3)."""
+    """Assemble shafts, bearings and couplings of a unit into one elastic system.
+
+    Parameters
+    ----------
+    inputs : DriveTrainInputs
+        The unit.
+    path : PathOfContact
+        Path of contact of its gear pair.
+
+    Returns
+    -------
+    Unit
+        The elastic system.
+
+    Notes
+    -----
+    Eq. D3.
+    """
     directions, plane = frame(inputs.arrangement, path), path.plane
     stations = np.linspace(0.0, plane.face_width, inputs.face_stations)
     load = inputs.mesh.distribution.load
@@ -134,13 +155,13 @@ def unit(inputs: DriveTrainInputs, path: PathOfContact) -> Unit:
 
 
 def _elastic(side: ShaftPorts) -> FloatArray:
-    """Ports' own flexibility of one shaft: bending in both planes and torsion."""
+    """Return the flexibility of one shaft at the ports, by bending in both planes and by torsion."""
     bending = sum(plane.T @ side.model.flexibility @ plane for plane in side.loads)
     return np.asarray(bending + side.torques.T @ side.model.torsion @ side.torques)
 
 
 def torque_position(inputs: DriveTrainInputs, index: int) -> float:
-    """Where torque enters a shaft [m]: as given, else at its coupling."""
+    """Return the position at which torque enters a shaft [m]: as given, else that of its coupling."""
     given = inputs.shafts[index].torque_position
     if given is not None:
         return given
@@ -157,7 +178,7 @@ def _shaft_ports(
     speed: float,
     index: int,
 ) -> ShaftPorts:
-    """One shaft's ports; its own part of the mesh force is +d on the pinion, -d on the wheel."""
+    """Return one shaft with the loads of the ports; the mesh force on the wheel opposes that on the pinion."""
     shaft, name, sign = inputs.shafts[index], ("pinion", "wheel")[index], (1.0, -1.0)[index]
     z = directions.positions(inputs.face_start, path.plane.face_width, stations)
     hubs = [port.inputs.position for port in couplings if port.inputs.shaft == name]
@@ -205,9 +226,10 @@ def _collar_loads(
     position: float,
     index: int,
 ) -> FloatArray:
-    """Tilting moment of a unit axial force of the collar, +Z on the pinion, -Z on the wheel, at its radius, y = b.
+    """Return the loads of a unit axial force at the thrust collar, +Z on the pinion, -Z on the wheel; else 0.
 
-    The collar holds what mesh and couplings push along the pinion. Without one it is 0.
+    The force acts at the collar's radius and at y = b as a tilting moment. It balances the axial forces of mesh and
+    couplings on the pinion.
     """
     loads = np.zeros((2, 2 * model.z.size))
     if inputs.collar_radius is not None:

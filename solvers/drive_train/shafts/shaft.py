@@ -1,9 +1,9 @@
 """Shafts in two bearings: displacements of their nodes under nodal loads, by statics and strain energy.
 
-Two bearings are statically determinate: shear V and bending moment M of every element follow from the loads alone, V
-constant and M linear between nodes. So the flexibility is the second derivative of the strain energy
-int [M^2 / (2 E I) + V^2 / (2 kappa G A)] dz (Timoshenko's beam), exact for stepped cylinders under nodal loads,
-symmetric and without negative eigenvalues by construction, however short an element is.
+A shaft in two bearings is statically determinate: shear force V and bending moment M of every element follow from the
+loads alone. V is constant and M linear between nodes. The flexibility is the second derivative of the strain energy
+int [M^2 / (2 E I) + V^2 / (2 kappa G A)] dz of Timoshenko's beam. It is exact for stepped cylinders under nodal loads,
+and symmetric and positive semidefinite by construction, even for very short elements.
 """
 
 from dataclasses import dataclass
@@ -19,11 +19,12 @@ GRAVITY = 9.80665  # m/s^2, standard gravity (CGPM 1901)
 
 @dataclass(frozen=True, slots=True)
 class ShaftModel:
-    """A shaft by its N nodes at z [m]; deflections w [m] and slopes s [rad] of one plane stand in one vector (2N,).
+    """A shaft with N nodes at z [m]; a vector (2N,) holds deflections [m] and slopes [rad] of all nodes in one plane.
 
-    Loads conjugate to them are forces [N] and moments [N m]. `flexibility` (2N, 2N) holds both bearings at rest;
-    `bearing_share` (2, 2N) is the load on the bearings under nodal loads and, transposed, the motion of the nodes under
-    displacements of the bearings. `torsion` (N, N) is the twist [rad] under nodal torques. `weight` (2N,).
+    The conjugate loads are forces [N] and moments [N m]. `flexibility` (2N, 2N) is that with both bearings at rest.
+    `bearing_share` (2, 2N) gives the load on the bearings under nodal loads; transposed, it gives the motion of the
+    nodes under displacements of the bearings. `torsion` (N, N) gives the twist under nodal torques [rad/(N m)].
+    `weight` (2N,) is the nodal load of the weight.
     """
 
     z: FloatArray
@@ -33,23 +34,59 @@ class ShaftModel:
     weight: FloatArray
 
     def node(self, position: float) -> int:
-        """The node at a position [m]."""
+        """Return the number of the node at a position [m]."""
         return int(np.argmin(np.abs(self.z - position)))
 
 
 def shear_coefficient(poisson_ratio: float, bore_ratio: float) -> float:
-    """Kappa of a hollow circle by Cowper (1966), m = d_i/d_o (Eq. D2)."""
+    """Compute the shear coefficient of a hollow circular cross-section.
+
+    Parameters
+    ----------
+    poisson_ratio : float
+        Poisson's ratio [-].
+    bore_ratio : float
+        Inner over outer diameter, m = d_i/d_o [-].
+
+    Returns
+    -------
+    float
+        Shear coefficient kappa [-].
+
+    Notes
+    -----
+    Eq. D2; Cowper (1966).
+    """
     square = bore_ratio**2
     plain = (7 + 6 * poisson_ratio) * (1 + square) ** 2
     return 6 * (1 + poisson_ratio) * (1 + square) ** 2 / (plain + (20 + 12 * poisson_ratio) * square)
 
 
 def shaft_model(shaft: Shaft, torque_position: float, positions: FloatArray) -> ShaftModel:
-    """The shaft with nodes at section ends, bearings, where torque enters, and at `positions` [m] (Eq. D2)."""
+    """Compute the flexibility of a shaft at its nodes.
+
+    Parameters
+    ----------
+    shaft : Shaft
+        The shaft.
+    torque_position : float
+        Position at which torque enters or leaves [m].
+    positions : FloatArray
+        Positions of further nodes [m]. Ends of sections, bearings and `torque_position` are nodes anyway.
+
+    Returns
+    -------
+    ShaftModel
+        The nodes and the matrices at the nodes.
+
+    Notes
+    -----
+    Eq. D2.
+    """
     ends = shaft.start + np.cumsum([0.0, *(section.length for section in shaft.sections)])
     bearings = [bearing.position for bearing in shaft.bearings]
-    wanted = np.sort(np.concatenate([ends, bearings, [torque_position], positions]))
-    z = wanted[np.append(True, np.diff(wanted) > COINCIDENT)]
+    places = np.sort(np.concatenate([ends, bearings, [torque_position], positions]))
+    z = places[np.append(True, np.diff(places) > COINCIDENT)]
     middles = (z[1:] + z[:-1]) / 2
     index = np.clip(np.searchsorted(ends, middles) - 1, 0, len(shaft.sections) - 1)
     elements = [shaft.sections[i] for i in index]
@@ -64,17 +101,17 @@ def shaft_model(shaft: Shaft, torque_position: float, positions: FloatArray) -> 
 
 
 def area(section: ShaftSection) -> float:
-    """Cross-section [m^2]."""
+    """Return the area of the cross-section [m^2]."""
     return pi / 4 * (section.outer_diameter**2 - section.inner_diameter**2)
 
 
 def second_moment(section: ShaftSection) -> float:
-    """Second moment of area I [m^4]; the polar one is twice it."""
+    """Return the second moment of area I [m^4]; the polar moment is 2 I."""
     return pi / 64 * (section.outer_diameter**4 - section.inner_diameter**4)
 
 
 def _bearing_share(z: FloatArray, first: float, second: float) -> FloatArray:
-    """Loads on the bearings under unit nodal forces and moments: the levers of statics."""
+    """Return the loads on the bearings under unit nodal forces and moments, by statics."""
     lever, turn = (z - first) / (second - first), np.full(z.size, 1.0 / (second - first))
     return np.array([np.concatenate([1.0 - lever, -turn]), np.concatenate([lever, turn])])
 
@@ -82,7 +119,11 @@ def _bearing_share(z: FloatArray, first: float, second: float) -> FloatArray:
 def _flexibility(
     shaft: Shaft, z: FloatArray, elements: list[ShaftSection], share: FloatArray, bearings: list[float]
 ) -> FloatArray:
-    """G^T G, rows of G the roots of the energies of mean moment, its slope and shear of every element."""
+    """Return the flexibility as G^T G.
+
+    Three rows of G belong to an element. Their squares are the energies of its mean moment, of the moment's slope and
+    of its shear force.
+    """
     nodes = z.size
     forces = np.hstack([np.eye(nodes), np.zeros((nodes, nodes))])
     for bearing, load in zip(bearings, share, strict=True):
@@ -110,7 +151,11 @@ def _flexibility(
 
 
 def _torsion(shaft: Shaft, z: FloatArray, elements: list[ShaftSection], torque_position: float) -> FloatArray:
-    """Twist at node i by a torque at node j: that of the part both share, from the torque input on."""
+    """Return the twist at node i per torque at node j.
+
+    It is the twist of the part between the torque input and the nearer of both nodes, and 0 if the nodes lie on
+    different sides of the torque input.
+    """
     modulus = shaft.youngs_modulus / (2 * (1 + shaft.poisson_ratio))
     twist = np.diff(z) / (2 * modulus * np.array([second_moment(part) for part in elements]))
     path = np.append(0.0, np.cumsum(twist))
@@ -120,7 +165,7 @@ def _torsion(shaft: Shaft, z: FloatArray, elements: list[ShaftSection], torque_p
 
 
 def _weight(shaft: Shaft, z: FloatArray, elements: list[ShaftSection]) -> FloatArray:
-    """Consistent nodal loads of the weight: q L / 2 and +-q L^2 / 12 at the ends of every element."""
+    """Return the consistent nodal loads of the weight: q L / 2 and +-q L^2 / 12 at the ends of every element."""
     lengths = np.diff(z)
     load = GRAVITY * shaft.density * np.array([area(part) for part in elements]) * lengths
     forces, moments = np.zeros(z.size), np.zeros(z.size)

@@ -1,6 +1,7 @@
-"""The axial forces on both shafts: the mesh's is known, a coupling's friction has a limit but no known sign.
+"""The axial forces on both shafts.
 
-API 613 (5th ed., 2003) adds the coupling's force numerically and loads a thrust bearing to half its ultimate rating.
+The axial force of the mesh is known. That of a coupling's friction has a limit, but its sign is not known. API 613 (5th
+ed., 2003) adds the coupling's force numerically and allows half the ultimate rating of a thrust bearing.
 """
 
 from solvers.drive_train.inputs import DriveTrainInputs
@@ -14,11 +15,9 @@ USABLE = 0.5  # of the ultimate rating
 
 @record
 class Thrust:
-    """Of one shaft, towards +Z [N]: mesh, its couplings, their friction's limit, bounds of the thrust bearing's load.
+    """Axial forces on one shaft, positive towards +Z, and the bounds of the load of its thrust bearing.
 
-    `coupling` is the stated part of the limit, `collar` the force on this shaft that holds mesh and couplings of the
-    pinion, None without a collar. Bounds are None where a collar stands in for the bearing. `use` is the largest load
-    over half the ultimate rating. `customary` is 0.25 T / D, the rule of thumb for couplings.
+    The bounds are None if a thrust collar replaces the bearing. `customary` is the rule of thumb for couplings.
     """
 
     mesh: float = quantity("axial force of the mesh", "F_a", unit="n")
@@ -54,12 +53,31 @@ class Thrust:
     @property
     @computed("thrust reversal", text="whether the coupling's friction can reverse the bearing's load")
     def reverses(self) -> bool:
-        """Whether friction can reverse the load of the bearing."""
+        """Whether the coupling's friction can reverse the load of the thrust bearing."""
         return self.lower is not None and self.upper is not None and self.lower < 0.0 < self.upper
 
 
 def mesh_thrust(inputs: DriveTrainInputs, path: PathOfContact, directions: Frame) -> float:
-    """Axial force of the mesh on the pinion towards +Z, sigma h F_bt tan beta_b [N] (Eq. D14)."""
+    """Compute the axial force of the mesh on the pinion.
+
+    Parameters
+    ----------
+    inputs : DriveTrainInputs
+        The unit.
+    path : PathOfContact
+        Path of contact of its gear pair.
+    directions : Frame
+        The unit's frame of reference.
+
+    Returns
+    -------
+    float
+        Axial force sigma h F_bt tan beta_b, positive towards +Z [N].
+
+    Notes
+    -----
+    Eq. D14.
+    """
     tangential = inputs.mesh.distribution.load.torque / path.pair.pinion.base_radius
     return float(tangential * directions.force[2])
 
@@ -71,12 +89,29 @@ def thrust_budget(
     limits: tuple[float, float],
     diameters: tuple[float | None, float | None],
 ) -> tuple[Thrust, Thrust]:
-    """Bounds of both shafts' thrust; `mesh` on the pinion, thrust and limits of the couplings of each shaft [N].
+    """Compute the axial forces on both shafts and the bounds of the load of their thrust bearings.
 
-    `diameters` [m] of the shafts at their couplings. A thrust collar transfers the thrust of the pinion's
-    couplings to the wheel's bearing.
+    Parameters
+    ----------
+    inputs : DriveTrainInputs
+        The unit.
+    mesh : float
+        Axial force of the mesh on the pinion [N].
+    couplings : tuple of float
+        Thrust of the couplings on the shafts of pinion and wheel [N].
+    limits : tuple of float
+        Friction limits of this thrust [N].
+    diameters : tuple of float or None
+        Diameters of the shafts at their couplings, None without a coupling [m].
 
-    Eq. D14.
+    Returns
+    -------
+    tuple of Thrust
+        Axial forces on the shafts of pinion and wheel [N].
+
+    Notes
+    -----
+    Eq. D14. A thrust collar transfers the thrust of the pinion's couplings to the wheel's thrust bearing.
     """
     pinion, wheel = limits
     collared = inputs.collar_radius is not None
@@ -108,7 +143,7 @@ def thrust_budget(
 
 
 def _use(lower: float | None, upper: float | None, ultimate: float | None) -> float | None:
-    """Largest load over the usable half of the rating; None without one, or without a bearing."""
+    """Return the largest load over the usable half of the rating; None without a rating or a bearing."""
     if lower is None or upper is None or ultimate is None:
         return None
     return max(abs(lower), abs(upper)) / (USABLE * ultimate)

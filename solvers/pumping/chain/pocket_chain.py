@@ -1,6 +1,6 @@
 """The paper's chain of pockets (Eqs. 2-7), marched through the strokes of its pockets.
 
-Its pressures depend on the number of pockets, which is a constant of the model.
+Pressures depend on the number of pockets, which is a constant of this model.
 """
 
 from math import ceil
@@ -28,16 +28,16 @@ from solvers.pumping.flow.space_flow import (
 from solvers.pumping.inputs import Closure
 from solvers.pumping.space.face import Stretch
 
-STEPS = 2000  # at least
-_REFINEMENTS = (1, 2, 4, 8)  # of the steps, until Newton's method converges in all of them
+STEPS = 2000  # least number of time steps in a stroke
+_REFINEMENTS = (1, 2, 4, 8)  # factors on the number of steps, tried until Newton's method converges in every step
 
 
 def pocket_chain(
     gas: Gas, ducts: list[tuple[Stretch, Duct]], angle: FloatArray, closure: Closure, steps: int = STEPS
 ) -> SpaceFlow:
-    """March every stretch of a tooth space through its stroke in at least so many steps.
+    """March every stretch of a tooth space through its stroke in at least `steps` steps.
 
-    Raises NoSolution: newton_not_converged.
+    The gas is recorded at each `angle` [rad]. Raises NoSolution: newton_not_converged.
     """
     substeps = ceil(steps / (angle.size - 1))
     marches = [_march(gas, stretch, duct, angle, closure, substeps) for stretch, duct in ducts]
@@ -45,7 +45,7 @@ def pocket_chain(
 
 
 def _march(gas: Gas, stretch: Stretch, duct: Duct, angle: FloatArray, closure: Closure, substeps: int) -> March:
-    """The march of one stretch, in finer steps where a flow that reverses within one stalls Newton's method."""
+    """March one stretch; repeat with shorter steps if Newton's method stalls because the flow reverses in a step."""
     for refinement in _REFINEMENTS:
         count = refinement * substeps
         record = empty_record(gas, angle.size, duct.cells, count * (angle.size - 1))
@@ -64,7 +64,10 @@ def _march(gas: Gas, stretch: Stretch, duct: Duct, angle: FloatArray, closure: C
 def march_chain(
     gas: Gas, duct: Duct, pockets: RecordArray, angles: FloatArray, substeps: int, record: Record, isentropic: bool
 ) -> tuple[int, float]:
-    """March over all `angles` [rad] in equal steps; their number, or -1 if one did not converge, and its residual."""
+    """March over all `angles` [rad] in equal steps.
+
+    Returns the number of steps and 0, or -1 and the residual of the step that did not converge.
+    """
     turn = (angles[-1] - angles[0]) / ((angles.size - 1) * substeps)
     dt = turn / duct.speed
     low, high, taken = 0, 0, 0
@@ -101,7 +104,7 @@ def _renew(
     new_high: int,
     angle: float,
 ) -> None:
-    """Add the content of pockets whose stroke ends to the balances, fill those whose stroke begins with ambient gas."""
+    """Fill pockets whose stroke begins with ambient gas; add content that begins or ends its stroke to the balances."""
     per_energy = gas.exponent - 1.0
     for i in range(low, high):
         if i < new_low or i >= new_high:
@@ -128,13 +131,13 @@ def _set_walls(duct: Duct, pockets: RecordArray, low: int, high: int, angle: flo
 
 @kernel
 def _temperature(gas: Gas, pressure: float, area: float, content: float) -> float:
-    """Temperature of a pocket [K]."""
+    """Compute the temperature of a pocket [K]."""
     return pressure * area / (content * gas.constant)
 
 
 @kernel
 def _mach(gas: Gas, left: float, right: float) -> float:
-    """Mach number in the narrowest section of the jet between two pressures [Pa]."""
+    """Compute the Mach number in the narrowest section of the jet between two pressures [Pa]."""
     return throat_mach(gas, max(left, right), min(left, right))
 
 
@@ -190,7 +193,7 @@ def _record_jets(gas: Gas, pockets: RecordArray, record: Record, low: int, high:
 
 @kernel
 def _record_pockets(gas: Gas, duct: Duct, pockets: RecordArray, record: Record, low: int, high: int, dt: float) -> None:
-    """Record losses to the walls, means and extremes; the new state becomes the old one of the next step."""
+    """Record losses to the walls, means and extremes, and take the new state as the old state of the next step."""
     mass = energy = work = 0.0
     for i in range(low, high):
         growth = pockets[i].area - pockets[i].start_area

@@ -1,11 +1,12 @@
-"""One implicit time step of a chain of pockets: mass and energy of each, exchanged by nozzle flow.
+"""One implicit time step of a chain of pockets, which exchange mass and energy by nozzle flow.
 
  dm_i/dt = M_{i-1/2} - M_{i+1/2} - Q_i                                    (Eq. 3, with the density in the radial term)
  dE_i/dt = (M h)_{i-1/2} - (M h)_{i+1/2} - (Q h)_i - p dV/dt              energy closure, h = c_p T upstream
  p = p_e (rho/rho_e)^gamma                                                isentropic closure (Eq. 1)
 
-Backward Euler, the wall work with the mean pressure of the step; Newton's method on pressure and mass of all pockets,
-its blocks of two by two eliminated along the chain. All amounts are per metre of face.
+The step is a backward Euler step; the wall work takes the mean pressure of the step. Newton's method solves for
+pressure and mass of all pockets; its blocks of two by two are eliminated along the chain. All amounts are per metre of
+face.
 """
 
 from typing import Any, NamedTuple
@@ -16,23 +17,24 @@ from solvers.arrays import Fields, RecordArray, floats, records
 from solvers.compiled import kernel
 from solvers.pumping.flow.nozzle import Gas, mass_flux
 
-_NEWTON_LIMIT = 200  # limit; a step that has not converged by then does not
-_TOLERANCE = 1e-10  # of a pocket's content at ambient pressure
-_ROUNDING = 1e-7  # residual accepted once Newton's method no longer lowers it: pressures differ by round-off only
-_HALVINGS = 12  # a step of 1/4096 of Newton's no longer helps
+_NEWTON_LIMIT = 200  # iterations, after which a step counts as not converged
+_TOLERANCE = 1e-10  # of the residual, relative to a pocket's content at ambient pressure
+_ROUNDING = 1e-7  # residual accepted if Newton's method no longer lowers it: pressures differ by round-off only
+_HALVINGS = 12  # of a Newton step; 1/4096 of it no longer helps
 
 
 STATE = floats("pressure", "mass")
-"""State of a pocket or step of Newton's method: pressure [Pa] and mass [kg/m]."""
+"""State of a pocket, or its correction by Newton's method: pressure [Pa] and mass [kg/m]."""
 
 ROW = floats("by_pressure", "by_mass")
-"""Derivatives of a residual by the pressure and the mass of a pocket."""
+"""Derivatives of a residual by the pressure and by the mass of a pocket."""
 
 BALANCE: Fields = [*floats("flow", "leak", "residual"), ("lower", ROW), ("diagonal", ROW), ("upper", ROW)]
 """Balance of mass or of heat of a pocket.
 
-Flow through the face below it towards the high end [kg/s or W], leakage outwards [kg/(s m) or W/m], residual of
-Newton's method [kg/m or J/m] and its derivatives by the pocket below, the pocket itself and the one above.
+Flow through the face below the pocket towards the high end [kg/s or W], leakage outwards [kg/(s m) or W/m], residual
+of Newton's method [kg/m or J/m], derivatives of the residual by the state of the pocket below (`lower`), of the pocket
+itself (`diagonal`) and of the pocket above (`upper`).
 """
 
 POCKET: Fields = [
@@ -46,18 +48,19 @@ POCKET: Fields = [
 ]
 """A pocket and the face below it.
 
-State at the start and the end of a step, trial state and correction of Newton's method; both balances; area at the
-start and the end of the step [m^2], radial gap [m] and section of the face [m^2] at its end.
+State at the start (`old`) and at the end (`new`) of a step, trial state and correction of Newton's method, both
+balances; area at the start and at the end of the step [m^2]; radial gap [m] and section of the face [m^2] (`opening`)
+at the end of the step.
 """
 
 
 def empty_pockets(pockets: int) -> RecordArray:
-    """An array of POCKET for so many pockets and the face above the last."""
+    """Return an array of POCKET for the number of pockets, and one more for the face above the last pocket."""
     return records(pockets + 1, POCKET)
 
 
 class Side(NamedTuple):
-    """A side of an opening: pressure [Pa], mass [kg/m] and section [m^2] of a pocket, or of one of ambient gas."""
+    """Gas on one side of an opening: pressure [Pa], mass [kg/m] and section [m^2]."""
 
     pressure: float
     mass: float
@@ -65,7 +68,7 @@ class Side(NamedTuple):
 
 
 class Passage(NamedTuple):
-    """What passes an opening from left to right, and its derivatives by the pressure and mass on both sides."""
+    """Flow of mass or heat through an opening from left to right, and its derivatives by the state of both sides."""
 
     flow: float
     by_left_pressure: float
@@ -76,15 +79,15 @@ class Passage(NamedTuple):
 
 @kernel
 def ambient(gas: Gas) -> Side:
-    """The side of ambient gas."""
+    """Return a side with ambient gas."""
     return Side(gas.pressure, gas.density, 1.0)
 
 
 @kernel
 def passages(gas: Gas, left: Side, right: Side) -> tuple[Passage, Passage]:
-    """Mass and heat per open area from the side of the higher pressure to the other, at the temperature of the first.
+    """Compute the flow of mass and of heat per open area.
 
-    Per unit of mass the heat is that of its source, c_p T = c_p p A/(m R).
+    The side of the higher pressure is the source; the gas carries its enthalpy c_p T = c_p p A/(m R).
     """
     forward = left.pressure >= right.pressure
     source, sink = (left, right) if forward else (right, left)
@@ -108,9 +111,35 @@ def passages(gas: Gas, left: Side, right: Side) -> tuple[Passage, Passage]:
 def advance(
     gas: Gas, width: float, discharge: float, pockets: RecordArray, low: int, high: int, dt: float, isentropic: bool
 ) -> tuple[bool, float]:
-    """Pressure and mass of the pockets low..high after dt [s]; whether Newton's method converged, and its residual.
+    """Compute pressure and mass of the active pockets at the end of a time step.
 
-    `width` of a pocket [m], `discharge` coefficient of all openings. Eqs. 1, 3, P5.
+    Parameters
+    ----------
+    gas : Gas
+        The perfect gas and its ambient state.
+    width : float
+        Width of a pocket along the face [m].
+    discharge : float
+        Discharge coefficient of all openings.
+    pockets : RecordArray
+        Records of POCKET, (pockets + 1,); the new states and the balances are changed in place.
+    low, high : int
+        First active pocket, and the pocket after the last active one.
+    dt : float
+        Length of the step [s].
+    isentropic : bool
+        Whether pockets keep their entropy instead of conserving energy.
+
+    Returns
+    -------
+    converged : bool
+        Whether Newton's method converged.
+    error : float
+        Largest residual, relative to the content of its pocket at ambient pressure.
+
+    Notes
+    -----
+    Eqs. 1, 3, P5.
     """
     error, share, halvings, newton = np.inf, 0.0, 0, 0
     for i in range(low, high):
@@ -118,32 +147,34 @@ def advance(
         pockets[i].correction.pressure = pockets[i].correction.mass = 0.0
     while newton < _NEWTON_LIMIT:
         for i in range(low, high):
-            pockets[i].trial.pressure = _stepped(pockets[i].new.pressure, share * pockets[i].correction.pressure)
-            pockets[i].trial.mass = _stepped(pockets[i].new.mass, share * pockets[i].correction.mass)
-        found = _assemble(gas, width, discharge, pockets, low, high, dt, isentropic)
-        stalled = not found < error and halvings == _HALVINGS - 1
-        if found < _TOLERANCE or (stalled and error < _ROUNDING):
-            _settle(gas, width, pockets, low, high, dt, isentropic)
-            return True, found
-        if found < error or stalled:
+            pockets[i].trial.pressure = _add_change(pockets[i].new.pressure, share * pockets[i].correction.pressure)
+            pockets[i].trial.mass = _add_change(pockets[i].new.mass, share * pockets[i].correction.mass)
+        trial_error = _assemble(gas, width, discharge, pockets, low, high, dt, isentropic)
+        stalled = not trial_error < error and halvings == _HALVINGS - 1
+        if trial_error < _TOLERANCE or (stalled and error < _ROUNDING):
+            _set_from_flows(gas, width, pockets, low, high, dt, isentropic)
+            return True, trial_error
+        if trial_error < error or stalled:
             for i in range(low, high):
                 pockets[i].new = pockets[i].trial
             _eliminate(pockets, low, high)
-            error, share, halvings, newton = found, 1.0, 0, newton + 1
+            error, share, halvings, newton = trial_error, 1.0, 0, newton + 1
         else:
             share, halvings = 0.5 * share, halvings + 1
     return False, error
 
 
 @kernel
-def _stepped(value: float, change: float) -> float:
-    """A positive value after a step of Newton's method that takes at most 80 % of it."""
+def _add_change(value: float, change: float) -> float:
+    """Add a change by Newton's method to a positive value, which loses at most 80 % of itself."""
     return value + max(change, -0.8 * value)
 
 
 @kernel
-def _settle(gas: Gas, width: float, pockets: RecordArray, low: int, high: int, dt: float, isentropic: bool) -> None:
-    """Mass and pressure that follow from the converged flows exactly, so that mass and energy are conserved."""
+def _set_from_flows(
+    gas: Gas, width: float, pockets: RecordArray, low: int, high: int, dt: float, isentropic: bool
+) -> None:
+    """Compute mass and pressure from the converged flows, so that mass and energy are conserved to rounding."""
     g = gas.exponent
     for i in range(low, high):
         old_area, area = pockets[i].start_area, pockets[i].area
@@ -163,7 +194,7 @@ def _settle(gas: Gas, width: float, pockets: RecordArray, low: int, high: int, d
 def _assemble(
     gas: Gas, width: float, discharge: float, pockets: RecordArray, low: int, high: int, dt: float, isentropic: bool
 ) -> float:
-    """Flows, residuals and Jacobian of the trial; the largest residual relative to the ambient content."""
+    """Set flows, residuals and Jacobian of the trial state; return the largest residual relative to ambient content."""
     error = 0.0
     _store(gas, pockets, low, high, isentropic)
     _leak(gas, discharge, pockets, low, high, dt, isentropic)
@@ -177,7 +208,7 @@ def _assemble(
 
 @kernel
 def _store(gas: Gas, pockets: RecordArray, low: int, high: int, isentropic: bool) -> None:
-    """Set the residuals and blocks of closed pockets: kept mass, and kept energy less wall work or kept entropy."""
+    """Set residuals and derivatives as if the pockets were closed: they keep mass, and energy or entropy."""
     g = gas.exponent
     for i in range(low, high):
         p, content = pockets[i].trial.pressure, pockets[i].trial.mass
@@ -214,24 +245,24 @@ def _side(pockets: RecordArray, i: int) -> Side:
 
 @kernel
 def _add(row: Any, share: float, by_pressure: float, by_mass: float) -> None:
-    """Add to a row of derivatives."""
+    """Add a share of two derivatives to a row of the Jacobian."""
     row.by_pressure += share * by_pressure
     row.by_mass += share * by_mass
 
 
 @kernel
 def _leak(gas: Gas, discharge: float, pockets: RecordArray, low: int, high: int, dt: float, isentropic: bool) -> None:
-    """Flow through the radial gaps."""
+    """Add the flow through the radial gaps to the balances."""
     for i in range(low, high):
         opening = discharge * pockets[i].gap
         mass, heat = passages(gas, _side(pockets, i), ambient(gas))
-        _lose(pockets[i].mass_balance, opening, dt, mass, counts=True)
-        _lose(pockets[i].heat_balance, opening, dt, heat, counts=not isentropic)
+        _add_leakage(pockets[i].mass_balance, opening, dt, mass, counts=True)
+        _add_leakage(pockets[i].heat_balance, opening, dt, heat, counts=not isentropic)
 
 
 @kernel
-def _lose(balance: Any, opening: float, dt: float, passage: Passage, counts: bool) -> None:
-    """What leaves a pocket through its radial gap, in a balance that counts or is recorded only."""
+def _add_leakage(balance: Any, opening: float, dt: float, passage: Passage, counts: bool) -> None:
+    """Record the leakage through a radial gap, and add it to the residual if the balance `counts`."""
     balance.leak = opening * passage.flow
     if counts:
         share = dt * opening
@@ -243,7 +274,7 @@ def _lose(balance: Any, opening: float, dt: float, passage: Passage, counts: boo
 def _exchange(
     gas: Gas, width: float, discharge: float, pockets: RecordArray, low: int, high: int, dt: float, isentropic: bool
 ) -> None:
-    """Flow through the faces between two pockets, and between a pocket and the ambient."""
+    """Add the flow through the faces to the balances: between two pockets, and between a pocket and the ambient."""
     right = ambient(gas)
     for face in range(low, high + 1):
         left = right
@@ -253,26 +284,26 @@ def _exchange(
         share = dt * opening / width
         pockets[face].mass_balance.flow, pockets[face].heat_balance.flow = opening * mass.flow, opening * heat.flow
         if face > low:
-            _flow_out(pockets[face - 1].mass_balance, share, mass)
+            _add_outflow(pockets[face - 1].mass_balance, share, mass)
             if not isentropic:
-                _flow_out(pockets[face - 1].heat_balance, share, heat)
+                _add_outflow(pockets[face - 1].heat_balance, share, heat)
         if face < high:
-            _flow_in(pockets[face].mass_balance, share, mass)
+            _add_inflow(pockets[face].mass_balance, share, mass)
             if not isentropic:
-                _flow_in(pockets[face].heat_balance, share, heat)
+                _add_inflow(pockets[face].heat_balance, share, heat)
 
 
 @kernel
-def _flow_out(balance: Any, share: float, passage: Passage) -> None:
-    """What leaves a pocket through the face above it."""
+def _add_outflow(balance: Any, share: float, passage: Passage) -> None:
+    """Add the flow out of a pocket through the face above it."""
     balance.residual += share * passage.flow
     _add(balance.diagonal, share, passage.by_left_pressure, passage.by_left_mass)
     _add(balance.upper, share, passage.by_right_pressure, passage.by_right_mass)
 
 
 @kernel
-def _flow_in(balance: Any, share: float, passage: Passage) -> None:
-    """What enters a pocket through the face below it."""
+def _add_inflow(balance: Any, share: float, passage: Passage) -> None:
+    """Add the flow into a pocket through the face below it."""
     balance.residual -= share * passage.flow
     _add(balance.diagonal, -share, passage.by_right_pressure, passage.by_right_mass)
     _add(balance.lower, -share, passage.by_left_pressure, passage.by_left_mass)
@@ -280,9 +311,10 @@ def _flow_in(balance: Any, share: float, passage: Passage) -> None:
 
 @kernel
 def _eliminate(pockets: RecordArray, low: int, high: int) -> None:
-    """Newton's correction by elimination of the blocks along the chain.
+    """Compute Newton's correction by elimination of the blocks along the chain.
 
-    Once a pocket is solved for, the upper rows and the residuals of its balances belong to its pressure and its mass.
+    The forward pass solves the two balances of each pocket for its pressure and its mass. From then on the mass balance
+    holds the row of the pressure, and the heat balance holds the row of the mass.
     """
     for i in range(low, high):
         mass, heat = pockets[i].mass_balance, pockets[i].heat_balance
@@ -308,7 +340,7 @@ def _eliminate(pockets: RecordArray, low: int, high: int) -> None:
 
 @kernel
 def _substitute(balance: Any, pressure: Any, mass: Any) -> None:
-    """Take the pocket below, solved for its pressure and mass in its two balances, out of a balance."""
+    """Eliminate the pocket below from a balance; its two balances already hold its pressure and its mass."""
     p, m = balance.lower.by_pressure, balance.lower.by_mass
     balance.diagonal.by_pressure -= p * pressure.upper.by_pressure + m * mass.upper.by_pressure
     balance.diagonal.by_mass -= p * pressure.upper.by_mass + m * mass.upper.by_mass

@@ -1,1 +1,1 @@
-"""What the flow models share: nozzle (the gas and its discharge), duct, space_flow (records and results)."""
+"""Parts that the flow models share: nozzle (the gas and its discharge), duct, space_flow (records and results)."""

@@ -1,4 +1,4 @@
-"""A stretch of tooth space as a duct: its cells along the face and its walls, which move with the gears."""
+"""A stretch of tooth space as a duct, cut into cells along the face, whose walls move with the gears."""
 
 from typing import NamedTuple
 
@@ -6,15 +6,15 @@ from solvers.arrays import FloatArray, RecordArray, floats, records
 from solvers.compiled import kernel
 
 WALL = floats("area", "clearance", "carried")
-"""Walls of a cell: see `Wall`."""
+"""Walls of a cell, see `Wall`."""
 
 
 class Duct(NamedTuple):
     """A stretch of a tooth space cut into equal cells.
 
-    `start` [m] from the end that meshes first, `width` of a cell [m], `cells`; `lag` of the stroke per metre of face
-    [rad/m]; `speed` of the owner [rad/s]; `table` of walls (`wall_table`) at `first_angle` + k `angle_step` [rad];
-    `discharge` coefficient of the radial gaps.
+    `start` [m] from the end that meshes first; `width` of a cell [m]; number of `cells`; `lag`: angle by which the
+    stroke comes later per metre of face [rad/m]; `speed` of the owner [rad/s]; `table` of walls (`wall_table`), whose
+    row k belongs to the angle `first_angle` + k `angle_step` [rad]; `discharge` coefficient of the radial gaps.
     """
 
     start: float
@@ -29,7 +29,7 @@ class Duct(NamedTuple):
 
 
 class Wall(NamedTuple):
-    """Section of a tooth space [m^2], clearance of both sides [m], area of gas that the flanks carried off [m^2]."""
+    """Section of a tooth space [m^2], sum of both clearances [m], area of gas that the flanks carried out [m^2]."""
 
     area: float
     clearance: float
@@ -37,7 +37,7 @@ class Wall(NamedTuple):
 
 
 def wall_table(area: FloatArray, clearance: FloatArray, carried: FloatArray) -> RecordArray:
-    """Walls at equal steps of the owner's angle: arrays of what `Wall` holds at one."""
+    """Build the table of walls from arrays of the values in `Wall` at equal steps of the owner's angle."""
     table = records(area.size, WALL)
     table.area, table.clearance, table.carried = area, clearance, carried
     return table
@@ -45,7 +45,7 @@ def wall_table(area: FloatArray, clearance: FloatArray, carried: FloatArray) -> 
 
 @kernel
 def wall_at(duct: Duct, z: float, angle: float) -> Wall:
-    """The walls at z [m] when the owner stands at `angle` [rad]; end values outside the stroke."""
+    """Interpolate the walls at z [m] for an `angle` [rad] of the owner; outside the stroke, return the end values."""
     position = (angle - duct.lag * z - duct.first_angle) / duct.angle_step
     table = duct.table
     last = table.size - 1
@@ -61,13 +61,13 @@ def wall_at(duct: Duct, z: float, angle: float) -> Wall:
 
 @kernel
 def phase_of(duct: Duct, i: int, angle: float) -> float:
-    """The angle of the owner less the lag of cell i [rad]: what the walls of the cell depend on."""
+    """Compute the phase of cell i [rad], on which its walls depend: the owner's angle less the lag of the cell."""
     return angle - duct.lag * (duct.start + (i + 0.5) * duct.width)
 
 
 @kernel
 def active_range(duct: Duct, angle: float) -> tuple[int, int]:
-    """First active cell and the one after the last: those whose centre's phase lies in the stroke."""
+    """Find the first active cell and the cell after the last active one: cells whose phase is in the stroke."""
     low, high = 0, 0
     for i in range(duct.cells):
         phase = phase_of(duct, i, angle)
@@ -80,14 +80,14 @@ def active_range(duct: Duct, angle: float) -> tuple[int, int]:
 
 @kernel
 def stroke_end(duct: Duct) -> float:
-    """Phase at which the stroke ends [rad]."""
+    """Compute the phase at which the stroke ends [rad]."""
     end: float = duct.first_angle + duct.angle_step * (duct.table.size - 1)
     return end
 
 
 @kernel
 def stroke_share(duct: Duct, z: float, angle: float, turn: float) -> float:
-    """Share of a step of `turn` from `angle` [rad] in which the place z [m] is in its stroke."""
+    """Compute the share of a step of `turn` from `angle` [rad] in which the position z [m] is in its stroke."""
     phase = angle - duct.lag * z
     inside = min(phase + turn, stroke_end(duct)) - max(phase, duct.first_angle)
     return min(max(inside / turn, 0.0), 1.0)

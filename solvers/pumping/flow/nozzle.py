@@ -1,4 +1,4 @@
-"""Discharge of a perfect gas through an opening (Eq. 7 is its choked limit), and the ambient state."""
+"""The perfect gas with its ambient state, and its discharge through an opening; Eq. 7 is the choked limit."""
 
 from math import sqrt
 from typing import NamedTuple
@@ -8,13 +8,16 @@ import numpy as np
 from solvers.compiled import inlined_kernel, kernel
 from solvers.pumping.inputs import MOLAR_GAS_CONSTANT, Ambient
 
-_LINEAR = 1e-7  # relative pressure drop below which the flux is continued linearly, for a finite Jacobian
-_SMALL = 1e-2  # relative pressure drop below which the expansion is a series: seven terms leave 1e-16 of it
-_TERMS = 7  # with drops up to _SMALL the first term left out is below 1e-16
+_LINEAR = 1e-7  # relative pressure drop; the flux is linear below it, so that its derivative stays finite
+_SMALL = 1e-2  # relative pressure drop; below it the expansion is computed by a series
+_TERMS = 7  # of the series; for drops up to _SMALL the first term left out is below 1e-16
 
 
 class Gas(NamedTuple):
-    """The perfect gas and its ambient state, SI; ratios of pressure and density from rest to the speed of sound."""
+    """The perfect gas and its ambient state, SI.
+
+    `critical_ratio` and `critical_density_ratio` are those of the pressure and the density at Mach 1 to those at rest.
+    """
 
     exponent: float
     constant: float
@@ -28,7 +31,7 @@ class Gas(NamedTuple):
 
 
 def gas(ambient: Ambient) -> Gas:
-    """The gas of an ambient state."""
+    """Compute the properties of the gas from its ambient state."""
     exponent, constant = ambient.isentropic_exponent, MOLAR_GAS_CONSTANT / ambient.molar_mass
     return Gas(
         exponent=exponent,
@@ -45,11 +48,32 @@ def gas(ambient: Ambient) -> Gas:
 
 @inlined_kernel
 def flux_squared(gas: Gas, upstream: float, density: float, drop: float) -> tuple[float, float, float]:
-    """Square of the mass flux [kg/(s m^2)]^2 from rest at (upstream, density) over a relative pressure drop (Eq. P4).
+    """Compute the square of the mass flux through an opening and its derivatives by both pressures.
 
-    G^2 = 2 g/(g - 1) p rho y (y - x) with x the ratio of the pressures, y = x^(1/g) that of the densities. With it the
-    derivatives by the upstream and the downstream pressure at a fixed density upstream. Exact down to any pressure
-    drop; below a drop of 0 it is continued linearly, negative.
+    Parameters
+    ----------
+    gas : Gas
+        The perfect gas.
+    upstream : float
+        Pressure at rest upstream [Pa].
+    density : float
+        Density at rest upstream [kg/m^3].
+    drop : float
+        Pressure drop relative to the upstream pressure.
+
+    Returns
+    -------
+    squared : float
+        Square of the mass flux [kg^2/(s^2 m^4)]; negative for a negative drop, where it continues linearly.
+    by_upstream : float
+        Derivative by the upstream pressure at a fixed density upstream [kg^2/(s^2 m^4 Pa)].
+    by_downstream : float
+        Derivative by the downstream pressure [kg^2/(s^2 m^4 Pa)].
+
+    Notes
+    -----
+    Eq. P4: G^2 = 2 g/(g - 1) p rho y (y - x), where x is the ratio of the pressures and y = x^(1/g) is the ratio of the
+    densities. The result keeps its relative accuracy however small the pressure drop is.
     """
     power = 1.0 / gas.exponent
     if drop <= 0.0:
@@ -69,9 +93,9 @@ def flux_squared(gas: Gas, upstream: float, density: float, drop: float) -> tupl
 
 @kernel
 def _expansion(power: float, drop: float) -> tuple[float, float]:
-    """Ratio of densities y = x^power over an isentropic pressure ratio x = 1 - drop, and y - x.
+    """Compute the ratio of densities y = x^power over an isentropic pressure ratio x = 1 - drop, and y - x.
 
-    For small drops, where y - x is the difference of near equals, by the series
+    For small drops x and y are nearly equal. Their difference is then computed by the series
     1 - y = power drop (1 + (1 - power)/2 drop (1 + (2 - power)/3 drop (1 + ...))).
     """
     if drop > _SMALL:
@@ -87,9 +111,31 @@ def _expansion(power: float, drop: float) -> tuple[float, float]:
 
 @kernel
 def mass_flux(gas: Gas, upstream: float, density: float, downstream: float) -> tuple[float, float, float]:
-    """Mass flux G [kg/(s m^2)] and its derivatives by upstream and downstream pressure at fixed density upstream.
+    """Compute the mass flux G through an opening and its derivatives by both pressures.
 
-    Eq. P4.
+    Parameters
+    ----------
+    gas : Gas
+        The perfect gas.
+    upstream : float
+        Pressure at rest upstream [Pa].
+    density : float
+        Density at rest upstream [kg/m^3].
+    downstream : float
+        Pressure downstream [Pa].
+
+    Returns
+    -------
+    flux : float
+        Mass flux [kg/(s m^2)].
+    by_upstream : float
+        Derivative by the upstream pressure at a fixed density upstream [kg/(s m^2 Pa)].
+    by_downstream : float
+        Derivative by the downstream pressure [kg/(s m^2 Pa)].
+
+    Notes
+    -----
+    Eq. P4 without the discharge coefficient.
     """
     drop = (upstream - downstream) / upstream
     if drop < _LINEAR:
@@ -104,7 +150,7 @@ def mass_flux(gas: Gas, upstream: float, density: float, downstream: float) -> t
 
 @kernel
 def throat_mach(gas: Gas, upstream: float, downstream: float) -> float:
-    """Mach number in the narrowest section of an opening, one where it is choked."""
+    """Compute the Mach number in the narrowest section of an opening; 1 if the opening is choked."""
     g = gas.exponent
     ratio = min(max(downstream / upstream, gas.critical_ratio), 1.0)
     mach: float = np.sqrt(2.0 / (g - 1.0) * (ratio ** ((1.0 - g) / g) - 1.0))
@@ -112,7 +158,26 @@ def throat_mach(gas: Gas, upstream: float, downstream: float) -> float:
 
 
 def choked_mass_flux(gas: Gas, pressure: float, temperature: float) -> float:
-    """Largest mass flux from a stagnation state [kg/(s m^2)], Eq. 7 per area."""
+    """Compute the largest mass flux from a stagnation state.
+
+    Parameters
+    ----------
+    gas : Gas
+        The perfect gas.
+    pressure : float
+        Stagnation pressure [Pa].
+    temperature : float
+        Stagnation temperature [K].
+
+    Returns
+    -------
+    float
+        Mass flux of the choked opening [kg/(s m^2)].
+
+    Notes
+    -----
+    Eq. 7 per area of the opening.
+    """
     g, r = gas.exponent, gas.constant
     velocity_factor: float = (2 / (g + 1)) ** (1 / (g - 1)) * sqrt(2 * g * r / (g + 1))
     return velocity_factor * pressure / (r * sqrt(temperature))

@@ -1,4 +1,4 @@
-"""The flow in the tooth spaces over one stroke: what a march records, and the result that every flow model gives."""
+"""The flow in the tooth spaces over one stroke: the records of a march, and the result of every flow model."""
 
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -17,25 +17,26 @@ PROFILE = floats("static", "stagnation", "active", "highest", "lowest", "mach")
 """Gas of a cell over its stroke.
 
 Integrals of static and stagnation temperature over time [K s], time in the stroke [s], highest and lowest pressure
-[Pa], largest axial Mach number (0 in the chain of pockets, whose jets are between its pockets).
+[Pa], largest axial Mach number. The Mach number is 0 in the chain of pockets, where gas moves between pockets only.
 """
 
 EXTREMES = floats("mach", "velocity", "demand")
-"""Largest axial Mach number and velocity [m/s], largest Mach number that the ambient pressure asks for at an end."""
+"""Largest axial Mach number, largest velocity [m/s], largest demand: see `SpaceFlow.exit_demand`."""
 
 BALANCE = floats("begun", "ended", "low_end", "high_end", "walls", "idle")
-"""Mass [kg] or energy [J] that cells held when their stroke began, and where it went.
+"""Mass [kg] or energy [J] of the cells: content when their stroke began, and where it went.
 
-Content when the stroke ended; outflow through the low and the high end; through the radial gaps and with the flanks
-(energy: with the wall work); to cells outside their stroke. The first less the others is the error of conservation.
+`begun` and `ended`: content when the stroke began and ended. Outflow through the low and the high end; `walls`: through
+the radial gaps and with the flanks, of the energy also the work on the walls; `idle`: to cells outside their stroke.
+The first value less the sum of the others is the error of conservation.
 """
 
 ENDS = floats("time", "low_outflow", "high_outflow")
-"""A step: time of its middle [s], mass that flowed out of the low and of the high end in it [kg]."""
+"""Time of the middle of a step [s], mass that flowed out of the low and of the high end in this step [kg]."""
 
 
 class Record(NamedTuple):
-    """What a march through the stroke of a duct computes, arrays of records.
+    """Arrays of records that a march through the stroke of a duct fills.
 
     `field` (angles, cells) of FIELD; `profile` (cells,) of PROFILE; `extremes` (1,) of EXTREMES; `mass` and `energy`
     (1,) of BALANCE, the energy with the `work` done on the gas above ambient pressure [J]; `ends` (steps,) of ENDS.
@@ -50,7 +51,7 @@ class Record(NamedTuple):
 
 
 def empty_record(gas: Gas, angles: int, cells: int, steps: int) -> Record:
-    """A record of ambient gas at rest."""
+    """Return a record of ambient gas at rest, with room for `steps` steps."""
     field, profile = records((angles, cells), FIELD), records(cells, PROFILE)
     field.pressure, field.temperature = gas.pressure, gas.temperature
     profile.highest = profile.lowest = gas.pressure
@@ -60,7 +61,7 @@ def empty_record(gas: Gas, angles: int, cells: int, steps: int) -> Record:
 
 @kernel
 def add_outflow(record: Record, end: int, step: int, mass: float, energy: float) -> None:
-    """Add what flowed out of the low (0) or the high end (1) in a step: mass [kg] and energy [J]."""
+    """Add the mass [kg] and the energy [J] that flowed out of the low end (0) or the high end (1) in a step."""
     if end == 0:
         record.mass[0].low_end += mass
         record.energy[0].low_end += energy
@@ -73,7 +74,27 @@ def add_outflow(record: Record, end: int, step: int, mass: float, energy: float)
 
 @kernel
 def add_means(profile: RecordArray, i: int, static: float, stagnation: float, dt: float, share: float) -> None:
-    """Add the mean temperatures of cell i [K] in the share of a step of dt [s] in which it is active (Eq. P10)."""
+    """Add the temperatures of a cell in one step to their integrals over the stroke.
+
+    Parameters
+    ----------
+    profile : RecordArray
+        Records of PROFILE, (cells,); changed in place.
+    i : int
+        Index of the cell.
+    static : float
+        Mean static temperature of the cell in the step [K].
+    stagnation : float
+        Mean stagnation temperature of the cell in the step [K].
+    dt : float
+        Length of the step [s].
+    share : float
+        Share of the step in which the cell is in its stroke.
+
+    Notes
+    -----
+    Eq. P10.
+    """
     profile[i].static += static * dt * share
     profile[i].stagnation += stagnation * dt * share
     profile[i].active += dt * share
@@ -103,8 +124,8 @@ def include_demand(extremes: RecordArray, mach: float) -> None:
 class ExitMasses:
     """Net mass that leaves one tooth space in a stroke, by exit [kg].
 
-    `reset` is what slices exchange with the ambient when their stroke begins and ends, and with idle neighbours. The
-    five add up to 0.
+    `reset` is the mass that slices lose when their content is replaced by ambient gas between two strokes, and the mass
+    that flows to slices outside their stroke. The five masses add up to 0.
     """
 
     front: float
@@ -116,7 +137,7 @@ class ExitMasses:
 
 @dataclass(frozen=True, slots=True)
 class EndFlow:
-    """Mass that leaves through both ends of the face, step by step: `time` [s], `front` and `rear` [kg]."""
+    """Mass that leaves through both ends of the face in each step, (steps,): `time` [s], `front` and `rear` [kg]."""
 
     time: FloatArray
     front: FloatArray
@@ -125,13 +146,13 @@ class EndFlow:
 
 @dataclass(frozen=True, slots=True)
 class SpaceFlow:
-    """One stroke of one tooth space; a temperature is None where the model has none.
+    """One stroke of one tooth space; temperatures are None if the flow model has none.
 
     Fields of shape (angles, positions): `pressure` [Pa], `mach`, `stagnation_temperature` [K] at the owner's `angle`
-    [rad] and `position` [m]. Over the face: stroke means of temperature and stagnation temperature [K], peak and
-    lowest pressure [Pa], largest Mach number within slices (0 in the chain). `exit_demand` is the Mach number that
-    the ambient pressure asks for at the ends, above one where they are choked; `work` [J] is done on the gas above
-    ambient pressure. Errors are relative.
+    [rad] and the `position` [m]. Over the face, (positions,): means of temperature and stagnation temperature over the
+    stroke [K], peak and lowest pressure [Pa], largest Mach number within the slices (0 in the chain of pockets).
+    `exit_demand`: largest Mach number of an end if the gas expanded to ambient pressure there; above 1 the end is
+    choked. `work` [J]: work on the gas above ambient pressure. Errors are relative.
     """
 
     angle: FloatArray
@@ -159,7 +180,7 @@ class SpaceFlow:
 
 @dataclass(frozen=True, slots=True)
 class March:
-    """A record, the stretch of face it belongs to and the steps it took."""
+    """The record of a march through one stretch of the face, and the number of its steps."""
 
     stretch: Stretch
     record: Record
@@ -167,7 +188,7 @@ class March:
 
 
 def space_flow(angle: FloatArray, marches: list[March], *, conserves_energy: bool) -> SpaceFlow:
-    """Join the stretches of a face between its grooves."""
+    """Join the marches of all stretches of a face."""
     marched = [march.record for march in marches]
     field = np.concatenate([record.field for record in marched], axis=1).view(np.recarray)
     profile = np.concatenate([record.profile for record in marched]).view(np.recarray)
@@ -198,10 +219,10 @@ def space_flow(angle: FloatArray, marches: list[March], *, conserves_energy: boo
 
 
 def _error(balances: list[RecordArray]) -> float:
-    """What conservation leaves unaccounted for, relative to the content of cells when their stroke begins."""
-    begun = np.concatenate([each.begun for each in balances]).sum()
+    """Compute the error of conservation relative to the content of the cells when their stroke begins."""
+    begun = np.concatenate([balance.begun for balance in balances]).sum()
     accounted = np.array(
-        [[each[0][name] for name in ("ended", "low_end", "high_end", "walls", "idle")] for each in balances]
+        [[balance[0][name] for name in ("ended", "low_end", "high_end", "walls", "idle")] for balance in balances]
     ).sum()
     return float(abs(begun - accounted) / begun)
 

@@ -1,6 +1,6 @@
 """Quasi-one-dimensional gas dynamics of a tooth space: ducts marched through their strokes, step by step.
 
-Cells take part while they are in their stroke. This model converges with the grid; the chain of pockets does not.
+A cell takes part while it is in its stroke. This model converges as the grid is refined; the chain of pockets does not.
 """
 
 from math import ceil
@@ -29,17 +29,17 @@ from solvers.pumping.gas.step import Cells, empty_cells, set_walls, step
 from solvers.pumping.space.face import Stretch
 
 LEAST_SLICES = 4  # chosen: limited slopes need three cells
-_HASTE = 2.5  # steps may be this much shorter than sound at rest asks for
+_HASTE = 2.5  # room in the record for more steps than sound in gas at rest requires
 COURANT = 0.7  # below the limit of 1 of the scheme, with room for waves that speed up within a step
-_ROUNDING = 1e-6  # of a step, by which it may be longer rather than leave so little
-_RETRIES = 12  # halvings of a step that failed, chosen
-_AHEAD = 4.0  # widths by which cells come early where no wave outruns their stroke
-_STEEP = 0.5  # share of a cell's density or pressure below which nothing is extrapolated from it
-_UNSETTLED = 5.0  # steps in which leakage finds its balance with the walls, and the waves of the beginning pass
+_ROUNDING = 1e-6  # of a step, by which a step may be longer instead of leaving such a small rest
+_RETRIES = 12  # number of halvings of a failed step, chosen
+_AHEAD = 4.0  # number of cells that take part early if the stroke runs along the face faster than sound
+_STEEP = 0.5  # of a cell's density or pressure; smaller extrapolated values are replaced by those of the cell
+_UNSETTLED = 5.0  # number of steps in which the leakage settles after the start of a stroke and the starting waves pass
 
 
 def gas_dynamics(gas: Gas, ducts: list[tuple[Stretch, Duct]], angle: FloatArray) -> SpaceFlow:
-    """March every stretch of a tooth space through its stroke.
+    """March every stretch of a tooth space through its stroke and record the gas at each `angle` [rad].
 
     Raises NoSolution: unphysical_state.
     """
@@ -58,7 +58,7 @@ def gas_dynamics(gas: Gas, ducts: list[tuple[Stretch, Duct]], angle: FloatArray)
 
 
 def cell_steps(gas: Gas, ducts: list[tuple[Stretch, Duct]], angle: FloatArray) -> float:
-    """Cells times steps of a march, while sound is near that of gas at rest."""
+    """Estimate the number of cells times steps of a march from the speed of sound in gas at rest."""
     return sum(part.cells * _steps(gas, part, angle) for _, part in ducts)
 
 
@@ -68,11 +68,11 @@ def _steps(gas: Gas, part: Duct, angle: FloatArray) -> float:
 
 @kernel
 def march(gas: Gas, duct: Duct, cells: Cells, angles: FloatArray, record: Record, order: int) -> int:
-    """March from the first of `angles` [rad] to the last, landing on each; the number of steps, negative if it failed.
+    """March from the first of the `angles` [rad] to the last; return the number of steps, or a negative number.
 
-    Steps are as long as waves allow, the last before an angle is what remains: where one more is needed it is short at
-    first, and results change steadily with whatever the step length depends on.
-    Fails with -1 where the record has no room for more steps, with -2 where no step length gives a physical state.
+    A step never passes an angle. Steps are as long as waves allow; the last step before an angle is the rest. If the
+    number of steps grows by one, the new step is short at first, so results depend continuously on the step length.
+    The result is -1 if the record has no room for more steps, and -2 if no step length gives a physical state.
     """
     angle, taken, low, high = angles[0], 0, 0, 0
     for k in range(1, angles.size):
@@ -114,13 +114,16 @@ def march(gas: Gas, duct: Duct, cells: Cells, angles: FloatArray, record: Record
 
 @kernel
 def _taking_part(gas: Gas, duct: Duct, angle: float, turn: float) -> tuple[int, int]:
-    """First cell that takes part in a step of `turn` from `angle` [rad], and the one after the last.
+    """Find the first cell that takes part in a step of `turn` from `angle` [rad], and the cell after the last one.
 
-    A cell does while its centre is in its stroke, the first also while its outer end is, the last likewise: whatever
-    leaves through an end leaves while that end is open. Walls and balances count the share of the step in the stroke.
-    Where the stroke runs along the face faster than sound, cells come some widths early: physical waves do not reach
-    the border, but on a grid they spread over a few cells. If the border were among those, what it lets pass would feed
-    the cells that come next, and the flow would take one of two courses depending on how the steps fall.
+    A cell takes part while its centre is in its stroke. The first and the last cell of the duct also take part while
+    their outer end is in its stroke, so that gas can leave through an end as long as the end is open. Walls and
+    balances count the share of the step in the stroke.
+
+    If the stroke runs along the face faster than sound, cells take part some widths early. Physical waves do not reach
+    the border to the idle cells then, but on a grid waves spread over a few cells. If the border were among these
+    cells, the gas that it lets pass would fill the cells that come next, and the flow would take one of two courses
+    depending on the sequence of steps.
     """
     low, high, rear = 0, 0, duct.cells - 1
     early = _AHEAD * duct.lag * duct.width if duct.speed >= duct.lag * gas.sound_speed else 0.0
@@ -136,7 +139,7 @@ def _taking_part(gas: Gas, duct: Duct, angle: float, turn: float) -> tuple[int, 
 
 @kernel
 def _longest_turn(gas: Gas, duct: Duct, cells: Cells, low: int, high: int) -> float:
-    """Turn of the owner [rad] in which no wave crosses more than the Courant number's share of a cell."""
+    """Compute the turn of the owner [rad] in which the fastest wave crosses the Courant number's share of a cell."""
     fastest = gas.sound_speed
     for i in range(low, high):
         rho, u, p = cells.state[i].density, cells.state[i].velocity, cells.state[i].pressure
@@ -146,7 +149,7 @@ def _longest_turn(gas: Gas, duct: Duct, cells: Cells, low: int, high: int) -> fl
 
 @kernel
 def _fill(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, new_low: int, new_high: int, angle: float) -> None:
-    """The gas of the border in the cells whose stroke begins."""
+    """Fill the cells whose stroke begins with the gas of the border."""
     rho, u, p = _border(gas, duct, cells, low, high)
     for i in range(new_low, new_high):
         if i < low or i >= high:
@@ -158,9 +161,10 @@ def _fill(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, new_low: int,
 
 @kernel
 def _border(gas: Gas, duct: Duct, cells: Cells, low: int, high: int) -> State:
-    """State of the border to the slices that come next, where their centres are: a cell's width ahead of the last.
+    """Compute the state of the gas in the cells that come next, from the border at their centres.
 
-    Ambient gas at rest where no cell is active yet.
+    The state of the last active cells is extrapolated by one cell width. If no cell is active yet, the gas is ambient
+    gas at rest.
     """
     if not low < high < duct.cells:
         return State(gas.density, 0.0, gas.pressure)
@@ -177,7 +181,7 @@ def _border(gas: Gas, duct: Duct, cells: Cells, low: int, high: int) -> State:
 def _record_changes(duct: Duct, cells: Cells, record: Record, low: int, high: int, new_low: int, new_high: int) -> None:
     """Add the content of cells whose stroke ends or begins between two steps to the balances.
 
-    Active cells were low..high and become new_low..new_high.
+    The active cells were low..high and are now new_low..new_high.
     """
     for i in range(low, high):
         if i < new_low or i >= new_high:
@@ -195,7 +199,7 @@ def _record_ends(
 ) -> None:
     """Record the flow out of both ends of the active cells: ends of the duct, or borders to idle cells.
 
-    The end of the duct counts as one for the share of the step in which it is in its stroke itself.
+    An end of the duct counts as an end for the share of the step in which it is in its own stroke, else as a border.
     """
     dt = turn / duct.speed
     for end in range(2):
@@ -217,10 +221,9 @@ def _record_cells(
 ) -> None:
     """Record losses to the walls, mean temperatures (trapezoidal) and extremes of the active cells.
 
-    `longest` is the turn of a whole step [rad]. Extremes leave out cells whose stroke ends within the step (closed for
-    the rest of it, they collect what flows in) and cells in their first steps: they start from the state of the border,
-    and the leakage through the gaps settles within a fraction of a step, which an implicit scheme of second order
-    overshoots.
+    `longest` is the turn of a whole step [rad]. Extremes leave out two kinds of cells. Cells whose stroke ends within
+    the step are closed for the rest of it and collect the inflow. Cells in their first steps start from the state of
+    the border; their leakage settles within a fraction of a step, so an implicit scheme of second order overshoots.
     """
     old, new, loss, dt = cells.state, cells.next_state, cells.loss, turn / duct.speed
     for i in range(low, high):

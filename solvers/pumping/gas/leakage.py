@@ -1,9 +1,9 @@
-"""Exchange of a cell of the duct with its walls over an implicit stage: leakage, gas on the flanks, wall work.
+"""Exchange of a cell of the duct with its walls over an implicit stage: leakage, gas carried by the flanks, wall work.
 
-All amounts are per metre of face. The kinetic energy takes no part: what leaks out leaves with the cell's velocity,
-what leaks in comes from rest. One unknown remains, the flux through the radial gaps; its square is nearly linear in
-the pressure, so Newton's method on the square is safe for any gap and any pressure, however stiff. Whatever flux it
-ends with, the cell's mass, momentum and energy follow from it exactly.
+All amounts are per metre of face. Gas that leaks out has the velocity of the cell, gas that leaks in comes from rest.
+One unknown remains, the flux through the radial gaps. Its square is nearly linear in the pressure, so Newton's method
+on the square converges for any gap and any pressure, however stiff the exchange is. Mass, momentum and energy of the
+cell follow from the flux without further iteration, so they are conserved whatever the error of the flux is.
 """
 
 from typing import NamedTuple
@@ -13,15 +13,15 @@ import numpy as np
 from solvers.compiled import inlined_kernel, kernel
 from solvers.pumping.flow.nozzle import Gas, flux_squared
 
-_NEWTON_LIMIT = 30  # limit; Newton's method on the square of the flux needs few steps
+_NEWTON_LIMIT = 30  # iterations; Newton's method on the square of the flux needs few
 _TOLERANCE = 1e-10  # relative, of the flux through the gaps
 
 
 class Walls(NamedTuple):
-    """The space around a cell at one instant.
+    """The walls of a cell at one instant.
 
-    `area` [m^2], `growth` its rate [m^2/s], `gap` clearance times discharge coefficient [m], `transport` area per
-    second that the flanks carry out [m^2/s].
+    `area` of the section [m^2]; `growth`: rate of the area [m^2/s]; `gap`: clearance times discharge coefficient [m];
+    `transport`: area of gas that the flanks carry out per second [m^2/s].
     """
 
     area: float
@@ -31,10 +31,11 @@ class Walls(NamedTuple):
 
 
 class Stage(NamedTuple):
-    """Content after a stage, its pressure, and the rates of loss that led there.
+    """Content of a cell after a stage, its pressure, and the rates of loss in the stage.
 
-    mass [kg/m], momentum [kg/s], energy [J/m], pressure [Pa]; rates of mass, momentum and energy lost [kg/(s m), N/m,
-    W/m], of the mass `through_gaps` alone; `fits`: whether the state is physical.
+    `mass` [kg/m], `momentum` [kg/s], `energy` [J/m], `pressure` [Pa]. Rates of loss: `leak` of mass [kg/(s m)],
+    `momentum_rate` [N/m], `energy_rate` [W/m]; `through_gaps`: the part of `leak` through the radial gaps.
+    `fits`: whether the state is physical.
     """
 
     mass: float
@@ -52,11 +53,34 @@ class Stage(NamedTuple):
 def implicit_stage(
     gas: Gas, walls: Walls, mass: float, momentum: float, energy: float, h: float, guess: float
 ) -> Stage:
-    """Backward Euler stage of length h [s] from an explicit content, the flux through gaps from a guess [kg/(s m)].
+    """Compute a backward Euler stage of the exchange of a cell with its walls.
 
-    `stiffness` is inner energy per pressure [m^2] of a cell that does wall work and loses flank gas, but does not leak.
+    Parameters
+    ----------
+    gas : Gas
+        The perfect gas and its ambient state.
+    walls : Walls
+        Walls of the cell at the end of the stage.
+    mass : float
+        Mass before the stage [kg/m].
+    momentum : float
+        Momentum before the stage [kg/s].
+    energy : float
+        Energy before the stage [J/m].
+    h : float
+        Length of the stage [s].
+    guess : float
+        First guess of the flux through the gaps [kg/(s m)].
 
-    Eq. P7.
+    Returns
+    -------
+    Stage
+        The content after the stage and the rates of loss.
+
+    Notes
+    -----
+    Eq. P7. `stiffness` is the inner energy per pressure [m^2] of a cell that does wall work and loses gas with the
+    flanks, but has no gaps.
     """
     g, area = gas.exponent, walls.area
     into, carried = max(-walls.transport, 0.0) * gas.density, max(walls.transport, 0.0) / area
@@ -100,31 +124,33 @@ def _unphysical() -> Stage:
 
 
 @kernel
-def _improved(flux: float, squared: float, slope: float) -> float:
-    """Positive root of new^2 = squared + slope (new - flux), the nozzle law linearised in the flux; slope <= 0."""
+def _improve(flux: float, squared: float, slope: float) -> float:
+    """Solve new^2 = squared + slope (new - flux), the nozzle law linearised in the flux, for new > 0; slope <= 0."""
     constant = squared - slope * flux
     if constant <= 0.0:
         return 0.0
     half = -0.5 * slope
-    improved: float = constant / (half + np.sqrt(half**2 + constant))
-    return improved
+    root: float = constant / (half + np.sqrt(half**2 + constant))
+    return root
 
 
 @kernel
-def _settled(change: float, content: float, drop: float) -> bool:
-    """Whether Newton's last change of a content [kg/m] leaves less than the tolerance of the flux.
+def _is_settled(change: float, content: float, drop: float) -> bool:
+    """Return whether the error of the flux is within tolerance after Newton's last `change` of a content [kg/m].
 
-    What the linearised law leaves out is its second derivative: of the flux that is about (change / content)^2 by the
-    relative pressure drop, with a factor of 1 to 2 from the powers in which a cell's pressure and density fall.
+    The linearised law lacks the second derivative. The relative error of the flux is therefore about
+    (change / content)^2 over the relative pressure drop, times a factor of 1 to 2 from the powers by which pressure and
+    density of the cell fall.
     """
     return 2.0 * change**2 <= _TOLERANCE * content**2 * max(drop, 0.0)
 
 
 @inlined_kernel
 def _outflow(gas: Gas, walls: Walls, stiffness: float, mass: float, inner: float, h: float, guess: float) -> float:
-    """Leakage out of a cell above ambient pressure [kg/(s m)].
+    """Compute the leakage out of a cell above ambient pressure [kg/(s m)].
 
-    The cell's pressure is inner / resistance: its stiffness [m^2], and what the enthalpy of the leak adds to it.
+    The pressure of the cell is inner / resistance. The resistance is the stiffness [m^2] plus the share of the enthalpy
+    that leaks out.
     """
     g, area, gap = gas.exponent, walls.area, walls.gap
     thinning = 1.0 / (1.0 + h * max(walls.transport, 0.0) / area)
@@ -141,8 +167,8 @@ def _outflow(gas: Gas, walls: Walls, stiffness: float, mass: float, inner: float
         pressure_slope = -pressure / resistance * h * enthalpy * (1.0 + out * shrink)
         slope = by_pressure * pressure_slope - squared * shrink
         before = out
-        out = min(max(_improved(out, gap**2 * squared, gap**2 * slope), 0.0), 0.5 * (out + mass / h))
-        if _settled(h * (out - before), content, drop):
+        out = min(max(_improve(out, gap**2 * squared, gap**2 * slope), 0.0), 0.5 * (out + mass / h))
+        if _is_settled(h * (out - before), content, drop):
             break
     return out
 
@@ -151,7 +177,7 @@ def _outflow(gas: Gas, walls: Walls, stiffness: float, mass: float, inner: float
 def _inflow(
     gas: Gas, walls: Walls, stiffness: float, energy: float, momentum: float, mass: float, h: float, guess: float
 ) -> float:
-    """Leakage into a cell below ambient pressure [kg/(s m)]."""
+    """Compute the leakage into a cell below ambient pressure [kg/(s m)]."""
     gap, heat, ambient = walls.gap, gas.heat_capacity * gas.temperature, 1.0 / (stiffness * gas.pressure)
     inflow = guess
     for _ in range(_NEWTON_LIMIT):
@@ -161,7 +187,7 @@ def _inflow(
         squared, _, by_pressure = flux_squared(gas, gas.pressure, gas.density, drop)
         slope = by_pressure * h * (heat + 0.5 * velocity**2) / stiffness
         before = inflow
-        inflow = _improved(inflow, gap**2 * squared, gap**2 * slope)
-        if _settled(h * (inflow - before), content, drop):
+        inflow = _improve(inflow, gap**2 * squared, gap**2 * slope)
+        if _is_settled(h * (inflow - before), content, drop):
             break
     return inflow

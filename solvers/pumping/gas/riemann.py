@@ -1,4 +1,4 @@
-"""States of the gas and fluxes through the faces of a duct: between two cells (HLLC), into surroundings at rest.
+"""States of the gas, and fluxes through the faces of a duct: between two cells (HLLC) and into ambient gas at rest.
 
 Velocities are along the face [m/s], or outwards at a face that opens into the ambient.
 """
@@ -20,7 +20,7 @@ class State(NamedTuple):
 
 
 class Conserved(NamedTuple):
-    """Mass, momentum and energy: of a flux per area and second [kg/(s m^2), Pa, W/m^2]."""
+    """Mass, momentum and energy; as a flux [kg/s, N, W], per area [kg/(s m^2), Pa, W/m^2]."""
 
     mass: float
     momentum: float
@@ -28,15 +28,43 @@ class Conserved(NamedTuple):
 
 
 @kernel
-def flux(g: float, state: State) -> Conserved:
-    """Flux of a state: (rho u, rho u^2 + p, u (rho E + p)) with rho E = p/(g - 1) + rho u^2/2 (Eq. P6)."""
+def flux(g: float, area: float, state: State, ram: float) -> Conserved:
+    """Compute the flux of a state through an area: A (rho u, rho u^2 + p, u (rho E + p)).
+
+    Parameters
+    ----------
+    g : float
+        Isentropic exponent.
+    area : float
+        Area [m^2]; 1 for the flux per area.
+    state : State
+        State of the gas at the face.
+    ram : float
+        Ram pressure rho u^2 of this state [Pa].
+
+    Returns
+    -------
+    Conserved
+        Flux of mass [kg/s], momentum [N] and energy [W].
+
+    Notes
+    -----
+    Eq. P6 with rho E = p/(g - 1) + rho u^2/2. The caller gives the ram pressure because its rounding counts: a march
+    amplifies the last digit to 1e-7 of a result.
+    """
     rho, u, p = state
-    return Conserved(rho * u, rho * u * u + p, u * (g / (g - 1.0) * p + 0.5 * rho * u * u))
+    return Conserved(area * rho * u, area * (ram + p), area * u * (g / (g - 1.0) * p + 0.5 * ram))
+
+
+@kernel
+def ram_pressure(state: State) -> float:
+    """Compute the ram pressure rho u^2 [Pa]."""
+    return state.density * state.velocity * state.velocity
 
 
 @kernel
 def hllc(g: float, left: State, right: State) -> Conserved:
-    """HLLC flux with Einfeldt's wave speeds (Toro, Riemann Solvers and Numerical Methods, 2009, section 10.4-10.6)."""
+    """Compute the HLLC flux with Einfeldt's wave speeds (Toro, Riemann Solvers, 2009, sections 10.4 to 10.6)."""
     rho_l, u_l, p_l = left
     rho_r, u_r, p_r = right
     c_l, c_r = np.sqrt(g * p_l / rho_l), np.sqrt(g * p_r / rho_r)
@@ -46,9 +74,9 @@ def hllc(g: float, left: State, right: State) -> Conserved:
     mean_c = np.sqrt((w_l * c_l * c_l + w_r * c_r * c_r) / (w_l + w_r) + spread)
     s_l, s_r = min(u_l - c_l, mean_u - mean_c), max(u_r + c_r, mean_u + mean_c)
     if s_l >= 0.0:
-        return flux(g, left)
+        return flux(g, 1.0, left, ram_pressure(left))
     if s_r <= 0.0:
-        return flux(g, right)
+        return flux(g, 1.0, right, ram_pressure(right))
     m_l, m_r = rho_l * (s_l - u_l), rho_r * (s_r - u_r)
     s_m = (p_r - p_l + u_l * m_l - u_r * m_r) / (m_l - m_r)
     if s_m >= 0.0:
@@ -58,9 +86,9 @@ def hllc(g: float, left: State, right: State) -> Conserved:
 
 @kernel
 def _star_flux(g: float, state: State, s: float, s_m: float) -> Conserved:
-    """Flux of the state between the outer wave s and the contact s_m."""
+    """Compute the flux of the state between the outer wave s and the contact s_m."""
     rho, u, p = state
-    outside = flux(g, state)
+    outside = flux(g, 1.0, state, ram_pressure(state))
     total = p / (g - 1.0) + 0.5 * rho * u * u
     star = rho * (s - u) / (s - s_m)
     star_total = star * (total / rho + (s_m - u) * (s_m + p / (rho * (s - u))))
@@ -73,11 +101,27 @@ def _star_flux(g: float, state: State, s: float, s_m: float) -> Conserved:
 
 @kernel
 def reservoir_face(gas: Gas, cell: State) -> tuple[State, float]:
-    """State of a face that opens into the ambient, and how nearly it is sonic (Eq. P8).
+    """Compute the state of a face that opens into the ambient, and its demand.
 
-    The velocity v of the cell is outwards. Outflow expands to the ambient pressure, at most to Mach 1; inflow
-    starts from ambient gas at rest. The last value is the Mach number that the ambient pressure asks for, negative
-    for inflow: above one the face is choked (or the duct supersonic, and the face has its state).
+    Parameters
+    ----------
+    gas : Gas
+        The perfect gas and its ambient state.
+    cell : State
+        State of the cell at the face; its velocity is outwards.
+
+    Returns
+    -------
+    face : State
+        State of the face. Outflow expands to the ambient pressure, at most to Mach 1. Inflow comes from ambient gas at
+        rest. If the cell is supersonic outwards, the face has the state of the cell.
+    demand : float
+        Mach number of an expansion to the ambient pressure, negative for inflow. Above 1 the face is choked, or the
+        cell is supersonic.
+
+    Notes
+    -----
+    Eq. P8.
     """
     g = gas.exponent
     rho, v, p = cell
@@ -100,13 +144,14 @@ def reservoir_face(gas: Gas, cell: State) -> tuple[State, float]:
 
 @kernel
 def front_face(gas: Gas, speed: float, cell: State) -> State:
-    """State of the border to gas at rest that the stroke runs over at `speed` [m/s], from the cell behind it.
+    """Compute the state of the border that moves at `speed` [m/s] into gas at rest, from the cell behind it.
 
-    Seen from the border the gas ahead comes in at that speed: the border is a reservoir face in its own frame, the
-    reservoir at the stagnation state of this head wind. From the speed of sound on nothing runs ahead of the border;
-    the wind of that speed lets pass what the grid spreads. Ambient pressure or gas at rest, one alone or in turn, are
-    no such border: the first draws a jet along, and both together reflect rho c u, a pressure in proportion to the
-    speed instead of its square.
+    Seen from the border, the gas ahead is a head wind of this speed. The border is therefore a reservoir face in its
+    own frame, with a reservoir at the stagnation state of the head wind. At the speed of sound and above, no wave runs
+    ahead of the border. The head wind then has the speed of sound and lets waves pass that are spread by the grid.
+
+    Simpler borders fail. A border at ambient pressure draws a jet along. A border that is in turn at ambient pressure
+    and at rest reflects rho c u, a pressure in proportion to the speed instead of its square.
     """
     g, head = gas.exponent, min(speed, gas.sound_speed)
     warming = 1.0 + 0.5 * (g - 1.0) * (head / gas.sound_speed) ** 2
@@ -127,17 +172,18 @@ def front_face(gas: Gas, speed: float, cell: State) -> State:
 
 @kernel
 def _inflow(gas: Gas, invariant: float, cell_sound_speed: float) -> State:
-    """Inflow from rest that meets the gas of the cell at one pressure and velocity, at most sonic.
+    """Compute the state of inflow from rest that has pressure and velocity in common with the gas of the cell.
 
-    `cell_sound_speed` is that of the cell's gas brought to ambient pressure: where it is hotter than the ambient a
-    contact lies between both, and the invariant v + 2c/(g-1) holds on its far side. The larger root of a quadratic for
-    the ratio of the face's sound speed to the ambient one.
+    The inflow is at most sonic. `cell_sound_speed` is the speed of sound of the cell's gas after its expansion to
+    ambient pressure [m/s]. If this gas is hotter than the ambient, a contact lies between both, and the invariant
+    v + 2c/(g-1) holds on the side of the cell. `ratio` of the speed of sound of the face to that of the ambient is the
+    larger root of a quadratic equation.
     """
     g, stagnation = gas.exponent, gas.sound_speed
     slope, jet = 2.0 / (g - 1.0) * cell_sound_speed, 2.0 / (g - 1.0) * stagnation**2
     root = np.sqrt(jet * (slope**2 + jet - invariant**2))
     ratio = max((slope * invariant + root) / (slope**2 + jet), np.sqrt(2.0 / (g + 1.0)))
     c = stagnation * ratio
-    v = -np.sqrt(max(jet * (1.0 - ratio**2), 0.0))  # at rest the root may round beyond one
+    v = -np.sqrt(max(jet * (1.0 - ratio**2), 0.0))  # at rest `ratio` may be rounded to more than 1
     rho = gas.density * ratio ** (2.0 / (g - 1.0))
     return State(rho, v, rho * c * c / g)

@@ -4,8 +4,9 @@
  d(A rho u)/dt     + d(A (rho u^2 + p))/dz     = p dA/dz - q u_q
  d(A rho E)/dt     + d(A u (rho E + p))/dz     = -p dA/dt - q h_q
 
-Second order in space and time: limited linear reconstruction and a half-step predictor for the faces; leakage q and
-wall work by a two-stage, L-stable, stiffly accurate Runge-Kutta method around the fluxes of the half step.
+The method is of second order in space and time. States at the faces come from a limited linear reconstruction and a
+half-step predictor. Leakage q and wall work are integrated by a two-stage, L-stable, stiffly accurate Runge-Kutta
+method around the fluxes of the half step.
 """
 
 from typing import NamedTuple
@@ -17,9 +18,9 @@ from solvers.compiled import kernel
 from solvers.pumping.flow.duct import WALL, Duct, Wall, stroke_share, wall_at
 from solvers.pumping.flow.nozzle import Gas
 from solvers.pumping.gas.leakage import Stage, Walls, implicit_stage
-from solvers.pumping.gas.riemann import Conserved, State, flux, front_face, hllc, reservoir_face
+from solvers.pumping.gas.riemann import Conserved, State, flux, front_face, hllc, ram_pressure, reservoir_face
 
-_DIAGONAL = 1.0 - np.sqrt(0.5)  # of the two-stage method
+_DIAGONAL = 1.0 - np.sqrt(0.5)  # diagonal coefficient of the two-stage method
 
 
 CONSERVED = floats("mass", "momentum", "energy")
@@ -29,30 +30,30 @@ STATE = floats("density", "velocity", "pressure")
 """Density [kg/m^3], velocity [m/s] and pressure [Pa], or their changes over a cell."""
 
 LOSS = floats("mass", "energy", "work")
-"""What a cell loses to the walls in a step, per metre of face.
+"""Losses of a cell to the walls in a step, per metre of face.
 
-Leaked mass [kg/m]; energy with leaks and wall work [J/m]; work done by the walls on the gas above ambient pressure
-[J/m].
+Leaked mass [kg/m]; energy lost with the leakage and the wall work [J/m]; work of the walls on the gas above ambient
+pressure [J/m].
 """
 
 END = floats("demand", "mach", "velocity")
-"""An end in a step: Mach number that the ambient pressure asks for, Mach number, velocity outwards [m/s]."""
+"""An end of the duct in a step: demand as `reservoir_face` returns it, Mach number, velocity outwards [m/s]."""
 
 LEAK = floats("latest", "halfway", "growth")
-"""Flux out through the gaps, the first guess for the next step.
+"""Flux out of a cell through the gaps, the first guess for the next step.
 
-At the end of the latest step and halfway through it [kg/(s m)]; its growth over that step [kg/(s^2 m)].
+Flux at the end of the latest step and in its middle [kg/(s m)]; its growth over the step [kg/(s^2 m)].
 """
 
 
 class Cells(NamedTuple):
-    """Arrays of a duct that the kernels of a step share, (cells,), (cells + 1,) for faces, (2,) for ends.
+    """Arrays of a duct that the kernels of a step share: (cells,), of faces (cells + 1,), of ends (2,).
 
-    `content` (of CONSERVED) and `state` (of STATE) at the start of the step, `next_content` and `next_state` at its
-    end; `walls` and `next_walls` (of WALL) likewise; `slope` and `half` (the middle of the step) of the state; `loss`
-    over the step (of LOSS); `face_area` [m^2] and `flux` through the faces (of CONSERVED) in the middle of the step;
-    `ends` (of END); `leak` (of LEAK); `share` of the step in which a cell's centre is in its stroke: outside it the
-    walls stand still and nothing leaks.
+    At the start of the step: `content` (CONSERVED), `state` (STATE) and `walls` (WALL); at its end: `next_content`,
+    `next_state` and `next_walls`; in its middle: the state `half` (STATE), `face_area` [m^2] and the `flux` through the
+    faces (CONSERVED). `slope`: change of the state over a cell (STATE). Over the step: `loss` (LOSS), `ends` (END),
+    `leak` (LEAK) and `share`, the share of the step in which the centre of a cell is in its stroke. Outside its stroke
+    the walls of a cell stand still and nothing leaks.
     """
 
     content: RecordArray
@@ -72,7 +73,7 @@ class Cells(NamedTuple):
 
 
 def empty_cells(cells: int) -> Cells:
-    """Arrays for a duct of so many cells."""
+    """Return the arrays of a duct of `cells` cells."""
     return Cells(
         content=records(cells, CONSERVED),
         state=records(cells, STATE),
@@ -93,7 +94,7 @@ def empty_cells(cells: int) -> Cells:
 
 @kernel
 def set_walls(duct: Duct, cells: Cells, low: int, high: int, angle: float, turn: float) -> None:
-    """Set the walls of the active cells at the start and the end of a step, and the areas of faces in its middle."""
+    """Set the walls of the active cells at both ends of a step, and the areas of the faces in its middle."""
     for i in range(low, high):
         z = duct.start + (i + 0.5) * duct.width
         share = stroke_share(duct, z, angle, turn)
@@ -106,14 +107,36 @@ def set_walls(duct: Duct, cells: Cells, low: int, high: int, angle: float, turn:
 
 @kernel
 def _put(walls: RecordArray, i: int, wall: Wall, share: float) -> None:
-    """Walls of cell i, whose clearance is open for a share of the step."""
+    """Store the walls of cell i, whose clearance is open for a share of the step."""
     walls[i].area, walls[i].clearance, walls[i].carried = wall.area, share * wall.clearance, wall.carried
 
 
 @kernel
 def step(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, dt: float, order: int) -> bool:
-    """Advance the cells low..high by dt [s] into `next_content` and `next_state`; whether the states are physical.
+    """Advance the active cells by one time step.
 
+    Parameters
+    ----------
+    gas : Gas
+        The perfect gas and its ambient state.
+    duct : Duct
+        The stretch of tooth space.
+    cells : Cells
+        Arrays of the duct; `next_content` and `next_state` are the result, changed in place.
+    low, high : int
+        First active cell, and the cell after the last active one.
+    dt : float
+        Length of the step [s].
+    order : int
+        Order of the method, 1 or 2.
+
+    Returns
+    -------
+    bool
+        Whether the new states are physical.
+
+    Notes
+    -----
     Eq. P6.
     """
     _set_slopes(cells, low, high, order)
@@ -125,7 +148,7 @@ def step(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, dt: float, ord
 
 @kernel
 def _set_slopes(cells: Cells, low: int, high: int, order: int) -> None:
-    """Limited slopes of the state over the cells; 0 in a cell whose density or pressure they would nearly exhaust."""
+    """Compute limited slopes of the state over the cells; 0 if density or pressure would fall near 0 at an edge."""
     state, slope = cells.state, cells.slope
     for i in range(low, high):
         if order == 1 or high - low < 3:
@@ -153,7 +176,7 @@ def _put_slope(slope: RecordArray, i: int, density: float, velocity: float, pres
 
 @kernel
 def _limited(side: int, back: float, ahead: float) -> float:
-    """Van Leer's limited difference of two neighbouring ones; in an end cell (side -1 or 1) a one-sided slope."""
+    """Limit two neighbouring differences after van Leer; in an end cell (side -1 or 1), return a one-sided slope."""
     if side < 0:
         return _end_slope(back, ahead)
     if side > 0:
@@ -163,7 +186,7 @@ def _limited(side: int, back: float, ahead: float) -> float:
 
 @kernel
 def _end_slope(nearest: float, next_one: float) -> float:
-    """Slope of an end cell from the two nearest differences: that of a parabola, at most twice the nearest one."""
+    """Compute the slope of a parabola in an end cell from the two nearest differences, at most twice the nearest."""
     slope = 1.5 * nearest - 0.5 * next_one
     if slope * nearest <= 0.0:
         return 0.0
@@ -172,7 +195,7 @@ def _end_slope(nearest: float, next_one: float) -> float:
 
 @kernel
 def _walls(duct: Duct, now: RecordArray, after: RecordArray, i: int, fraction: float, dt: float) -> Walls:
-    """Walls of cell i after a fraction of the step."""
+    """Interpolate the walls of cell i after a fraction of the step."""
     return Walls(
         now[i].area + fraction * (after[i].area - now[i].area),
         (after[i].area - now[i].area) / dt,
@@ -183,17 +206,17 @@ def _walls(duct: Duct, now: RecordArray, after: RecordArray, i: int, fraction: f
 
 @kernel
 def _predict(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, dt: float) -> bool:
-    """State in the middle of the step, from the fluxes of each cell's own state at its two edges (Hancock)."""
+    """Compute the states in the middle of the step from the fluxes of a cell's own state at its two edges (Hancock)."""
     g, share = gas.exponent, 0.5 * dt / duct.width
     w, s, c, area = cells.state, cells.slope, cells.content, cells.face_area
     half, leak = cells.half, cells.leak
     for i in range(low, high):
         left, right = area[i], area[i + 1]
-        into, out = flux(g, _edge(w, s, i, -0.5)), flux(g, _edge(w, s, i, 0.5))
+        into, out = _own_flux(g, left, _edge(w, s, i, -0.5)), _own_flux(g, right, _edge(w, s, i, 0.5))
         force = w[i].pressure * (right - left)
-        mass = c[i].mass - share * (right * out.mass - left * into.mass)
-        momentum = c[i].momentum - share * (right * out.momentum - left * into.momentum - force)
-        energy = c[i].energy - share * (right * out.energy - left * into.energy)
+        mass = c[i].mass - share * (out.mass - into.mass)
+        momentum = c[i].momentum - share * (out.momentum - into.momentum - force)
+        energy = c[i].energy - share * (out.energy - into.energy)
         walls = _walls(duct, cells.walls, cells.next_walls, i, 0.5, dt)
         guess = leak[i].latest + 0.5 * dt * leak[i].growth
         stage = implicit_stage(gas, walls, mass, momentum, energy, 0.5 * dt, guess)
@@ -206,8 +229,14 @@ def _predict(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, dt: float)
 
 
 @kernel
+def _own_flux(g: float, area: float, edge: State) -> Conserved:
+    """Compute the flux of a cell's own state at its edge; the square is rounded first, unlike in `ram_pressure`."""
+    return flux(g, area, edge, edge.density * edge.velocity**2)
+
+
+@kernel
 def _edge(w: RecordArray, s: RecordArray, i: int, side: float) -> State:
-    """State w at a cell's edge by the slope s, `side` cells from its centre."""
+    """Extrapolate the state w by the slope s to an edge of cell i, `side` cells from its centre."""
     return State(
         w[i].density + side * s[i].density,
         w[i].velocity + side * s[i].velocity,
@@ -217,7 +246,7 @@ def _edge(w: RecordArray, s: RecordArray, i: int, side: float) -> State:
 
 @kernel
 def _safe_edge(w: RecordArray, s: RecordArray, i: int, side: float) -> State:
-    """State at a cell's edge; that of the cell itself where the slope leads too far."""
+    """Extrapolate the state to an edge of cell i, or return that of the cell if density or pressure falls too far."""
     edge = _edge(w, s, i, side)
     if edge.density < 0.1 * w[i].density or edge.pressure < 0.1 * w[i].pressure:
         return State(w[i].density, w[i].velocity, w[i].pressure)
@@ -226,42 +255,43 @@ def _safe_edge(w: RecordArray, s: RecordArray, i: int, side: float) -> State:
 
 @kernel
 def _set_fluxes(gas: Gas, duct: Duct, cells: Cells, low: int, high: int) -> None:
-    """Fluxes through all faces, times their areas."""
-    half, slope = cells.half, cells.slope
+    """Compute the fluxes through all faces."""
+    half, slope, fluxes, area = cells.half, cells.slope, cells.flux, cells.face_area
     for i in range(low + 1, high):
         left, right = _safe_edge(half, slope, i - 1, 0.5), _safe_edge(half, slope, i, -0.5)
-        _put_flux(cells, i, 1.0, hllc(gas.exponent, left, right))
+        mass, momentum, energy = hllc(gas.exponent, left, right)
+        fluxes[i].mass, fluxes[i].momentum, fluxes[i].energy = area[i] * mass, area[i] * momentum, area[i] * energy
     _set_end(gas, cells, low, low, 0)
     if high < duct.cells:
-        # Through the border to slices whose stroke is to begin, at the state with which they will begin.
+        # The border to slices whose stroke is about to begin has the state with which they will begin.
         border = front_face(gas, duct.speed / duct.lag, _safe_edge(half, slope, high - 1, 0.5))
-        _put_flux(cells, high, 1.0, flux(gas.exponent, border))
+        _put_flux(gas, cells, high, 1.0, border)
     else:
         _set_end(gas, cells, high - 1, high, 1)
 
 
 @kernel
-def _put_flux(cells: Cells, face: int, outward: float, through: Conserved) -> None:
-    """Flux through a face times its area; `outward` is the sign of its direction: momentum has none."""
-    fluxes, area = cells.flux, cells.face_area[face]
-    fluxes[face].mass, fluxes[face].energy = outward * area * through.mass, outward * area * through.energy
-    fluxes[face].momentum = area * through.momentum
+def _put_flux(gas: Gas, cells: Cells, face: int, outward: float, state: State) -> None:
+    """Store the flux of a state through a face; `outward` is -1 if its mass and energy count against the axis."""
+    through, fluxes = flux(gas.exponent, cells.face_area[face], state, ram_pressure(state)), cells.flux
+    fluxes[face].mass, fluxes[face].energy = outward * through.mass, outward * through.energy
+    fluxes[face].momentum = through.momentum
 
 
 @kernel
 def _set_end(gas: Gas, cells: Cells, cell: int, face: int, end: int) -> None:
-    """Flux through an end that opens into the ambient."""
+    """Compute the flux through an end that opens into the ambient."""
     outward, ends = 2.0 * end - 1.0, cells.ends
     rho, u, p = _safe_edge(cells.half, cells.slope, cell, 0.5 * outward)
     opening, demand = reservoir_face(gas, State(rho, outward * u, p))
-    _put_flux(cells, face, outward, flux(gas.exponent, opening))
+    _put_flux(gas, cells, face, outward, opening)
     sound = np.sqrt(gas.exponent * opening.pressure / opening.density)
     ends[end].demand, ends[end].mach, ends[end].velocity = demand, opening.velocity / sound, opening.velocity
 
 
 @kernel
 def _correct(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, dt: float) -> bool:
-    """Content at the end of the step from the fluxes of its middle, leakage and wall work in two implicit stages."""
+    """Compute the content at the end of the step by the fluxes of its middle and two implicit stages at the walls."""
     fluxes, area, c, h = cells.flux, cells.face_area, cells.content, _DIAGONAL * dt
     loss, leak = cells.loss, cells.leak
     for i in range(low, high):
@@ -294,7 +324,7 @@ def _correct(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, dt: float)
             late,
             latest + ahead,
         )
-        if not (first.fits and last.fits):  # one stage: first order, hardier
+        if not (first.fits and last.fits):  # a single stage is of first order and more robust
             early, late = 0.0, dt
             last = implicit_stage(gas, walls, full_mass, full_momentum, full_energy, dt, latest + ahead)
         if not last.fits:

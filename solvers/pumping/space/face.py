@@ -1,4 +1,4 @@
-"""The face width between its grooves: stretches of tooth space that end in the ambient, cut into slices."""
+"""The face between its grooves: stretches of tooth space, open to the ambient at both ends and cut into slices."""
 
 from dataclasses import dataclass, replace
 
@@ -8,12 +8,16 @@ from solvers.arrays import FloatArray
 from solvers.errors import InvalidInput
 from solvers.pumping.inputs import Groove
 
-_SLIVER = 1e-9  # share of the face width below which nothing is left between two grooves
+_SLIVER = 1e-9  # share of the face width; a shorter stretch between two grooves is left out
 
 
 @dataclass(frozen=True, slots=True)
 class Stretch:
-    """A part of the face, `start` to `start + cells * width` [m], and whether its ends are the face's own."""
+    """Stretch of the face between grooves, cut into `cells` slices of equal `width` [m].
+
+    The stretch reaches from `start` to `start + cells * width` [m]. `opens_front` and `opens_rear` tell whether it
+    begins at the front end and ends at the rear end of the face.
+    """
 
     start: float
     width: float
@@ -23,19 +27,20 @@ class Stretch:
 
     @property
     def centres(self) -> FloatArray:
-        """Positions of the slices' centres [m]."""
+        """Positions of the centres of the slices [m], (cells,)."""
         return np.linspace(self.start + 0.5 * self.width, self.start + (self.cells - 0.5) * self.width, self.cells)
 
     def coarser(self, times: int) -> "Stretch":
-        """The same stretch in so many times fewer slices."""
+        """Return this stretch with the number of slices divided by `times`, at least one slice."""
         cells = max(self.cells // times, 1)
         return replace(self, cells=cells, width=self.width * self.cells / cells)
 
 
 def stretches(face_width: float, grooves: tuple[Groove, ...], slices: int, least: int) -> list[Stretch]:
-    """Stretches of a face cut into about `slices` slices of nearly equal width, at least `least` in each stretch.
+    """Cut the face between its grooves into about `slices` slices of nearly equal width.
 
-    Slices never overlap a groove. Raises InvalidInput: groove_outside, groove_overlap.
+    Every stretch has at least `least` slices, and no slice overlaps a groove.
+    Raises InvalidInput: groove_outside, groove_overlap.
     """
     edges = [0.0]
     for k, groove in sorted(enumerate(grooves), key=lambda pair: pair[1].position):

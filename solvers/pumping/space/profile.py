@@ -1,7 +1,11 @@
-"""Both profiles of a side of a tooth space, and the nearest point of one to a point of the other.
+"""Profiles of a tooth space and of the mate's tooth in it, and the nearest point of a profile to a given point.
 
-Normals of an involute are tangents of its base circle, so the foot of a point on a flank needs no search; the areas
-under involutes and circular arcs are elementary. Only a foot on the root fillet is searched for.
+A normal of an involute is a tangent of its base circle, so the nearest point of a flank needs no search. The areas
+under involutes and circular arcs have closed forms. Only the nearest point of a root fillet is searched for.
+
+Points are given by their distance from the axis of a gear [m] and their angle [rad] from the centre line of the space
+or tooth. Profiles are symmetric, so one half is enough. A roll length [m] is the length of the tangent from a point of
+an involute to its base circle.
 """
 
 import numpy as np
@@ -10,26 +14,26 @@ from solvers.compiled import kernel
 from solvers.gears.gear import RackFillet, fillet_point, fillet_sector_area
 from solvers.pumping.space.tooth_space import ToothSpace
 
-_SCAN = 17  # fillet points that bracket the nearest one
+_SCAN = 17  # points of the fillet among which the search brackets the nearest one
 _GOLDEN = 0.6180339887498949  # (sqrt(5) - 1) / 2, the golden section
 
 
 @kernel
 def involute(roll: float, base: float) -> float:
-    """Polar angle of an involute at a roll length [m] [rad]."""
+    """Compute the polar angle of an involute [rad] at a roll length [m], from its start on the base circle."""
     angle: float = roll / base - np.arctan(roll / base)
     return angle
 
 
 @kernel
 def sector(roll: float, base: float) -> float:
-    """1/2 integral r^2 dpsi along an involute from its base circle [m^2]."""
+    """Compute 1/2 integral r^2 dpsi along an involute from its base circle to a roll length [m^2]."""
     return roll**3 / (6.0 * base)
 
 
 @kernel
 def sector_to_involute(space: ToothSpace, roll: float) -> float:
-    """Area between the owner's centre and half a space's profile up to a roll length of its involute [m^2]."""
+    """Compute the area between the owner's axis and half the space's profile up to a roll length of the flank [m^2]."""
     base = space.base_radius
     return space.root.sector_area + sector(roll, base) - sector(space.root.involute_roll, base)
 
@@ -43,7 +47,7 @@ def _distance_to_fillet(fillet: RackFillet, t: float, radius: float, angle: floa
 
 @kernel
 def _nearest_on_fillet(fillet: RackFillet, radius: float, angle: float) -> tuple[float, float]:
-    """Arc parameter and distance [m] of the fillet's point nearest to (radius, angle from the space's centre)."""
+    """Find the point of the fillet nearest to (radius, angle); return its arc parameter and its distance [m]."""
     step = fillet.end / (_SCAN - 1)
     best, nearest = 0, np.inf
     for k in range(_SCAN):
@@ -63,7 +67,7 @@ def _nearest_on_fillet(fillet: RackFillet, radius: float, angle: float) -> tuple
 
 @kernel
 def _foot_on_flank(space: ToothSpace, radius: float, angle: float) -> tuple[float, float]:
-    """Roll length of the flank's point nearest to (radius, angle from the space's centre), and its distance [m]."""
+    """Find the point of the space's flank nearest to (radius, angle); return its roll length and its distance [m]."""
     base, start = space.base_radius, space.root.involute_roll
     if radius > base:
         roll = np.sqrt(radius**2 - base**2)
@@ -80,7 +84,11 @@ def _foot_on_flank(space: ToothSpace, radius: float, angle: float) -> tuple[floa
 
 @kernel
 def nearest_on_profile(space: ToothSpace, radius: float, angle: float) -> tuple[float, float, float, float]:
-    """Nearest point of half a space's profile: distance [m], radius [m], half angle [rad], sector below [m^2]."""
+    """Find the point of half the space's profile nearest to (radius, angle).
+
+    Returns its distance [m], its radius [m], its angle [rad], and the area between the owner's axis and the profile
+    up to this point [m^2].
+    """
     root, base = space.root, space.base_radius
     roll, distance = _foot_on_flank(space, radius, angle)
     r, psi = np.hypot(base, roll), space.base_half_angle + involute(roll, base)
@@ -93,14 +101,15 @@ def nearest_on_profile(space: ToothSpace, radius: float, angle: float) -> tuple[
         t, gap = _nearest_on_fillet(root.fillet, radius, angle)
         if gap < distance:
             r, psi = fillet_point(root.fillet, t)
-            distance = gap if radius - r > r * (angle - psi) else 0.0  # a fillet proud of the involute meets the mate
+            # if the fillet stands proud of the involute, the mate's point may lie inside it: the profiles touch
+            distance = gap if radius - r > r * (angle - psi) else 0.0
             area = 0.5 * root.root_half_angle * root.root_radius**2 + fillet_sector_area(root.fillet, t)
     return distance, r, psi, area
 
 
 @kernel
 def foot_on_mate(space: ToothSpace, radius: float, angle: float) -> tuple[float, float]:
-    """Roll length of the mate's flank nearest to (radius, angle from its tooth's centre), and its distance [m]."""
+    """Find the point of the mate's flank nearest to (radius, angle); return its roll length and its distance [m]."""
     base = space.mate_base_radius
     foot = 0.0
     if radius > base:
@@ -118,7 +127,7 @@ def foot_on_mate(space: ToothSpace, radius: float, angle: float) -> tuple[float,
 def from_mate(
     space: ToothSpace, angle: float, mate_angle: float, mate_roll: float
 ) -> tuple[float, float, float, float]:
-    """Nearest point of half a space's profile to a point of the mate's flank, as `nearest_on_profile` gives it."""
+    """Find the point of half the space's profile nearest to a point of the mate's flank, see `nearest_on_profile`."""
     radius = np.hypot(space.mate_base_radius, mate_roll)
     mu = mate_angle - space.mate_base_half_angle + involute(mate_roll, space.mate_base_radius)
     x, y = radius * np.sin(mu), space.centre_distance - radius * np.cos(mu)
@@ -127,7 +136,7 @@ def from_mate(
 
 @kernel
 def from_own(space: ToothSpace, angle: float, mate_angle: float, roll: float) -> tuple[float, float]:
-    """Foot on the mate's flank of a point of the own one, as `foot_on_mate` gives it."""
+    """Find the point of the mate's flank nearest to a point of the space's flank, see `foot_on_mate`."""
     radius = np.hypot(space.base_radius, roll)
     theta = angle - space.base_half_angle - involute(roll, space.base_radius)
     x, y = radius * np.sin(theta), space.centre_distance - radius * np.cos(theta)

@@ -1,6 +1,9 @@
-"""Area of a tooth space between the flanks and its radial clearances at one position, all in closed form.
+"""Free area of a tooth space and its radial clearances at one angle, by closed forms.
 
-The right side of a space at (angle, mate's angle) is the mirror image of the left side at (-angle, -mate's angle).
+A space has a left and a right side, each closed by its narrowest section: the shortest line between the profile of
+the space and the mate's tooth, whose length is the clearance. The section ends at two feet: at the point of the space
+(radius [m], half angle [rad]) and at the point of the mate (roll length [m]). The right side at (angle, mate's angle)
+is the mirror image of the left side at (-angle, -mate's angle).
 """
 
 from typing import NamedTuple
@@ -13,7 +16,7 @@ from solvers.pumping.space.tooth_space import ToothSpace
 
 
 class Section(NamedTuple):
-    """Area [m^2], clearance of both sides [m], area of gas that the flanks have carried out so far [m^2]."""
+    """Free area [m^2], clearances of both sides [m], area of gas that the flanks have carried out so far [m^2]."""
 
     area: float
     left: float
@@ -23,7 +26,7 @@ class Section(NamedTuple):
 
 @kernel
 def _area_part(space: ToothSpace, own_x: float, own_y: float, mate_x: float, mate_y: float, mate_roll: float) -> float:
-    """What a side adds between the owner's centre and the upper boundary [m^2]: section, mate's flank, mate's tip."""
+    """Compute the area between the owner's axis and a side's upper boundary: section, mate's flank and tip [m^2]."""
     base = space.mate_base_radius
     under_flank = sector(space.mate_tip_roll, base) - sector(mate_roll, base)
     section = 0.5 * (own_y * mate_x - own_x * mate_y) - 0.5 * space.centre_distance * mate_x
@@ -34,7 +37,7 @@ def _area_part(space: ToothSpace, own_x: float, own_y: float, mate_x: float, mat
 def _close(
     space: ToothSpace, angle: float, mate_angle: float, own_radius: float, own_half_angle: float, mate_roll: float
 ) -> float:
-    """Upper area part of a side whose section joins two feet given by radius, half angle and roll length [m^2]."""
+    """Compute the area between the owner's axis and a side's upper boundary [m^2] from the feet of its section."""
     mate_radius = np.hypot(space.mate_base_radius, mate_roll)
     mu = mate_angle - space.mate_base_half_angle + involute(mate_roll, space.mate_base_radius)
     theta = angle - own_half_angle
@@ -45,9 +48,11 @@ def _close(
 
 @kernel
 def _corner_section(space: ToothSpace, angle: float, mate_angle: float) -> tuple[float, float, float, float, float]:
-    """Section from the nearer tip corner to the other gear, from the mate's alone with tip gaps.
+    """Find the section between a tip corner and the other gear.
 
-    Clearance [m], the foot's radius [m], half angle [rad] and sector below it [m^2], roll length on the mate [m].
+    With contact gaps the nearer of both tip corners counts, with tip gaps that of the mate.
+    Returns the clearance [m]; radius [m] and half angle [rad] of the foot on the space, with the area between the
+    owner's axis and the profile up to this foot [m^2]; the roll length of the foot on the mate [m].
     """
     clearance, r, psi, below = from_mate(space, angle, mate_angle, space.mate_tip_roll)
     foot = space.mate_tip_roll
@@ -63,10 +68,10 @@ def _corner_section(space: ToothSpace, angle: float, mate_angle: float) -> tuple
 def _flank_section(
     space: ToothSpace, angle: float, mate_angle: float, roll: float, mate_roll: float, gap: float
 ) -> tuple[float, float, float, float, float]:
-    """Section where the plane of action crosses a side, told as by `_corner_section`.
+    """Find the section of a side on the line of action; returns the same values as `_corner_section`.
 
-    Beyond the end of one gear's involute it joins the other gear's flank to the nearest point of the first; where that
-    involute ends may be closer still.
+    If the line of action misses the involute of one gear, the section joins the flank of the other gear to the nearest
+    point of this gear. The clearance at the end of the missed involute may be smaller and then counts.
     """
     start = space.root.involute_roll
     if roll < start:
@@ -84,9 +89,10 @@ def _flank_section(
 
 @kernel
 def _carried(space: ToothSpace, roll: float, gap: float) -> float:
-    """Area that rolling flanks have carried through a section of `gap` [m], towards growing roll lengths [m^2].
+    """Compute the area of gas that rolling flanks have carried through a section of width `gap` [m] [m^2].
 
-    The integral of gap times half the sum of both flanks' rolling velocities, from where both are 0.
+    It is positive towards growing roll lengths. It is the integral of the gap times half the sum of the rolling
+    velocities of both flanks, from the angle at which both velocities are 0.
     """
     facing = space.line_of_action - gap
     roll = min(max(roll, facing - space.mate_tip_roll), space.tip_roll)
@@ -96,11 +102,12 @@ def _carried(space: ToothSpace, roll: float, gap: float) -> float:
 
 @kernel
 def _side(space: ToothSpace, angle: float, mate_angle: float, gap: float) -> tuple[float, float, float]:
-    """One side: area part [m^2], clearance [m], area that the flanks have rolled through its section [m^2].
+    """Compute a side's part of the area [m^2], its clearance [m] and the area of gas carried through its section [m^2].
 
-    Flanks that face each other close the space on the line of action, `gap` [m] apart there: with no gap down to the
-    base circles, as an undercut counts in the path of contact. A wide gap is not always the side's narrowest place: a
-    tip corner may come closer to the root fillet and throttles, but closes nothing.
+    Flanks that face each other close the space on the line of action, where they are `gap` [m] apart. Without a gap
+    the involutes count down to the base circles, even if undercut, as in the path of contact.
+    A wide gap is not always the narrowest place of the side: a tip corner may be closer to the root fillet. Its
+    distance is then the clearance, but the section that bounds the area stays on the line of action.
     """
     roll = space.pitch_roll + space.base_radius * (angle - space.pitch_half_angle)
     mate_roll = space.line_of_action - roll - gap
@@ -119,10 +126,25 @@ def _side(space: ToothSpace, angle: float, mate_angle: float, gap: float) -> tup
 
 @kernel
 def section(space: ToothSpace, angle: float) -> Section:
-    """The section at an `angle` [rad] of the owner; only differences of what is carried have a meaning (Eqs. 5, P3).
+    """Compute the section of a tooth space at an angle of its owner.
 
-    The flanks of the coast side roll through the section fixed on the line of action: out of the space where the
-    owner drives, else into it.
+    Parameters
+    ----------
+    space : ToothSpace
+        Shape and motion of the space and of the mate's tooth.
+    angle : float
+        Angle of the owner, 0 if the space is on the line of centres [rad].
+
+    Returns
+    -------
+    Section
+        Free area [m^2], clearances [m] and area of gas that the flanks have carried out [m^2]. Only differences of
+        the carried area between two angles have a meaning.
+
+    Notes
+    -----
+    Eqs. 5, P3. The flanks of the coast side carry gas through the section that is fixed on the line of action: out of
+    the space if the owner drives, else into the space.
     """
     mate_angle = angle * space.ratio + space.offset
     left_gap = 0.0 if space.owner_drives else space.backlash_gap

@@ -1,4 +1,4 @@
-"""Areas and clearances of a tooth space tabulated over one stroke, the table that all slices share."""
+"""Area and clearances of a tooth space tabulated over one stroke; all slices share the table."""
 
 from math import degrees
 
@@ -13,17 +13,18 @@ from solvers.quantity import quantity, record
 from solvers.sources import MILIAN
 
 POSITIONS = 361  # every 1/360 of the stroke, chosen
-SMOOTH = 3.0  # times the change of the area's logarithm over the positions beside
-JUMP = 0.01  # chosen: share of the area, far above the rounding of the section's search
+SMOOTH = 3.0  # times the change of the area's logarithm over the neighbouring steps
+JUMP = 0.01  # chosen: change of the area's logarithm, far above the rounding of the search for the section
 
 
 @record
 class StrokeTable:
-    """One stroke of a tooth space, of shape (positions,) at equal steps of the owner's angle [rad].
+    """One stroke of a tooth space at equal steps of the owner's angle [rad], arrays of shape (positions,).
 
-    `area` [m^2]; `clearance_left`, `clearance_right` [m]; `carried`: area of gas that the flanks have rolled out of the
-    space through its narrowest sections since the stroke began [m^2]. Where a section passes from a tip corner to the
-    flanks the area turns and what is carried begins: summed up, both keep step between two positions.
+    `area` [m^2]; `clearance_left`, `clearance_right` [m]; `carried`: area of gas that the flanks have carried out of
+    the space through its narrowest sections since the stroke began [m^2]. The table holds this sum instead of its rate:
+    at the angle at which a section passes from a tip corner to the flanks, the rate jumps and the slope of the area
+    changes. Interpolated between two positions, area and sum stay consistent.
     """
 
     limits: StrokeLimits
@@ -48,9 +49,10 @@ class StrokeTable:
 
     @property
     def jump(self) -> tuple[float, float]:
-        """By how much the logarithm of the area jumps between two positions, 0 if nowhere, and the angle [rad] there.
+        """Largest jump of the logarithm of the area between two positions, 0 if there is none, and its angle [rad].
 
-        With tip gaps the nearest point to a tip corner can leave the flank for the root; the contact gap knows no jump.
+        With tip gaps the point nearest to a tip corner can jump from the flank to the root. With contact gaps the area
+        has no jump.
         """
         change = np.abs(np.diff(np.log(self.area)))
         beside = np.maximum(np.append(change[1:], change[-2]), np.append(change[1], change[:-1]))
@@ -59,7 +61,7 @@ class StrokeTable:
         return (float(change[at]) if jumps else 0.0), float(self.angle[at])
 
     def coarser(self, times: int) -> "StrokeTable":
-        """The same stroke at so many times fewer positions."""
+        """Return this stroke with every `times`-th position only."""
         columns = (self.angle, self.area, self.clearance_left, self.clearance_right, self.carried)
         return StrokeTable(self.limits, *(frozen(column[::times].copy()) for column in columns))
 
@@ -67,6 +69,7 @@ class StrokeTable:
 def stroke_table(space: ToothSpace, *, minimum_gap: float = 0.0, positions: int = POSITIONS) -> StrokeTable:
     """Tabulate the space over its stroke.
 
+    `minimum_gap` [m] is the least clearance of a side.
     Raises InvalidInput: tooth_space_closed (no area left), tooth_space_minima (area with more than one minimum).
     """
     limits = stroke_limits(space)
@@ -89,8 +92,8 @@ def _tabulate(
     space: ToothSpace, angle: FloatArray, area: FloatArray, left: FloatArray, right: FloatArray, carried: FloatArray
 ) -> None:
     for i in range(angle.size):
-        found = section(space, angle[i])
-        area[i], left[i], right[i], carried[i] = found.area, found.left, found.right, found.carried
+        here = section(space, angle[i])
+        area[i], left[i], right[i], carried[i] = here.area, here.left, here.right, here.carried
 
 
 def _check_area(angle: FloatArray, area: FloatArray) -> None:
@@ -103,7 +106,7 @@ def _check_area(angle: FloatArray, area: FloatArray) -> None:
     if wrong.any():
         where = degrees(angle[int(np.argmax(wrong))])
         message = (
-            f"the area of the tooth space has a second minimum near {where:.3f} deg; the nearest point to a tip corner "
-            "can jump along the root, the contact gap knows no such jump"
+            f"the area of the tooth space has a second minimum near {where:.3f} deg: with tip gaps the point nearest "
+            "to a tip corner can jump along the root, contact gaps have no such jump"
         )
         raise InvalidInput("tooth_space_minima", message, "gears")

@@ -1,8 +1,9 @@
 """A tooth space of one gear and the mate's tooth that passes through it, in the transverse plane.
 
-Frame: the owner of the space turns about (0, 0), the mate about (0, a). Angles of the owner count from +y, angles of
-the mate from -y, both towards +x, the direction of motion; the space's centre lies on the line of centres at angle 0.
-The left side leads away from the motion: it is the driving flank where the owner drives.
+Frame: the owner of the space turns about (0, 0), the mate about (0, a). Angles of the owner are measured from +y,
+angles of the mate from -y, both towards +x, the direction of motion. At angle 0 the centre of the space is on the line
+of centres. The right side of the space is ahead in the direction of motion. If the owner drives, its driving flank is
+the left side.
 """
 
 from dataclasses import dataclass
@@ -18,10 +19,10 @@ from solvers.pumping.inputs import Gap
 class ToothSpace(NamedTuple):
     """Shape and motion of a space and its mate's tooth; lengths [m], angles [rad].
 
-    Flanks are given by their base radius, the half angle at the base circle and the roll length at the tip.
-    `first_contact`, `last_contact`: the owner's roll lengths between which flanks are in contact;
-    `ratio`: mate's angle per angle of the owner; `offset`: the mate's angle when the space is on the line of centres;
-    `backlash_gap`: distance of the coast flanks along the line of action.
+    A flank is given by its base radius, its half angle at the base circle and its roll length at the tip.
+    `first_contact`, `last_contact`: roll lengths of the owner between which the flanks are in contact;
+    `ratio`: angle of the mate per angle of the owner; `offset`: angle of the mate while the space is on the line of
+    centres; `backlash_gap`: distance of the coast flanks along the line of action.
     """
 
     root: RootProfile
@@ -50,7 +51,7 @@ class ToothSpace(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class StrokeLimits:
-    """Angles of the owner [rad] between which the mate's tooth is in the space, and its driving flank in contact."""
+    """Angles of the owner [rad] between which the mate's tooth is in the space, and between which it is in contact."""
 
     start: float
     contact_start: float
@@ -59,7 +60,24 @@ class StrokeLimits:
 
 
 def circumferential_backlash(pair: GearPair, normal_backlash: float) -> float:
-    """Backlash j_t on the working circles [m]: that of the centre distance and that of the thinned tooth (Eq. P1)."""
+    """Compute the circumferential backlash j_t on the working circles.
+
+    Parameters
+    ----------
+    pair : GearPair
+        The gear pair at its centre distance.
+    normal_backlash : float
+        Normal backlash by which the mate's tooth is thinner, added to that of the centre distance [m].
+
+    Returns
+    -------
+    float
+        Circumferential backlash of centre distance and thinned tooth together [m].
+
+    Notes
+    -----
+    Eq. P1.
+    """
     radius_1, radius_2 = pair.pinion_working_radius, pair.wheel_working_radius
     thickness_1 = 2 * radius_1 * pair.pinion.half_tooth_angle(radius_1)
     thickness_2 = 2 * radius_2 * pair.wheel.half_tooth_angle(radius_2)
@@ -67,18 +85,18 @@ def circumferential_backlash(pair: GearPair, normal_backlash: float) -> float:
 
 
 def normal_backlash(pair: GearPair, extra: float) -> float:
-    """Backlash along the normal of the flanks [m]."""
+    """Compute the backlash along the normal of the flanks [m], `extra` [m] of it by a thinner tooth."""
     tangential = circumferential_backlash(pair, extra)
     return tangential * cos(pair.working_pressure_angle) * cos(pair.base_helix_angle)
 
 
 def _thinning(pair: GearPair, normal_backlash: float) -> float:
-    """What the mate's tooth loses on its working circle [m]."""
+    """Compute by how much the mate's tooth is thinner on its working circle [m]."""
     return normal_backlash / (cos(pair.base_helix_angle) * cos(pair.working_pressure_angle))
 
 
 def tooth_space(pair: GearPair, extra_backlash: float, gap: Gap, *, of_pinion: bool) -> ToothSpace:
-    """The pinion's or the wheel's space with the other gear's tooth, thinned by the extra backlash, in it.
+    """Describe the space of the pinion or of the wheel and the mate's tooth, thinned by the extra backlash [m].
 
     Raises InvalidInput: pointed_tooth, and the codes of `path_of_contact`.
     """
@@ -93,7 +111,7 @@ def tooth_space(pair: GearPair, extra_backlash: float, gap: Gap, *, of_pinion: b
     mate_tip = mate.half_tooth_angle(mate.tip_radius) - thinning
     if mate_tip <= 0.0:
         raise InvalidInput(
-            "pointed_tooth", "the backlash leaves the mate's teeth pointed; reduce it", "normal_backlash"
+            "pointed_tooth", "the mate's teeth are pointed with this backlash; reduce it", "normal_backlash"
         )
     return ToothSpace(
         root=root_profile(pair.inputs, teeth, owner),
@@ -122,8 +140,21 @@ def tooth_space(pair: GearPair, extra_backlash: float, gap: Gap, *, of_pinion: b
 
 
 def stroke_limits(space: ToothSpace) -> StrokeLimits:
-    """When the mate's first and last corner cross the owner's tip circle, and when the driving flanks touch.
+    """Compute the angles at which the mate's tooth enters and leaves the space and its driving flank is in contact.
 
+    Parameters
+    ----------
+    space : ToothSpace
+        Shape and motion of the space and of the mate's tooth.
+
+    Returns
+    -------
+    StrokeLimits
+        Angles of the owner [rad]: at `start` the first tip corner of the mate crosses the owner's tip circle, at `end`
+        the last.
+
+    Notes
+    -----
     Eq. P2.
     """
     a, tip, mate_tip = space.centre_distance, space.tip_radius, space.mate_tip_radius

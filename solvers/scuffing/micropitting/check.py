@@ -1,4 +1,4 @@
-"""The check against micropitting, put together from its methods."""
+"""The check against micropitting: permissible film ratio, film by method A, film by method B and warnings."""
 
 from dataclasses import dataclass
 
@@ -28,7 +28,7 @@ LIKELY_BELOW, UNLIKELY_ABOVE = 1.0, 2.0  # of the safety factor; common practice
 
 @dataclass(frozen=True, slots=True)
 class CheckedFlank:
-    """The answer to a check; the film of the flank and its ratio over the flank's maps are None if not known."""
+    """The answer to a check, with the film of the flank and the film ratio over the flank's maps, None if unknown."""
 
     answer: Micropitting | None = None
     film: FlankFilm | None = None
@@ -56,13 +56,12 @@ def check_micropitting(
     thermal_film : float, optional
         Thinnest film by thermal EHL [m].
     bulk : callable, optional
-        Bulk temperature [K] along the face; None if it is one.
+        Bulk temperature [K] along the face; None if the bulk temperature is constant.
 
     Returns
     -------
     CheckedFlank
-        The answer, None if it is not asked for or without an oil and its bulk temperature.
-
+        The answer; None if the check is not requested, or if the oil or the bulk temperature is unknown.
     """
     check, oil = inputs.micropitting, inputs.known_oil
     if check is None or oil is None or inputs.temperatures.bulk is None:
@@ -109,17 +108,17 @@ def _local(
 def _local_points(
     distribution: LoadDistribution, film: FlankFilm | None, permissible: float | None
 ) -> list[LocalPoint]:
-    """Return the film at the points of the path, on the feature line."""
+    """Return the film at those characteristic points of the feature line that the path contains."""
     path = distribution.path_of_contact
     places = {name: x / path.length for name, x in characteristic_points(path).items() if 0.0 <= x <= path.length}
     psi = np.array([*places.values()])
     ratio = np.full(psi.size, np.nan)
     if film is not None:
         ratio = film.at(psi * path.length, psi * path.plane.face_width)
-    known = [None if np.isnan(value) else float(value) for value in ratio]
+    finite = [None if np.isnan(value) else float(value) for value in ratio]
     return [
         LocalPoint(name, place, value, _safety(value, permissible))
-        for (name, place), value in zip(places.items(), known, strict=True)
+        for (name, place), value in zip(places.items(), finite, strict=True)
     ]
 
 
@@ -131,8 +130,8 @@ def _standard(
     if oil is None or not moving or not has_standard_film(given, path):
         return None
     temperatures = inputs.temperatures
-    found = solve_standard(given, path, oil, temperatures.oil, temperatures.oil_supply, check.quality_grade)
-    values = zip(found.force_ratio, found.contacts.pressure, *found.films, strict=True)
+    standard = solve_standard(given, path, oil, temperatures.oil, temperatures.oil_supply, check.quality_grade)
+    values = zip(standard.force_ratio, standard.contacts.pressure, *standard.films, strict=True)
     points = tuple(
         StandardPoint(
             name, float(share), float(pressure), float(flash), float(film), float(ratio), _safety(ratio, permissible)
@@ -140,11 +139,13 @@ def _standard(
         for name, (share, pressure, flash, film, ratio) in zip(characteristic_points(path), values, strict=True)
     )
     least = min(point.ratio for point in points)
-    return StandardFilm(found.friction, found.bulk, found.loss_factor, least, _safety(least, permissible), points)
+    return StandardFilm(
+        standard.friction, standard.bulk, standard.loss_factor, least, _safety(least, permissible), points
+    )
 
 
 def _safety(ratio: float | None, permissible: float | None) -> float | None:
-    """Compute S_lambda = lambda / lambda_GFP (Eq. M7); None without both."""
+    """Compute S_lambda = lambda / lambda_GFP (Eq. M7); None unless both are known."""
     return None if ratio is None or permissible is None else ratio / permissible
 
 

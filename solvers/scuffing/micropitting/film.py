@@ -1,4 +1,4 @@
-"""Film of a contact of two flanks and its ratio to their roughness, at the temperature that friction gives it."""
+"""Film of a contact of two flanks at its contact temperature, and the ratio of film to roughness."""
 
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -15,7 +15,7 @@ from solvers.scuffing.micropitting.oil import pressure_viscosity, viscosity
 
 @dataclass(frozen=True, slots=True)
 class Conditions:
-    """What all contacts of a mesh share; the bulk temperature [K] may be one or that of each contact."""
+    """What all contacts of a mesh share; the bulk temperature [K] is one number, or one for every contact."""
 
     oil: OilSheet | Lubricant
     bulk: float | FloatArray
@@ -64,12 +64,11 @@ def films(conditions: Conditions, contacts: Contacts) -> Films:
     Returns
     -------
     Films
-        One value of each per contact.
+        Flash temperature, film and film ratio of every contact.
 
     Notes
     -----
     Eq. M7 of the chapter on micropitting.
-
     """
     flash = flash_temperature(conditions, contacts)
     film = film_thickness(conditions, contacts, flash)
@@ -94,7 +93,6 @@ def flash_temperature(conditions: Conditions, contacts: Contacts) -> FloatArray:
     Notes
     -----
     Eq. M4 of the chapter on micropitting; formula 80 of ISO/TR 15144-1.
-
     """
     pressure, radius, pinion_speed, wheel_speed = contacts
     conducted = _effusivity(conditions.pinion) * np.sqrt(pinion_speed) + _effusivity(conditions.wheel) * np.sqrt(
@@ -111,7 +109,7 @@ def _effusivity(solid: Solid) -> float:
 
 
 def film_thickness(conditions: Conditions, contacts: Contacts, flash: FloatArray) -> FloatArray:
-    """Compute the film of contacts: that at the bulk temperature times what the flash temperature leaves of it.
+    """Compute the film of contacts: the film at the bulk temperature, thinned by the flash temperature.
 
     Parameters
     ----------
@@ -130,7 +128,6 @@ def film_thickness(conditions: Conditions, contacts: Contacts, flash: FloatArray
     Notes
     -----
     Eqs. M5 and M6 of the chapter on micropitting; formulas 4 and 27 of ISO/TR 15144-1.
-
     """
     oil, bulk, modulus = conditions.oil, np.asarray(conditions.bulk), conditions.modulus
     thickness, coefficient = viscosity(oil, bulk), pressure_viscosity(oil, bulk)

@@ -1,10 +1,11 @@
-"""Method A of ISO/TR 15144-1: the film over the whole flank under the load that the flank has."""
+"""Method A of ISO/TR 15144-1: the film over the whole flank under its computed load."""
 
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from solvers.arrays import FloatArray
+from solvers.contact.hertz import maximum_pressure
 from solvers.scuffing.contact_slices import Peak, reaches_base_circle
 from solvers.scuffing.inputs import ScuffingInputs
 from solvers.scuffing.micropitting.film import Conditions, Contacts, films
@@ -24,9 +25,10 @@ LEAST = 1e-9  # ratio below which films are equally thin
 
 @dataclass(frozen=True, slots=True)
 class FlankFilm:
-    """What the film ratio over the flank depends on; the bulk temperature of `conditions` is that of the oil's entry.
+    """What the film ratio over the flank depends on.
 
-    `bulk` is the bulk temperature along the face, None where it is one.
+    `bulk` is the bulk temperature along the face. If it is None, the bulk temperature of `conditions`, at which the oil
+    enters the contact, holds everywhere.
     """
 
     inputs: ScuffingInputs
@@ -41,7 +43,7 @@ class FlankFilm:
         if self.bulk is not None:
             conditions = replace(conditions, bulk=self.bulk(np.broadcast_to(y, touching.shape)[touching]))
         ratio = np.full(touching.shape, np.nan)
-        ratio[touching] = films(conditions, contacts_of(points)).ratio
+        ratio[touching] = films(conditions, contacts_of(points, conditions.modulus)).ratio
         return ratio
 
     def at(self, x: FloatArray, y: FloatArray) -> FloatArray:
@@ -54,12 +56,13 @@ class FlankFilm:
         return self.ratio(contacts_under_load(self.inputs.distribution, self.distribution, x, grid.load), grid.y)
 
 
-def contacts_of(points: ContactPoints) -> Contacts:
-    """Return the points that are in contact."""
+def contacts_of(points: ContactPoints, modulus: float) -> Contacts:
+    """Return the contacts at those points that are in contact; `modulus` is E' [Pa]."""
     touching = points.in_contact
-    return Contacts(
-        *(values[touching] for values in (points.pressure, points.radius, points.pinion_speed, points.wheel_speed))
+    load, radius, pinion_speed, wheel_speed = (
+        values[touching] for values in (points.line_load, points.radius, points.pinion_speed, points.wheel_speed)
     )
+    return Contacts(maximum_pressure(load, radius, modulus), radius, pinion_speed, wheel_speed)
 
 
 def flank_film(
@@ -92,8 +95,7 @@ def find_least(flank: FlankFilm, grid: FlashMap, ratio: FloatArray) -> Peak | No
     Returns
     -------
     Peak or None
-        Least ratio and its place [m]; None if nothing is in contact, or where the loaded path reaches a base circle.
-
+        Least ratio and its place [m]; None if nothing is in contact, or if the loaded path reaches a base circle.
     """
     if np.isnan(ratio).all() or reaches_base_circle(flank.distribution.balance.survey):
         return None

@@ -18,17 +18,16 @@ def helical_load_factor(total_contact_ratio: float) -> float:
     Parameters
     ----------
     total_contact_ratio : float
-        Total contact ratio.
+        Total contact ratio [-].
 
     Returns
     -------
     float
-        K_Bgamma.
+        Helical load factor K_Bgamma [-].
 
     Notes
     -----
     Eq. M8 of the chapter on micropitting; formulas 88 to 90 of ISO/TR 15144-1.
-
     """
     if total_contact_ratio <= 2.0:
         return 1.0
@@ -57,17 +56,16 @@ def mean_friction(
     oil_temperature : float
         Temperature of the oil [K].
     face_load_factor : float
-        K_Hbeta.
+        Face load factor K_Hbeta [-].
 
     Returns
     -------
     float
-        Coefficient of friction.
+        Coefficient of friction [-].
 
     Notes
     -----
-    Eq. M9 of the chapter on micropitting. K_Halpha is 1.
-
+    Eq. M9 of the chapter on micropitting. The transverse load factor K_Halpha is 1.
     """
     at_pitch = path.pitch_point - path.start
     radius = reduced_radius(path.plane, at_pitch) / MM
@@ -92,12 +90,11 @@ def loss_factor(path: PathOfContact) -> float:
     Returns
     -------
     float
-        H_v.
+        Loss factor H_v [-].
 
     Notes
     -----
     Eq. M10 of the chapter on micropitting; formula 91 of ISO/TR 15144-1.
-
     """
     pair, pitch = path.pair, path.plane.base_pitch
     approach, recess = (path.pitch_point - path.start) / pitch, (path.end - path.pitch_point) / pitch
@@ -113,15 +110,15 @@ def bulk_temperature(
     Parameters
     ----------
     given : LoadDistributionInputs
-        The pair and its load, of which the transmitted power counts.
+        The pair and its load; only the transmitted power is used.
     path : PathOfContact
         The path of contact of the pair.
     oil_temperature : float
         Temperature of the oil [K].
     supply : str
-        How the oil comes to the mesh.
+        How the oil reaches the mesh: "spray", "dip" or "submerged".
     friction : float
-        Mean coefficient of friction.
+        Mean coefficient of friction [-].
 
     Returns
     -------
@@ -131,7 +128,6 @@ def bulk_temperature(
     Notes
     -----
     Eq. M11 of the chapter on micropitting; formula 84 of ISO/TR 15144-1.
-
     """
     power = given.load.transmitted_power * 1e-3
     area = path.pair.centre_distance * given.gears.face_width / MM**2

@@ -1,6 +1,7 @@
-"""Viscosity and pressure-viscosity coefficient of an oil, as the film of ISO/TR 15144-1 takes them.
+"""Viscosity and pressure-viscosity coefficient of an oil for the film of ISO/TR 15144-1.
 
-They are needed at contact temperatures, where an oil by its data sheet keeps no coefficients of one temperature.
+The film needs both at contact temperatures. An oil given by its data sheet therefore follows its laws from one contact
+to the next; its coefficients at one temperature would not do.
 """
 
 from math import log10
@@ -23,7 +24,7 @@ REFERENCE_COEFFICIENT: dict[OilKind, tuple[float, float]] = {
     "mineral": (2.657e-8, 0.1348),
     "pao": (1.466e-8, 0.0507),
     "polyglycol": (1.392e-8, 0.1572),
-    "ester": (2.657e-8, 0.1348),  # none is known; that of a mineral oil
+    "ester": (2.657e-8, 0.1348),  # no value is known; that of a mineral oil
 }
 """Scale [m^2/N at 1 Pa s] and exponent of the pressure-viscosity coefficient at 38 C."""
 
@@ -34,19 +35,18 @@ def density(sheet: OilSheet, temperature: Real) -> Real:
     Parameters
     ----------
     sheet : OilSheet
-        The oil. Without a density at 15 C it follows from the viscosity at 40 C.
+        The oil. If its density at 15 C is not given, the density follows from the viscosity at 40 C.
     temperature : float or ndarray
         Temperature [K].
 
     Returns
     -------
     float or ndarray
-        Density [kg/m^3]; 0 where the law would make it negative.
+        Density [kg/m^3]; 0 at temperatures at which the law would be negative.
 
     Notes
     -----
     Eq. M1 of the chapter on micropitting.
-
     """
     reference = sheet.density_15
     if reference is None:
@@ -70,11 +70,14 @@ def viscosity(oil: OilSheet | Lubricant, temperature: Real) -> Real:
     float or ndarray
         Viscosity [Pa s].
 
+    Raises
+    ------
+    InvalidInput
+        `viscosity_range` if the law of an oil that is given by its viscosity makes it thicker than any oil.
+
     Notes
     -----
-    Eq. M2 of the chapter on micropitting. An oil given by its viscosity follows its own law. Raises
-    InvalidInput viscosity_range if that law makes it thicker than any oil.
-
+    Eq. M2 of the chapter on micropitting. An oil that is given by its viscosity follows its own law.
     """
     if isinstance(oil, OilSheet):
         intercept, slope = oil.walther()
@@ -107,9 +110,8 @@ def pressure_viscosity(oil: OilSheet | Lubricant, temperature: Real) -> Real:
 
     Notes
     -----
-    Eq. M3 of the chapter on micropitting. A coefficient that is given holds at every temperature. Beyond 510 C the
-    law would make it negative; it is 0 there, and so is the film.
-
+    Eq. M3 of the chapter on micropitting. A given coefficient holds at every temperature. Above 510 C the law
+    would make the coefficient negative; there both coefficient and film are 0.
     """
     if oil.pressure_viscosity is not None:
         return cast("Real", np.full(np.shape(temperature), oil.pressure_viscosity))

@@ -26,7 +26,7 @@ STEEL = Solid(
     thermal_conductivity=45.0,
     roughness=0.5e-6,
 )
-PERMISSIBLE_SHARE = 1.4  # of the test's film that the teeth need
+PERMISSIBLE_SHARE = 1.4  # of the film ratio in the test: what the teeth need
 SURFACE_FACTOR: dict[FlankSurface, float] = {
     "case_hardened": 1.0,
     "case_hardened_retained_austenite": 0.95,
@@ -66,18 +66,17 @@ def film_of_test(oil: OilSheet | Lubricant, stage: int) -> FilmOfTest:
     Returns
     -------
     FilmOfTest
-        The least film ratio, and what it rests on.
-
+        The least film ratio, with the torque, friction, bulk temperature and place that belong to it.
     """
     torque = STAGE_TORQUE[stage]
     given = LoadDistributionInputs(GEARS, Load(torque, SPEED), pinion_material=STEEL, wheel_material=STEEL)
     path = meshing_path(GEARS)
-    found = solve_standard(given, path, oil, OIL_TEMPERATURE, "dip", QUALITY_GRADE)
-    place = int(np.argmin(found.films.ratio))
+    standard = solve_standard(given, path, oil, OIL_TEMPERATURE, "dip", QUALITY_GRADE)
+    place = int(np.argmin(standard.films.ratio))
     return FilmOfTest(
-        ratio=float(found.films.ratio[place]),
-        bulk=found.bulk,
-        friction_coefficient=found.friction,
+        ratio=float(standard.films.ratio[place]),
+        bulk=standard.bulk,
+        friction_coefficient=standard.friction,
         torque=torque,
         at_point=[*characteristic_points(path)][place],
     )
@@ -89,19 +88,18 @@ def permissible_ratio(check: MicropittingCheck, test: FilmOfTest | None) -> floa
     Parameters
     ----------
     check : MicropittingCheck
-        What is known of the surfaces, or the ratio itself.
+        Surfaces of the flanks, the material factor, or the ratio itself.
     test : FilmOfTest, optional
         Film of the oil's test; None without a failure load stage.
 
     Returns
     -------
     float or None
-        The ratio given, else that by the test; None with neither.
+        The ratio by the test [-], else the given ratio; None if there is neither.
 
     Notes
     -----
     Eq. M14 of the chapter on micropitting; formula 3 of ISO/TR 15144-1.
-
     """
     if test is None:
         return check.permissible_ratio

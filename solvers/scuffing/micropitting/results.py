@@ -127,7 +127,7 @@ class StandardFilm:
 
 @record
 class Micropitting:
-    """The film against the one that the oil's micropitting test asks for."""
+    """The film, compared with the film that the oil's micropitting test requires."""
 
     permissible_ratio: float | None = quantity(
         "permissible specific film thickness",
@@ -145,9 +145,10 @@ class Micropitting:
 
 @record
 class Wear:
-    """Depth of wear per revolution [m] of either gear: largest over the flank, over the face at each position, maps.
+    """Depth of wear per revolution [m] of either gear.
 
-    The maps are [profile, face].
+    There are the largest depth over the flank with its place, the largest depth over the face at every position of the
+    path, and maps [profile, face].
     """
 
     pinion_max: float | None = quantity(

@@ -14,12 +14,15 @@ from solvers.scuffing.micropitting.film import Conditions, Contacts, Films, film
 from solvers.scuffing.micropitting.mean_values import bulk_temperature, loss_factor, mean_friction
 from solvers.scuffing.micropitting.results import PointName
 
-BEST_GRADE = 7  # quality grades up to this one count as it
+BEST_GRADE = 7  # better quality grades have the load sharing of this one
 
 
 @dataclass(frozen=True, slots=True)
 class StandardFilms:
-    """Method B: friction, bulk temperature [K], loss factor; at the points their X, contacts and films."""
+    """Friction, bulk temperature [K] and loss factor by method B, and the values at the points of the path.
+
+    These are the load sharing factors X (`force_ratio`), the contacts and the films.
+    """
 
     friction: float
     bulk: float
@@ -30,9 +33,9 @@ class StandardFilms:
 
 
 def characteristic_points(path: PathOfContact) -> dict[PointName, float]:
-    """Return the distances [m] from A of A, AB, B, C, D, DE and E.
+    """Return the points A, AB, B, C, D, DE and E of the path with their distances from A [m].
 
-    If more than two pairs of teeth carry at times, or none, only A, C and E have a meaning.
+    Only A, C and E are defined if more than two pairs of teeth are in contact at some roll positions, or no pair.
     """
     length, pitch = path.length, path.plane.base_pitch
     at_pitch = path.pitch_point - path.start
@@ -43,17 +46,17 @@ def characteristic_points(path: PathOfContact) -> dict[PointName, float]:
 
 
 def has_single_contact(path: PathOfContact) -> bool:
-    """Return whether the transverse contact ratio is 1 to 2."""
+    """Return True if the transverse contact ratio is 1 to 2."""
     return 1.0 <= path.transverse_contact_ratio <= 2.0
 
 
 def has_relief(given: LoadDistributionInputs) -> bool:
-    """Return whether tips or roots are relieved."""
+    """Return True if tips or roots are relieved."""
     return given.modifications.tip_relief > 0.0 or given.modifications.root_relief > 0.0
 
 
 def has_standard_film(given: LoadDistributionInputs, path: PathOfContact) -> bool:
-    """Return whether method B knows the load sharing of a pair, and every point of its path has a pressure."""
+    """Return True if method B has load sharing factors for the pair and every point of its path has a pressure."""
     plane = path.plane
     ends = reduced_radius(plane, np.array([0.0, path.length]))
     unmodified_spur = plane.tan_base_helix == 0.0 and not has_relief(given)
@@ -75,12 +78,11 @@ def load_sharing(path: PathOfContact, x: FloatArray, quality_grade: int) -> Floa
     Returns
     -------
     ndarray
-        X.
+        Load sharing factor X at each distance [-].
 
     Notes
     -----
     Eq. M12 of the chapter on micropitting; formulas 46 to 48 of ISO/TR 15144-1.
-
     """
     inner, outer = path.length - path.plane.base_pitch, path.plane.base_pitch
     outside = np.maximum(inner - x, x - outer)  # of the stretch with one pair in contact
@@ -103,7 +105,7 @@ def solve_standard(
     Parameters
     ----------
     given : LoadDistributionInputs
-        The pair and its load; neither torque nor speed is 0. Its modifications do not count.
+        The pair and its load; neither torque nor speed is 0. Its modifications are not used.
     path : PathOfContact
         Its path of contact, with a transverse contact ratio of 1 to 2 and no point near a base circle.
     oil : OilSheet or Lubricant
@@ -111,15 +113,14 @@ def solve_standard(
     oil_temperature : float
         Temperature of the oil [K].
     supply : str
-        How the oil comes to the mesh.
+        How the oil reaches the mesh: "spray", "dip" or "submerged".
     quality_grade : int
         Quality grade of the teeth.
 
     Returns
     -------
     StandardFilms
-        Friction, bulk temperature, loss factor, and the films.
-
+        Coefficient of friction, bulk temperature, loss factor, and the films at the points.
     """
     friction = mean_friction(given, path, oil, oil_temperature, 1.0)
     bulk = bulk_temperature(given, path, oil_temperature, supply, friction)
@@ -142,7 +143,7 @@ def contacts_under(given: LoadDistributionInputs, path: PathOfContact, x: FloatA
     x : ndarray
         Distances from A [m].
     sharing : ndarray
-        Share of the tooth force at each distance.
+        Load sharing factor at each distance [-].
 
     Returns
     -------
@@ -152,7 +153,6 @@ def contacts_under(given: LoadDistributionInputs, path: PathOfContact, x: FloatA
     Notes
     -----
     Eq. M13 of the chapter on micropitting; formulas 24 and 25 of ISO/TR 15144-1.
-
     """
     load = sharing * given.load.contact_torque / (path.pair.pinion.base_radius * given.gears.face_width)
     radius = reduced_radius(path.plane, x)

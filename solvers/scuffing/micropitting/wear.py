@@ -1,4 +1,4 @@
-"""Mild wear of both flanks by Archard's law: what slides over what under which load."""
+"""Mild wear of both flanks by Archard's law, from the load over the flank and the sliding speed."""
 
 from typing import NamedTuple
 
@@ -19,7 +19,7 @@ class WearDepths(NamedTuple):
 
 
 def wear_depths(coefficient: float, distribution: LoadDistribution) -> WearDepths:
-    """Compute the depth of wear of both flanks, k w |v_g| / v_i per mesh.
+    """Compute the depth of wear of both flanks, k w |v_g| / v_i per passage of the mesh.
 
     Parameters
     ----------
@@ -31,13 +31,12 @@ def wear_depths(coefficient: float, distribution: LoadDistribution) -> WearDepth
     Returns
     -------
     WearDepths
-        Depth per revolution of either gear [m]: a tooth meshes once a revolution.
+        Depth per revolution of either gear [m]; a tooth meshes once per revolution.
 
     Notes
     -----
-    Eq. M15 of the chapter on micropitting; v_i is the gear's own surface speed. Next to a base circle the flank of
-    one gear hardly moves, and the law has no limit.
-
+    Eq. M15 of the chapter on micropitting; v_g is the sliding speed, v_i the gear's own surface speed. Next to a base
+    circle the flank of one gear hardly moves, and the law has no limit.
     """
     path, flank = distribution.path_of_contact, distribution.flank
     speeds = np.stack(path.surface_speeds(flank.profile_fraction * path.length, 1.0))
@@ -45,7 +44,7 @@ def wear_depths(coefficient: float, distribution: LoadDistribution) -> WearDepth
     with np.errstate(divide="ignore", invalid="ignore"):
         pinion, wheel = sliding / speeds
     undefined = np.isnan(flank.pressure)
-    depths = (np.where(undefined, np.nan, coefficient * flank.line_load * each[:, None]) for each in (pinion, wheel))
+    depths = (np.where(undefined, np.nan, coefficient * flank.line_load * ratio[:, None]) for ratio in (pinion, wheel))
     return WearDepths(*depths)
 
 
@@ -63,7 +62,6 @@ def solve_wear(coefficient: float, distribution: LoadDistribution) -> Wear:
     -------
     Wear
         Largest depth of either flank over the face along the path, and over the flank with its place.
-
     """
     depths = wear_depths(coefficient, distribution)
     pinion, wheel = (_largest(depth, distribution) for depth in depths)
@@ -83,7 +81,7 @@ def solve_wear(coefficient: float, distribution: LoadDistribution) -> Wear:
 
 
 class _Largest(NamedTuple):
-    """Largest depth [m], its fraction of the path and its place on the face [m]; None if it has no limit."""
+    """Largest depth [m], its fraction of the path and its place on the face [m]; None if the depth has no limit."""
 
     value: float | None
     psi: float | None
@@ -99,7 +97,7 @@ def _largest(depth: FloatArray, distribution: LoadDistribution) -> _Largest:
 
 
 def wear_asked_for(check: MicropittingCheck | None, distribution: LoadDistribution) -> Wear | None:
-    """Return the wear of both flanks; None without a wear coefficient."""
+    """Return the wear of both flanks; None if the check has no wear coefficient."""
     if check is None or check.wear_coefficient is None:
         return None
     return solve_wear(check.wear_coefficient, distribution)

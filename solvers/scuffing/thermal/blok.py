@@ -9,21 +9,36 @@ from solvers.scuffing.results import ContactPoints
 
 
 def blok_flash(given: LoadDistributionInputs, points: ContactPoints) -> FloatArray:
-    """Blok's flash temperature [K] (Eq. 25) at the points.
+    """Compute Blok's flash temperature at points of the flank.
 
-    0 where nothing touches or moves; NaN where it has no limit, and at every contact without a coefficient of friction.
+    Parameters
+    ----------
+    given : LoadDistributionInputs
+        The pair with its materials and its coefficient of friction.
+    points : ContactPoints
+        The contacts at the points.
+
+    Returns
+    -------
+    ndarray
+        Flash temperature [K]; 0 at points without contact or motion. NaN at loaded points too near a base circle, and
+        at every point in contact if the coefficient of friction is None.
+
+    Notes
+    -----
+    Eq. 25.
     """
-    flash, touching = np.where(points.undefined, np.nan, 0.0), points.in_contact
+    apart = np.where(points.undefined, np.nan, 0.0)
     if given.friction_coefficient is None:
-        flash[touching] = np.nan
-        return flash
-    flash[touching] = blok_flash_temperature(
-        friction=given.friction_coefficient,
-        line_load=points.line_load[touching],
-        speed_1=points.pinion_speed[touching],
-        speed_2=points.wheel_speed[touching],
-        half_width=points.half_width[touching],
-        solid_1=given.pinion_material,
-        solid_2=given.wheel_material,
-    )
-    return flash
+        return np.where(points.in_contact, np.nan, apart)
+    with np.errstate(divide="ignore", invalid="ignore"):  # at points that are not in contact
+        flash = blok_flash_temperature(
+            friction=given.friction_coefficient,
+            line_load=points.line_load,
+            speed_1=points.pinion_speed,
+            speed_2=points.wheel_speed,
+            half_width=points.half_width,
+            solid_1=given.pinion_material,
+            solid_2=given.wheel_material,
+        )
+    return np.where(points.in_contact, flash, apart)

@@ -2,7 +2,8 @@
 
 The feature line of the paper is a diagonal. It misses the hot corner of a flank that carries at one end, and of a
 crowned flank it meets the loaded middle only at the pitch point, where nothing slides. At one place along the path the
-contacts differ in their load alone. Maxima over the face are therefore found row by row, and then looked for closer.
+contacts differ in their load alone. The search therefore takes the largest value of each row of the face, and refines
+the places of the largest rows.
 """
 
 from collections.abc import Callable
@@ -22,25 +23,27 @@ from solvers.scuffing.results import ContactPoints, LoadDistribution
 from solvers.scuffing.thermal.blok import blok_flash
 
 SURVEY_POINTS = 4001  # of the formulas along the feature line, to find where they are largest and smallest
-REACHES = (2, 1, 1)  # of each zoom to both sides, in steps of the grid before: a factor of 2, 4 and 4
-ZOOM_POINTS = 9  # along the path and across the face, at each zoom
+REACHES = (2, 1, 1)  # of the zooms to both sides, in steps of the grid before: narrower by a factor of 2, 4 and 4
+ZOOM_POINTS = 9  # of a zoom, along the path and across the face
 ZOOM_FRACTIONS = np.linspace(0.0, 1.0, ZOOM_POINTS)
 
 FlankFunction = Callable[[FloatArray, FloatArray], FloatArray]
 """A value at points x, y [m] of the flank, arrays of one shape."""
 
-
 FaceFunction = Callable[[FloatArray], FloatArray]
 """A value at distances y [m] from the end that meshes first."""
+
+ContactFunction = Callable[[ContactPoints], FloatArray]
+"""A value at contacts."""
 
 
 @dataclass(frozen=True, slots=True)
 class FlashMap:
     """Blok's flash temperature [K] at x (n,) and y (m,) [m] of the flank, shape (n, m); NaN where it has no limit.
 
-    `load` is the line load [N/m] there, `heaviest` the contact under the largest load of each row. The rows `mapped`
-    are those of the flank's maps. Between them stand the places at which the load jumps along the path, once for each
-    side.
+    `load` is the line load [N/m] at these points, `heaviest` the contact under the largest load of every row. `mapped`
+    marks the rows of the flank's maps. The other rows are the places at which the load jumps along the path, one row
+    for either side of a jump.
     """
 
     x: FloatArray
@@ -69,8 +72,8 @@ def contacts_under_load(
 def map_flash(given: LoadDistributionInputs, distribution: LoadDistribution) -> FlashMap:
     """Compute Blok's flash temperature over the points of the flank's maps and on both sides of jumps of the load.
 
-    At one place along the path it grows with the load to the power 3/4: with the load over the root of the half-width,
-    which grows with the root of the load.
+    At one place along the path the flash temperature grows with the load to the power 3/4: it is proportional to the
+    load over the root of the half-width, and the half-width to the root of the load.
     """
     plane, flank = distribution.path_of_contact.plane, distribution.flank
     x, y = flank.profile_fraction * plane.path_length, flank.face_fraction * plane.face_width
@@ -86,7 +89,7 @@ def map_flash(given: LoadDistributionInputs, distribution: LoadDistribution) -> 
     heaviest = contacts_under_load(given, distribution, x, load.max(axis=1))
     share = load / np.where(heaviest.line_load > 0.0, heaviest.line_load, 1.0)[:, None]
     largest = blok_flash(given, heaviest)
-    with np.errstate(invalid="ignore"):  # where it has no limit
+    with np.errstate(invalid="ignore"):  # at points where the flash temperature has no limit
         flash = np.where(share > 0.0, largest[:, None] * np.sqrt(share * np.sqrt(share)), 0.0)
     return FlashMap(x, y, load, heaviest, flash, mapped)
 
@@ -94,7 +97,7 @@ def map_flash(given: LoadDistributionInputs, distribution: LoadDistribution) -> 
 def _jumps(balance: LoadBalance) -> FloatArray:
     """Return x [m] just before and just behind the places at which a spur gear's load jumps, in ascending order.
 
-    There another pair comes into contact or leaves it, along its whole face at once.
+    At a jump another pair of teeth comes into contact or leaves it, along its whole face at once.
     """
     plane, phase = balance.mesh.plane, balance.rolls.phase
     if plane.tan_base_helix > 0.0:
@@ -107,7 +110,7 @@ def _jumps(balance: LoadBalance) -> FloatArray:
 
 
 def mean_flash(flash: FlashMap) -> float | None:
-    """Return the mean flash temperature over the flank [K]; None if it has no limit somewhere, or is not known."""
+    """Return the mean flash temperature over the flank [K]; None if any value is not a number."""
     if np.isnan(flash.flash).any():
         return None
     over_face = np.trapezoid(flash.flash, flash.y, axis=1) / flash.y[-1]
@@ -129,15 +132,14 @@ def find_hottest(
     distribution : LoadDistribution
         Its load distribution.
     flash : FlashMap
-        What `map_flash` returns for both.
+        The result of `map_flash` for the pair and its load distribution.
     bulk : callable, optional
         Bulk temperature [K] at the distance y [m] from the end that meshes first.
 
     Returns
     -------
     Peak or None
-        Largest value [K] and its place [m]; None if the flash temperature is not known everywhere.
-
+        Largest value [K] and its place [m]; None if the flash temperature of any point is not a number.
     """
     if np.isnan(flash.flash).any():
         return None
@@ -150,36 +152,47 @@ def find_hottest(
     return _or_beside(distribution, peak, value)
 
 
-def find_thinnest(inputs: ScuffingInputs, distribution: LoadDistribution, flash: FlashMap) -> Peak | None:
+def find_thinnest(
+    given: LoadDistributionInputs, distribution: LoadDistribution, flash: FlashMap, film_at: ContactFunction
+) -> Peak | None:
     """Find where the film of the formula is thinnest over the flank.
+
+    Parameters
+    ----------
+    given : LoadDistributionInputs
+        The pair.
+    distribution : LoadDistribution
+        Its load distribution.
+    flash : FlashMap
+        The result of `map_flash` for the pair and its load distribution.
+    film_at : callable
+        Film [m] at contacts: the result of `formula_film`.
 
     Returns
     -------
     Peak or None
-        Thinnest film [m] and its place [m]; None if no film is known anywhere.
-
+        Thinnest film [m] and its place [m]; None if no point has a film.
     """
-    film_at = formula_film(inputs)
 
     def thinness(points: ContactPoints) -> FloatArray:
         film = film_at(points)
         return np.divide(1.0, film, out=np.zeros(film.shape), where=~np.isnan(film))
 
     def value(x: FloatArray, y: FloatArray) -> FloatArray:
-        return thinness(contact_at_points(inputs.distribution, distribution, x, y))
+        return thinness(contact_at_points(given, distribution, x, y))
 
-    known = np.zeros(flash.load.shape)
-    known[np.arange(flash.x.size), np.argmax(flash.load, axis=1)] = thinness(flash.heaviest)
-    if not known.any():
+    on_grid = np.zeros(flash.load.shape)
+    on_grid[np.arange(flash.x.size), np.argmax(flash.load, axis=1)] = thinness(flash.heaviest)
+    if not on_grid.any():
         return None
-    peak = _or_beside(distribution, find_largest(flash, known, value), value)
+    peak = _or_beside(distribution, find_largest(flash, on_grid, value), value)
     return Peak(1.0 / peak.value, peak.x, peak.y)
 
 
-def formula_film(inputs: ScuffingInputs) -> Callable[[ContactPoints], FloatArray]:
-    """Return the function that computes the minimum film [m] of Dowson and Higginson at points.
+def formula_film(inputs: ScuffingInputs) -> ContactFunction:
+    """Return the function that computes the minimum film [m] of Dowson and Higginson at contacts.
 
-    It returns NaN where nothing is in contact, and everywhere without an oil or a bulk temperature.
+    The film is NaN at points that are not in contact, and everywhere if the oil or the bulk temperature is unknown.
     """
     lubricant, bulk = inputs.lubricant, inputs.temperatures.bulk
     if lubricant is None or bulk is None:
@@ -188,16 +201,16 @@ def formula_film(inputs: ScuffingInputs) -> Callable[[ContactPoints], FloatArray
     modulus = reduced_modulus(inputs.distribution.pinion_material, inputs.distribution.wheel_material)
 
     def film_at(points: ContactPoints) -> FloatArray:
-        film, touching = np.full(points.line_load.shape, np.nan), points.in_contact
-        film[touching] = dowson_higginson_minimum(
-            viscosity=viscosity,
-            pressure_viscosity=pressure_viscosity,
-            mean_speed=(points.pinion_speed[touching] + points.wheel_speed[touching]) / 2,
-            radius=points.radius[touching],
-            line_load=points.line_load[touching],
-            modulus=modulus,
-        )
-        return film
+        with np.errstate(divide="ignore", invalid="ignore"):  # at points that are not in contact
+            film = dowson_higginson_minimum(
+                viscosity=viscosity,
+                pressure_viscosity=pressure_viscosity,
+                mean_speed=(points.pinion_speed + points.wheel_speed) / 2,
+                radius=points.radius,
+                line_load=points.line_load,
+                modulus=modulus,
+            )
+        return np.where(points.in_contact, film, np.nan)
 
     return film_at
 
@@ -211,8 +224,8 @@ def on_diagonals(distribution: LoadDistribution, peak: Peak, function: FlankFunc
 def _or_beside(distribution: LoadDistribution, peak: Peak, function: FlankFunction) -> Peak:
     """Return the peak, or a higher one along its profile line or along the other diagonal of a spur pair's flank.
 
-    The points of the feature line count as well as the places of the search. In its mirror image a spur pair's feature
-    line is the other diagonal: with both, a pair and its image have one largest value.
+    The largest value must not be below a value on the feature line. The feature line of a spur pair's mirror image is
+    the other diagonal; if both diagonals count, a pair and its mirror image have the same largest value.
     """
     peak = max(peak, _peak_at_kinks(distribution, function, peak), key=_height)
     if distribution.path_of_contact.plane.tan_base_helix > 0.0:
@@ -221,15 +234,15 @@ def _or_beside(distribution: LoadDistribution, peak: Peak, function: FlankFuncti
 
 
 def _peak_at_kinks(distribution: LoadDistribution, function: FlankFunction, peak: Peak) -> Peak:
-    """Find the largest value where contact lines of the roll positions meet the profile line through a peak.
+    """Find the largest value at which contact lines of the roll positions meet the profile line through a peak.
 
-    Between roll positions the approach is straight. At its kinks, which may lie closer together than any points of the
-    search, a load that another pair of teeth takes over has its largest value.
+    Between roll positions the approach is linear. Where another pair of teeth takes over the load, the load is largest
+    at a roll position. Roll positions may lie closer together than any points of the search.
     """
     plane, rolls = distribution.path_of_contact.plane, distribution.balance.rolls
-    phase = rolls.phase[rolls.side == 0.0]  # at the others a spur gear's load jumps: both sides are places of the map
+    phase = rolls.phase[rolls.side == 0.0]  # at the others a spur gear's load jumps; the map has both sides
     lines = np.add.outer(plane.base_pitch * np.arange(line_count(plane)), phase).ravel()
-    x = np.clip(lines - peak.y * plane.tan_base_helix, 0.0, plane.path_length)
+    x = np.unique(np.clip(lines - peak.y * plane.tan_base_helix, 0.0, plane.path_length))
     values = function(x, np.full(x.size, peak.y))
     top = int(np.argmax(np.where(np.isnan(values), -np.inf, values)))
     return Peak(float(values[top]), float(x[top]), peak.y)
@@ -252,27 +265,31 @@ def _height(peak: Peak) -> float:
 def find_largest(grid: FlashMap, values: FloatArray, function: FlankFunction) -> Peak:
     """Find the largest value of a function over the flank, from its values (n, m) on the grid.
 
-    The largest of each row along the path is a ridge. Around the highest tops of the ridge the function is evaluated on
-    finer and finer grids, each of which holds the largest place before: no value is lost.
+    The largest values of the rows form a ridge along the path. Around the highest tops of the ridge the function is
+    evaluated on finer and finer grids. Every grid contains the largest place of the grid before, so that no value is
+    lost.
     """
     across = np.argmax(values, axis=1)
     highest = np.array(tops(values[np.arange(grid.x.size), across])[-TOPS:])
-    each, (i, k) = np.arange(highest.size), (highest, across[highest])
+    top, (i, k) = np.arange(highest.size), (highest, across[highest])
     x, y = np.tile(grid.x, (highest.size, 1)), np.tile(grid.y, (highest.size, 1))
-    found = values[i, k], x[each, i], y[each, k]
+    peaks = values[i, k], x[top, i], y[top, k]
     for reach in REACHES:
         x, y = _around(x, i, reach), _around(y, k, reach)
         near = function(np.repeat(x[:, :, None], y.shape[1], axis=2), np.repeat(y[:, None, :], x.shape[1], axis=1))
         i, k = np.divmod(np.argmax(near.reshape(highest.size, -1), axis=1), y.shape[1])
-        found = near[each, i, k], x[each, i], y[each, k]
-    return Peak(*(float(numbers[np.argmax(found[0])]) for numbers in found))
+        peaks = near[top, i, k], x[top, i], y[top, k]
+    return Peak(*(float(numbers[np.argmax(peaks[0])]) for numbers in peaks))
 
 
 def _around(places: FloatArray, top: IntArray, reach: int) -> FloatArray:
-    """Return equidistant places as far as `reach` steps from one in each row, with that one instead of the nearest."""
-    each, last = np.arange(top.size), places.shape[1] - 1
-    held = places[each, top]
-    low, high = places[each, np.maximum(top - reach, 0)], places[each, np.minimum(top + reach, last)]
+    """Return equidistant places around the place `top` of every row, up to `reach` steps of the row to both sides.
+
+    The place itself replaces the nearest of them.
+    """
+    row, last = np.arange(top.size), places.shape[1] - 1
+    centre = places[row, top]
+    low, high = places[row, np.maximum(top - reach, 0)], places[row, np.minimum(top + reach, last)]
     near: FloatArray = low[:, None] + (high - low)[:, None] * ZOOM_FRACTIONS
-    near[each, np.argmin(np.abs(near - held[:, None]), axis=1)] = held
+    near[row, np.argmin(np.abs(near - centre[:, None]), axis=1)] = centre
     return near

@@ -1,4 +1,4 @@
-"""The heat balance of a loaded pair: what the mesh loses, what the oil takes away, and how hot the flanks are."""
+"""The heat balance of a loaded pair: losses of the mesh, heat taken up by the oil, and temperatures of the flanks."""
 
 from dataclasses import replace
 
@@ -19,9 +19,9 @@ STEEL_EXPANSION = 12e-6  # 1/K, of gears and casing
 
 
 def is_beyond_the_estimate(gears: GearPairInputs, pinion_speed: float) -> bool:
-    """Return True if the pitch line of a pair runs faster than 60 m/s at a speed of the pinion [rad/s].
+    """Return True if the pitch-line velocity of a pair exceeds 60 m/s at a speed of the pinion [rad/s].
 
-    Raises what `gear_pair` raises.
+    Raises the errors of `gear_pair`.
     """
     return pinion_speed * gear_pair(gears).pinion_working_radius > FLOODED_UP_TO
 
@@ -36,7 +36,7 @@ def pair_heat(inputs: ScuffingInputs, distribution: LoadDistribution, estimate: 
     distribution : LoadDistribution
         Its load distribution with the friction of the losses.
     estimate : float or None
-        Bulk temperature by ISO/TR 13989-1 [K], which is stated beside the balance.
+        Bulk temperature by ISO/TR 13989-1 [K], which the result states for comparison.
 
     Returns
     -------
@@ -49,7 +49,6 @@ def pair_heat(inputs: ScuffingInputs, distribution: LoadDistribution, estimate: 
         `exclusive` or `measured_unreachable` for measured temperatures.
     NoSolution
         `heat_balance` or `thermal_runaway`.
-
     """
     heat = heat_balance.solve(balance_inputs(inputs, distribution, estimate))
     return with_backlash_loss(heat, distribution.path_of_contact.pair)
@@ -58,7 +57,7 @@ def pair_heat(inputs: ScuffingInputs, distribution: LoadDistribution, estimate: 
 def balance_inputs(
     inputs: ScuffingInputs, distribution: LoadDistribution, estimate: float | None = None
 ) -> HeatBalanceInputs:
-    """Return what the balance of a pair depends on; parameters are those of `pair_heat`."""
+    """Return the inputs of the balance of a pair; the parameters are those of `pair_heat`."""
     oil, path = inputs.known_oil, distribution.path_of_contact
     assert oil is not None
     return HeatBalanceInputs(
@@ -72,19 +71,19 @@ def balance_inputs(
 
 
 def with_backlash_loss(heat: Heat, pair: GearPair) -> Heat:
-    """Return the heat with the backlash that gears of steel lose against their casing."""
+    """Add to the heat the loss of backlash, for gears of steel that are hotter than their casing of steel."""
     radii = (pair.pinion_working_radius, pair.wheel_working_radius)
     return heat_balance.backlash_loss(heat, radii, pair.working_pressure_angle, STEEL_EXPANSION)
 
 
 def with_flanks(inputs: ScuffingInputs, heat: Heat) -> ScuffingInputs:
-    """Return the inputs with the flanks of the balance as bulk temperatures of both surfaces."""
+    """Return the inputs with the flank temperatures of the balance as bulk temperatures of both gears."""
     flanks = (heat.pinion.flank, heat.wheel.flank)
     return replace(inputs, temperatures=replace(inputs.temperatures, bulk=sum(flanks) / 2, flanks=flanks))
 
 
 def gear_geometries(given: LoadDistributionInputs, path: PathOfContact) -> tuple[GearGeometry, GearGeometry]:
-    """Return both gears as the balance takes them, without shafts."""
+    """Return both gears for the heat balance, without shafts."""
     pair, speed = path.pair, abs(given.load.pinion_speed)
     speeds = (speed, speed * pair.pinion.teeth / pair.wheel.teeth)
     pinion, wheel = (
@@ -105,7 +104,10 @@ def gear_geometries(given: LoadDistributionInputs, path: PathOfContact) -> tuple
 
 
 def mesh_heat(inputs: ScuffingInputs, distribution: LoadDistribution) -> MeshHeat:
-    """Return the friction of the mesh, which follows the oil unless the user gives its coefficient."""
+    """Return the friction loss of the mesh.
+
+    The loss depends on the temperature of the oil unless the user gives the coefficient of friction.
+    """
     return MeshHeat(
         power=distribution.friction_loss.power or 0.0,
         temperature=inputs.temperatures.oil,
@@ -115,7 +117,7 @@ def mesh_heat(inputs: ScuffingInputs, distribution: LoadDistribution) -> MeshHea
 
 
 def friction_to_pinion(given: LoadDistributionInputs, distribution: LoadDistribution) -> float:
-    """Compute the pinion's share of the friction of a mesh: the heat of each place along the path is that of its face.
+    """Compute the pinion's share of the frictional heat of a mesh.
 
     Parameters
     ----------
@@ -127,8 +129,11 @@ def friction_to_pinion(given: LoadDistributionInputs, distribution: LoadDistribu
     Returns
     -------
     float
-        Share phi [-] (Eq. H7).
+        Share phi [-].
 
+    Notes
+    -----
+    Eq. H7. At every place along the path the heat is the sum over the face.
     """
     path, flank = distribution.path_of_contact, distribution.flank
     along = flank.profile_fraction * path.plane.path_length

@@ -1,7 +1,8 @@
-"""Values of a scuffing check that are estimated where the inputs leave them out: friction, bulk, oil, scuffing limit.
+"""Values of a scuffing check that are estimated if they are not given: friction, bulk, oil, scuffing temperature.
 
-There is no iteration: friction uses the viscosity at the oil temperature, the film that at the bulk temperature. The
-bulk by heat balance follows from the losses, of which the coefficient follows the oil within the balance.
+There is no iteration: friction uses the viscosity at the oil temperature, the film uses the viscosity at the bulk
+temperature. The bulk temperature by heat balance follows from the losses; within the balance their coefficient of
+friction depends on the oil temperature.
 """
 
 from collections.abc import Iterator
@@ -36,13 +37,13 @@ from solvers.scuffing.thermal.practice import (
 
 COLDEST_OIL, HOTTEST_OIL = 223.15, 573.15  # K, the range of reference temperatures
 STEEL_MODULI = (170e9, 240e9)  # Pa; cast iron and bronze are below, hard metal is above
-MEAN_POINTS = 1001  # of the mean flash temperature along the feature line
+MEAN_POINTS = 1001  # for the mean flash temperature along the feature line
 
 
 class InForce(NamedTuple):
-    """What a check of scuffing starts from, with every estimate as a number.
+    """Inputs and load distribution of a scuffing check with every estimate as a number.
 
-    `flash` is Blok's flash temperature over the flank, `heat` the balance of a pair that asks for one.
+    `flash` is Blok's flash temperature over the flank, `heat` the heat balance if the pair requests one.
     """
 
     inputs: ScuffingInputs
@@ -54,24 +55,25 @@ class InForce(NamedTuple):
 def in_force(inputs: ScuffingInputs, distribution: LoadDistribution) -> InForce:
     """Return inputs and load distribution with friction, temperatures and oil as numbers.
 
-    Flanks that are known already, as a unit's are, have no balance of their own.
-    Raises what its parts raise: `with_friction`, `pair_heat` and `with_temperatures`.
+    The heat balance is solved only if the flank temperatures are not given; a unit has solved its own balance before.
+    Raises the errors of `with_friction`, `pair_heat` and `with_temperatures`.
     """
     inputs, distribution = with_friction(inputs, distribution)
     flash = map_flash(inputs.distribution, distribution)
     heat, temperatures = None, inputs.temperatures
-    unknown = temperatures.bulk_method == "heat_balance" and temperatures.flanks is None
-    if unknown and inputs.known_oil is not None:
+    is_unbalanced = temperatures.bulk_method == "heat_balance" and temperatures.flanks is None
+    if is_unbalanced and inputs.known_oil is not None:
         heat = pair_heat(inputs, distribution, estimated_bulk(inputs, distribution, flash))
         inputs = with_flanks(inputs, heat)
     return InForce(with_temperatures(inputs, distribution, flash), distribution, flash, heat)
 
 
 def with_friction(inputs: ScuffingInputs, distribution: LoadDistribution) -> tuple[ScuffingInputs, LoadDistribution]:
-    """Inputs with the coefficient of friction of the flash temperature, load distribution with that of the losses.
+    """Return the inputs with the friction of the flash temperature, the load distribution with that of the losses.
 
-    A coefficient that is given is both. Otherwise the first is that of ISO/TR 13989-1, on the safe side for scuffing,
-    the second Schlenk's, a mean for the efficiency; both are None without an oil, a load or a speed.
+    A given coefficient of friction is used for both. Otherwise the flash temperature uses the coefficient of ISO/TR
+    13989-1, which is on the safe side for scuffing; the losses use Schlenk's coefficient, a mean for the efficiency.
+    Both coefficients are None without an oil, a load or a speed.
     """
     if inputs.friction == "given":
         return inputs, distribution
@@ -89,11 +91,17 @@ def with_friction(inputs: ScuffingInputs, distribution: LoadDistribution) -> tup
 
 
 def with_temperatures(inputs: ScuffingInputs, distribution: LoadDistribution, flash: FlashMap) -> ScuffingInputs:
-    """The inputs with bulk and scuffing temperature as numbers and the oil as it enters the contact.
+    """Return the inputs with bulk and scuffing temperature as numbers and the oil as it enters the contact.
 
-    Without an oil, or where the flash temperature has no mean to estimate the bulk from, neither bulk nor lubricant is
-    known. Raises InvalidInput missing_bulk where the bulk is neither given nor estimated, oil_temperature where an oil
-    by its sheet would be too hot or too cold, scuffing_temperature where the oil is not cooler than that.
+    Bulk temperature and lubricant are None without an oil, and if the bulk temperature cannot be estimated because the
+    flash temperature has no mean.
+
+    Raises
+    ------
+    InvalidInput
+        `missing_bulk` if the bulk temperature is neither given nor estimated, `oil_temperature` if an oil given by its
+        data sheet would be too hot or too cold, `scuffing_temperature` if the oil is not cooler than the scuffing
+        temperature.
     """
     temperatures, oil = inputs.temperatures, inputs.known_oil
     if oil is None:
@@ -104,8 +112,8 @@ def with_temperatures(inputs: ScuffingInputs, distribution: LoadDistribution, fl
         test = temperatures.scuffing_test
         factor = _oil_factor(oil, TEST_TEMPERATURE) if test.lubricant_factor is None else test.lubricant_factor
         limit = scuffing_temperature(test.fzg_stage, test.structure_factor, factor)
-        known = replace(test, lubricant_factor=factor)
-        temperatures = replace(temperatures, scuffing=limit, scuffing_test=known)
+        test = replace(test, lubricant_factor=factor)
+        temperatures = replace(temperatures, scuffing=limit, scuffing_test=test)
     if temperatures.scuffing is not None and temperatures.scuffing <= temperatures.oil:
         message = "the scuffing temperature must lie above the oil temperature"
         raise InvalidInput("scuffing_temperature", message, "temperatures.scuffing")
@@ -125,7 +133,7 @@ def with_temperatures(inputs: ScuffingInputs, distribution: LoadDistribution, fl
 
 
 def oil_notices(inputs: ScuffingInputs, path: PathOfContact) -> Iterator[Notice]:
-    """No oil, or no bulk temperature; an estimated one beyond the speeds that its formula holds for."""
+    """Warn of a missing oil or bulk temperature, of a bulk temperature that is a lower bound, and of unused cooling."""
     if inputs.known_oil is None:
         message = (
             "no oil is given (iso_vg, kinematic_viscosity_40 or viscosity_pa_s): film, contact temperature and "
@@ -150,14 +158,14 @@ def oil_notices(inputs: ScuffingInputs, path: PathOfContact) -> Iterator[Notice]
         yield Notice("bulk_lower_bound", message, "temperatures.bulk_method")
     if inputs.temperatures.bulk_method != "heat_balance" and inputs.cooling != Cooling():
         message = (
-            f"the bulk temperature is {inputs.temperatures.bulk_method}; what is said of the cooling is used by the "
-            "method heat_balance alone"
+            f"the bulk temperature is {inputs.temperatures.bulk_method}; the inputs of the cooling are only used by "
+            "the method heat_balance"
         )
         yield Notice("cooling_not_used", message, "temperatures.bulk_method", rank="note")
 
 
 def _material_notices(inputs: ScuffingInputs) -> Iterator[Notice]:
-    """Estimates that were made for steel, with a gear of another material."""
+    """Warn of estimates that were made for steel, if a gear is of another material."""
     estimates = {
         "the coefficient of friction": inputs.friction == "iso_tr_13989",
         "the bulk temperature": inputs.temperatures.bulk_method == "estimated",
@@ -168,23 +176,23 @@ def _material_notices(inputs: ScuffingInputs) -> Iterator[Notice]:
     for name, solid in (("pinion", given.pinion_material), ("wheel", given.wheel_material)):
         if estimated and not least <= solid.youngs_modulus <= largest:
             message = (
-                f"the {name} is no steel ({solid.youngs_modulus / 1e9:.4g} GPa), for which ISO/TR 13989-1 estimates "
-                f"{' and '.join(estimated)}: give measured values"
+                f"the {name} is not of steel ({solid.youngs_modulus / 1e9:.4g} GPa), but ISO/TR 13989-1 estimates "
+                f"{' and '.join(estimated)} for gears of steel: give measured values"
             )
             yield Notice("made_for_steel", message, f"materials.{name}.youngs_modulus")
 
 
 def _oil_factor(oil: OilSheet | Lubricant, temperature: float) -> float:
-    """X_L of the oil at a temperature [K]."""
+    """Return X_L of the oil at a temperature [K]."""
     lubricant = lubricant_at(oil, temperature)
     return lubricant_factor(lubricant.viscosity_at(0.0, temperature), lubricant.kind)
 
 
 def estimated_bulk(inputs: ScuffingInputs, distribution: LoadDistribution, flash: FlashMap) -> float | None:
-    """Return the bulk temperature [K] by the mean flash temperature; None where that is not defined.
+    """Return the bulk temperature [K] from the mean flash temperature; None if the mean is not defined.
 
-    The mean is that of the part that is checked. A tooth has one bulk temperature, whichever end of its face carries:
-    the mean of the whole flank is the same for a pair and its mirror image, that of the feature line is not.
+    The mean is taken over the checked part, the flank or the feature line. The mean over the flank is the same for a
+    pair and its mirror image, as the bulk temperature of a tooth must be; the mean along the feature line is not.
     """
     given = inputs.distribution
     if inputs.line == "flank":

@@ -13,7 +13,7 @@ from solvers.scuffing.inputs import ScuffingInputs
 from solvers.scuffing.results import ContactPoints
 from solvers.scuffing.safety_results import PointStatus, ThermalPath
 
-# What a contact is given, by the name of the scuffing input that decides it; other names are the same.
+# The scuffing input behind an input of the contact; other inputs have the same name in both.
 FIELDS = {
     "line_load": "power",
     "speed_1": "pinion_speed",
@@ -27,12 +27,16 @@ CURVES = tuple(item.name for item in fields(ThermalPath) if item.name != "status
 def thermal_paths(
     inputs: ScuffingInputs, lines: Sequence[ContactPoints]
 ) -> tuple[tuple[ThermalPath, ...], tuple[Notice, ...]]:
-    """Solve every point in contact of the lines, each from its neighbour on its line; oil enters at bulk temperature.
+    """Solve the points in contact of the lines, every point from its neighbour on the line.
 
-    Surfaces have the bulk temperatures of their gears where a heat balance tells them apart.
+    The oil enters at the bulk temperature. If a heat balance gives pinion and wheel different bulk temperatures, each
+    surface has that of its gear. A point outside the range of the solver gets the status "refused", a point without
+    convergence "no_solution"; the other points are solved nevertheless. The warnings are those of all lines.
 
-    A point outside the range of the solver is "refused", one without convergence "no_solution"; neither stops the
-    others. The warnings are those of all lines. Raises the solver's InvalidInput if it refuses every point.
+    Raises
+    ------
+    InvalidInput
+        The solver's error if it refuses every point.
     """
     contacts = [
         {point: contact_at(inputs, points, point) for point in np.flatnonzero(points.in_contact).tolist()}
@@ -45,15 +49,15 @@ def thermal_paths(
     refused = [refusal for along in refusals for refusal in along.values()]
     if refused and len(refused) == sum(map(len, contacts)):
         raise InvalidInput(refused[0].code, refused[0].message, _field(refused[0].field))
-    solved = [_solve_line(*along) for along in zip(lines, contacts, refusals, strict=True)]
-    own = [result for _, results in solved for result in results]
-    return tuple(path for path, _ in solved), _notices(own, refused)
+    solutions = [_solve_line(*along) for along in zip(lines, contacts, refusals, strict=True)]
+    under_own_load = [result for _, results in solutions for result in results]
+    return tuple(path for path, _ in solutions), _notices(under_own_load, refused)
 
 
 def _solve_line(
     points: ContactPoints, contacts: dict[int, ehl.LineContactInputs], refusals: dict[int, InvalidInput]
 ) -> tuple[ThermalPath, list[ehl.LineContactResult]]:
-    """Solve one line; the results are those of its points under their own load."""
+    """Solve one line; return its path, and the results of the points that were solved under their own load."""
     light = {point: ehl.lightest(contacts[point]) for point, why in refusals.items() if why.code == "load_range"}
     solvable = {
         point: contact for point, contact in (contacts | light).items() if point in light or point not in refusals
@@ -73,7 +77,7 @@ def _solve_line(
 
 
 def contact_at(inputs: ScuffingInputs, points: ContactPoints, point: int) -> ehl.LineContactInputs:
-    """One of the points as the line contact it is, between an oil and a bulk temperature in force."""
+    """Return one of the points as a line contact; oil and bulk temperature are known."""
     given, temperatures, lubricant = inputs.distribution, inputs.temperatures, inputs.lubricant
     assert temperatures.bulk is not None
     assert temperatures.surfaces is not None
@@ -95,7 +99,7 @@ def contact_at(inputs: ScuffingInputs, points: ContactPoints, point: int) -> ehl
 
 
 def _refusal(contact: ehl.LineContactInputs) -> InvalidInput | None:
-    """Why the solver will not take a contact, if it will not."""
+    """Return the error with which the solver refuses a contact; None if it accepts the contact."""
     try:
         ehl.check(contact)
     except InvalidInput as refusal:
@@ -104,7 +108,7 @@ def _refusal(contact: ehl.LineContactInputs) -> InvalidInput | None:
 
 
 def _values(result: ehl.LineContactResult) -> dict[str, float | None]:
-    """What a point adds to the curves of a path."""
+    """Return the values of a solved point by the names of the curves."""
     assert result.temperature is not None
     assert result.pressure is not None
     assert result.friction is not None
@@ -120,14 +124,14 @@ def _values(result: ehl.LineContactResult) -> dict[str, float | None]:
 
 
 def _bounds(result: ehl.LineContactResult) -> dict[str, float | None]:
-    """What a point under more than its load says about the point itself."""
+    """Return bounds for a point that is too lightly loaded, from its solution under the lightest load of the solver."""
     assert result.temperature is not None
     flash = max(result.temperature.surface_1_flash, result.temperature.surface_2_flash)
     return {"flash_bound": flash, "film_bound": result.film.minimum}
 
 
 def _notices(results: Sequence[ehl.LineContactResult], refusals: Sequence[InvalidInput]) -> tuple[Notice, ...]:
-    """Every limit of validity once, with the number of points it concerns."""
+    """Return every warning once, with the number of points it applies to."""
     points: dict[str, int] = {}
     first: dict[str, Notice] = {}
     notices = [notice for result in results for notice in result.warnings]
@@ -143,5 +147,5 @@ def _notices(results: Sequence[ehl.LineContactResult], refusals: Sequence[Invali
 
 
 def _field(of_contact: str | None) -> str | None:
-    """The scuffing input behind an input of the contact."""
+    """Return the scuffing input behind an input of the contact."""
     return None if of_contact is None else FIELDS.get(of_contact, of_contact)

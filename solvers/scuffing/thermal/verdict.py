@@ -1,6 +1,6 @@
 """Largest flash temperature and thinnest film of the lines and of the flank, or the reason why they are not stated.
 
-They are stated only if points without a solution cannot be hotter or thinner; bounds at these points show that.
+Both are stated only if the bounds of the unsolved points show that none of these is hotter or has a thinner film.
 """
 
 from collections.abc import Sequence
@@ -27,9 +27,9 @@ class CheckedLine(NamedTuple):
 
 
 def unknown_points(paths: Sequence[ThermalPath], bulks: Sequence[FloatArray]) -> int:
-    """Count the unsolved points of the paths that may be the hottest or the thinnest.
+    """Count the unsolved points of the paths that may be the hottest or have the thinnest film.
 
-    `bulks` [K] are those of the points, or two rows, of pinion and wheel.
+    `bulks` are the bulk temperatures [K] at the points of every path, or two rows, of pinion and wheel.
     """
     status = np.concatenate([path.status for path in paths])
     film, film_bound, flank, flash_bound = (
@@ -66,7 +66,6 @@ def largest_flash(lines: Sequence[CheckedLine], hottest: Peak | None, path_lengt
         Largest flash temperature over the flank [K], if the flank was checked.
     path_length : float
         Length of the path of contact [m].
-
     """
     path, face = lines[0]
     if not _any_number(path.blok_flash):
@@ -77,16 +76,14 @@ def largest_flash(lines: Sequence[CheckedLine], hottest: Peak | None, path_lengt
     if hottest is not None and hottest.value > largest:
         at_profile = hottest.x / path_length
         flash = replace(flash, blok_max=hottest.value, blok_at_profile=at_profile, blok_at_face=hottest.y)
-    curves = [
-        np.full(line.face.size, np.nan)
-        if line.path.thermal is None
-        else np.fmax(line.path.thermal.pinion_flash, line.path.thermal.wheel_flash)
-        for line in lines
-    ]
-    found = _extreme(lines, curves, largest=True)
-    if found is None:
+    if path.thermal is None:
         return flash
-    value, profile, across = found
+    solutions = [line.path.thermal for line in lines if line.path.thermal is not None]
+    curves = [np.fmax(thermal.pinion_flash, thermal.wheel_flash) for thermal in solutions]
+    hottest_of_film = _extreme(lines, curves, largest=True)
+    if hottest_of_film is None:
+        return flash
+    value, profile, across = hottest_of_film
     return replace(
         flash,
         thermal_ehl_max=value,
@@ -99,7 +96,7 @@ def largest_flash(lines: Sequence[CheckedLine], hottest: Peak | None, path_lengt
 def thinnest_film(
     lines: Sequence[CheckedLine], thinnest: Peak | None, path_length: float, given: LoadDistributionInputs
 ) -> Film:
-    """Return the thinnest film of the points that have one, judged by the thermal EHL solution if there is one.
+    """Return the thinnest film, judged by the thermal EHL solution if there is one, else by the formula.
 
     Parameters
     ----------
@@ -110,8 +107,7 @@ def thinnest_film(
     path_length : float
         Length of the path of contact [m].
     given : LoadDistributionInputs
-        The pair, whose roughness the film is compared with.
-
+        The pair with the roughness of its flanks.
     """
     formula = [line.path.dowson_higginson for line in lines]
     judged = _extreme(lines, formula, largest=False)
@@ -138,7 +134,7 @@ def thinnest_film(
 
 
 def without_thermal(flash: Flash, film: Film) -> tuple[Flash, Film]:
-    """Return the extremes by formula alone, for lines on which unsolved points may be the hottest or thinnest."""
+    """Return the extremes by formula alone, without those of the thermal EHL solution."""
     by_formula = replace(
         flash, thermal_ehl_max=None, thermal_ehl_at_psi=None, thermal_ehl_at_profile=None, thermal_ehl_at_face=None
     )
@@ -173,7 +169,7 @@ def _any_number(values: FloatArray) -> bool:
 
 
 def _what_leaves_no_film(distribution: LoadDistribution) -> str:
-    """The input that leaves no film: load or speed where zero, else the modifications, which separate the flanks."""
+    """Return the input that leaves points without a film: a load or speed of zero, else the modifications."""
     if distribution.balance.force == 0.0:
         return "pinion_torque"
     return "modifications" if np.any(distribution.feature_line.pinion_speed > 0.0) else "pinion_speed"
@@ -186,14 +182,14 @@ def path_notices(
     safety: Safety | None,
     unknown: int,
 ) -> tuple[Notice, ...]:
-    """List warnings about points without a film, unsolved points that may decide, and safety without a meaning.
+    """List warnings about points without a film, unsolved points that may decide, and a safety without a meaning.
 
-    A note says so if the feature line alone would have another risk than the flank.
+    A note is added if the feature line alone would have another risk than the flank.
     """
     notices = []
-    status = [one for path in paths for one in path.status]
+    status = [outcome for path in paths for outcome in path.status]
     if "unloaded" in paths[0].status:
-        message = "there is no film where the feature line is not loaded or does not move"
+        message = "there is no film at points of the feature line without load or motion"
         notices.append(Notice("no_film", message, _what_leaves_no_film(distribution), rank="note"))
     if unknown:
         notices.append(
@@ -220,9 +216,9 @@ def path_notices(
 
 
 def _other_verdict(flank: float, feature_line: float | None) -> list[Notice]:
-    """A note if the feature line, which alone was judged before version 0.3, has another risk than the flank."""
+    """Return a note if the feature line, which alone was judged before version 0.3, has another risk than the flank."""
     if feature_line is not None and scuffing_risk(feature_line) == scuffing_risk(flank):
         return []
-    along = "nothing there gets warmer than the oil" if feature_line is None else f"{feature_line:.2f}"
-    message = f"judged over the whole flank since 0.3: {flank:.2f}; along the feature line: {along}"
+    along = "the teeth stay as cool as the oil" if feature_line is None else f"the safety is {feature_line:.2f}"
+    message = f"since version 0.3 the whole flank is judged: its safety is {flank:.2f}; along the feature line {along}"
     return [Notice("whole_flank", message, "model.line", rank="note")]

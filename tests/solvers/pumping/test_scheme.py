@@ -17,7 +17,7 @@ from solvers.pumping.flow.nozzle import Gas, flux_squared, gas, mass_flux
 from solvers.pumping.flow.space_flow import Record, empty_record
 from solvers.pumping.gas.gas_dynamics import march
 from solvers.pumping.gas.leakage import Stage, Walls, implicit_stage
-from solvers.pumping.gas.riemann import State, flux, hllc, reservoir_face
+from solvers.pumping.gas.riemann import State, flux, hllc, ram_pressure, reservoir_face
 from solvers.pumping.gas.step import empty_cells
 
 AIR = gas(Ambient())
@@ -78,7 +78,7 @@ def test_flux_between_equal_states_is_the_exact_flux() -> None:
     energy = p / 0.4 + 0.5 * rho * u * u
     assert (
         hllc(1.4, state, state)
-        == flux(1.4, state)
+        == flux(1.4, 1.0, state, ram_pressure(state))
         == pytest.approx((rho * u, rho * u * u + p, u * (energy + p)), rel=1e-14)
     )
 

@@ -78,7 +78,8 @@ def test_the_local_method_with_the_standards_load_gives_the_standards_film() -> 
     load = load_sharing(path, x, 9) * distribution.load.tangential_force / GEARS.face_width
     points = contacts_under_load(PAIR, distribution, x, load)
     assert flank.ratio(points, np.zeros(x.size)) == pytest.approx(standard.films.ratio, rel=EXACT)
-    assert films(conditions, contacts_of(points)).flash == pytest.approx(standard.films.flash, rel=EXACT, abs=1e-9)
+    contacts = contacts_of(points, conditions.modulus)
+    assert films(conditions, contacts).flash == pytest.approx(standard.films.flash, rel=EXACT, abs=1e-9)
 
 
 @examples(FEW, MANY, designs())

@@ -59,7 +59,7 @@ def test_the_estimate_covers_what_481_nodes_say(inputs: LineContactInputs) -> No
     """Within a factor of 1.5, or half a percent."""
     result = solve(replace(inputs, model=AS_GIVEN))
     for name, error in differences(result, solve(replace(inputs, model=FINE))).items():
-        assert error <= max(1.5 * result.mesh_error.known[name], 0.005), name
+        assert error <= max(1.5 * result.mesh_error.estimates[name], 0.005), name
 
 
 def test_the_estimate_is_no_exaggeration() -> None:
@@ -120,7 +120,7 @@ def check_doubled(inputs: LineContactInputs, nodes: str) -> None:
     if "no_solution" in {result.status, doubled.status}:
         return
     for name, moved in differences(result, doubled).items():
-        known = result.mesh_error.known[name]
+        known = result.mesh_error.estimates[name]
         stated = 1.5 * known if nodes == ALONG else min(known, 0.015)
         assert moved < max(0.01, stated), (name, inputs)
 
@@ -168,7 +168,7 @@ def test_resolution_does_not_decide_over_many_contacts(rheology: str) -> None:
 def test_errors_are_relative_and_finite() -> None:
     for inputs in random_contacts(AS_GIVEN, 6, seed=23):
         error = solve(inputs).mesh_error
-        assert all(np.isfinite(value) and 0.0 <= value < 0.5 for value in error.known.values())
+        assert all(np.isfinite(value) and 0.0 <= value < 0.5 for value in error.estimates.values())
 
 
 # The check of finished states

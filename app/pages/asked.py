@@ -1,0 +1,32 @@
+"""The case that a query or a form asks for."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+from app.calculations import BY_PATH, Calculation
+from app.errors import Unreadable
+from app.examples import examples
+from app.pages.cases import Asked, key_of
+from app.pages.query import WRITTEN, from_form, normalised, pairs_of_query, split_views
+from app.pages.templating import example_link, page_path
+
+
+def asked_in(calculation: Calculation, text: str, root: str, answers: Mapping[str, bytes]) -> tuple[Asked, bool]:
+    """Return the case, and whether its text was a link in the shortest form, without empty fields.
+
+    `root` is the prefix of a proxy, `answers` holds what was calculated lately.
+    """
+    fields = pairs_of_query(text)
+    pressed = WRITTEN in dict(fields)
+    sent, looks = split_views(from_form(calculation.request, fields))
+    given = {name: value for name, value in looks.items() if value}
+    if (example := examples().get(dict(sent).get("example", ""))) is not None:
+        if example.endpoint != calculation.path:
+            raise Unreadable(f"{example.name} is an example of {page_path(BY_PATH[example.endpoint])}")
+        sent = pairs_of_query(example_link(calculation, example).partition("?")[2])
+        return Asked(page_path(calculation), sent, given, root=root), False
+    pairs = normalised(calculation.request, sent)
+    asked = Asked(page_path(calculation), pairs, given, root=root)
+    kept, kept_ref = (answers.get(key_of(asked.path, each)) for each in (pairs, asked.ref_pairs))
+    asked = replace(asked, kept=kept, kept_ref=kept_ref, pressed=pressed)
+    return asked, not pressed and pairs == sent and given == looks

@@ -1,0 +1,71 @@
+"""The page and the report of a study while its lines arrive: parts of a document that replace each other."""
+
+import logging
+from collections.abc import AsyncGenerator, Callable
+from contextlib import aclosing, suppress
+from typing import Any
+
+from app.errors import DeadlineExceeded, WorkerLost
+from app.pages.studies.page import Opened, StudyPage, drawn, report, report_head, report_progress
+from app.studies.engine import Clock, Line, Lines, Pool, twice_if_lost
+
+FIRST_FRAME_S = 0.3  # until a page shows its first points
+FRAME_SHARE = 0.3  # of the time a study has run passes until its page is drawn again
+LONGEST_PAUSE_S = 4.0  # between two drawings of a page, however long the study runs
+NOT_DRAWN = (
+    b'<div class="frame"><p class="warning">The figure could not be drawn; the files hold the points.</p>'
+    b'<span class="ready" hidden></span></div>'
+)
+
+logger = logging.getLogger("tribodrive")
+
+
+async def pieces(pool: Callable[[], Pool], opened: Opened, lines: Lines, clock: Clock) -> AsyncGenerator[bytes, None]:
+    """The page of a study: head, results so far that replace each other, tail."""
+    yield opened.head
+    received, due = list[Line](), FIRST_FRAME_S
+    async with aclosing(lines):
+        async for group in lines:
+            received += [line for line in group if line["type"] != "progress"]
+            has_ended = bool(received) and received[-1]["type"] in {"end", "error"}
+            if clock.done and clock.elapsed_s >= due and not has_ended:
+                yield await _part(pool(), drawn, opened.page, received, clock.done)
+                due = clock.elapsed_s + min(max(FRAME_SHARE * clock.elapsed_s, FIRST_FRAME_S), LONGEST_PAUSE_S)
+    yield await _part(pool(), drawn, opened.page, received)
+    yield opened.tail
+
+
+async def report_pieces(
+    pool: Callable[[], Pool], page: StudyPage, host: str, lines: Lines, clock: Clock
+) -> AsyncGenerator[bytes, None]:
+    """The report of a study in one document: how many points are calculated, which each replaces the last; the report.
+
+    `host` is what addresses in the report begin with.
+    """
+    yield report_head(page) + report_progress(page, 0)
+    received, due = list[Line](), FIRST_FRAME_S
+    async with aclosing(lines):
+        async for group in lines:
+            received += [line for line in group if line["type"] != "progress"]
+            if clock.elapsed_s >= due:
+                yield report_progress(page, clock.done)
+                due = clock.elapsed_s + FIRST_FRAME_S
+    last = received[-1]
+    if last["type"] == "error":
+        ended = f"The study ended after {last['done']} of {page.study.total} points. {last['message']}"
+        yield report_progress(page, last["done"], problem=ended)
+        return
+    yield report_progress(page, clock.done, has_ended=True)
+    failed = report_progress(page, clock.done, problem="The report could not be written; try again.")
+    yield await _part(pool(), report, page, received, host, failed=failed)
+
+
+async def _part(pool: Pool, view: Callable[..., bytes], *arguments: Any, failed: bytes = NOT_DRAWN) -> bytes:
+    """Return the result of a view in a worker, or `failed`: the page has begun, its status is sent."""
+    made = failed
+    try:
+        with suppress(WorkerLost, DeadlineExceeded):
+            made = await twice_if_lost(pool, view, *arguments)
+    except Exception:
+        logger.exception("a part of a study's page failed")
+    return made

@@ -1,0 +1,75 @@
+"""The functions that run in a worker process: its preparation, and calls.
+
+The preparation limits the number of threads before numpy is loaded.
+"""
+
+import gc
+import logging
+import os
+import pickle
+import signal
+import threading
+import time
+import traceback
+from collections.abc import Sequence
+from contextlib import suppress
+from functools import lru_cache
+from importlib import import_module
+from typing import Any
+
+ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "NUMBA_NUM_THREADS", "MKL_NUM_THREADS"), "1")
+
+_lines: list[str] = []
+
+
+class _Notes(logging.Handler):
+    """Handler that keeps log lines for the answer of the call, because nobody reads a worker's standard error."""
+
+    def emit(self, record: logging.LogRecord) -> None:
+        _lines.append(self.format(record))
+
+
+@lru_cache(maxsize=1)
+def prepare(memory_bytes: int, modules: Sequence[str]) -> None:
+    """Prepare this process for calls, once: load modules, and limit its memory if the platform allows that."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C reaches every process of the terminal
+    os.environ.update(ONE_THREAD)
+    threading.Thread(target=_end_with_the_service, args=(os.getppid(),), daemon=True).start()
+    gc.disable()  # imports leave no garbage, and the search for it takes a third of their time
+    for name in modules:
+        import_module(name)
+    gc.freeze()
+    gc.enable()
+    logging.captureWarnings(capture=True)
+    logging.root.addHandler(_Notes())
+    with suppress(ImportError, OSError, ValueError):
+        import resource  # noqa: PLC0415  not on all platforms
+
+        resource.setrlimit(resource.RLIMIT_DATA, (memory_bytes, memory_bytes))
+
+
+def _end_with_the_service(service: int) -> None:
+    """End this process in any state as soon as the service is no longer its parent."""
+    while os.getppid() == service:
+        time.sleep(0.5)
+    os._exit(1)
+
+
+def perform(memory_bytes: int, modules: Sequence[str], call: bytes) -> tuple[Any, list[str]]:
+    """Call a pickled function with its arguments. Return the result and the lines logged meanwhile.
+
+    Raises the error of the function, or RuntimeError with its traceback if that error cannot be pickled.
+    """
+    prepare(memory_bytes, modules)
+    _lines.clear()
+    try:
+        function, arguments = pickle.loads(call)  # noqa: S301  from the service itself
+        return function(*arguments), _lines
+    except Exception as error:
+        text = traceback.format_exc()
+        error.add_note(f"In the worker process:\n{text}")
+        try:
+            pickle.loads(pickle.dumps(error))  # noqa: S301
+        except Exception:  # noqa: BLE001
+            raise RuntimeError(text) from None
+        raise

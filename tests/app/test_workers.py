@@ -1,0 +1,200 @@
+"""Which call gets the next worker, what happens to it, and how workers are started; without processes."""
+
+import asyncio
+import pickle
+from collections import deque
+from collections.abc import Awaitable, Callable
+from contextlib import suppress
+from typing import Any
+
+import pytest
+from anyio import BrokenWorkerProcess, to_process
+
+from app.errors import QueueFull, WorkerLost
+from app.settings import Settings
+from app.workers import pool as pools
+from app.workers.pool import Outcome, Pool
+from app.workers.worker import perform, prepare
+
+
+class Processes:
+    """Stands for AnyIO's processes: calls are answered when a test says so, starts as they are scripted."""
+
+    def __init__(self) -> None:
+        self.calls: dict[str, asyncio.Future[tuple[str, list[str]]]] = {}
+        self.order: list[str] = []
+        self.starts = 0
+        self.faults: deque[Callable[[], Awaitable[None]]] = deque()
+
+    async def run_sync(self, function: Callable[..., Any], *arguments: Any, **_: Any) -> Any:
+        if function is prepare:
+            self.starts += 1
+            if self.faults:
+                await self.faults.popleft()()
+            return None
+        assert function is perform
+        _, (name,) = pickle.loads(arguments[-1])  # noqa: S301  of this test
+        self.order.append(name)
+        self.calls[name] = asyncio.get_running_loop().create_future()
+        return await self.calls[name]
+
+    async def answer(self, name: str) -> None:
+        """Let a call end with its own name."""
+        self.calls[name].set_result((name, []))
+        await settled()
+
+
+async def settled() -> None:
+    for _ in range(20):
+        await asyncio.sleep(0)
+
+
+def with_pool(
+    monkeypatch: pytest.MonkeyPatch,
+    check: Callable[[Pool, Processes], Awaitable[None]],
+    workers: int = 2,
+    faults: tuple[Callable[[], Awaitable[None]], ...] = (),
+) -> None:
+    """Check a pool whose workers are scripted."""
+    processes = Processes()
+    processes.faults.extend(faults)
+    monkeypatch.setattr(to_process, "run_sync", processes.run_sync)
+
+    async def run() -> None:
+        pool = Pool(Settings(workers=workers, queue=4), ())
+        tasks = [asyncio.create_task(each) for each in (pool.keep_workers(), *(pool.serve() for _ in range(workers)))]
+        await settled()
+        try:
+            await check(pool, processes)
+        finally:
+            for task in tasks:
+                task.cancel()
+            await asyncio.gather(*tasks, return_exceptions=True)
+
+    asyncio.run(run())
+
+
+def ask(pool: Pool, owner: str, name: str, **options: bool) -> Outcome:
+    return pool.submit(owner, str, name, **options)
+
+
+def test_the_next_worker_goes_to_whoever_has_the_fewest_then_to_whoever_waits_longest(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    async def check(pool: Pool, processes: Processes) -> None:
+        for number in range(4):
+            ask(pool, "greedy", f"greedy {number}")
+        await settled()
+        assert processes.order == ["greedy 0", "greedy 1"]
+        ask(pool, "study", "study 0", is_single=False)
+        ask(pool, "honest", "honest 0")
+        await processes.answer("greedy 0")
+        assert processes.order[2:] == ["study 0"]
+        ask(pool, "study", "study 1", is_single=False)
+        await processes.answer("study 0")
+        assert processes.order[3:] == ["honest 0"]
+        ask(pool, "honest", "honest 1")
+        await processes.answer("honest 0")
+        assert processes.order[4:] == ["study 1"]  # honest had its turn later
+
+    with_pool(monkeypatch, check)
+
+
+def test_a_full_queue_refuses_the_newest_call_of_whoever_has_most(monkeypatch: pytest.MonkeyPatch) -> None:
+    async def check(pool: Pool, _: Processes) -> None:
+        greedy = [ask(pool, "greedy", f"{number}") for number in range(6)]
+        await settled()
+        with pytest.raises(QueueFull):
+            pool._admit("greedy")
+        pool._admit("honest")
+        await settled()
+        assert [call.done() for call in greedy] == [False] * 5 + [True]
+        assert isinstance(greedy[-1].exception(), QueueFull)
+
+    with_pool(monkeypatch, check)
+
+
+def test_a_call_that_nobody_waits_for_has_a_little_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    async def check(pool: Pool, processes: Processes) -> None:
+        waiting = [ask(pool, "client", f"{number}") for number in range(2)]
+        await settled()
+        for each in waiting:
+            each.cancel()
+        await settled()
+        assert processes.order == ["0"]
+        assert not processes.calls["0"].cancelled()
+        await asyncio.sleep(0.3)
+        assert processes.calls["0"].cancelled()  # which kills AnyIO's worker
+        ask(pool, "client", "2")
+        await settled()
+        assert processes.order == ["0", "2"]
+
+    monkeypatch.setattr(pools, "GRACE_S", 0.1)
+    with_pool(monkeypatch, check, workers=1)
+
+
+def test_a_lost_worker_costs_its_own_call_and_another_one_starts(monkeypatch: pytest.MonkeyPatch) -> None:
+    async def check(pool: Pool, processes: Processes) -> None:
+        lost, other = ask(pool, "client", "0"), ask(pool, "client", "1")
+        await asyncio.sleep(0.2)
+        starts = processes.starts
+        processes.calls["0"].set_exception(BrokenWorkerProcess())
+        await settled()
+        with pytest.raises(WorkerLost):
+            lost.result()
+        assert processes.starts > starts
+        await processes.answer("1")
+        assert other.result() == "1"
+
+    with_pool(monkeypatch, check)
+
+
+async def hang() -> None:
+    await asyncio.sleep(3600)
+
+
+async def die() -> None:
+    raise BrokenWorkerProcess
+
+
+async def interrupt() -> None:
+    raise KeyboardInterrupt
+
+
+@pytest.mark.parametrize("fault", [hang, die, interrupt])
+def test_a_worker_that_does_not_start_is_started_again(
+    monkeypatch: pytest.MonkeyPatch, fault: Callable[[], Awaitable[None]]
+) -> None:
+    async def check(pool: Pool, processes: Processes) -> None:
+        with suppress(TimeoutError):
+            async with asyncio.timeout(5):
+                while pool.alive < 2:  # noqa: ASYNC110  nothing tells when
+                    await asyncio.sleep(0.01)
+        assert pool.alive == 2
+        assert processes.starts >= 3
+
+    monkeypatch.setattr(pools, "START_S", 0.1)
+    monkeypatch.setattr(pools, "PAUSE_S", 0.01)
+    with_pool(monkeypatch, check, faults=(fault,))
+
+
+def test_idle_workers_are_called_all_at_the_same_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    """AnyIO would give calls one after the other to the same worker, and drop the other one."""
+
+    async def check(pool: Pool, processes: Processes) -> None:
+        await asyncio.sleep(0.2)
+        assert pool.alive == 2
+        both = asyncio.Barrier(2)
+
+        async def meet() -> None:
+            async with asyncio.timeout(5):
+                await both.wait()
+
+        processes.faults.extend([meet, meet])
+        await asyncio.sleep(0.2)
+        assert not processes.faults
+        assert pool.alive == 2
+
+    monkeypatch.setattr(pools, "IDLE_S", 0.05)
+    monkeypatch.setattr(pools, "PAUSE_S", 0.01)
+    with_pool(monkeypatch, check)

@@ -1,0 +1,74 @@
+"""Docstrings of public objects have numpydoc's form: its validator finds nothing of the checks in pyproject."""
+
+import inspect
+import tomllib
+from dataclasses import is_dataclass
+from enum import EnumType
+from importlib import import_module
+from pathlib import Path
+
+import pytest
+from numpydoc.docscrape import NumpyDocString
+from numpydoc.validate import validate
+
+from app.manual.equations import module_of
+from solvers import scuffing
+from solvers.quantity import UNITS, Unit, quantities
+from tests.manual.citations import SOLVERS, cited, docstrings, implementing
+
+ROOT = Path(__file__).parents[1]
+CHECKS = set(tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["numpydoc_validation"]["checks"])
+
+
+def exported() -> set[str]:
+    """Return the names of the classes and functions that packages of the solvers export, as they are defined."""
+    packages = [import_module(".".join(path.parent.relative_to(ROOT).parts)) for path in SOLVERS.rglob("__init__.py")]
+    values = [getattr(package, name) for package in packages for name in getattr(package, "__all__", ())]
+    return {
+        f"{value.__module__}.{value.__qualname__}"
+        for value in values
+        if getattr(value, "__module__", "").startswith("solvers.") and hasattr(value, "__qualname__")
+    }
+
+
+def with_equation() -> set[str]:
+    """Return the names of functions whose docstring cites an equation, and of every `solve`."""
+    functions = {name for name in cited() if name.rpartition(".")[2][0].islower() and name != module_of(name)}
+    return functions | {name for _, name, _ in docstrings() if name.endswith(".solve")}
+
+
+PUBLIC = sorted(exported() | with_equation())
+
+
+@pytest.mark.parametrize("name", PUBLIC)
+def test_docstring_has_the_form(name: str) -> None:
+    is_enumeration = isinstance(implementing(name), EnumType)  # has the parameters of `str`
+    checks = CHECKS - {"PR01"} if is_enumeration else CHECKS
+    assert [(code, text) for code, text in validate(name)["errors"] if code in checks] == []
+
+
+def fields_in_help(kind: type) -> dict[str, str]:
+    """Return what `help` says of each field and computed value of a dataclass."""
+    document = NumpyDocString(inspect.getdoc(kind))
+    return {entry.name: " ".join(entry.desc) for entry in document["Parameters"] + document["Attributes"]}
+
+
+@pytest.mark.parametrize("name", [name for name in PUBLIC if is_dataclass(implementing(name))])
+def test_help_names_the_unit_of_every_quantity(name: str) -> None:
+    kind = implementing(name)
+    units = {field: UNITS[declared.unit] for field, declared in quantities(kind).items() if declared.unit}
+    shown = fields_in_help(kind)
+    assert {field for field, unit in units.items() if f" [{unit.si or unit.symbol}]." not in shown[field]} == set()
+
+
+def test_help_of_a_load_states_si_units_and_the_range_in_the_shown_unit() -> None:
+    shown = fields_in_help(scuffing.Load)
+    assert shown["pinion_torque"].startswith("Pinion torque [N m].")
+    assert shown["pinion_speed"] == "Pinion speed [rad/s]. Symbol n_1; source Xue 2020; range 0.1 to 200000 1/min."
+    assert shown["power"].startswith("Transmitted power [W].")
+    assert shown["dynamic_factor"].endswith("default 1.")
+
+
+@pytest.mark.parametrize("unit", UNITS.values())
+def test_a_unit_that_is_converted_names_its_si_unit(unit: Unit) -> None:
+    assert (unit.si is None) == ((unit.scale, unit.offset) == (1.0, 0.0))
