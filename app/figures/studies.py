@@ -188,22 +188,22 @@ def _limit(grid: Grid) -> list[Level]:
 
 
 class Crossing(NamedTuple):
-    """Place at which a curve crosses its limit between two points, and the error of this place."""
+    """Crossing of a curve and its limit: the abscissa and the error of this abscissa."""
 
     place: float
     error: float
 
     def named(self, axis: Axis) -> str:
-        """Return the place with as many digits as its error allows."""
+        """Return the abscissa with its unit and as many digits as its error permits."""
         glue = "" if axis.unit in {None, "", "°"} else " "
         return f"{to_digits(self.place, self.error)}{glue}{axis.unit or ''}"
 
 
 def _crossings(grid: Grid) -> list[Crossing]:
-    """Return the crossings of a curve with its limit, on straight lines between its points.
+    """Return the crossings of a curve and its limit by linear interpolation between points.
 
-    The error is that of the straight line, estimated from the second divided difference of three points. If there are
-    only two points, the error is the distance between them.
+    The error is that of linear interpolation, estimated with the second divided difference of three points. If there
+    are only two points, the error is their distance.
     """
     if grid.limit is None or grid.x.words:
         return []

@@ -66,7 +66,7 @@ def signed(value: float, unit: str | None = None, digits: int = 3) -> str:
 
 
 def to_digits(value: float, error: float, most: int = 3) -> str:
-    """Return a value rounded to the digit of its error, with at most `most` significant digits."""
+    """Round a value to the leading digit of its error, and to at most `most` significant digits."""
     if value == 0.0:
         return number(value)
     size = floor(log10(abs(value)))
@@ -76,5 +76,5 @@ def to_digits(value: float, error: float, most: int = 3) -> str:
 
 
 def listed(names: list[str]) -> str:
-    """Return names as a list in a sentence."""
+    """Return names as an enumeration in a sentence."""
     return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"

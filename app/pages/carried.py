@@ -1,7 +1,7 @@
 """Links to other calculations of the same gears or coupling.
 
 What the other page has no field for goes along in the view `pair`, so that a link from there to a third page, or back,
-loses nothing. The REXS file from which the case was read goes along too.
+loses no value. The REXS file from which the case was read goes along too.
 """
 
 from collections.abc import Iterable, Iterator
@@ -16,7 +16,7 @@ from app.schema.fields import ITEM, Branch, Leaf, branches, leaf_at, tree
 from app.schema.model import Documented
 
 SUBJECTS = {"gears": "pair", "coupling": "coupling"}
-"""Sections that several calculations share, each with what it describes: gears or a coupling."""
+"""Sections that several calculations share, with the word for their subject: a gear pair or a coupling."""
 LOAD, OPERATION = "load.", "operation."
 """Scuffing calls the operation of the gears their load; names in `pair` are those of scuffing."""
 

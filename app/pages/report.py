@@ -149,12 +149,12 @@ def for_python(address: str, case: Case) -> str:
 
 
 def body_of(case: Case) -> str:
-    """Return the given fields of the request as JSON."""
+    """Return the fields that the user has given as a JSON text."""
     return json.dumps(_given(case))
 
 
 def _given(case: Case) -> dict[str, Any]:
-    """Return the given fields of the request, without those left at their default."""
+    """Return the fields that the user has given; all others have their default."""
     return case.request.model_dump(exclude_unset=True, exclude={"detail"})
 
 

@@ -28,7 +28,7 @@ class Column(NamedTuple):
 
 
 class Line(NamedTuple):
-    """Row of the table of variants: a quantity and its value in each of them."""
+    """One row of the table of variants: a quantity, and one text for each variant."""
 
     row: Row
     texts: list[str]

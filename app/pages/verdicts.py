@@ -1,4 +1,4 @@
-"""Verdicts that need several numbers of an answer, and the answer to a page's question in a sentence."""
+"""Verdicts on several numbers of a result, and the sentence that answers the question of a page."""
 
 from collections.abc import Callable
 from typing import Any, NamedTuple

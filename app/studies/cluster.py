@@ -81,7 +81,7 @@ class DaskCluster:
         self.slots = sum(threads.values())
 
     def _call_on(self, function: Callable[[], Any], workers: set[str]) -> dict[str, Any]:
-        """Call a function on each of these workers and return the results by worker. Blocks."""
+        """Call a function on each of the workers, wait, and return the result of each worker."""
         assert self._client is not None
         calls = {each: self._client.submit(function, workers=[each], pure=False, retries=0) for each in workers}
         return {worker: call.result(timeout=WARM_S) for worker, call in calls.items()}
@@ -115,7 +115,7 @@ class DaskCluster:
 
 
 def prepare() -> None:
-    """Load every kernel into this worker."""
+    """Load all kernels into the worker that runs this function."""
     for stage in STAGES:
         warm(stage)
 

@@ -1,4 +1,4 @@
-"""A folder with every kernel compiled, for tests that copy and damage it."""
+"""A folder with all compiled kernels. Tests copy the folder and damage the copy."""
 
 import shutil
 from functools import cache

@@ -44,7 +44,7 @@ class Flow(NamedTuple):
 
 
 MOMENTS = floats("density", "f0", "f1", "n0", "n1")
-"""Integrals across the film from `flow.flow_moments`: the mean density R, and F0, F1, N0 and N1."""
+"""Results of `flow.flow_moments`: the mean density R and the integrals F0, F1, N0 and N1 across the film."""
 
 
 class MidFilm(NamedTuple):

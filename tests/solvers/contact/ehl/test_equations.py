@@ -89,7 +89,7 @@ class At(NamedTuple):
 
 
 def contacts(model: Model) -> list[LineContactInputs]:
-    """Return contacts under light and heavy load, with an oil of other laws, and in pure rolling."""
+    """Return lightly and heavily loaded contacts, contacts in pure rolling, and contacts with a simpler oil."""
     light = [at_pressure(p, ratio, 5.0, 0.05, 10e-3, model) for p, ratio in ((2e7, 0.3), (5e7, -0.8), (1e8, 1.2))]
     simple = [replace(inputs, lubricant=SIMPLE_OIL) for inputs in random_contacts(model, 3, seed=5)]
     rolling = [at_pressure(0.8e9, 0.0, 3.0, 0.02, 8e-3, model)]
