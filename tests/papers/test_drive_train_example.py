@@ -21,7 +21,11 @@ from solvers.drive_train.states import solve
 from solvers.pumping.inputs import Groove
 from solvers.scuffing.flank_results import contact_points
 from solvers.scuffing.load_balance import line_loads
+from solvers.scuffing.safety import safety_factor
 from solvers.scuffing.thermal.blok import blok_flash
+from solvers.scuffing.thermal.flank import contact_at_points
+from solvers.scuffing.thermal.thermal_path import thermal_paths
+from solvers.scuffing.thermal.verdict import hotter_surface
 from tests.support.changes import changed, value_at
 from tests.support.drive_trains import GROUND, NO_EFFECTS, cold, rigid_bearings, running_axis, turbo_gear
 
@@ -159,16 +163,40 @@ THERMAL = [3.056, 2.883, 2.832, 3.010, 2.821, 3.084, 2.730, 3.067, 3.041, 3.075,
 THERMAL += [3.063, 3.301, 3.044, 2.971, 3.009, 2.917]
 
 
+TABLE_PLACE = {17: 0.3}  # y/b of the table's line where it is not ours: the temperature is almost even from 0.3 to 0.4
+
+
+def thermal_safety_of_fifty_points(inputs: DriveTrainInputs, result: DriveTrainResult, at: float) -> float:
+    """Safety factor by thermal EHL over 50 equidistant points of the profile line at y/b, as in the table."""
+    temperatures, plane = inputs.mesh.temperatures, result.mesh.path_of_contact.plane
+    assert temperatures.scuffing is not None
+    x, y = np.linspace(0.0, plane.path_length, 50), np.full(50, at * plane.face_width)
+    contacts = contact_at_points(inputs.mesh.distribution, result.mesh, x, y)
+    (path,), _ = thermal_paths(inputs.mesh, [contacts])
+    hottest = float(np.nanmax(hotter_surface(path, np.array(temperatures.surfaces)[:, None])))
+    safety = safety_factor(temperatures.scuffing, temperatures.oil, hottest)
+    assert safety is not None
+    return safety
+
+
 @pytest.mark.parametrize(
     "row", [pytest.param(row, marks=() if row == 5 else pytest.mark.slow) for row in range(1, len(THERMAL) + 1)]
 )
 def test_safety_by_the_thermal_film(row: int) -> None:
     """Along the profile line through the flank's worst point; milder than Blok's and in the same order.
 
-    The table has 50 points of the line; the worst point itself lowers the safety by up to 0.3 %.
+    The worst point itself, which the table's 50 points miss, lowers the safety by at most 0.3 %.
     """
-    found = solve(changed(UNITS[row], {"mesh.lubrication": "thermal_ehl"})).safety
-    assert 0.997 * THERMAL[row - 1] <= found.thermal_ehl_profile <= THERMAL[row - 1] + 0.003
+    inputs = changed(UNITS[row], {"mesh.lubrication": "thermal_ehl"})
+    result = solve(inputs)
+    found, worst = result.safety, result.safety.blok_at
+    sampled = thermal_safety_of_fifty_points(inputs, result, worst.face_fraction)
+    in_the_table = sampled
+    if row in TABLE_PLACE:
+        in_the_table = thermal_safety_of_fifty_points(inputs, result, TABLE_PLACE[row])
+        assert sampled < in_the_table
+    assert in_the_table == pytest.approx(THERMAL[row - 1], abs=0.0009)
+    assert 0.997 * sampled <= found.thermal_ehl_profile <= sampled + 1e-6  # films start from each other's: 2e-7 apart
     assert found.minimum == found.blok_flank
 
 
