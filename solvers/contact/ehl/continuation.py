@@ -12,7 +12,7 @@ from solvers.blas_threads import one_blas_thread
 from solvers.contact.ehl.grid import Grid, grid_for
 from solvers.contact.ehl.newton import solve_coupled, solve_isothermal
 from solvers.contact.ehl.problem import Problem
-from solvers.contact.ehl.rheology import REE_EYRING
+from solvers.contact.ehl.rheology import softened
 from solvers.contact.ehl.state import State, Work, no_steps, work_arrays
 from solvers.contact.ehl.temperature import march_temperatures
 
@@ -254,9 +254,9 @@ def _from_soft_film(problem: Problem, resolution: Resolution, budget: Budget) ->
     attempt: Attempt | None = None
     reached = 0.0
     for stress in SOFT_STRESSES:
-        if problem.rheology == REE_EYRING and stress >= problem.eyring_stress:
+        softer = softened(problem, stress)
+        if softer is None:
             break
-        softer = problem._replace(rheology=REE_EYRING, eyring_stress=stress)
         if attempt is None:
             attempt = _start(softer, resolution, budget)
         attempt = polish(softer, resolution, attempt.grid, attempt.state, LOOSE, budget)

@@ -1,19 +1,35 @@
 """How oil shears: all that the solver knows of the laws of Newton and of Ree and Eyring.
 
-A law gives three things: the stress half way across a column at which it slides at u2 - u1; the shear rate of an
-interval under its stress, with its derivative by the stress; and both of them in a film at one temperature. Each of the
-three has one function per law and one function that chooses by `Problem.rheology`. tau = tau_m + G (zeta - 1/2) with G
-= h dp/dx.
+With G = h dp/dx the stress is tau = tau_m + G (zeta - 1/2). A law gives four things, each in a function that chooses by
+`Problem.rheology`:
+
+limited_gradient  the G up to which it can be evaluated
+mid_film_stress   the stress half way across a column at which it slides at u2 - u1
+shear_rates       the shear rate of every interval under its stress, and its derivative by the stress
+uniform_shear     flow and stress in a film at one temperature
+
+A law more is a name in `inputs.Rheology`, these four here, and `effective_fluidity`, `mid_film_stress` and
+`uniform_columns` in `equations`, against which tests compare every law of that list.
 """
+
+from typing import get_args
 
 import numpy as np
 
 from solvers.compiled import inlined_kernel, kernel
+from solvers.contact.ehl.inputs import Rheology
 from solvers.contact.ehl.problem import Problem
 from solvers.contact.ehl.shear import Shear
 
-REE_EYRING, NEWTONIAN = range(2)  # in the order of `inputs.Rheology`
+REE_EYRING, NEWTONIAN = map(get_args(Rheology).index, ("ree_eyring", "newtonian"))
 STRESS_LIMIT = 300.0  # of |h dp/dx| / (2 tau0): exp(300)^2 does not overflow
+
+
+def softened(problem: Problem, stress: float) -> Problem | None:
+    """Return the contact with a Ree-Eyring oil of a low Eyring stress [Pa], or None if its own oil is as soft."""
+    if problem.rheology == REE_EYRING and stress >= problem.eyring_stress:
+        return None
+    return problem._replace(rheology=REE_EYRING, eyring_stress=stress)
 
 
 @kernel

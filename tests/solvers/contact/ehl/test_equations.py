@@ -6,13 +6,13 @@ The load is balanced by the integral of the pressure (Xue, Eq. 22).
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import cache
-from typing import NamedTuple
+from typing import NamedTuple, get_args
 
 import numpy as np
 import pytest
 
 from solvers.arrays import FloatArray
-from solvers.contact.ehl import LineContactInputs, Model, equations
+from solvers.contact.ehl import LineContactInputs, Model, Rheology, equations
 from solvers.contact.ehl.continuation import budget_for, solve_cold
 from solvers.contact.ehl.equations import Carried, Residual
 from solvers.contact.ehl.grid import Grid
@@ -32,7 +32,7 @@ from solvers.contact.ehl.temperature import inlet_step
 from solvers.lubricants import Lubricant
 from tests.support.line_contacts import at_pressure, random_contacts
 
-THERMAL = {name: Model(rheology=name, nodes=61, film_nodes=11) for name in ("ree_eyring", "newtonian")}
+THERMAL = {name: Model(rheology=name, nodes=61, film_nodes=11) for name in get_args(Rheology)}
 ISOTHERMAL = {name: replace(model, thermal=False) for name, model in THERMAL.items()}
 STATES = 20
 STEP = 1e-30  # of the complex step: far below rounding, far above the smallest number
