@@ -12,11 +12,11 @@ from typing import Any
 
 from app.calculations import BY_PATH
 from app.examples import examples
-from app.studies.design import Design
-from app.studies.engine import Clock, Study
+from app.studies.kinds.corners import Corners
+from app.studies.kinds.design import Design
 from app.studies.point_sets import usual_corners
 from app.studies.requests import EXAMPLES
-from app.studies.sweep import Corners
+from app.studies.runner import Clock, Study
 from solvers.drive_train.gap.thermal_lead import gas_heat
 from solvers.drive_train.outcome import outcome
 from solvers.drive_train.states import solve

@@ -1,5 +1,6 @@
 """Lubricants, and the laws by which pressure and temperature change their viscosity and density."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass, fields
 from math import log
 from typing import Any, Literal, NamedTuple
@@ -8,12 +9,18 @@ import numpy as np
 
 from solvers.compiled import kernel
 from solvers.errors import InvalidInput
+from solvers.notices import Notice, unusual_value
 from solvers.quantity import described, quantity, record
+from solvers.sources import XUE
 
 PressureViscosityLaw = Literal["roelands", "barus"]
 OilKind = Literal["mineral", "pao", "ester", "polyglycol"]
 
 HIGHEST_VISCOSITY = 1e4  # Pa s without pressure; no oil flows there
+# Chosen limits of unusual values.
+THICK_OIL = 1.0  # Pa s at operating temperature
+HOTTEST = 403.15  # K, of oil and teeth; mineral oils age within days
+COLDEST_OIL = 243.15  # K; below the pour point of most gear oils
 
 ROELANDS_PRESSURE = 5.1e-9  # 1/Pa
 ROELANDS_LOG_VISCOSITY = 9.67  # -ln of the viscosity 6.31e-5 Pa s at the pole
@@ -24,18 +31,68 @@ ROELANDS_POLE_TEMPERATURE = 138.0  # K
 class Lubricant:
     """A lubricating oil; the default is the oil of Xue, Zhang and Wang (second Table 2), its values at 360 K.
 
-    An incompressible oil has the same density at every pressure and temperature.
+    An incompressible oil has the same density at every pressure and temperature. The fields have no range here, because
+    an oil at a temperature is a `Lubricant` too; inputs have a range.
     """
 
-    viscosity: float = described("Viscosity at the reference temperature and zero pressure [Pa s].", default=0.08)
-    reference_temperature: float = described("Reference temperature [K].", default=360.0)
-    pressure_viscosity: float = described("Pressure-viscosity coefficient of Barus [1/Pa].", default=21.9e-9)
-    temperature_viscosity: float = described("Temperature-viscosity coefficient of Reynolds [1/K].", default=0.042)
-    density: float = described("Density at the reference temperature [kg/m^3].", default=870.0)
-    specific_heat: float = described("Specific heat [J/(kg K)].", default=2000.0)
-    thermal_conductivity: float = described("Thermal conductivity [W/(m K)].", default=0.14)
-    pressure_viscosity_law: PressureViscosityLaw = described("Law of the viscosity over pressure.", default="roelands")
-    compressible: bool = described("Whether the density depends on pressure and temperature.", default=True)
+    viscosity: float = quantity(
+        "oil viscosity",
+        "η_0",
+        f"{XUE}, Table 2",
+        unit="pa_s",
+        default=0.08,
+        text="viscosity at the reference temperature and no pressure",
+    )
+    reference_temperature: float = quantity(
+        "oil reference temperature",
+        "θ_0",
+        f"{XUE}, Eq. 20",
+        unit="c",
+        default=86.85,
+        tolerance=1,
+        text="temperature of viscosity and density",
+        assumed="86.85 °C, 360 K, at which the paper's viscosity gives its film thickness; give that of yours",
+    )
+    pressure_viscosity: float = quantity(
+        "pressure-viscosity coefficient", "α", f"{XUE}, Table 2", unit="per_gpa", default=21.9
+    )
+    temperature_viscosity: float = quantity(
+        "temperature-viscosity coefficient",
+        "β",
+        f"{XUE}, Table 2",
+        unit="per_k",
+        default=0.042,
+        tolerance=0.001,
+    )
+    density: float = quantity(
+        "oil density",
+        "ρ_0",
+        f"{XUE}, Table 2",
+        unit="kg_per_m3",
+        default=870.0,
+        text="density at the reference temperature",
+        assumed="the paper's oil",
+    )
+    specific_heat: float = quantity("oil specific heat", "c_oil", f"{XUE}, Table 2", unit="j_per_kg_k", default=2000.0)
+    thermal_conductivity: float = quantity(
+        "oil thermal conductivity", "λ_oil", f"{XUE}, Table 2", unit="w_per_m_k", default=0.14
+    )
+    pressure_viscosity_law: PressureViscosityLaw = quantity(
+        "pressure-viscosity law",
+        None,
+        f"{XUE}, Table 2",
+        default="roelands",
+        text="how viscosity depends on pressure and temperature",
+        advanced=True,
+    )
+    compressible: bool = quantity(
+        "compressible oil",
+        None,
+        f"{XUE}, Table 2",
+        default=True,
+        text="whether density follows pressure and temperature (Dowson and Higginson)",
+        advanced=True,
+    )
     kind: OilKind = described(
         "Base oil; only the lubricant factors of friction laws and scuffing test depend on it.", default="mineral"
     )
@@ -221,3 +278,32 @@ def density(laws: FluidLaws, pressure: float, temperature: float) -> tuple[float
     value = laws.density * (1.0 + laws.pressure_density * p / base - laws.thermal_expansion * heating)
     slope = laws.density * laws.pressure_density / base**2 if pressure > 0.0 else 0.0
     return value, slope, -laws.density * laws.thermal_expansion
+
+
+def thick_oil(viscosity: float | None, field: str = "lubricant.viscosity") -> Iterator[Notice]:
+    """Warn of a viscosity [Pa s] at operating temperature that is unusually high."""
+    if viscosity is not None and viscosity > THICK_OIL:
+        yield unusual_value(field, f"{viscosity:.4g} Pa s at operating temperature is very thick; was mPa s meant?")
+
+
+def oil_temperature(temperature: float, field: str = "temperatures.oil") -> Iterator[Notice]:
+    """Warn of an oil temperature [K] that gear oils in service do not have."""
+    yield from hotter_than_gears(temperature, field)
+    if temperature < COLDEST_OIL:
+        shown = f"{temperature - 273.15:g} °C"
+        yield unusual_value(field, f"{shown} is colder than oils are in service; is the sign right?")
+
+
+def hotter_than_gears(temperature: float, field: str) -> Iterator[Notice]:
+    """Warn of a temperature [K] of oil or teeth that is too high for gears in service."""
+    if temperature > HOTTEST:
+        shown = f"{temperature - 273.15:g} °C"
+        yield unusual_value(field, f"{shown} is hotter than gears are in service; were degrees Fahrenheit meant?")
+
+
+def hot_oil(oil: float, bulk: float | None) -> Iterator[Notice]:
+    """Warn of an oil temperature [K] above the temperature of the teeth [K]."""
+    if bulk is not None and oil > bulk:
+        message = f"the oil at {oil - 273.15:g} °C is hotter than the teeth at {bulk - 273.15:g} °C"
+        message += "; are they exchanged?"
+        yield unusual_value("temperatures.oil", message)

@@ -26,3 +26,8 @@ class Notice:
     message: str
     field: str | None = None
     rank: Rank = "doubtful"
+
+
+def unusual_value(field: str, message: str) -> Notice:
+    """Return the warning about an unusual value of an input."""
+    return Notice("unusual_value", message, field)

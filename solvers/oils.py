@@ -4,7 +4,7 @@ A data sheet has two kinematic viscosities, which also give the viscosity index 
 temperature at which the oil enters a contact, a data sheet gives a `Lubricant` of the models.
 """
 
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass
 from math import log, log10
 from typing import Literal, get_args
 
@@ -12,8 +12,7 @@ from scipy.optimize import brentq
 
 from solvers.errors import InvalidInput
 from solvers.lubricants import Lubricant, OilKind, PressureViscosityLaw
-from solvers.quantity import quantity, record
-from solvers.sources import XUE
+from solvers.quantity import described, quantity, record
 
 SQUARE_MILLIMETRE = 1e-6  # m^2
 LEAST_VISCOSITY = 2.0
@@ -108,6 +107,9 @@ def viscosity_of_index(viscosity_40: float, index: float) -> float:
     return float(brentq(excess, least, largest, xtol=1e-12)) * SQUARE_MILLIMETRE
 
 
+IsoGrade = Literal[10, 15, 22, 32, 46, 68, 100, 150, 220, 320, 460, 680, 1000, 1500]
+GRADES: tuple[int, ...] = get_args(IsoGrade)
+
 CELSIUS = 273.15  # K
 WALTHER_SHIFT = 0.7  # mm^2/s
 DENSITY_TEMPERATURE = 15.0 + CELSIUS  # K
@@ -158,24 +160,45 @@ KINDS: dict[OilKind, KindOfOil] = {
 _THICK, _THIN = "lubricant.kinematic_viscosity_40", "lubricant.kinematic_viscosity_100"
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class OilSheet:
     """An oil by its data sheet; a property that is None follows from the kind of oil or from the viscosities.
 
-    Kinematic viscosities at 40 C and 100 C are in m^2/s, the density at 15 C is in kg/m^3; the other units are those of
-    `Lubricant`.
+    `iso_vg` returns the sheet of an oil of an ISO grade, `sheet_of_index` the sheet of an oil whose viscosity at 100 C
+    is not known.
     """
 
-    kinematic_viscosity_40: float
-    kinematic_viscosity_100: float
-    kind: OilKind = "mineral"
-    density_15: float | None = None
-    pressure_viscosity: float | None = None
-    temperature_viscosity: float | None = None
-    specific_heat: float | None = None
-    thermal_conductivity: float | None = None
-    pressure_viscosity_law: PressureViscosityLaw = "roelands"
-    compressible: bool = True
+    kinematic_viscosity_40: float = quantity(
+        "kinematic viscosity at 40 °C", "ν_40", "ASTM D341", unit="mm2_per_s", ge=2, le=5000
+    )
+    kinematic_viscosity_100: float = quantity(
+        "kinematic viscosity at 100 °C", "ν_100", "ASTM D341", unit="mm2_per_s", ge=1, le=1000
+    )
+    kind: OilKind = quantity(
+        "kind of oil", default="mineral", assumed="a mineral oil, where the data sheet's kind is not given"
+    )
+    density_15: float | None = quantity(
+        "oil density at 15 °C",
+        "ρ_15",
+        unit="kg_per_m3",
+        default=None,
+        ge=500,
+        le=2000,
+        default_text="by the kind of oil; a data sheet rarely gives it",
+        assumed="by the kind of oil; a data sheet rarely gives it",
+    )
+    pressure_viscosity: float | None = described(
+        "Pressure-viscosity coefficient of Barus; None: by kind and viscosity, after Gold [1/Pa].", default=None
+    )
+    temperature_viscosity: float | None = described(
+        "Temperature-viscosity coefficient of Reynolds; None: the slope of the Walther law [1/K].", default=None
+    )
+    specific_heat: float | None = described("Specific heat; None: typical of the kind [J/(kg K)].", default=None)
+    thermal_conductivity: float | None = described(
+        "Thermal conductivity; None: typical of the kind [W/(m K)].", default=None
+    )
+    pressure_viscosity_law: PressureViscosityLaw = described("Law of the viscosity over pressure.", default="roelands")
+    compressible: bool = described("Whether the density depends on pressure and temperature.", default=True)
 
     def __post_init__(self) -> None:
         """Refuse viscosities that no oil has.
@@ -358,11 +381,68 @@ class OilSheet:
         return float(10.0 ** (intercept - slope * log10(temperature)))
 
 
-def iso_vg(grade: int, kind: OilKind = "mineral") -> OilSheet:
-    """Return a typical oil of an ISO 3448 grade (its kinematic viscosity at 40 C in mm^2/s) and kind."""
+def iso_vg(
+    grade: int, kind: OilKind = "mineral", viscosity_index: float | None = None, density_15: float | None = None
+) -> OilSheet:
+    """Return an oil of an ISO 3448 grade.
+
+    Parameters
+    ----------
+    grade : int
+        Grade, the kinematic viscosity at 40 C in mm^2/s.
+    kind : {"mineral", "pao", "ester", "polyglycol"}
+        Kind of oil.
+    viscosity_index : float, optional
+        Viscosity index; None: typical of grade and kind [-].
+    density_15 : float, optional
+        Density at 15 C; None: typical of the kind [kg/m^3].
+
+    Returns
+    -------
+    OilSheet
+        The oil.
+
+    Raises
+    ------
+    InvalidInput
+        `viscosity_index` if no oil of this grade has this index.
+    """
     thick = grade * SQUARE_MILLIMETRE
-    typical = MINERAL_VISCOSITY_100.get(grade) if kind == "mineral" else None
-    return OilSheet(thick, typical or viscosity_of_index(thick, TYPICAL_INDEX[kind]), kind)
+    thin = MINERAL_VISCOSITY_100.get(grade) if kind == "mineral" and viscosity_index is None else None
+    return OilSheet(thick, thin, kind, density_15) if thin else sheet_of_index(thick, viscosity_index, kind, density_15)
+
+
+def sheet_of_index(
+    viscosity_40: float,
+    viscosity_index: float | None = None,
+    kind: OilKind = "mineral",
+    density_15: float | None = None,
+) -> OilSheet:
+    """Return an oil by its viscosity at 40 C and its viscosity index.
+
+    Parameters
+    ----------
+    viscosity_40 : float
+        Kinematic viscosity at 40 C [m^2/s].
+    viscosity_index : float, optional
+        Viscosity index; None: typical of the kind [-].
+    kind : {"mineral", "pao", "ester", "polyglycol"}
+        Kind of oil.
+    density_15 : float, optional
+        Density at 15 C; None: typical of the kind [kg/m^3].
+
+    Returns
+    -------
+    OilSheet
+        The oil.
+
+    Raises
+    ------
+    InvalidInput
+        `viscosity_index` if no oil of this viscosity has this index.
+    """
+    index = TYPICAL_INDEX[kind] if viscosity_index is None else viscosity_index
+    return OilSheet(viscosity_40, viscosity_of_index(viscosity_40, index), kind, density_15)
 
 
 def lubricant_at(oil: Lubricant | OilSheet, temperature: float) -> Lubricant:
@@ -375,206 +455,3 @@ def lubricant_at(oil: Lubricant | OilSheet, temperature: float) -> Lubricant:
 
 def _double_logarithm(kinematic_viscosity: float) -> float:
     return log10(log10(kinematic_viscosity / SQUARE_MILLIMETRE + WALTHER_SHIFT))
-
-
-IsoGrade = Literal[10, 15, 22, 32, 46, 68, 100, 150, 220, 320, 460, 680, 1000, 1500]
-GRADES: tuple[int, ...] = get_args(IsoGrade)
-
-
-@record
-class OilBySheet:
-    """An oil by its ISO grade or its viscosity at 40 °C, and by its viscosity at 100 °C or its viscosity index."""
-
-    iso_vg: IsoGrade | None = quantity("ISO viscosity grade", "VG", "ISO 3448", default=None)
-    kinematic_viscosity_40: float | None = quantity(
-        "kinematic viscosity at 40 °C", "ν_40", "ASTM D341", unit="mm2_per_s", default=None, ge=2, le=5000
-    )
-    kinematic_viscosity_100: float | None = quantity(
-        "kinematic viscosity at 100 °C",
-        "ν_100",
-        "ASTM D341",
-        unit="mm2_per_s",
-        default=None,
-        ge=1,
-        le=1000,
-        default_text="by the viscosity index, else typical of the kind of oil",
-        assumed="typical of the kind of oil: viscosity index 94 to 102 of mineral oils, 150 of PAO and ester, 210 of "
-        "polyglycols",
-    )
-    viscosity_index: float | None = quantity(
-        "viscosity index",
-        "VI",
-        "ASTM D2270",
-        default=None,
-        ge=VISCOSITY_INDICES[0],
-        le=VISCOSITY_INDICES[1],
-        tolerance=5,
-        text="beside the viscosity at 40 °C, instead of that at 100 °C",
-        default_text="by the viscosity at 100 °C, else typical of the kind of oil",
-    )
-    kind: OilKind = quantity(
-        "kind of oil", default="mineral", assumed="a mineral oil, where the data sheet's kind is not given"
-    )
-    density_15: float | None = quantity(
-        "oil density at 15 °C",
-        "ρ_15",
-        unit="kg_per_m3",
-        default=None,
-        ge=500,
-        le=2000,
-        default_text="by the kind of oil; a data sheet rarely gives it",
-        assumed="by the kind of oil; a data sheet rarely gives it",
-    )
-
-    def sheet(self) -> OilSheet | None:
-        """Return the oil by grade or data sheet; None if neither is given.
-
-        Raises
-        ------
-        InvalidInput
-            `viscosity_order` or `viscosity_index` for viscosities that no oil has.
-        """
-        thick, thin = self.kinematic_viscosity_40, self.kinematic_viscosity_100
-        if self.iso_vg is not None:
-            thick = self.iso_vg * SQUARE_MILLIMETRE
-        if thick is None:
-            return None
-        if thin is not None:
-            return OilSheet(thick, thin, self.kind, self.density_15)
-        if self.viscosity_index is None and self.iso_vg is not None:
-            return replace(iso_vg(self.iso_vg, self.kind), density_15=self.density_15)
-        index = TYPICAL_INDEX[self.kind] if self.viscosity_index is None else self.viscosity_index
-        return OilSheet(thick, viscosity_of_index(thick, index), self.kind, self.density_15)
-
-
-@record
-class OilChoice(OilBySheet):
-    """The oil as the user gives it: `iso_vg`, `kinematic_viscosity_40` or `viscosity` is needed.
-
-    `reference_temperature` and `density` belong to `viscosity`. With a grade or data sheet, a property that is None is
-    typical of the kind of oil; otherwise it is that of the default `Lubricant`.
-    """
-
-    viscosity: float | None = quantity(
-        "oil viscosity",
-        "η_0",
-        f"{XUE}, Table 2",
-        unit="pa_s",
-        default=None,
-        ge=1e-5,
-        le=100,
-        text="viscosity at the reference temperature and no pressure",
-        default_text="by grade or data sheet; with neither no oil is known",
-    )
-    reference_temperature: float | None = quantity(
-        "oil reference temperature",
-        "θ_0",
-        f"{XUE}, Eq. 20",
-        unit="c",
-        default=None,
-        ge=-50,
-        le=300,
-        tolerance=1,
-        text="temperature of viscosity and density",
-        default_text="with grade or data sheet, where the oil enters the contact",
-        assumed="86.85 °C, 360 K, at which the paper's viscosity gives its film thickness; give that of yours",
-    )
-    pressure_viscosity: float | None = quantity(
-        "pressure-viscosity coefficient",
-        "α",
-        f"{XUE}, Table 2",
-        unit="per_gpa",
-        default=None,
-        ge=1,
-        le=60,
-        default_text="with grade or data sheet, by kind and viscosity (Gold, secondary source)",
-        assumed="the paper's oil; with grade or data sheet, by kind and viscosity (Gold, secondary source)",
-    )
-    temperature_viscosity: float | None = quantity(
-        "temperature-viscosity coefficient",
-        "β",
-        f"{XUE}, Table 2",
-        unit="per_k",
-        default=None,
-        ge=0,
-        le=0.2,
-        tolerance=0.001,
-        default_text="with grade or data sheet, the slope of the Walther law",
-        assumed="the paper's oil; with grade or data sheet, the slope of the Walther law",
-    )
-    density: float | None = quantity(
-        "oil density",
-        "ρ_0",
-        f"{XUE}, Table 2",
-        unit="kg_per_m3",
-        default=None,
-        ge=100,
-        le=5000,
-        text="density at the reference temperature",
-        default_text="with grade or data sheet, from the density at 15 °C",
-        assumed="the paper's oil",
-    )
-    specific_heat: float | None = quantity(
-        "oil specific heat",
-        "c_oil",
-        f"{XUE}, Table 2",
-        unit="j_per_kg_k",
-        default=None,
-        ge=100,
-        le=10000,
-        default_text="with grade or data sheet, by kind",
-        assumed="the paper's oil; with grade or data sheet, by the kind of oil; a data sheet rarely gives it",
-    )
-    thermal_conductivity: float | None = quantity(
-        "oil thermal conductivity",
-        "λ_oil",
-        f"{XUE}, Table 2",
-        unit="w_per_m_k",
-        default=None,
-        ge=0.01,
-        le=10,
-        default_text="with grade or data sheet, by kind",
-        assumed="the paper's oil; with grade or data sheet, by the kind of oil; a data sheet rarely gives it",
-    )
-    pressure_viscosity_law: PressureViscosityLaw = quantity(
-        "pressure-viscosity law",
-        None,
-        f"{XUE}, Table 2",
-        default="roelands",
-        text="how viscosity depends on pressure and temperature",
-        advanced=True,
-    )
-    compressible: bool = quantity(
-        "compressible oil",
-        None,
-        f"{XUE}, Table 2",
-        default=True,
-        text="whether density follows pressure and temperature (Dowson and Higginson)",
-        advanced=True,
-    )
-
-    def resolve(self) -> OilSheet | Lubricant | None:
-        """Return the oil for the models; None if no viscosity is given.
-
-        Raises
-        ------
-        InvalidInput
-            `viscosity_order` if the oil would not thin as it warms.
-        """
-        sheet = self.sheet()
-        if sheet is not None:
-            return replace(sheet, **{name: getattr(self, name) for name in _BEYOND_VISCOSITY})
-        if self.viscosity is None:
-            return None
-        given = {item.name: getattr(self, item.name) for item in fields(Lubricant)}
-        return Lubricant(**{name: value for name, value in given.items() if value is not None})
-
-
-_BEYOND_VISCOSITY = (
-    "pressure_viscosity",
-    "temperature_viscosity",
-    "specific_heat",
-    "thermal_conductivity",
-    "pressure_viscosity_law",
-    "compressible",
-)

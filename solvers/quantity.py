@@ -8,9 +8,9 @@ The attribute is in SI; range, default and tolerance of the declaration are in t
 """
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, fields, is_dataclass
-from functools import cache
+from functools import cache, partial
 from inspect import cleandoc, formatannotation
 from math import pi
 from typing import Any, Literal, NamedTuple, TypeVar, dataclass_transform, get_args, get_type_hints, overload
@@ -33,6 +33,14 @@ class Unit(NamedTuple):
     scale: float
     offset: float = 0.0
     si: str | None = None
+
+    def to_si(self, value: Any) -> Any:
+        """Return a number or an array in SI."""
+        return value * self.scale + self.offset
+
+    def from_si(self, value: Any) -> Any:
+        """Return a number or an array of SI in this unit."""
+        return (value - self.offset) / self.scale
 
 
 UNITS = {
@@ -156,13 +164,11 @@ class Quantity:
 
     def to_si(self, value: Any) -> Any:
         """Return a number or a list of numbers in SI; return any other value unchanged."""
-        unit = UNITS[self.unit] if self.unit else None
-        return value if unit is None else _convert(lambda number: number * unit.scale + unit.offset, value)
+        return converted(value, UNITS[self.unit].to_si) if self.unit else value
 
     def from_si(self, value: Any) -> Any:
         """Return a number or a list of numbers in the shown unit; return any other value unchanged."""
-        unit = UNITS[self.unit] if self.unit else None
-        return value if unit is None else _convert(lambda number: (number - unit.offset) / unit.scale, value)
+        return converted(value, UNITS[self.unit].from_si) if self.unit else value
 
 
 def quantity(
@@ -275,32 +281,74 @@ def advice(declared: Quantity, value: Any) -> str:
     return f"; {text}" if text else ""
 
 
+def converted(
+    value: Any,
+    number: Callable[[Any], Any],
+    inside: Callable[[Any], Any] | None = None,
+    listed: Callable[[Iterable[Any]], Any] = tuple,
+) -> Any:
+    """Apply a conversion to every number in a value; between SI and shown units, numbers are converted only here.
+
+    Parameters
+    ----------
+    value : Any
+        A number, an array, a dataclass, a section of a request, or lists of these. None, booleans and text are
+        returned unchanged.
+    number : callable
+        Converts a number or an array.
+    inside : callable, optional
+        Converts a value that has fields of its own; None returns such a value unchanged.
+    listed : callable
+        Makes a list from its converted items.
+
+    Returns
+    -------
+    Any
+        The converted value.
+    """
+    if value is None or isinstance(value, bool | str):
+        return value
+    if isinstance(value, tuple | list):
+        return listed(converted(item, number, inside, listed) for item in value)
+    if isinstance(value, int | float | np.ndarray | np.generic):
+        return number(value)
+    return value if inside is None else inside(value)
+
+
+def as_json(value: Any) -> Any:
+    """Return an array as lists, with None for NaN, which marks a point without a value; return a number unchanged."""
+    if not isinstance(value, np.ndarray):
+        return value
+    if value.dtype.kind == "f" and np.isnan(value).any():
+        missing, value = np.isnan(value), value.astype(object)
+        value[missing] = None
+    return value.tolist()
+
+
 def to_dict(data: Any) -> dict[str, Any]:
     """Return the declared values of a dataclass in the shown units, named as in the API: `module` as `module_mm`.
 
     Arrays become lists, and inner dataclasses become dictionaries. NaN, which marks a point without a value, becomes
     None.
     """
-    return _plain(data, None)  # type: ignore[no-any-return]
+    return _named(data, None)
 
 
-def _plain(value: Any, outer: Quantity | None) -> Any:
-    """Return a value as JSON can hold it; `outer` declares the inner values that have no unit of their own."""
-    if is_dataclass(value):
-        kind: Any = type(value)
-        named = {}
-        for name, declared in quantities(kind).items():
-            counting = outer if outer and declared.unit is None else declared
-            own = f"{name}_{declared.unit}" if declared.unit else name
-            named[own] = _plain(getattr(value, name), counting)
-        return named
-    if isinstance(value, np.ndarray):
-        return _plain(value.tolist(), outer)
-    if isinstance(value, tuple | list):
-        return [_plain(item, outer) for item in value]
-    if isinstance(value, float) and np.isnan(value):
-        return None
-    return outer.from_si(value) if outer else value
+def _named(data: Any, outer: Quantity | None) -> dict[str, Any]:
+    """Return the declared values by name; `outer` declares the inner values that have no unit of their own."""
+    kind: Any = type(data)
+    named = {}
+    for name, declared in quantities(kind).items():
+        counting = outer if outer and declared.unit is None else declared
+        own = f"{name}_{declared.unit}" if declared.unit else name
+        number, inside = partial(_shown, counting), partial(_named, outer=counting)
+        named[own] = converted(getattr(data, name), number, inside, list)
+    return named
+
+
+def _shown(declared: Quantity, value: Any) -> Any:
+    """Return a number or an array in its unit, as JSON can hold it."""
+    return None if isinstance(value, float) and np.isnan(value) else as_json(declared.from_si(value))
 
 
 class _Docstring:
@@ -384,14 +432,3 @@ def _brief(value: Any) -> str:
             return f"{type(value).__name__}(...)"
         case _:
             return str(value)
-
-
-def _convert(convert: Callable[[Any], Any], value: Any) -> Any:
-    """Convert a number, an array or all members of a list; leave text, booleans and None."""
-    match value:
-        case None | bool() | str():
-            return value
-        case list() | tuple():
-            return tuple(_convert(convert, item) for item in value)
-        case _:
-            return convert(value)

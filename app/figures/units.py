@@ -1,14 +1,12 @@
 """Results of the solvers with their quantities in the units in which they are shown."""
 
 from dataclasses import fields, is_dataclass
-from functools import cache
+from functools import cache, partial
 from typing import Any, TypeVar
-
-import numpy as np
 
 from app.figures.data import Axis
 from app.schema.fields import Leaf
-from solvers.quantity import UNITS, Quantity, quantities
+from solvers.quantity import UNITS, Quantity, converted, quantities
 
 T = TypeVar("T")
 MM, UM, RPM = (UNITS[name].scale for name in ("mm", "um", "rpm"))
@@ -39,20 +37,22 @@ def axis_of(leaf: Leaf, **options: Any) -> Axis:
 
 def _converted(value: Any, declared: Quantity | None) -> Any:
     """Return a value in its unit; `declared` belongs to the outer field and holds for inner fields without a unit."""
-    if is_dataclass(value) and not isinstance(value, type):
-        kind: Any = type(value)
-        known = quantities(kind)
-        copy = object.__new__(_plain(kind))
-        for name in {*(each.name for each in fields(value)), *known}:
-            own = known.get(name)
-            inner = own if declared is None or (own is not None and own.unit is not None) else declared
-            object.__setattr__(copy, name, _converted(getattr(value, name), inner))
-        return copy
-    if isinstance(value, tuple | list):
-        return tuple(_converted(item, declared) for item in value)
-    if declared is None or not isinstance(value, float | np.ndarray):
+    number = declared.from_si if declared else lambda number: number
+    return converted(value, number, partial(_copied, declared=declared))
+
+
+def _copied(value: Any, declared: Quantity | None) -> Any:
+    """Return a copy of a dataclass with its values in their units, or any other value that has no number as it is."""
+    if not is_dataclass(value) or isinstance(value, type):
         return value
-    return declared.from_si(value)
+    kind: Any = type(value)
+    known = quantities(kind)
+    copy = object.__new__(_plain(kind))
+    for name in {*(each.name for each in fields(value)), *known}:
+        own = known.get(name)
+        inner = own if declared is None or (own is not None and own.unit is not None) else declared
+        object.__setattr__(copy, name, _converted(getattr(value, name), inner))
+    return copy
 
 
 @cache

@@ -1,13 +1,16 @@
 """The theory manual: chapters in Markdown beside this file.
 
 `equations` finds their numbered equations and the functions that implement them, `results` says which of them computes
-each result; `app.pages.manual` makes pages of the chapters.
+each result, `fields` has the rows of the table of all fields; `app.pages.manual` makes pages of the chapters.
 """
 
 import re
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
+
+FIELDS = "fields"
+"""The chapter that is a table of all fields."""
 
 NAMES = (
     "coupling",
@@ -21,6 +24,7 @@ NAMES = (
     "practice",
     "spectrum",
     "service",
+    FIELDS,
 )
 """The chapters, in the order in which they are read."""
 

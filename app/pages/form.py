@@ -6,6 +6,8 @@ from dataclasses import dataclass, field, replace
 from itertools import accumulate, groupby, product
 from typing import Any
 
+from app.calculations import CALCULATIONS
+from app.manual.fields import address as row_address
 from app.pages.query import MATRIX, PICK, PRESENT, SIDE, excluded
 from app.pages.typed import text_of
 from app.pages.typesetting import cited, symbol, words
@@ -16,6 +18,7 @@ from app.schema.quantities import split_unit
 
 REQUIRED, IF_USED = "required", "required if used"
 BESIDE = 10  # letters of an option that fit beside the label
+ENDPOINTS = {each.request: each.path for each in CALCULATIONS}
 DETAIL = "detail"
 """Not asked for: each view takes the level of detail that it needs."""
 
@@ -24,9 +27,9 @@ DETAIL = "detail"
 class State:
     """What is known of a case beside the schema, by path: texts typed, faults, and what an answer resolved.
 
-    `assumed` are the fields whose default is ours. `required` is what stands beside a field that must be given: always,
-    or if the optional section that it is in is used. `deciding` are the fields on which a verdict rests: their sections
-    are open.
+    `endpoint` is that of the form. `assumed` are the fields whose default is ours. `required` is what stands beside a
+    field that must be given: always, or if the optional section that it is in is used. `deciding` are the fields on
+    which a verdict rests: their sections are open.
     """
 
     texts: Mapping[str, str] = field(default_factory=dict)
@@ -35,6 +38,7 @@ class State:
     assumed: AbstractSet[str] = frozenset()
     required: str = REQUIRED
     deciding: AbstractSet[str] = frozenset()
+    endpoint: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,7 +47,7 @@ class FieldView:
 
     `empty` says in a line what a field without a value stands for; `column` names the field where several stand side
     by side; `excludes` are the fields and sections that must be empty where this one is given. A matrix has `elements`,
-    row by row.
+    row by row. `reference` is the address of its row in the table of all fields.
     """
 
     name: str
@@ -62,6 +66,7 @@ class FieldView:
     excludes: tuple[str, ...] = ()
     empty: str = ""
     elements: tuple["FieldView", ...] = ()
+    reference: str = ""
     kind: str = "field"
 
     @property
@@ -140,6 +145,7 @@ def title_of(request: type[Request], path: str) -> str:
 def form(request: type[Request], state: State) -> tuple[Section, ...]:
     """The sections of the form: those with required fields first, model options last."""
     root, loose = tree(request), list[Block]()
+    state = replace(state, endpoint=ENDPOINTS.get(request, ""))
     sections = []
     for block in _blocks(root, "", state):
         if not isinstance(block, Section):
@@ -322,6 +328,7 @@ def field_view(leaf: Leaf, name: str, state: State) -> FieldView:
         help=_help(leaf, assumed=name in state.assumed),
         fault=state.faults.get(name),
         excludes=excluded(name, leaf),
+        reference=row_address("Requests", state.endpoint, leaf.path),
         empty=words(cited(rule).replace("`", "")),
     )
 

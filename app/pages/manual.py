@@ -20,8 +20,9 @@ from mdit_py_plugins.dollarmath import dollarmath_plugin
 
 from app.calculations import BY_PATH, CALCULATIONS, Calculation
 from app.examples import examples
-from app.manual import NAMES, Chapter, chapters
+from app.manual import FIELDS, NAMES, Chapter, chapters
 from app.manual.equations import anchor, equations, functions
+from app.manual.fields import COLUMNS, SECTIONS, entries
 from app.manual.results import place_of
 from app.pages.query import Pairs, link, pairs_of
 from app.pages.templating import example_link, model_of, page_path, rendered
@@ -50,6 +51,10 @@ def contents_page(root: str) -> str:
 def chapter_page(root: str, name: str) -> str:
     """One chapter."""
     chapter, following = chapters()[name], chapters().get(dict(pairwise(NAMES)).get(name, ""))
+    if name == FIELDS:
+        head = _html(chapter.text.partition("\n## ")[0], root)
+        table = {"sections": SECTIONS, "columns": COLUMNS, "entries": entries()}
+        return rendered("manual_fields.html", root, chapter=chapter, body=head, **table)
     body = _html(chapter.text, root)
     known: dict[str, Any] = {"headings": headings(chapter), "symbols": symbols_of(chapter)}
     return rendered("manual.html", root, chapter=chapter, body=body, following=following, **known)
@@ -147,6 +152,8 @@ def _plain(text: str) -> Markup:
 
 def headings(chapter: Chapter) -> dict[str, str]:
     """The titles of a chapter's sections by their anchors."""
+    if chapter.name == FIELDS:
+        return {section.lower(): section for section in SECTIONS}
     return {
         str(token.attrs["id"]): content.content
         for token, content in pairwise(_markdown().parse(chapter.text))

@@ -10,7 +10,7 @@ from app.calculations import BY_PATH, Calculation
 from app.manual import chapters
 from app.pages.form import title_of
 from app.pages.query import link, pairs_of
-from app.pages.studies.spectrum import address_of
+from app.pages.study_kinds import study_page
 from app.pages.study_links import studies_of
 from app.pages.templating import by_model, example_link, examples_of, model_of, page_path, rendered
 from app.schema.fields import leaf_at
@@ -76,6 +76,7 @@ def _stage(stage: dict[str, Any], file: dict[str, str]) -> dict[str, Any]:
     teeth = [gears.get(role, {}).get("teeth") for role in ("pinion", "wheel")]  # none that no gear has
     ratio = teeth[1] / teeth[0] if all(teeth) else None
     torque, speed = load.get("pinion_torque_n_m"), load.get("pinion_speed_rpm")
+    spectrum = study_page("spectrum")
     cases = []
     for case in stage["cases"]:
         overrides = case["overrides"]
@@ -101,7 +102,10 @@ def _stage(stage: dict[str, Any], file: dict[str, str]) -> dict[str, Any]:
                 for path, body in requests.items()
             ],
             "spectra": [
-                (BY_PATH[path].title, address_of(BY_PATH[path], pairs_of(requests[path]), {"cases": lines}, file))
+                (
+                    BY_PATH[path].title,
+                    spectrum.address_of(BY_PATH[path], pairs_of(requests[path]), {"cases": lines}, file),
+                )
                 for path, lines in stage["spectra"].items()
                 if path in SPECTRA
             ],

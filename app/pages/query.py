@@ -7,6 +7,7 @@ from urllib.parse import parse_qsl, urlencode
 
 from app.errors import Unreadable
 from app.figures.wording import difference_unit
+from app.pages.study_kinds import control_names
 from app.pages.typed import (
     as_typed,
     in_link,
@@ -22,18 +23,8 @@ from app.schema.model import Documented
 
 Pairs = list[tuple[str, str]]
 
-# What a study of a case varies or may choose, how often, and which output it shows.
-LOWER, UPPER, TRIALS, CORNER, CASES = "low.", "high.", "trials", "corner.", "cases"
-UNCERTAIN = ("wall response", "pinion clearance", "wheel clearance", "friction", "offset", "thrust fraction")
-CHOSEN = 3  # ranges of a search
-SCATTERING = 12  # fields of a load spectrum
-STUDY_NAMES = frozenset(
-    {f"{axis}{part}" for axis in ("x", "y") for part in ("", ".from", ".to", ".count", ".scale")}
-    | {f"{end}{place}" for end in (LOWER, UPPER) for place in range(CHOSEN)}
-    | {f"{CORNER}{quantity.replace(' ', '_')}" for quantity in UNCERTAIN}
-    | {f"t{place}{part}" for place in range(SCATTERING) for part in ("", ".law", ".by", ".about")}
-    | {"show", "best", TRIALS, CASES, "hours", "machines", "limit", "limit.by", "limit.side"}
-)
+# Controls of studies that hold no single number: the values of an uncertain input, and a table of cases.
+CORNER, CASES = "corner.", "cases"
 REPORT_NAMES = {
     "title": 200,
     "project": 200,
@@ -47,11 +38,10 @@ REPORT_NAMES = {
     "notes": 2000,
 }
 """What a report says of its occasion, and how many characters of it at most."""
-VIEW_NAMES = (
-    STUDY_NAMES
-    | REPORT_NAMES.keys()
-    | {"paper", "ref", "also", "pair", "theme", "sources", "curve", "unlinked", "extent", "rexs_stage"}
-)
+VIEW_NAMES = REPORT_NAMES.keys() | {
+    *("paper", "ref", "also", "pair", "theme", "sources", "curve", "unlinked", "extent", "rexs_stage")
+}
+"""Of what concerns only how a case is looked at; the controls of studies come to these."""
 PICK = "pick:"
 """Before the name of a choice between fields that exclude each other; its value is the field that counts."""
 WRITTEN = "written"
@@ -78,7 +68,8 @@ def pairs_of_query(query: str) -> Pairs:
 
 def split_views(pairs: Pairs) -> tuple[Pairs, dict[str, str]]:
     """The case, and what only concerns how it is looked at."""
-    return [pair for pair in pairs if pair[0] not in VIEW_NAMES], {n: text for n, text in pairs if n in VIEW_NAMES}
+    views = VIEW_NAMES | control_names()
+    return [pair for pair in pairs if pair[0] not in views], {name: text for name, text in pairs if name in views}
 
 
 def from_form(model: type[Documented], pairs: Pairs) -> Pairs:
@@ -110,7 +101,7 @@ def _in_link(model: type[Documented], name: str, text: str, others: dict[str, st
         return table_in_link(text)
     if name.startswith(CORNER):
         return items_in_link(text)
-    if name in STUDY_NAMES:
+    if name in control_names():
         leaf = leaf_at(model, others.get(name.partition(".")[0], ""))  # which is varied, or scatters
         unit = leaf.unit if leaf else None
         if not name.endswith(".by") or difference_unit(unit) == unit:

@@ -9,34 +9,22 @@ from typing import Any, NamedTuple
 from app.calculations import BY_PATH, Calculation
 from app.examples import examples
 from app.pages.query import Pairs, link, pairs_of
+from app.pages.study_kinds import StudyLink, study_pages
 from app.pages.templating import page_path
 from app.schema.fields import leaf_at
 from app.studies.fields import value_at
-from app.studies.requests import DRIVE_TRAIN
 
 AROUND = (0.5, 1.5)  # times a derived value, where it is varied
 
 
-class StudyLink(NamedTuple):
-    """The last part of the address of a study's page, the label of the link to it, and a description."""
-
-    name: str
-    label: str
-    hint: str
-
-
-VARY = StudyLink("vary", "Vary", "one input or two over a range: a curve or a map")
-SENSITIVITY = StudyLink("influence", "What matters", "every input moved by its tolerance: which moves the result most")
-SPECTRUM = StudyLink(
-    "spectrum", "Load spectrum", "cases and tolerances: the probability of exceeding a limit, and the mean losses"
-)
-CORNERS = StudyLink("corners", "Worst corner", "every combination of the uncertain inputs: where the result is worst")
-DESIGN = StudyLink("design", "What to grind", "the flank correction whose worst corner is best")
-
-
 def study_links(calculation: Calculation) -> tuple[StudyLink, ...]:
     """The studies that cases of a calculation have."""
-    return (VARY, SENSITIVITY, SPECTRUM, *((CORNERS, DESIGN) if calculation.path == DRIVE_TRAIN else ()))
+    links: tuple[StudyLink, ...] = tuple(page.link for page in study_pages())
+    return tuple(each for each in links if each.endpoint in {None, calculation.path})
+
+
+VARY = "vary"
+"""The name of the page on which the examples are studied."""
 
 
 class StudyExample(NamedTuple):
@@ -56,7 +44,7 @@ class StudyExample(NamedTuple):
     def address(self) -> str:
         """The page that answers it."""
         request = examples()[self.example].request
-        return link(f"{page_path(self.calculation)}/vary", pairs_of(request), **self.study)
+        return link(f"{page_path(self.calculation)}/{VARY}", pairs_of(request), **self.study)
 
 
 class Starter(NamedTuple):
@@ -90,7 +78,7 @@ def studies_of_case(
     REXS file from which the case was read. A study of a number that the case does not have at all is left out; options
     and lengths of zero keep the range of the example.
     """
-    address, starters = f"{page_path(calculation)}/vary", []
+    address, starters = f"{page_path(calculation)}/{VARY}", []
     for each in studies_of(calculation):
         study = dict(each.study)
         axes = [axis for axis in "xy" if axis in study]

@@ -2,7 +2,7 @@
 
 from typing import ClassVar
 
-from app.schema.model import Section, groups
+from app.schema.model import Group, Section
 from solvers.heat_balance import inputs as si
 from solvers.heat_balance import results
 
@@ -44,14 +44,37 @@ class GearCooling(Section, of=si.Cooling):
         return bool(self.model_fields_set)
 
 
-groups(
-    GearHeat=(results.GearTemperatures, "A gear in the balance."),
-    BearingHeatBalance=(results.BearingHeat, "A plain bearing in the balance."),
-    FlowOfHeat=(results.HeatFlow, "Heat from one place of the network to another."),
-    HeatLosses=(results.HeatLosses, "What heats oil and gears."),
-    HeatSuppliedRemoved=(results.Balance, "Heat supplied and removed."),
-    BulkByStandards=(results.BulkEstimates, "Bulk temperatures by rules of standards, for comparison."),
-    BandOfHeat=(results.HeatBand, "Range of what is unknown of the cooling; not a probability."),
-    HeatBalanceResult=(results.Heat, "Temperatures, losses and flows of heat."),
-    CoolingInForce=(results.CoolingInForce, "What was left open of the cooling."),
-)
+class GearHeat(Group, of=results.GearTemperatures):
+    """A gear in the balance."""
+
+
+class BearingHeatBalance(Group, of=results.BearingHeat):
+    """A plain bearing in the balance."""
+
+
+class FlowOfHeat(Group, of=results.HeatFlow):
+    """Heat from one place of the network to another."""
+
+
+class HeatLosses(Group, of=results.HeatLosses):
+    """What heats oil and gears."""
+
+
+class HeatSuppliedRemoved(Group, of=results.Balance):
+    """Heat supplied and removed."""
+
+
+class BulkByStandards(Group, of=results.BulkEstimates):
+    """Bulk temperatures by rules of standards, for comparison."""
+
+
+class BandOfHeat(Group, of=results.HeatBand):
+    """Range of what is unknown of the cooling; not a probability."""
+
+
+class HeatBalanceResult(Group, of=results.Heat):
+    """Temperatures, losses and flows of heat."""
+
+
+class CoolingInForce(Group, of=results.CoolingInForce):
+    """What was left open of the cooling."""

@@ -2,40 +2,85 @@
 
 from typing import Annotated, Any, ClassVar
 
-from app.schema.model import Derived, Request, Response, Section, groups
+from pydantic import Field
+
+from app.schema.model import Derived, Group, Request, Response, Section
 from app.schema.oil import CouplingLubricant
-from app.schema.quantities import Input, View
+from app.schema.quantities import Input, Output, View
 from solvers.coupling import crowning, results
 from solvers.coupling import inputs as si
+from solvers.quantity import UNITS, quantities
+from solvers.sources import PAHL
 
 STIFFNESS = "tooth_stiffness_n_per_um"
 
 
-class CouplingDesign(Section, of=si.CouplingDesign, without=("crowning_ratio",)):
+class CouplingDesign(Section, of=si.Coupling, without=("crowning_ratio",)):
     """The coupling without its crowning."""
+
+    face_width_mm: float | None
+    tooth_height_mm: float | None
+    tooth_stiffness_n_per_um: float | None
 
     def stands_for_null(self, name: str) -> Any:
         """The stiffness of teeth of this material, which not every answer repeats."""
-        return self.si(si.CouplingDesign).coupling().tooth_stiffness * 1e-6 if name == STIFFNESS else None
+        return self.si(si.Coupling).tooth_stiffness * 1e-6 if name == STIFFNESS else None
 
 
-class CrownedCoupling(CouplingDesign, of=si.CouplingDesign):
+class CrownedCoupling(CouplingDesign, of=si.Coupling):
     """The coupling."""
 
 
-class CouplingLoad(Section, of=si.Load):
+class CouplingLoad(Section, of=si.Operation, without=("misalignment",)):
     """Torque, speed and arrangement."""
 
 
-class CouplingOperation(CouplingLoad, of=si.OperatingPoint):
+class CouplingOperation(CouplingLoad):
     """Operating point; the tilt is given, or follows from the shafts' offset."""
 
     exclusive: ClassVar = (("misalignment_deg", "parallel_offset_mm"),)
     choice_missing: ClassVar = "misalignment_or_offset"
 
+    misalignment_deg: Annotated[
+        float | None, Input.of(si.Operation, "misalignment", default_text="by the parallel offset")
+    ] = None
+    parallel_offset_mm: Annotated[
+        float | None,
+        Input(
+            "parallel offset of the shafts",
+            "e",
+            text="instead of the tilt, which is atan(offset over hub distance)",
+            unit="mm",
+            ge=-1000,
+            le=1000,
+            tolerance=0.05,
+        ),
+    ] = None
 
-class CouplingOperationRange(CouplingLoad, of=si.OperatingRange):
+    def operation(self, hub_distance: float) -> si.Operation:
+        """The operating point of the solver; `hub_distance` [m] lies between the tooth planes."""
+        if self.parallel_offset_mm is None:
+            return self.si(si.Operation)
+        offset = UNITS["mm"].to_si(self.parallel_offset_mm)
+        return self.si(si.Operation, misalignment=si.tilt_of_offset(offset, hub_distance))
+
+
+class CouplingOperationRange(CouplingLoad):
     """Operating point with a range of misalignment."""
+
+    misalignment_range_deg: Annotated[
+        list[float],
+        Field(min_length=2, max_length=2),
+        Input(
+            "range of misalignment",
+            "δ_HS",
+            PAHL,
+            text="smallest and largest tilt of hub in sleeve",
+            unit="deg",
+            ge=1e-4,
+            le=6,
+        ),
+    ]
 
 
 class MixedFrictionTable(Section, of=si.MixedFrictionTable):
@@ -80,9 +125,7 @@ class _CouplingRequest(Request):
         }
 
     def _design(self, operation: si.Operation) -> si.CouplingInputs:
-        coupling = self.coupling.si(si.CouplingDesign).coupling()
-        lubricant = self.lubricant.si(si.CouplingOil).lubricant()
-        return self.si(si.CouplingInputs, coupling=coupling, operation=operation, lubricant=lubricant)
+        return self.si(si.CouplingInputs, operation=operation, lubricant=self.lubricant.at_teeth())
 
 
 class CouplingRequest(_CouplingRequest):
@@ -93,8 +136,7 @@ class CouplingRequest(_CouplingRequest):
 
     def inputs(self) -> si.CouplingInputs:
         """The solver's inputs."""
-        hub_distance = self.coupling.si(si.CouplingDesign).hub_distance
-        return self._design(self.operation.si(si.OperatingPoint).operation(hub_distance))
+        return self._design(self.operation.operation(self.coupling.si(si.Coupling).hub_distance))
 
 
 class SleeveOrbitRequest(CouplingRequest):
@@ -126,71 +168,111 @@ class RecommendationRequest(_CouplingRequest):
 
     def inputs(self) -> si.RecommendationInputs:
         """The solver's inputs."""
-        operation = self.operation.si(si.OperatingRange)
-        smallest, largest = operation.misalignment_range
-        design = self._design(operation.operation())
+        smallest, largest = map(UNITS["deg"].to_si, self.operation.misalignment_range_deg)
+        design = self._design(self.operation.si(si.Operation, misalignment=smallest))
         return si.RecommendationInputs(design, min_misalignment=smallest, max_misalignment=largest)
 
 
-groups(
-    CouplingGeometry=(results.Geometry, "Radii of the crowned tooth."),
-    CouplingKinematicCurves=(
-        results.KinematicCurves,
-        "Motion over one revolution of a tooth; 90° and 270° are the tilt positions.",
-    ),
-    CouplingKinematics=(
-        results.Kinematics,
-        "Largest values of the tooth's motion over a revolution.",
-        {"max_sliding_velocity": View(headline=3, limit="limits.sliding_velocity_limit_m_per_s", bound="upper")},
-    ),
-    CouplingLoadCurves=(results.LoadCurves, "Tooth forces."),
-    CouplingLoadDistribution=(
-        results.LoadDistribution,
-        "Load over the teeth of one mesh, the one where the hub drives the sleeve, at the rotor angle asked for.",
-    ),
-    FrictionRegime=(
-        results.Regime,
-        "Area of the map of friction conditions; an open end of its friction band is null.",
-    ),
-    CouplingLubrication=(
-        results.Lubrication,
-        "Contact and film of the highest loaded tooth of a revolution.",
-        {
-            "hertz_pressure": View(limit=2000.0, bound="upper"),
-            "contact_overlap": View(limit=1.0, bound="upper"),
-            "load_capacity_coefficient": View(headline=2, limit=0.8, bound="lower", verdict=".regime.name"),
-        },
-    ),
-    SelfInducedThrust=(results.SelfInducedThrust, "Thrust without axial motion."),
-    CouplingThrust=(
-        results.AxialThrust,
-        "Axial thrust, mean over one tooth pitch (one revolution with pitch deviations).",
-        {
-            "design_force": View(headline=1),
-            "force": View(limit="axial_thrust.coaxial_limit_n", bound="upper"),
-            "fraction_of_limit": View(limit=1.0),
-        },
-    ),
-    CouplingLosses=(
-        results.Losses,
-        "Friction losses and moments of one mesh, the one where the hub drives the sleeve.",
-    ),
-    CouplingLimits=(results.Limits, "Limits and stiffnesses.", {"allowable_misalignment": View(headline=4)}),
-    SleeveOrbit=(results.Orbit, "Path of the sleeve centre."),
-    SleeveInertia=(results.InertiaForce, "Inertia force of the sleeve mass of one mesh."),
-    RecommendedPoint=(
-        crowning.RecommendedPoint,
-        "The recommended coupling at one end of the range.",
-        {
-            "contact_overlap": View(limit=1.0, bound="upper"),
-            "load_capacity_coefficient": View(limit=0.8, bound="lower"),
-        },
-    ),
-    CrowningScan=(crowning.CrowningScan, "How crowning trades off.", {"max_contact_overlap": View(limit=1.0)}),
-)
+class CouplingGeometry(Group, of=results.Geometry):
+    """Radii of the crowned tooth."""
 
 
-class CouplingProportions(Derived, of=si.Coupling, only=("face_width", "tooth_height", "tooth_stiffness")):
+class CouplingKinematicCurves(Group, of=results.KinematicCurves):
+    """Motion over one revolution of a tooth; 90° and 270° are the tilt positions."""
+
+
+class CouplingKinematics(Group, of=results.Kinematics):
+    """Largest values of the tooth's motion over a revolution."""
+
+    views: ClassVar = {
+        "max_sliding_velocity": View(headline=3, limit="limits.sliding_velocity_limit_m_per_s", bound="upper")
+    }
+
+
+class CouplingLoadCurves(Group, of=results.LoadCurves):
+    """Tooth forces."""
+
+
+class CouplingLoadDistribution(Group, of=results.LoadDistribution):
+    """Load over the teeth of one mesh, the one where the hub drives the sleeve, at the rotor angle asked for."""
+
+
+class FrictionRegime(Group, of=results.Regime):
+    """Area of the map of friction conditions; an open end of its friction band is null."""
+
+
+class CouplingLubrication(Group, of=results.Lubrication):
+    """Contact and film of the highest loaded tooth of a revolution."""
+
+    views: ClassVar = {
+        "hertz_pressure": View(limit=2000.0, bound="upper"),
+        "contact_overlap": View(limit=1.0, bound="upper"),
+        "load_capacity_coefficient": View(headline=2, limit=0.8, bound="lower", verdict=".regime.name"),
+    }
+
+
+class SelfInducedThrust(Group, of=results.SelfInducedThrust):
+    """Thrust without axial motion."""
+
+
+class CouplingThrust(Group, of=results.AxialThrust):
+    """Axial thrust, mean over one tooth pitch (one revolution with pitch deviations)."""
+
+    views: ClassVar = {
+        "design_force": View(headline=1),
+        "force": View(limit="axial_thrust.coaxial_limit_n", bound="upper"),
+        "fraction_of_limit": View(limit=1.0),
+    }
+
+
+class CouplingLosses(Group, of=results.Losses):
+    """Friction losses and moments of one mesh, the one where the hub drives the sleeve."""
+
+
+class CouplingLimits(Group, of=results.Limits):
+    """Limits and stiffnesses."""
+
+    views: ClassVar = {"allowable_misalignment": View(headline=4)}
+
+
+class SleeveOrbit(Group, of=results.Orbit):
+    """Path of the sleeve centre."""
+
+
+class SleeveInertia(Group, of=results.InertiaForce):
+    """Inertia force of the sleeve mass of one mesh."""
+
+
+class RecommendedPoint(Group, of=crowning.RecommendedPoint):
+    """The recommended coupling at one end of the range."""
+
+    views: ClassVar = {
+        "contact_overlap": View(limit=1.0, bound="upper"),
+        "load_capacity_coefficient": View(limit=0.8, bound="lower"),
+    }
+
+
+class CrowningScan(Group, of=crowning.CrowningScan):
+    """How crowning trades off."""
+
+    views: ClassVar = {"max_contact_overlap": View(limit=1.0)}
+
+
+def _used(name: str, title: str) -> Output:
+    """The declaration of what the coupling has if the request omits it."""
+    declared = quantities(si.Coupling)[name]
+    return Output(title, declared.symbol, unit=declared.unit, origin=(si.Coupling, name))
+
+
+class ProportionsInForce(Group):
+    """A coupling's proportions and the stiffness of its teeth."""
+
+    face_width_mm: Annotated[float, _used("face_width", "face width used")]
+    tooth_height_mm: Annotated[float, _used("tooth_height", "tooth height used")]
+    tooth_stiffness_n_per_um: Annotated[float, _used("tooth_stiffness", "tooth pair stiffness used")]
+
+
+class CouplingProportions(ProportionsInForce, Derived):
     """Proportions and stiffness of the teeth, as used if the request omits them."""
 
 

@@ -2,15 +2,15 @@
 
 from collections.abc import Iterator
 from functools import partial
-from typing import Annotated, Any, ClassVar, Self
+from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import BeforeValidator, Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from app.schema.cooling import GearCooling
-from app.schema.coupling import CrownedCoupling
+from app.schema.coupling import CrownedCoupling, ProportionsInForce
 from app.schema.gears import BacklashGears, GearMaterials
-from app.schema.model import Group, Response, Section, groups
+from app.schema.model import Group, Response, Section
 from app.schema.oil import CouplingLubricant, Oil
 from app.schema.pumping import GearGroove, Mist, PumpingOptions
 from app.schema.quantities import Input, View
@@ -25,15 +25,16 @@ from app.schema.scuffing import (
     ScuffingLoad,
     how_well_known,
 )
-from solvers.coupling.inputs import Coupling, CouplingDesign, CouplingOil
 from solvers.drive_train import derived, results, warm_up
 from solvers.drive_train import inputs as si
 from solvers.drive_train.shafts import thrust_budget
 from solvers.errors import InvalidInput
 from solvers.gears.inputs import GROUND_FILLET, RACK_A, GearPairInputs
-from solvers.heat_balance.warm_up import WarmUp, WarmUpCurves
+from solvers.heat_balance.warm_up import WarmUp
+from solvers.heat_balance.warm_up import WarmUpCurves as CurvesOfNodes
 from solvers.lubricants import OilInUse
 from solvers.pumping import inputs as pumping
+from solvers.quantity import UNITS
 from solvers.scuffing import inputs as mesh
 
 
@@ -87,18 +88,96 @@ Matrix = Annotated[list[Pair], Field(min_length=2, max_length=2)]
 Stiffness = Annotated[Matrix, BeforeValidator(_isotropic, json_schema_input_type=float | Matrix)]
 
 
-class CylindricalSection(Section, of=si.SectionDesign):
+class CylindricalSection(Section, of=si.ShaftSection):
     """A cylinder of a shaft."""
 
+    outer_diameter_mm: Annotated[
+        float | None,
+        Input.of(
+            si.ShaftSection,
+            "outer_diameter",
+            text="under the teeth the diameter that carries torsion",
+            default_text="under the teeth d - m_n h_fP*; required elsewhere",
+            assumed="under the teeth d - m_n h_fP*, the root circle and a third of the tooth; the reference diameter "
+            "twists too little",
+        ),
+    ] = None
 
-class ShaftBearing(Section, of=si.ShaftBearing):
+
+class ShaftBearing(Section):
     """A radial bearing: a plain one, one by its stiffness, or a rigid one."""
 
-    stiffness_n_per_um: Stiffness | None
+    position_mm: Annotated[float, Input.of(si.RadialBearing, "position")]
+    type: Annotated[
+        Literal["journal", "linear", "rigid"],
+        Input("bearing type", text="short plain bearing; stiffness given; rigid"),
+    ] = "journal"
+    offset_um: Annotated[Pair, Input.of(si.RadialBearing, "offset")] = Field(
+        default_factory=partial(list[float], (0.0, 0.0))
+    )
+    diameter_mm: Annotated[
+        float | None, Input.of(si.JournalBearing, "diameter", default_text="required of plain bearings")
+    ] = None
+    width_mm: Annotated[
+        float | None, Input.of(si.JournalBearing, "width", default_text="required of plain bearings")
+    ] = None
+    radial_clearance_um: Annotated[float | None, Input.of(si.JournalBearing, "radial_clearance")] = None
+    viscosity_pa_s: Annotated[
+        float | None,
+        Input.of(
+            si.JournalBearing,
+            "viscosity",
+            ge=1e-5,
+            le=100,
+            default_text="the gears' oil at the film temperature",
+            assumed=f"the gears' oil at the film temperature: that of the heat balance if there is one, else "
+            f"{si.FILM_ABOVE_OIL:.0f} K above the oil's unless given",
+        ),
+    ] = None
+    film_temperature_c: Annotated[
+        float | None,
+        Input(
+            "film temperature of the bearing",
+            "θ_B",
+            unit="c",
+            ge=-50,
+            le=300,
+            tolerance=5,
+            text="temperature at which the oil's viscosity is taken where none is given",
+            default_text=f"by the heat balance if there is one, else oil temperature and {si.FILM_ABOVE_OIL:.0f} K",
+        ),
+    ] = None
+    oil_flow_l_per_min: Annotated[float | None, Input.of(si.JournalBearing, "oil_flow")] = None
+    stiffness_n_per_um: Annotated[
+        Stiffness | None, Input.of(si.LinearBearing, "stiffness", default_text="required of linear bearings")
+    ] = None
 
     def unused(self) -> dict[str, bool]:
         """Clearance and oil belong to plain bearings."""
         return dict.fromkeys(("radial_clearance_um", "viscosity_pa_s"), self.type != "journal")
+
+    def bearing(self, scuffing: mesh.ScuffingInputs) -> si.Bearing:
+        """The solver's bearing; without a viscosity of its own it runs in the gears' oil.
+
+        Raises InvalidInput no_oil where there is none, bearing_data where data of its type are missing.
+        """
+        if self.type == "rigid":
+            return self.si(si.RigidBearing)
+        if self.type == "linear":
+            if self.stiffness_n_per_um is None:
+                raise InvalidInput("bearing_data", "A linear bearing needs its stiffness", "stiffness")
+            return self.si(si.LinearBearing)
+        if self.diameter_mm is None or self.width_mm is None:
+            missing = "diameter" if self.diameter_mm is None else "width"
+            raise InvalidInput("bearing_data", "A journal bearing needs diameter and width", missing)
+        if self.viscosity_pa_s is not None:
+            return self.si(si.JournalBearing)
+        if scuffing.oil is None:
+            message = "a plain bearing needs a viscosity if the gears have no oil; give the viscosity or the oil"
+            raise InvalidInput("no_oil", message, "viscosity")
+        film = None if self.film_temperature_c is None else UNITS["c"].to_si(self.film_temperature_c)
+        viscosity = si.gear_oil_viscosity(scuffing.oil, scuffing.temperatures.oil, film)
+        return self.si(si.JournalBearing, viscosity=viscosity, in_gear_oil=film is None)
 
 
 class ThrustBearing(Section):
@@ -110,9 +189,41 @@ class ThrustBearing(Section):
 class UnitShaft(Section, of=si.Shaft, without=("ultimate_thrust",)):
     """A shaft in two bearings."""
 
-    sections: list[CylindricalSection]
     bearings: list[ShaftBearing]
     thrust_bearing: Annotated[ThrustBearing, Input("thrust bearing")] = ThrustBearing()
+
+    def shaft(self, name: str, scuffing: mesh.ScuffingInputs, face_start: float) -> si.Shaft:
+        """The solver's shaft, named "pinion_shaft" or "wheel_shaft"; the face starts at `face_start` [m].
+
+        Raises InvalidInput with the full name of the field at fault.
+        """
+        sections = tuple(self._sections(name, scuffing.distribution.gears, face_start))
+        bearings = []
+        for k, bearing in enumerate(self.bearings):
+            try:
+                bearings.append(bearing.bearing(scuffing))
+            except InvalidInput as error:
+                raise InvalidInput(error.code, error.message, f"{name}.bearings.{k}.{error.field}") from error
+        return self.si(si.Shaft, self.thrust_bearing, bearings=tuple(bearings), sections=sections)
+
+    def _sections(self, name: str, gears: GearPairInputs, face_start: float) -> Iterator[si.ShaftSection]:
+        """The solver's sections; those under the face that have no diameter take that which carries torsion.
+
+        Raises InvalidInput section_diameter where another has none.
+        """
+        teeth = gears.pinion if name == "pinion_shaft" else gears.wheel
+        position = UNITS["mm"].to_si(self.start_mm)
+        for k, cylinder in enumerate(self.sections):
+            left_out = cylinder.outer_diameter_mm is None
+            known = {"outer_diameter": si.torsion_diameter(gears, teeth)} if left_out else {}
+            section = cylinder.si(si.ShaftSection, **known)
+            end = position + section.length
+            beside = position > face_start + gears.face_width - si.COINCIDENT or end < face_start + si.COINCIDENT
+            if left_out and beside:
+                message = f"section {k} is not under the teeth and needs its diameter"
+                raise InvalidInput("section_diameter", message, f"{name}.sections.{k}.outer_diameter")
+            yield section
+            position = end
 
 
 class ShaftAlignment(Section, of=si.Alignment):
@@ -215,7 +326,7 @@ class DriveTrainRequest(MeshInOil):
 
     def inputs(self) -> si.DriveTrainInputs:
         """The solver's inputs. Raises InvalidInput no_oil where a plain bearing has neither a viscosity nor an oil."""
-        scuffing = self.scuffing_inputs(*self.running())
+        scuffing, face_start = self.scuffing_inputs(*self.running()), UNITS["mm"].to_si(self.face_start_mm)
         return self.si(
             si.DriveTrainInputs,
             self.model,
@@ -223,36 +334,21 @@ class DriveTrainRequest(MeshInOil):
             self.thrust_collar,
             mesh=scuffing,
             pumping=self.si(pumping.PumpingSetup, self.gears, gears=self.gears.pair(GROUND_FILLET)),
-            pinion_shaft=self._shaft("pinion_shaft", scuffing),
-            wheel_shaft=self._shaft("wheel_shaft", scuffing),
+            pinion_shaft=self.pinion_shaft.shaft("pinion_shaft", scuffing, face_start),
+            wheel_shaft=self.wheel_shaft.shaft("wheel_shaft", scuffing, face_start),
             arrangement=self.operation.si(si.Arrangement, self.gears),
             couplings=tuple(self._couplings()),
             bulk_given=self.temperatures.bulk_c is not None,
         )
 
-    def _shaft(self, name: str, scuffing: mesh.ScuffingInputs) -> si.Shaft:
-        """The solver's shaft; plain bearings without viscosity run in the gears' oil."""
-        shaft, gears, start = getattr(self, name), scuffing.distribution.gears, self.face_start_mm * 1e-3
-        teeth = gears.pinion if name == "pinion_shaft" else gears.wheel
-        sections = si.sections_of(
-            name,
-            shaft.start_mm * 1e-3,
-            tuple(section.si(si.SectionDesign) for section in shaft.sections),
-            (start, start + gears.face_width),
-            si.torsion_diameter(gears, teeth),
-        )
-        described = tuple(bearing.si(si.ShaftBearing) for bearing in shaft.bearings)
-        bearings = si.bearings_of(name, described, scuffing.oil, scuffing.temperatures.oil)
-        return shaft.si(si.Shaft, shaft.thrust_bearing, bearings=bearings, sections=sections)  # type: ignore[no-any-return]
-
     def _couplings(self) -> Iterator[si.UnitCoupling]:
         """The solver's couplings; an oil that none can be is that of its own coupling."""
         for k, unit in enumerate(self.couplings):
             try:
-                lubricant = unit.lubricant.si(CouplingOil).lubricant()
+                lubricant = unit.lubricant.at_teeth()
             except InvalidInput as error:
                 raise InvalidInput(error.code, error.message, f"couplings.{k}.{error.field}") from error
-            yield unit.si(si.UnitCoupling, coupling=unit.coupling.si(CouplingDesign).coupling(), lubricant=lubricant)
+            yield unit.si(si.UnitCoupling, lubricant=lubricant)
 
     def options(self) -> dict[str, Any]:
         """The model section, the number of slices filled in."""
@@ -295,43 +391,84 @@ class WarmUpRequest(DriveTrainRequest, of=warm_up.WarmUpInputs):
         return self.si(warm_up.WarmUpInputs, unit=super().inputs())
 
 
-groups(
-    BearingLoad=(results.BearingResult, "A bearing; what only a plain one has is null of others."),
-    ShaftThrust=(
-        thrust_budget.Thrust,
-        "Axial load, positive towards +Z; of a coupling's friction only the limit is known.",
-        {"use": View(limit=1.0)},
-    ),
-    ShaftLine=(results.ShaftCurves, "Displaced axis of a shaft."),
-    UnitCouplingState=(results.CouplingResult, "A coupling as its shaft meets it."),
-    BearingInForce=(derived.DerivedBearing, "A plain bearing's defaults; null of others."),
-    SectionInForce=(derived.DerivedSection, "A section's diameter."),
-    ShaftInForce=(derived.DerivedShaft, "A shaft's defaults."),
-    HeatInForce=(derived.DerivedHeat, "Wall responses."),
-    TemperaturesInForce=(derived.DerivedTemperatures, "Bulk and scuffing temperature."),
-    GapCurves=(results.GapCurves, "Over the face, positive where the flanks part."),
-    TrainLoad=(
-        results.FaceLoad,
-        "How the face carries.",
-        {"face_load_factor": View(headline=2), "contact_fraction": View(percent=True)},
-    ),
-    TrainSafety=(
-        results.TrainSafety,
-        "Safety factor against scuffing; thermal EHL values are null in closed form, or where a point is not known.",
-        {
-            "blok_feature": View(limit=1.0, bound="lower"),
-            "blok_flank": View(limit=1.0, bound="lower"),
-            "thermal_ehl_feature": View(limit=1.0, bound="lower"),
-            "thermal_ehl_profile": View(limit=1.0, bound="lower"),
-            "minimum": View(headline=1, limit=1.0, bound="lower", band="heat.band.safety"),
-        },
-    ),
-    TrainFlash=(results.FlashPlaces, "Largest flash temperature by Blok."),
-    TrainLosses=(results.TrainLosses, "What the unit loses."),
-    TrainBalance=(results.ForceBalance, "How well forces and moments on the shafts balance; null without load."),
-    TrainConvergence=(results.Convergence, "How shafts and mesh came to one gap."),
-    TrainMaps=(results.FlankMaps, "Over the flank, `[profile][face]`."),
-)
+class BearingLoad(Group, of=results.BearingResult):
+    """A bearing; what only a plain one has is null of others."""
+
+
+class ShaftThrust(Group, of=thrust_budget.Thrust):
+    """Axial load, positive towards +Z; of a coupling's friction only the limit is known."""
+
+    views: ClassVar = {"use": View(limit=1.0)}
+
+
+class ShaftLine(Group, of=results.ShaftCurves):
+    """Displaced axis of a shaft."""
+
+
+class UnitCouplingState(Group, of=results.CouplingResult):
+    """A coupling as its shaft meets it."""
+
+
+class BearingInForce(Group, of=derived.DerivedBearing):
+    """A plain bearing's defaults; null of others."""
+
+
+class SectionInForce(Group, of=derived.DerivedSection):
+    """A section's diameter."""
+
+
+class ShaftInForce(Group, of=derived.DerivedShaft):
+    """A shaft's defaults."""
+
+
+class HeatInForce(Group, of=derived.DerivedHeat):
+    """Wall responses."""
+
+
+class TemperaturesInForce(Group, of=derived.DerivedTemperatures):
+    """Bulk and scuffing temperature."""
+
+
+class GapCurves(Group, of=results.GapCurves):
+    """Over the face, positive where the flanks part."""
+
+
+class TrainLoad(Group, of=results.FaceLoad):
+    """How the face carries."""
+
+    views: ClassVar = {"face_load_factor": View(headline=2), "contact_fraction": View(percent=True)}
+
+
+class TrainSafety(Group, of=results.TrainSafety):
+    """Safety factor against scuffing; thermal EHL values are null in closed form, or where a point is not known."""
+
+    views: ClassVar = {
+        "blok_feature": View(limit=1.0, bound="lower"),
+        "blok_flank": View(limit=1.0, bound="lower"),
+        "thermal_ehl_feature": View(limit=1.0, bound="lower"),
+        "thermal_ehl_profile": View(limit=1.0, bound="lower"),
+        "minimum": View(headline=1, limit=1.0, bound="lower", band="heat.band.safety"),
+    }
+
+
+class TrainFlash(Group, of=results.FlashPlaces):
+    """Largest flash temperature by Blok."""
+
+
+class TrainLosses(Group, of=results.TrainLosses):
+    """What the unit loses."""
+
+
+class TrainBalance(Group, of=results.ForceBalance):
+    """How well forces and moments on the shafts balance; null without load."""
+
+
+class TrainConvergence(Group, of=results.Convergence):
+    """How shafts and mesh came to one gap."""
+
+
+class TrainMaps(Group, of=results.FlankMaps):
+    """Over the flank, `[profile][face]`."""
 
 
 class ShaftSummary(Group, of=results.ShaftResult, without=("curves",)):
@@ -342,17 +479,13 @@ class ShaftState(ShaftSummary, of=results.ShaftResult):
     """A shaft with its displaced axis."""
 
 
-class ProportionsInForce(Group, of=Coupling, only=("face_width", "tooth_height", "tooth_stiffness")):
-    """A coupling's proportions and the stiffness of its teeth."""
-
-
 class CouplingInForce(Group, of=derived.DerivedCoupling):
     """A coupling's defaults."""
 
     coupling: ProportionsInForce
 
 
-class OilInForce(Group, of=OilInUse):
+class OilInForce(Group, of=OilInUse, stands=False):
     """The gears' oil as it enters the contact."""
 
 
@@ -396,11 +529,18 @@ class TrainStates(Group, of=results.States):
     cold: TrainSummary | None
 
 
-groups(
-    WarmUpCurves=(WarmUpCurves, "Over time."),
-    WarmUpOfNodes=(WarmUp, "How every node warms up.", {"greatest_difference": View(headline=1)}),
-    AlignmentAtTimes=(warm_up.AlignmentOverTime, "Load and safety at five times."),
-)
+class WarmUpCurves(Group, of=CurvesOfNodes):
+    """Over time."""
+
+
+class WarmUpOfNodes(Group, of=WarmUp):
+    """How every node warms up."""
+
+    views: ClassVar = {"greatest_difference": View(headline=1)}
+
+
+class AlignmentAtTimes(Group, of=warm_up.AlignmentOverTime):
+    """Load and safety at five times."""
 
 
 class WarmUpResponse(Response, of=warm_up.UnitWarmUp):

@@ -1,15 +1,15 @@
 """One lubricated line contact: request and answer of /v1/scuffing/line-contact."""
 
-from typing import Annotated, Any
+from typing import Annotated, Any, ClassVar
 
 from app.schema.gears import Surface
-from app.schema.model import Request, Response, Section, groups
+from app.schema.model import Group, Request, Response, Section
 from app.schema.oil import Oil, OilDerived
 from app.schema.quantities import Input, View
 from solvers.contact import ehl
 from solvers.contact.ehl import results
 from solvers.errors import InvalidInput
-from solvers.oils import OilChoice, lubricant_at
+from solvers.oils import lubricant_at
 
 
 class LineContact(Section, of=ehl.Contact):
@@ -61,7 +61,7 @@ class LineContactRequest(Request):
 
         Raises InvalidInput no_oil without one.
         """
-        oil = self.lubricant.si(OilChoice).resolve()
+        oil = self.lubricant.resolve()
         if oil is None:
             message = "there is no film without an oil: give iso_vg, kinematic_viscosity_40 or viscosity_pa_s"
             raise InvalidInput("no_oil", message, "lubricant")
@@ -73,26 +73,56 @@ class LineContactDerived(OilDerived, of=results.Derived):
     """What load, curvature and speeds make of the two surfaces, and the oil at the inlet."""
 
 
-groups(
-    HertzContact=(results.HertzContact, "The dry contact.", {"max_pressure": View(limit=4000.0, bound="upper")}),
-    ContactNumbers=(results.Dimensionless, "Dimensionless numbers."),
-    FilmThickness=(
-        results.FilmThickness,
-        "Film thickness; null without a solution, but for the formula.",
-        {"minimum": View(headline=1)},
-    ),
-    FilmPressure=(results.ContactPressure, "Pressure in the film."),
-    FilmTemperature=(results.ContactTemperature, "Temperatures.", {"film_max": View(headline=2)}),
-    FilmFriction=(results.ContactFriction, "Friction.", {"coefficient": View(headline=3)}),
-    FilmHeat=(results.ContactHeat, "Heat per length of contact; into the surfaces and convected out positive."),
-    ContactConvergence=(results.Convergence, "How the iteration ended."),
-    MeshErrors=(
-        results.MeshError,
-        "Estimated error that the mesh leaves, relative; small friction and flash temperatures over 0.001 and 25 K.",
-    ),
-    ContactCurves=(results.ContactCurves, "Along the contact; temperatures are null if isothermal."),
-    ContactField=(results.ContactField, "Temperature in the film, indexed [x][film fraction]."),
-)
+class HertzContact(Group, of=results.HertzContact):
+    """The dry contact."""
+
+    views: ClassVar = {"max_pressure": View(limit=4000.0, bound="upper")}
+
+
+class ContactNumbers(Group, of=results.Dimensionless):
+    """Dimensionless numbers."""
+
+
+class FilmThickness(Group, of=results.FilmThickness):
+    """Film thickness; null without a solution, but for the formula."""
+
+    views: ClassVar = {"minimum": View(headline=1)}
+
+
+class FilmPressure(Group, of=results.ContactPressure):
+    """Pressure in the film."""
+
+
+class FilmTemperature(Group, of=results.ContactTemperature):
+    """Temperatures."""
+
+    views: ClassVar = {"film_max": View(headline=2)}
+
+
+class FilmFriction(Group, of=results.ContactFriction):
+    """Friction."""
+
+    views: ClassVar = {"coefficient": View(headline=3)}
+
+
+class FilmHeat(Group, of=results.ContactHeat):
+    """Heat per length of contact; into the surfaces and convected out positive."""
+
+
+class ContactConvergence(Group, of=results.Convergence):
+    """How the iteration ended."""
+
+
+class MeshErrors(Group, of=results.MeshError):
+    """Estimated error that the mesh leaves, relative; small friction and flash temperatures over 0.001 and 25 K."""
+
+
+class ContactCurves(Group, of=results.ContactCurves):
+    """Along the contact; temperatures are null if isothermal."""
+
+
+class ContactField(Group, of=results.ContactField):
+    """Temperature in the film, indexed [x][film fraction]."""
 
 
 class LineContactResponse(Response, of=results.LineContactResult):

@@ -4,11 +4,11 @@
         \"\"\"Choices where the paper leaves room.\"\"\"
 
 has a field for each declaration on `si.ModelOptions`, named with the suffix of its unit, and without the underscore at
-its end where it would be a word of Python (`from_`). What stands in the class
-itself is an ordinary field of pydantic: under the name of a filled field it changes the type or the default, and with
-`Input` or `Output` beside the type it replaces the declaration; `Input.of(Record, "field", text=...)` changes part of
-one. Sections of answers that add nothing are rows of `groups`. Requests give the solver's dataclasses in SI
-(`Section.si`), responses are read from them (`from_si`), by names and units looked up once a model (`members`).
+its end where it would be a word of Python (`from_`). What stands in the class itself is an ordinary field of pydantic:
+under the name of a filled field it changes the type or the default, and with `Input` or `Output` beside the type it
+replaces the declaration; `Input.of(Record, "field", text=...)` changes part of one. Requests give the solver's
+dataclasses in SI (`Section.si`), responses are read from them (`from_si`), by names and units looked up once a model
+(`members`).
 """
 
 from abc import abstractmethod
@@ -34,13 +34,13 @@ from typing import (
 )
 
 import numpy as np
-from pydantic import BaseModel, ConfigDict, Field, PrivateAttr, create_model, model_validator
+from pydantic import BaseModel, ConfigDict, Field, PrivateAttr, model_validator
 from pydantic.fields import FieldInfo
 from pydantic_core import PydanticCustomError
 
 from app.schema.quantities import Input, Output, View, meaning_of
 from solvers.notices import Rank
-from solvers.quantity import UNITS, Detail, Quantity, Unit, quantities, type_of
+from solvers.quantity import UNITS, Detail, Quantity, Unit, as_json, converted, quantities, type_of
 
 T = TypeVar("T")
 LEVELS: tuple[Detail, ...] = ("summary", "curves", "fields")
@@ -59,6 +59,7 @@ class Documented(BaseModel):
     member_unit: ClassVar[str | None] = None
     views: ClassVar[dict[str, View]] = {}
     _declares: ClassVar[type[Input] | type[Output]] = Input
+    _stands: ClassVar[bool] = True  # whether it may be inside another model
     _optional: ClassVar[bool] = False  # whether filled fields may be missing: where there is no solution
 
     if TYPE_CHECKING:
@@ -72,12 +73,14 @@ class Documented(BaseModel):
         of: type | tuple[type, ...] = (),
         only: tuple[str, ...] = (),
         without: tuple[str, ...] = (),
+        stands: bool = True,
         **config: Any,
     ) -> None:
         """Fill the model from the declarations of dataclasses: all, `only` some, or all `without` some.
 
         Of several the first is the solver's result; the others are members of it, which may be None. Fields that a base
-        has stay as they are.
+        has stay as they are. A model of a whole dataclass `stands` for it wherever another dataclass holds it; raises
+        TypeError where two do.
         """
         super().__init_subclass__(**config)
         records: tuple[Any, ...] = of if isinstance(of, tuple) else (of,)
@@ -96,14 +99,17 @@ class Documented(BaseModel):
             if name in without or (field in inherited and field not in own):
                 continue
             kind = own.get(field) or _published(type_of(record, name), each, cls._declares)
-            if meaning_of(getattr(kind, "__metadata__", ())):  # brings its own declaration
+            if meaning_of(getattr(kind, "__metadata__", ())):  # brings its own declaration, and has its place here
+                filled[field] = kind
                 continue
             filled[field], default = cls._filled(kind, record, name, names, nullable=record is not records[0])
             if field not in vars(cls):
                 setattr(cls, field, default)
         cls.__annotations__ = filled | {name: kind for name, kind in own.items() if name not in filled}
-        if records and not only and not without:
-            _MODELS.setdefault((cls._declares, records[0]), cls)
+        if stands and cls._stands and records and not only and not without:
+            if (other := _MODELS.get((cls._declares, records[0]), cls)) is not cls:
+                raise TypeError(f"{other.__name__} and {cls.__name__} both stand for {records[0].__name__}")
+            _MODELS[cls._declares, records[0]] = cls
 
     @classmethod
     @abstractmethod
@@ -112,7 +118,7 @@ class Documented(BaseModel):
 
 
 _MODELS: dict[tuple[type, type], type[Documented]] = {}
-"""The first model filled from a dataclass stands for it wherever another dataclass holds it."""
+"""The model that stands for a dataclass in a request, or in an answer, wherever another dataclass holds it."""
 
 
 def _published(hint: Any, declared: Quantity, declares: type) -> Any:
@@ -152,9 +158,9 @@ def kinds(annotation: Any, lists: int = 0) -> Iterator[tuple[Any, int]]:
 class Member:
     """A field of a model: what it means and holds, and the field of a solver's dataclass that it fills or is read from.
 
-    `record` is that dataclass, None where it may be any. `kinds` are the types of single values, `group` the section or
-    group among them, alone, optional or as the items of a list. `dimensions` is 0 for a scalar, 1 for a list, 2 for a
-    matrix.
+    `record` is that dataclass, None where it may be any; `solver_name` is then the name without its unit. `kinds` are
+    the types of single values, `group` the section or group among them, alone, optional or as the items of a list.
+    `dimensions` is 0 for a scalar, 1 for a list, 2 for a matrix.
     """
 
     name: str
@@ -174,7 +180,7 @@ def members(model: type[BaseModel]) -> tuple[Member, ...]:
     found = []
     for name, info in model.model_fields.items():
         if meaning := meaning_of(info.metadata):
-            record, solver_name = meaning.origin or (None, name)
+            record, solver_name = meaning.origin or (None, name.removesuffix(f"_{meaning.unit}"))
             unit = UNITS[meaning.unit] if meaning.unit else None
             allowed, lists = zip(*kinds(info.annotation), strict=True)
             groups = (kind for kind in allowed if isinstance(kind, type) and issubclass(kind, Documented))
@@ -201,13 +207,13 @@ def _record_in(hint: Any) -> Any:
 
 
 def _in_si(value: Any, unit: Unit | None, record: Any) -> Any:
-    if value is None:
-        return None
-    if isinstance(value, list):
-        return tuple(_in_si(item, unit, record) for item in value)
-    if record is not None:
-        return value.si(record)
-    return value if unit is None else value * unit.scale + unit.offset
+    """A value of a request in SI; a section fills the dataclass `record`."""
+    inside = None if record is None else lambda section: section.si(record)
+    return converted(value, unit.to_si if unit else _unchanged, inside)
+
+
+def _unchanged(value: Any) -> Any:
+    return value
 
 
 def from_si(group: type[Documented], result: Any, detail: Detail) -> dict[str, Any]:
@@ -238,20 +244,9 @@ def _sources(group: type[Documented], record: Any, detail: Detail) -> tuple[tupl
 
 def _displayed(value: Any, member: Member, detail: Detail) -> Any:
     """A value in the unit of its field; NaN inside an array marks a point without a value and becomes None."""
-    if value is None:
-        return None
-    if isinstance(value, tuple):
-        return [_displayed(item, member, detail) for item in value]
-    if member.group is not None:
-        return from_si(member.group, value, detail)
-    if member.unit is not None:
-        value = (value - member.unit.offset) / member.unit.scale
-    if not isinstance(value, np.ndarray):
-        return value
-    if value.dtype.kind == "f" and np.isnan(value).any():
-        missing, value = np.isnan(value), value.astype(object)
-        value[missing] = None
-    return value.tolist()
+    group, unit = member.group, member.unit
+    inside = None if group is None else lambda part: from_si(group, part, detail)
+    return converted(value, lambda number: as_json(unit.from_si(number) if unit else number), inside, list)
 
 
 def _with_choices(document: dict[str, Any], section: type[Any]) -> None:
@@ -294,18 +289,22 @@ class Section(Documented):
                 raise PydanticCustomError(self.choice_missing, "give {names}", {"names": " or ".join(group)})
         return self
 
-    def si(self, kind: type[T], *others: "Section", **known: Any) -> T:
+    def si(self, kind: type[T], /, *others: "Section", **known: Any) -> T:
         """The solver's dataclass in SI that these fields fill, then those of other sections.
 
         Sections inside these fill the dataclasses inside it; what is `known` stands for fields of its own.
         """
+        return kind(**self.filling(kind, *others, **known))
+
+    def filling(self, kind: type[Any], /, *others: "Section", **known: Any) -> dict[str, Any]:
+        """What `si` gives the dataclass, by the names of its fields."""
         given: dict[str, Any] = {}
         record: Any = kind
         for section in reversed((self, *others)):
             for name, member, inner in _fillings(type(section), record):
                 if name not in known:
                     given[name] = _in_si(getattr(section, member.name), member.unit, inner)
-        return kind(**given | known)
+        return given | known
 
     def unused(self) -> dict[str, bool]:
         """Whether the values given leave a field or section out of a result, by names dotted below this section."""
@@ -332,6 +331,7 @@ class Request(Section):
     ] = "curves"
 
     model_config = ConfigDict(json_schema_extra=_in_reading_order)
+    _stands: ClassVar = False
 
     @abstractmethod
     def inputs(self) -> Any:
@@ -360,13 +360,6 @@ class Group(Documented):
         meaning = Output.of(record, name, unit=unit, axis=axis, **vars(cls.views.get(name, View())))
         optional = cls._optional or declared.detail != "summary"
         return Annotated[kind | None if optional or nullable else kind, meaning], None if optional else ...
-
-
-def groups(**rows: tuple[Any, ...]) -> None:
-    """Make groups that add nothing to declarations, by name: the dataclass, what the group is, views of its outputs."""
-    for name, (record, text, *judged) in rows.items():
-        views = (ClassVar[Any], judged[0] if judged else {})
-        create_model(name, __base__=Group, __doc__=text, __cls_kwargs__={"of": record}, views=views)  # type: ignore[arg-type]
 
 
 class Notice(Group):
@@ -399,10 +392,15 @@ class Derived(Group):
     """What follows from the request before any physics."""
 
 
+GROUNDS = frozenset({"assumptions", "model_version", "sources", "model", "derived", "inputs", "case"})
+"""What results rest on: the last fields of every answer."""
+
+
 class Response(Group):
     """What every result says about itself; each adds its results."""
 
     _optional: ClassVar = True
+    _stands: ClassVar = False
 
     status: Annotated[
         Literal["ok", "ok_with_warnings", "no_solution"],
@@ -445,6 +443,6 @@ class Response(Group):
     @classmethod
     def __pydantic_init_subclass__(cls, **_: Any) -> None:
         """Results stand before what they rest on."""
-        for name in ("assumptions", "model_version", "sources", "model", "derived", "inputs", "case"):
-            cls.model_fields[name] = cls.model_fields.pop(name)
+        known = cls.__pydantic_fields__
+        cls.__pydantic_fields__ = {name: known[name] for name in sorted(known, key=lambda name: name in GROUNDS)}
         cls.model_rebuild(force=True)

@@ -1,14 +1,17 @@
 """Oils: by grade, by data sheet, or by the viscosity where they enter."""
 
-from typing import Any, ClassVar, Self
+from dataclasses import fields, replace
+from typing import Annotated, Any, ClassVar, Self
 
 from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
 from app.schema.model import Derived, Section
-from solvers.coupling.inputs import CouplingOil
-from solvers.lubricants import Lubricant, OilInUse
-from solvers.oils import SQUARE_MILLIMETRE, OilBySheet, OilChoice
+from app.schema.quantities import Input
+from solvers.coupling.inputs import Lubricant as OilAtTeeth
+from solvers.lubricants import Lubricant, OilInUse, OilKind
+from solvers.oils import SQUARE_MILLIMETRE, VISCOSITY_INDICES, IsoGrade, OilSheet, iso_vg, sheet_of_index
+from solvers.quantity import UNITS
 
 _PAPERS = Lubricant()
 
@@ -18,13 +21,56 @@ def _names_a_sheet(given: dict[str, Any]) -> bool:
     return given.get("iso_vg") is not None or given.get("kinematic_viscosity_40_mm2_per_s") is not None
 
 
-class SheetOil(Section, of=OilBySheet):
+RARELY = "by the kind of oil; a data sheet rarely gives it"
+
+
+def _of_a_sheet(name: str, ge: float, le: float, text: str, assumed: str | None = None) -> Input:
+    """The declaration of a property that follows from grade or data sheet where one of them is given."""
+    return Input.of(
+        Lubricant,
+        name,
+        ge=ge,
+        le=le,
+        default_text=f"with grade or data sheet, {text}",
+        assumed=f"the paper's oil; with grade or data sheet, {assumed or text}",
+    )
+
+
+class SheetOil(Section):
     """An oil by its ISO grade or viscosity at 40 °C, and by how it thins, where that is what is known of it."""
 
     exclusive: ClassVar[tuple[tuple[str, ...], ...]] = (
         ("iso_vg", "viscosity_pa_s", "kinematic_viscosity_40_mm2_per_s"),
         ("kinematic_viscosity_100_mm2_per_s", "viscosity_index"),
     )
+
+    iso_vg: Annotated[IsoGrade | None, Input("ISO viscosity grade", "VG", "ISO 3448")] = None
+    kinematic_viscosity_40_mm2_per_s: Annotated[float | None, Input.of(OilSheet, "kinematic_viscosity_40")] = None
+    kinematic_viscosity_100_mm2_per_s: Annotated[
+        float | None,
+        Input.of(
+            OilSheet,
+            "kinematic_viscosity_100",
+            default_text="by the viscosity index, else typical of the kind of oil",
+            assumed="typical of the kind of oil: viscosity index 94 to 102 of mineral oils, 150 of PAO and ester, 210 "
+            "of polyglycols",
+        ),
+    ] = None
+    viscosity_index: Annotated[
+        float | None,
+        Input(
+            "viscosity index",
+            "VI",
+            "ASTM D2270",
+            ge=VISCOSITY_INDICES[0],
+            le=VISCOSITY_INDICES[1],
+            tolerance=5,
+            text="beside the viscosity at 40 °C, instead of that at 100 °C",
+            default_text="by the viscosity at 100 °C, else typical of the kind of oil",
+        ),
+    ] = None
+    kind: Annotated[OilKind, Input.of(OilSheet, "kind")] = "mineral"
+    density_15_kg_per_m3: Annotated[float | None, Input.of(OilSheet, "density_15")] = None
 
     @property
     def by_sheet(self) -> bool:
@@ -47,9 +93,23 @@ class SheetOil(Section, of=OilBySheet):
             )
         return self
 
+    def sheet(self) -> OilSheet | None:
+        """The solver's oil by grade or data sheet; None where neither is given.
+
+        Raises InvalidInput (viscosity_order, viscosity_index) for an oil that none can be.
+        """
+        index, kind, density = self.viscosity_index, self.kind, self.density_15_kg_per_m3
+        if self.iso_vg is not None:
+            return iso_vg(self.iso_vg, kind, index, density)
+        if self.kinematic_viscosity_40_mm2_per_s is None:
+            return None
+        if self.kinematic_viscosity_100_mm2_per_s is None:
+            return sheet_of_index(self.kinematic_viscosity_40_mm2_per_s * SQUARE_MILLIMETRE, index, kind, density)
+        return self.si(OilSheet)
+
     def stands_for_null(self, name: str) -> Any:
         """The viscosity at 100 °C by index or kind, the density of a kind of oil."""
-        sheet = self.si(OilBySheet).sheet()
+        sheet = self.sheet()
         if sheet and name == "kinematic_viscosity_100_mm2_per_s":
             return sheet.kinematic_viscosity_100 / SQUARE_MILLIMETRE
         return sheet.reference_density if sheet and name == "density_15_kg_per_m3" else None
@@ -61,7 +121,7 @@ class SheetOil(Section, of=OilBySheet):
         return by_index if self.by_sheet else dict.fromkeys(of_a_sheet, True)
 
 
-class Oil(SheetOil, of=OilChoice):
+class Oil(SheetOil, of=Lubricant):
     """The oil of a lubricated contact: by grade, by data sheet or by its viscosity; nothing names none."""
 
     exclusive: ClassVar = (
@@ -69,12 +129,44 @@ class Oil(SheetOil, of=OilChoice):
         ("reference_temperature_c", "iso_vg", "kinematic_viscosity_40_mm2_per_s"),
     )
 
-    reference_temperature_c: float | None = 86.85
-    pressure_viscosity_per_gpa: float | None = 21.9
-    temperature_viscosity_per_k: float | None = _PAPERS.temperature_viscosity
-    density_kg_per_m3: float | None = _PAPERS.density
-    specific_heat_j_per_kg_k: float | None = _PAPERS.specific_heat
-    thermal_conductivity_w_per_m_k: float | None = _PAPERS.thermal_conductivity
+    viscosity_pa_s: Annotated[
+        float | None,
+        Input.of(
+            Lubricant,
+            "viscosity",
+            ge=1e-5,
+            le=100,
+            default_text="by grade or data sheet; with neither no oil is known",
+        ),
+    ] = None
+    reference_temperature_c: Annotated[
+        float | None,
+        Input.of(
+            Lubricant,
+            "reference_temperature",
+            ge=-50,
+            le=300,
+            default_text="with grade or data sheet, where the oil enters the contact",
+        ),
+    ] = 86.85
+    pressure_viscosity_per_gpa: Annotated[
+        float | None, _of_a_sheet("pressure_viscosity", 1, 60, "by kind and viscosity (Gold, secondary source)")
+    ] = 21.9
+    temperature_viscosity_per_k: Annotated[
+        float | None, _of_a_sheet("temperature_viscosity", 0, 0.2, "the slope of the Walther law")
+    ] = _PAPERS.temperature_viscosity
+    density_kg_per_m3: Annotated[
+        float | None,
+        Input.of(
+            Lubricant, "density", ge=100, le=5000, default_text="with grade or data sheet, from the density at 15 °C"
+        ),
+    ] = _PAPERS.density
+    specific_heat_j_per_kg_k: Annotated[float | None, _of_a_sheet("specific_heat", 100, 10000, "by kind", RARELY)] = (
+        _PAPERS.specific_heat
+    )
+    thermal_conductivity_w_per_m_k: Annotated[
+        float | None, _of_a_sheet("thermal_conductivity", 0.01, 10, "by kind", RARELY)
+    ] = _PAPERS.thermal_conductivity
 
     @model_validator(mode="before")
     @classmethod
@@ -98,6 +190,14 @@ class Oil(SheetOil, of=OilChoice):
             )
         return self
 
+    def resolve(self) -> OilSheet | Lubricant | None:
+        """The solver's oil; None where nothing says how viscous it is. Raises what `sheet` raises."""
+        sheet, properties = self.sheet(), self.filling(Lubricant, kind=self.kind)
+        if sheet is not None:
+            beyond = (each.name for each in fields(OilSheet) if each.name in properties)
+            return replace(sheet, **{name: properties[name] for name in beyond})
+        return None if self.viscosity_pa_s is None else Lubricant(**properties)
+
     @property
     def known(self) -> bool:
         """Whether an oil is given."""
@@ -111,8 +211,24 @@ class Oil(SheetOil, of=OilChoice):
 _WITH_VISCOSITY = [name for name, field in Oil.model_fields.items() if isinstance(field.default, float)]
 
 
-class CouplingLubricant(SheetOil, of=CouplingOil):
+class CouplingLubricant(SheetOil):
     """Oil at the teeth."""
+
+    viscosity_pa_s: Annotated[
+        float | None,
+        Input.of(OilAtTeeth, "viscosity", default_text="by grade or data sheet", assumed="ISO VG 46 near 50 °C"),
+    ] = OilAtTeeth().viscosity
+    temperature_c: Annotated[
+        float,
+        Input.of(
+            OilAtTeeth,
+            "temperature",
+            default=50.0,
+            text="temperature at which the viscosity is taken from grade or data sheet",
+            assumed="50 °C",
+        ),
+    ] = 50.0
+    reference_film_um: Annotated[float, Input.of(OilAtTeeth, "reference_film")] = 1.0
 
     @model_validator(mode="before")
     @classmethod
@@ -126,6 +242,14 @@ class CouplingLubricant(SheetOil, of=CouplingOil):
         if not self.by_sheet and self.viscosity_pa_s is None:
             raise PydanticCustomError("missing_property", "give viscosity_pa_s, or the oil by its grade or data sheet")
         return self
+
+    def at_teeth(self) -> OilAtTeeth:
+        """The solver's oil; grade or data sheet count before the viscosity."""
+        sheet = self.sheet()
+        if sheet is None:
+            return self.si(OilAtTeeth, temperature=None)
+        viscosity = sheet.viscosity(UNITS["c"].to_si(self.temperature_c))
+        return self.si(OilAtTeeth, viscosity=viscosity, viscosity_index=sheet.viscosity_index)
 
     def unused(self) -> dict[str, bool]:
         """What this way of giving the oil leaves out of a result."""

@@ -3,7 +3,7 @@
 from typing import Annotated, Any, ClassVar
 
 from app.schema.gears import PumpingGears
-from app.schema.model import Derived, Group, Request, Response, Section, groups
+from app.schema.model import Derived, Group, Request, Response, Section
 from app.schema.quantities import Input, View
 from solvers.pumping import inputs as si
 from solvers.pumping import lead_correction, pulsation, results
@@ -77,46 +77,68 @@ class PumpingMassFlow(Group, of=results.MassFlow):
     member_unit: ClassVar = "g_per_s"
 
 
-groups(
-    StrokeCurves=(stroke.StrokeTable, "Section of the tooth space over one stroke."),
-    PumpingStroke=(results.Stroke, "One stroke of a tooth space; angles of its gear from the line of centres."),
-    PumpingBalance=(results.Balance, "Relative errors of the balances of mass and energy."),
-    PumpingProfile=(results.FaceProfile, "Along the face, outside the grooves."),
-    PumpingField=(
-        results.GasField,
-        "Over angle and position, indexed [angle][position].",
-        {"axial_mach": View(limit=1.0)},
-    ),
-    PumpingSpaces=(
-        results.SpacesResult,
-        "The tooth spaces of one gear.",
-        {
-            "peak_axial_mach": View(headline=2, limit=1.0, verdict=".axial_choked"),
-            "peak_pressure_ratio": View(headline=3, verdict=".radial_choked"),
-            "max_temperature_rise": View(headline=4),
-        },
-    ),
-    PumpingGeometry=(results.MeshGeometry, "The mesh."),
-    PumpingTotal=(results.Totals, "Of all spaces asked for.", {"pumping_power": View(headline=1)}),
-    LeadCurves=(lead_correction.LeadCurves, "Along the pinion's face."),
-    PumpingLeadCorrection=(
-        lead_correction.LeadCorrection,
-        "Thermal lead correction of the pinion where the metal warms as much as the gas.",
-    ),
-    PumpingPulsation=(
-        pulsation.Pulsation,
-        "Amplitudes of the mass flow at the ends, at multiples of the meshing frequency.",
-    ),
-    PumpingResolution=(
-        results.Resolution,
-        "Relative uncertainties by what half and a quarter of the slices, steps or positions change.",
-    ),
-    ChokingCurves=(
-        results.ChokingCurves,
-        "What a coarse scan saw, the largest over the spaces asked for.",
-        {"exit_mach": View(limit=1.0)},
-    ),
-)
+class StrokeCurves(Group, of=stroke.StrokeTable):
+    """Section of the tooth space over one stroke."""
+
+
+class PumpingStroke(Group, of=results.Stroke):
+    """One stroke of a tooth space; angles of its gear from the line of centres."""
+
+
+class PumpingBalance(Group, of=results.Balance):
+    """Relative errors of the balances of mass and energy."""
+
+
+class PumpingProfile(Group, of=results.FaceProfile):
+    """Along the face, outside the grooves."""
+
+
+class PumpingField(Group, of=results.GasField):
+    """Over angle and position, indexed [angle][position]."""
+
+    views: ClassVar = {"axial_mach": View(limit=1.0)}
+
+
+class PumpingSpaces(Group, of=results.SpacesResult):
+    """The tooth spaces of one gear."""
+
+    views: ClassVar = {
+        "peak_axial_mach": View(headline=2, limit=1.0, verdict=".axial_choked"),
+        "peak_pressure_ratio": View(headline=3, verdict=".radial_choked"),
+        "max_temperature_rise": View(headline=4),
+    }
+
+
+class PumpingGeometry(Group, of=results.MeshGeometry):
+    """The mesh."""
+
+
+class PumpingTotal(Group, of=results.Totals):
+    """Of all spaces asked for."""
+
+    views: ClassVar = {"pumping_power": View(headline=1)}
+
+
+class LeadCurves(Group, of=lead_correction.LeadCurves):
+    """Along the pinion's face."""
+
+
+class PumpingLeadCorrection(Group, of=lead_correction.LeadCorrection):
+    """Thermal lead correction of the pinion where the metal warms as much as the gas."""
+
+
+class PumpingPulsation(Group, of=pulsation.Pulsation):
+    """Amplitudes of the mass flow at the ends, at multiples of the meshing frequency."""
+
+
+class PumpingResolution(Group, of=results.Resolution):
+    """Relative uncertainties by what half and a quarter of the slices, steps or positions change."""
+
+
+class ChokingCurves(Group, of=results.ChokingCurves):
+    """What a coarse scan saw, the largest over the spaces asked for."""
+
+    views: ClassVar = {"exit_mach": View(limit=1.0)}
 
 
 class PumpingDerived(Derived, of=results.Derived):

@@ -10,7 +10,7 @@ from pydantic_core import PydanticCustomError
 from app.schema.cooling import GearCooling
 from app.schema.gears import GearMaterials, ScuffingGears
 from app.schema.line_contact import FilmModel
-from app.schema.model import Derived, Group, Request, Response, Section, groups
+from app.schema.model import Derived, Group, Request, Response, Section
 from app.schema.oil import Oil
 from app.schema.quantities import Input, View
 from solvers.contact import ehl
@@ -19,7 +19,6 @@ from solvers.gears.inputs import GearPairInputs
 from solvers.heat_balance.notices import KNOWN_WITHIN
 from solvers.lubricants import OilInUse
 from solvers.materials import Solid
-from solvers.oils import OilChoice
 from solvers.scuffing import inputs as si
 from solvers.scuffing import results, safety_results
 from solvers.scuffing.micropitting import results as film_results
@@ -91,89 +90,136 @@ class LoadDistributionRequest(GearPairRequest):
 
 
 FILM_SAFETY = View(limit=1.0, bound="lower")
-groups(
-    MicropittingTestFilm=(
-        film_results.FilmOfTest,
-        "The film of the test gears C-GF in this oil at the failure load stage.",
-    ),
-    LocalFilmPoint=(film_results.LocalPoint, "The film at a point of the feature line.", {"safety": FILM_SAFETY}),
-    LocalFilm=(
-        film_results.LocalFilm,
-        "The film over the flank under its own load (method A).",
-        {"safety": replace(FILM_SAFETY, needs="micropitting.failure_load_stage", verdict=".verdict")},
-    ),
-    StandardFilmPoint=(film_results.StandardPoint, "The film at a point of the path.", {"safety": FILM_SAFETY}),
-    StandardFilm=(
-        film_results.StandardFilm,
-        "The film of a spur pair without relief under an even load (method B).",
-        {"safety": FILM_SAFETY},
-    ),
-    MicropittingResult=(film_results.Micropitting, "The film against the one that the oil's test asks for."),
-    FlankWear=(film_results.Wear, "Depth of mild wear per million revolutions of either gear."),
-    ScuffingGeometry=(results.Geometry, "The mesh."),
-    ContactLengthCurves=(
-        results.LengthCurves,
-        "Total contact length over one base pitch; a spur gear's jumps stand twice.",
-    ),
-    ContactLineLengths=(results.ContactLines, "Total length of the contact lines."),
-    ToothStiffnessCurves=(results.StiffnessCurves, "Stiffness of one pair of teeth along the path."),
-    ToothStiffness=(results.Stiffness, "Stiffness per face width."),
-    TransmissionErrorCurves=(
-        results.ErrorCurves,
-        "Transmission error over one base pitch; a spur gear's jumps stand twice.",
-    ),
-    TransmissionErrorResult=(
-        results.TransmissionError,
-        "Transmission error along the transverse line of action.",
-        {"peak_to_peak": View(headline=3)},
-    ),
-    MeshLoss=(
-        results.FrictionLoss,
-        "Friction loss at its mean coefficient; power and efficiency are those of the transmitted power.",
-    ),
-    FlankPlace=(results.Place, "A point of the flank."),
-    FlankPressure=(results.Pressure, "Dry Hertzian pressure.", {"max": View(headline=1)}),
-    FeatureLineCurves=(
-        results.FeatureLine,
-        "Along the feature line from A1 to E2; the points A, C and E of the path lie on it.",
-    ),
-    FlankFields=(results.Flank, "Over the flank, `[profile][face]`."),
-    FlashTemperature=(safety_results.Flash, "Largest flash temperature; thermal EHL values are null in closed form."),
-    ContactTemperatureResult=(
-        safety_results.ContactTemperature,
-        "Bulk temperature, and the largest contact temperature: bulk plus flash.",
-        {
-            "blok_max": View(headline=2, limit="safety.scuffing_c", bound="upper"),
-            "thermal_ehl_max": View(limit="safety.scuffing_c", bound="upper"),
-        },
-    ),
-    ThinnestFilm=(
-        safety_results.Film,
-        "Thinnest film; null where nothing is loaded.",
-        {"thickness_ratio": View(headline=3, limit=1.0, bound="lower", verdict=".thickness_regime")},
-    ),
-    ScuffingSafety=(
-        safety_results.Safety,
-        "Safety factor against scuffing.",
-        {
-            "blok_factor": View(
-                headline=1,
-                limit=1.0,
-                bound="lower",
-                needs="temperatures.scuffing_c",
-                verdict=".verdict",
-                band="heat.band.safety",
-            ),
-            "feature_line_factor": View(limit=1.0, bound="lower"),
-            "thermal_ehl_factor": View(limit=1.0, bound="lower"),
-        },
-    ),
-    ScuffingPathCurves=(
-        (safety_results.ScuffingPath, safety_results.ThermalPath),
-        "Along a line from A to E; what only the thermal EHL solution knows is null in closed form.",
-        {"thickness_ratio": View(limit=1.0, bound="lower")},
-    ),
-)
+
+
+class MicropittingTestFilm(Group, of=film_results.FilmOfTest):
+    """The film of the test gears C-GF in this oil at the failure load stage."""
+
+
+class LocalFilmPoint(Group, of=film_results.LocalPoint):
+    """The film at a point of the feature line."""
+
+    views: ClassVar = {"safety": FILM_SAFETY}
+
+
+class LocalFilm(Group, of=film_results.LocalFilm):
+    """The film over the flank under its own load (method A)."""
+
+    views: ClassVar = {"safety": replace(FILM_SAFETY, needs="micropitting.failure_load_stage", verdict=".verdict")}
+
+
+class StandardFilmPoint(Group, of=film_results.StandardPoint):
+    """The film at a point of the path."""
+
+    views: ClassVar = {"safety": FILM_SAFETY}
+
+
+class StandardFilm(Group, of=film_results.StandardFilm):
+    """The film of a spur pair without relief under an even load (method B)."""
+
+    views: ClassVar = {"safety": FILM_SAFETY}
+
+
+class MicropittingResult(Group, of=film_results.Micropitting):
+    """The film against the one that the oil's test asks for."""
+
+
+class FlankWear(Group, of=film_results.Wear):
+    """Depth of mild wear per million revolutions of either gear."""
+
+
+class ScuffingGeometry(Group, of=results.Geometry):
+    """The mesh."""
+
+
+class ContactLengthCurves(Group, of=results.LengthCurves):
+    """Total contact length over one base pitch; a spur gear's jumps stand twice."""
+
+
+class ContactLineLengths(Group, of=results.ContactLines):
+    """Total length of the contact lines."""
+
+
+class ToothStiffnessCurves(Group, of=results.StiffnessCurves):
+    """Stiffness of one pair of teeth along the path."""
+
+
+class ToothStiffness(Group, of=results.Stiffness):
+    """Stiffness per face width."""
+
+
+class TransmissionErrorCurves(Group, of=results.ErrorCurves):
+    """Transmission error over one base pitch; a spur gear's jumps stand twice."""
+
+
+class TransmissionErrorResult(Group, of=results.TransmissionError):
+    """Transmission error along the transverse line of action."""
+
+    views: ClassVar = {"peak_to_peak": View(headline=3)}
+
+
+class MeshLoss(Group, of=results.FrictionLoss):
+    """Friction loss at its mean coefficient; power and efficiency are those of the transmitted power."""
+
+
+class FlankPlace(Group, of=results.Place):
+    """A point of the flank."""
+
+
+class FlankPressure(Group, of=results.Pressure):
+    """Dry Hertzian pressure."""
+
+    views: ClassVar = {"max": View(headline=1)}
+
+
+class FeatureLineCurves(Group, of=results.FeatureLine):
+    """Along the feature line from A1 to E2; the points A, C and E of the path lie on it."""
+
+
+class FlankFields(Group, of=results.Flank):
+    """Over the flank, `[profile][face]`."""
+
+
+class FlashTemperature(Group, of=safety_results.Flash):
+    """Largest flash temperature; thermal EHL values are null in closed form."""
+
+
+class ContactTemperatureResult(Group, of=safety_results.ContactTemperature):
+    """Bulk temperature, and the largest contact temperature: bulk plus flash."""
+
+    views: ClassVar = {
+        "blok_max": View(headline=2, limit="safety.scuffing_c", bound="upper"),
+        "thermal_ehl_max": View(limit="safety.scuffing_c", bound="upper"),
+    }
+
+
+class ThinnestFilm(Group, of=safety_results.Film):
+    """Thinnest film; null where nothing is loaded."""
+
+    views: ClassVar = {"thickness_ratio": View(headline=3, limit=1.0, bound="lower", verdict=".thickness_regime")}
+
+
+class ScuffingSafety(Group, of=safety_results.Safety):
+    """Safety factor against scuffing."""
+
+    views: ClassVar = {
+        "blok_factor": View(
+            headline=1,
+            limit=1.0,
+            bound="lower",
+            needs="temperatures.scuffing_c",
+            verdict=".verdict",
+            band="heat.band.safety",
+        ),
+        "feature_line_factor": View(limit=1.0, bound="lower"),
+        "thermal_ehl_factor": View(limit=1.0, bound="lower"),
+    }
+
+
+class ScuffingPathCurves(Group, of=(safety_results.ScuffingPath, safety_results.ThermalPath)):
+    """Along a line from A to E; what only the thermal EHL solution knows is null in closed form."""
+
+    views: ClassVar = {"thickness_ratio": View(limit=1.0, bound="lower")}
 
 
 class MeshDerived(Derived, of=results.Derived, without=("rack_tip_radius",)):
@@ -364,7 +410,7 @@ class MeshInOil(Request):
             self.model,
             distribution=distribution_inputs(self, gears, load),
             lubricant=None,
-            oil=self.lubricant.si(OilChoice).resolve(),
+            oil=self.lubricant.resolve(),
             film=self.model.si(ehl.Model),
         )
 

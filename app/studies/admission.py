@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from app.errors import SchedulerUnavailable, StudiesFull
 from app.log import STUDIES
 from app.settings import Settings
-from app.studies.engine import Pool
+from app.studies.runner import Pool
 from app.workers.pool import Pool as WorkerPool
 
 if TYPE_CHECKING:

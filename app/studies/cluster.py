@@ -13,7 +13,7 @@ from distributed import Client, KilledWorker
 
 from app.errors import SchedulerUnavailable, WorkerLost
 from app.sources import SOURCES
-from app.studies.engine import OtherSources, PoolLost
+from app.studies.runner import OtherSources, PoolLost
 from app.workers.stages import STAGES, warm
 
 CONNECT_S = 10.0  # for one call to the scheduler

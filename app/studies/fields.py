@@ -129,3 +129,12 @@ def clear_excluded(model: type[Documented], body: dict[str, Any], path: str) -> 
         here = value_at(body, ".".join(section)) if section else body
         if isinstance(here, dict):
             here.pop(name, None)
+
+
+def indexed(path: str, case: dict[str, Any]) -> list[str]:
+    """The path with every index that its lists have."""
+    before, star, after = path.partition(f".{ITEM}")
+    if not star:
+        return [path]
+    items = range(len(value_at(case, before) or ()))
+    return [place for index in items for place in indexed(f"{before}.{index}{after}", case)]

@@ -265,4 +265,4 @@ def _shown(path: str, value: float) -> Scalar:
     """A value of the solver in the unit of the request, rounded to 12 digits."""
     field = next(part for part in reversed(path.split(".")) if not part.isdecimal())
     unit = split_unit(field)[1]
-    return float(f"{value if unit is None else (value - unit.offset) / unit.scale:.12g}") + 0.0
+    return float(f"{value if unit is None else unit.from_si(value):.12g}") + 0.0

@@ -1,4 +1,4 @@
-"""The bodies of the studies: sweep, sensitivity, spectrum, corners and design."""
+"""What the bodies of studies share: paths and values of fields, axes, distributions, the request that is studied."""
 
 import json
 import re
@@ -157,42 +157,6 @@ Seed = Annotated[int, Input("seed", text="equal seeds give equal points", ge=0, 
 METHOD = Input("method of sampling", source="scipy.stats.qmc", text="how the points are spread over the ranges")
 COUNT = Input("number of points", text="how many points; a power of two for Sobol", ge=1, le=1_000_000)
 
-
-class Sample(Part):
-    """Points at random: evenly over ranges, or by distributions."""
-
-    exactly_one = ("ranges", "inputs")
-    method: Annotated[Method, METHOD] = "latin_hypercube"
-    count: Annotated[int, COUNT]
-    seed: Seed = 1
-    ranges: Annotated[
-        list[Range] | None, Field(min_length=1, max_length=50), Input("ranges", text="the fields and their ranges")
-    ] = None
-    inputs: Annotated[Inputs | None, Input("distributions", text="the fields and their distributions")] = None
-
-
-class Bound(Part):
-    """A limit on one output."""
-
-    output: Annotated[FieldPath, Input("limited output", text="dotted path of one of the outputs")]
-    min: Annotated[float | None, Input("least permissible value")] = None
-    max: Annotated[float | None, Input("largest permissible value")] = None
-
-
-class Best(Part):
-    """Which point is the best one."""
-
-    exactly_one = ("minimise", "maximise")
-    minimise: Annotated[FieldPath | None, Input("output to minimise")] = None
-    maximise: Annotated[FieldPath | None, Input("output to maximise")] = None
-    where: Annotated[list[Bound], Field(max_length=20), Input("limits", text="limits that the best point keeps")] = []
-
-    @property
-    def output(self) -> str:
-        """The output that decides."""
-        return str(self.minimise or self.maximise)
-
-
 FromIndex = Annotated[
     int,
     Input(
@@ -221,105 +185,9 @@ class StudyRequest(Part):
     outputs: Outputs = None
 
 
-class SweepRequest(StudyRequest):
-    """One request at many points: a grid, a list of cases or a random sample."""
-
-    exactly_one = ("vary", "cases", "sample")
-    vary: Annotated[list[Axis] | None, Field(min_length=1, max_length=3), Input("axes of a grid")] = None
-    cases: Annotated[Cases, Input("cases", text="what each case changes")] = None
-    sample: Annotated[Sample | None, Input("random sample")] = None
-    best: Annotated[Best | None, Input("best point", text="which point to pick at the end")] = None
-    from_index: FromIndex = 0
-
-
-class LoadCase(Part):
-    """A part of the operating time, and what it changes in the request."""
-
-    name: Annotated[str | None, Field(max_length=100), Input("name", default_text="its number")] = None
-    share: Annotated[
-        float | None, Input("share", text="of the operating time", ge=0.0, le=1.01, default_text="equal shares")
-    ] = None
-    set: Annotated[dict[str, Value], Input("what the case changes", text="values by their dotted paths")] = {}
-
-
-class Tolerances(Part):
-    """The distributions of the fields of a machine, and how many machines are drawn."""
-
-    method: Annotated[Method, METHOD] = "sobol"
-    count: Annotated[int, COUNT] = 128
-    replicates: Annotated[
-        int, Input("replicates", text="independent samples; the scatter of their means is the error", ge=1, le=1000)
-    ] = 8
-    seed: Seed = 1
-    inputs: Annotated[Inputs, Input("distributions", text="the fields and their distributions")]
-
-
-class Threshold(Part):
-    """A number, or normally distributed: a property of oil and material, one value for all cases of a machine."""
-
-    value: Annotated[float | None, Input("fixed limit", ge=-LARGEST, le=LARGEST)] = None
-    mean: Annotated[float | None, Input("mean of the limit", ge=-LARGEST, le=LARGEST)] = None
-    deviation: Annotated[float | None, Input("standard deviation of the limit", gt=0.0, le=LARGEST)] = None
-
-    @model_validator(mode="after")
-    def one_kind(self) -> Self:
-        """Refuse a limit that is neither fixed nor distributed."""
-        if (self.mean is None) != (self.deviation is None) or (self.value is None) == (self.mean is None):
-            raise PydanticCustomError("value_or_mean", "Give either value, or mean and deviation")
-        return self
-
-
-class SpectrumLimit(Part):
-    """A limit on one output of every case."""
-
-    exactly_one = ("above", "below")
-    output: Annotated[FieldPath, Input("limited output", text="dotted path of a single number of the answer")]
-    above: Annotated[Threshold | None, Input("upper limit", text="values above it exceed the limit")] = None
-    below: Annotated[Threshold | None, Input("lower limit", text="values below it exceed the limit")] = None
-
-
-class SpectrumRequest(StudyRequest):
-    """A machine with its tolerances over the cases of its load spectrum."""
-
-    cases: Annotated[
-        list[LoadCase],
-        Field(min_length=1, max_length=100),
-        Input("cases", text="what each case changes, and its share"),
-    ]
-    tolerances: Annotated[Tolerances | None, Input("tolerances", default_text="the nominal machine alone")] = None
-    limits: Annotated[
-        list[SpectrumLimit] | None,
-        Field(max_length=20),
-        Input(
-            "limits",
-            text="values that an output must not exceed",
-            default_text="the scuffing temperature, where there is one",
-        ),
-    ] = None
-    hours_per_year: Annotated[
-        float | None,
-        Input("hours per year", text="operating time, to turn mean powers into energies", gt=0.0, le=8784.0),
-    ] = None
-    points: Annotated[bool, Input("points", text="whether every solved point is a line of the answer")] = False
-
-
-class SensitivityRequest(StudyRequest):
-    """How each output moves with each input."""
-
-    inputs: Annotated[
-        list[FieldPath] | None,
-        Field(min_length=1, max_length=200),
-        Input("inputs", text="dotted paths of the numbers to move", default_text="every number of the case"),
-    ] = None
-
-
 DRIVE_TRAIN = "/v1/drive-train"
 Ranges = Annotated[list[Axis] | None, Field(max_length=20)]
-_RANGES = "what each uncertain field, or several together, may be; every combination is a corner"
-USUAL_RANGES = (
-    "wall response, clearances of a shaft's plain bearings against each other, friction, direction of the offset and "
-    "thrust of the couplings"
-)
+RANGES = "what each uncertain field, or several together, may be; every combination is a corner"
 
 
 class DriveTrainStudy(Part):
@@ -328,49 +196,6 @@ class DriveTrainStudy(Part):
     endpoint: ClassVar[str] = DRIVE_TRAIN
 
     request: Annotated[dict[str, Any], Input("request", text="the request of /v1/drive-train")]
-
-
-class CornersRequest(DriveTrainStudy):
-    """A gear unit at every combination of its uncertain inputs."""
-
-    sample: ClassVar[None] = None
-    best: ClassVar[None] = None
-
-    ranges: Annotated[Ranges, Input("ranges", text=_RANGES, default_text=USUAL_RANGES)] = None
-    outputs: Outputs = None
-    from_index: FromIndex = 0
-
-
-class Variable(FieldsTogether):
-    """A number that the search varies, and its range."""
-
-    path: Annotated[FieldPaths, Input("field to choose", text="dotted path, or several fields of one value")]
-    min: Annotated[float, Input("lower end")]
-    max: Annotated[float, Input("upper end")]
-    step: Annotated[
-        float | None,
-        Input("step", text="to what the best value is rounded, which is then judged once more", gt=0, le=1e6),
-    ] = None
-
-
-class DesignRequest(DriveTrainStudy):
-    """The flank correction whose worst corner is best."""
-
-    variables: Annotated[list[Variable], Field(min_length=1, max_length=10), Input("variables")]
-    corners: Annotated[Ranges, Input("corners", text=_RANGES, default_text="the request's own")] = None
-    collective: Annotated[
-        Cases, Input("collective", text="operating points, as what each changes", default_text="the request's own")
-    ] = None
-    objective: Annotated[
-        FieldPath, Input("objective", text="dotted path of the output that its worst corner judges")
-    ] = "safety.minimum"
-    direction: Annotated[
-        Literal["maximise", "minimise"] | None,
-        Input("direction", text="whether the objective shall be large or small", default_text="towards its safe side"),
-    ] = None
-    evaluations: Annotated[
-        int, Input("evaluations", text="how many corrections may be tried at every corner", ge=1, le=1000)
-    ] = 60
 
 
 EXAMPLES: dict[str, dict[str, Any]] = json.loads(files("app.studies").joinpath("examples.json").read_text("utf-8"))

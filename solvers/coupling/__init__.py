@@ -8,25 +8,22 @@ declared ranges, naming the argument.
 
 from solvers.coupling import crowning, model, orbit
 from solvers.coupling.crowning import Recommendation
+from solvers.coupling.former import CouplingDesign, CouplingOil, Load, OperatingPoint, OperatingRange
 from solvers.coupling.inputs import (
     Coupling,
-    CouplingDesign,
     CouplingInputs,
-    CouplingOil,
     Friction,
-    Load,
     Lubricant,
     MixedFrictionCurve,
     MixedFrictionTable,
     ModelOptions,
-    OperatingPoint,
-    OperatingRange,
     Operation,
     RecommendationInputs,
+    tilt_of_offset,
 )
 from solvers.coupling.notices import unusual_values
 from solvers.coupling.results import CouplingResult, OrbitResult
-from solvers.plausibility import guarded
+from solvers.guards import guarded
 
 solve = guarded(model.solve, unusual_values)
 solve_orbit = guarded(orbit.solve_orbit, unusual_values)
@@ -53,4 +50,5 @@ __all__ = [
     "recommend",
     "solve",
     "solve_orbit",
+    "tilt_of_offset",
 ]

@@ -3,13 +3,12 @@
 Attributes are in SI; declarations give range and default in the unit shown.
 """
 
-from dataclasses import field, fields
+from dataclasses import field
 from itertools import pairwise
 from math import atan, inf, isfinite, radians
 from typing import Literal
 
 from solvers.errors import InvalidInput
-from solvers.oils import OilBySheet
 from solvers.quantity import described, quantity, record
 from solvers.sources import PAHL
 
@@ -25,15 +24,18 @@ STEEL_TOOTH_STIFFNESS = 280e6  # N/m, of a pair of steel teeth
 
 
 @record
-class CouplingDesign:
-    """The coupling: crowned hub teeth in a straight internal sleeve."""
+class Coupling:
+    """The coupling: crowned hub teeth in a straight internal sleeve.
+
+    If face width, tooth height or tooth pair stiffness is None, the new coupling has the default instead.
+    """
 
     teeth: int = quantity("number of teeth", "z", PAHL, ge=6, le=400)
     module: float = quantity("module", "m", PAHL, unit="mm", ge=0.1, le=100)
     pressure_angle: float = quantity(
         "pressure angle", "α", unit="deg", default=20.0, ge=1, lt=45, assumed="the usual rack; the paper gives none"
     )
-    face_width: float | None = quantity(
+    face_width: float = quantity(
         "hub tooth face width",
         "b",
         unit="mm",
@@ -44,7 +46,7 @@ class CouplingDesign:
         default_text="8 modules",
         assumed="8 modules; the paper gives none",
     )
-    tooth_height: float | None = quantity(
+    tooth_height: float = quantity(
         "load-carrying tooth height",
         "h_trag",
         f"{PAHL}, Fig. 8",
@@ -72,7 +74,7 @@ class CouplingDesign:
         text="distance of the two tooth planes",
         assumed="order of magnitude",
     )
-    tooth_stiffness: float | None = quantity(
+    tooth_stiffness: float = quantity(
         "tooth pair stiffness",
         "c_t",
         unit="n_per_um",
@@ -113,31 +115,21 @@ class CouplingDesign:
         "Poisson's ratio of the teeth", "ν", default=0.3, ge=0, lt=0.5, assumed="steel", tolerance=0.01
     )
 
-    def coupling(self) -> "Coupling":
-        """Return the coupling, with defaults for the proportions and the stiffness that are None."""
-        known = {each.name: getattr(self, each.name) for each in fields(self)}
-        width = 8 * self.module if self.face_width is None else self.face_width
-        height = 2 * self.module if self.tooth_height is None else self.tooth_height
-        stiffness = self.tooth_stiffness
-        if stiffness is None:
-            stiffness = STEEL_TOOTH_STIFFNESS * self.youngs_modulus / STEEL
-        return Coupling(**known | {"face_width": width, "tooth_height": height, "tooth_stiffness": stiffness})
-
-
-@record(kw_only=True)
-class Coupling(CouplingDesign):
-    """The coupling with all proportions and the stiffness of its teeth known; by default that of steel."""
-
-    face_width: float = quantity("face width used", "b", unit="mm", ge=0.1, le=2000)
-    tooth_height: float = quantity("tooth height used", "h_trag", unit="mm", ge=0.05, le=200)
-    tooth_stiffness: float = quantity(
-        "tooth pair stiffness used", "c_t", unit="n_per_um", default=280.0, ge=0.1, le=1e5
-    )
+    def __post_init__(self) -> None:
+        """Give the fields that are None their defaults; these fields are floats afterwards."""
+        defaults = {
+            "face_width": 8 * self.module,
+            "tooth_height": 2 * self.module,
+            "tooth_stiffness": STEEL_TOOTH_STIFFNESS * self.youngs_modulus / STEEL,
+        }
+        for name, default in defaults.items():
+            if getattr(self, name) is None:
+                object.__setattr__(self, name, default)
 
 
 @record
-class Load:
-    """Torque, speed and arrangement.
+class Operation:
+    """Operating point: torque, speed, tilt and arrangement.
 
     `arrangement`: `single` is one mesh, `parallel_offset` (Z) two hubs tilted alike against the sleeve, `angular` (M)
     two hubs tilted oppositely.
@@ -186,112 +178,43 @@ class Load:
         text="of the customary thrust 0.25 T/D",
         default_text="no customary thrust",
     )
-
-
-@record
-class OperatingPoint(Load):
-    """Operating point; the tilt is given, or follows from the offset of the shafts."""
-
-    misalignment: float | None = quantity(
+    misalignment: float = quantity(
         "misalignment",
         "δ_HS",
         PAHL,
         unit="deg",
-        default=None,
+        kw_only=True,
         ge=-6,
         le=6,
         tolerance=0.005,
         text="tilt of hub against sleeve at one mesh",
-        default_text="by the parallel offset",
-    )
-    parallel_offset: float | None = quantity(
-        "parallel offset of the shafts",
-        "e",
-        unit="mm",
-        default=None,
-        ge=-1000,
-        le=1000,
-        tolerance=0.05,
-        text="instead of the tilt, which is atan(offset over hub distance)",
     )
 
-    def operation(self, hub_distance: float) -> "Operation":
-        """Return the operating point with its tilt; `hub_distance` [m] lies between the tooth planes."""
-        tilt = self.misalignment
-        if tilt is None:
-            if self.parallel_offset is None:
-                raise InvalidInput("misalignment_or_offset", "give misalignment or parallel_offset", "misalignment")
-            tilt = atan(self.parallel_offset / hub_distance)
-        return Operation(**{each.name: getattr(self, each.name) for each in fields(Load)}, misalignment=tilt)
 
+def tilt_of_offset(parallel_offset: float, hub_distance: float) -> float:
+    """Compute the tilt of the hubs of two shafts with a parallel offset.
 
-@record
-class OperatingRange(Load):
-    """Operating point with a range of misalignment."""
+    Parameters
+    ----------
+    parallel_offset : float
+        Offset of the shafts [m].
+    hub_distance : float
+        Distance of the tooth planes [m].
 
-    misalignment_range: tuple[float, float] = quantity(
-        "range of misalignment",
-        "δ_HS",
-        PAHL,
-        unit="deg",
-        kw_only=True,
-        ge=1e-4,
-        le=6,
-        text="smallest and largest tilt of hub in sleeve",
-    )
-
-    def operation(self) -> "Operation":
-        """Return the operating point at the smallest misalignment."""
-        known = {each.name: getattr(self, each.name) for each in fields(Load)}
-        return Operation(**known, misalignment=self.misalignment_range[0])
-
-
-@record
-class Operation(Load):
-    """Operating point with the misalignment of one mesh."""
-
-    misalignment: float = described("Tilt of the hub against the sleeve, with its sign [rad].", kw_only=True)
+    Returns
+    -------
+    float
+        Tilt of the hub against the sleeve at each mesh [rad].
+    """
+    return atan(parallel_offset / hub_distance)
 
 
 @record
 class Lubricant:
     """Oil at the teeth; the default viscosity is that of ISO VG 46 near 50 C."""
 
-    viscosity: float = quantity("oil viscosity at the teeth", "η", unit="pa_s", default=0.025, gt=0)
-    reference_film: float = quantity("film of the load capacity", "h_0", unit="um", default=1.0, gt=0)
-    viscosity_index: float | None = described(
-        "Viscosity index of an oil by grade or data sheet; reported, not used [-].", default=None
-    )
-    temperature: float | None = described(
-        "Temperature of an oil by grade or data sheet; reported, not used [K].", default=None
-    )
-
-
-@record
-class CouplingOil(OilBySheet):
-    """Oil at the teeth as its user knows it: by its viscosity there, by grade or by data sheet."""
-
-    viscosity: float | None = quantity(
-        "oil viscosity at the teeth",
-        "η",
-        f"{PAHL}, Fig. 8",
-        unit="pa_s",
-        default=0.025,
-        ge=1e-5,
-        le=100,
-        default_text="by grade or data sheet",
-        assumed="ISO VG 46 near 50 °C",
-    )
-    temperature: float = quantity(
-        "oil temperature at the teeth",
-        "θ_oil",
-        unit="c",
-        default=50.0,
-        ge=-50,
-        le=300,
-        tolerance=5,
-        text="temperature at which the viscosity is taken from grade or data sheet",
-        assumed="50 °C",
+    viscosity: float = quantity(
+        "oil viscosity at the teeth", "η", f"{PAHL}, Fig. 8", unit="pa_s", default=0.025, ge=1e-5, le=100
     )
     reference_film: float = quantity(
         "reference film thickness",
@@ -303,20 +226,19 @@ class CouplingOil(OilBySheet):
         le=1000,
         text="film thickness at which the load capacity is stated",
     )
-
-    def lubricant(self) -> Lubricant:
-        """Return the oil at the teeth; a grade or data sheet takes precedence over the viscosity.
-
-        Raises InvalidInput missing_property where neither is given.
-        """
-        sheet = self.sheet()
-        if sheet is not None:
-            viscosity = sheet.viscosity(self.temperature)
-            return Lubricant(viscosity, self.reference_film, sheet.viscosity_index, self.temperature)
-        if self.viscosity is None:
-            message = "give viscosity, or the oil by its grade or data sheet"
-            raise InvalidInput("missing_property", message, "lubricant.viscosity")
-        return Lubricant(self.viscosity, self.reference_film)
+    viscosity_index: float | None = described(
+        "Viscosity index of an oil by grade or data sheet; reported, not used [-].", default=None
+    )
+    temperature: float | None = quantity(
+        "oil temperature at the teeth",
+        "θ_oil",
+        unit="c",
+        default=None,
+        ge=-50,
+        le=300,
+        tolerance=5,
+        text="temperature of an oil by grade or data sheet; reported, not used",
+    )
 
 
 @record

@@ -3,16 +3,17 @@
 from collections.abc import Iterator
 from math import degrees
 
-from solvers import plausibility
 from solvers.coupling.friction import equal_loads_friction_moment
 from solvers.coupling.inputs import MAX_MISALIGNMENT, CouplingInputs, RecommendationInputs
 from solvers.coupling.lubrication import UNSTABLE_AREA
 from solvers.coupling.results import AxialThrust, Geometry, Kinematics, Limits, LoadDistribution, Lubrication
 from solvers.coupling.tooth_loads import SLIDING_VELOCITY_LIMIT
-from solvers.notices import Notice
+from solvers.lubricants import oil_temperature, thick_oil
+from solvers.notices import Notice, unusual_value
 
 ORBIT_RESOLUTION = 0.01
 """Relative uncertainty of an orbit from which a notice is given."""
+TALLEST_TOOTH = 4.0  # modules, chosen
 LEAST_ORBIT = 1e-10
 """Largest displacement [m] below which an orbit counts as zero: with perfect teeth only rounding remains."""
 
@@ -78,9 +79,9 @@ def load_notices(
 
 def contact_notices(inputs: CouplingInputs, kinematics: Kinematics, lubrication: Lubrication) -> Iterator[Notice]:
     """Yield the notices about the oil, the contact on the face and the film."""
-    yield from plausibility.thick_oil(inputs.lubricant.viscosity)
+    yield from thick_oil(inputs.lubricant.viscosity)
     if inputs.lubricant.temperature is not None:
-        yield from plausibility.oil_temperature(inputs.lubricant.temperature, "lubricant.temperature")
+        yield from oil_temperature(inputs.lubricant.temperature, "lubricant.temperature")
     half_face = inputs.coupling.face_width / 2.0
     if lubrication.hertz_half_width > half_face:
         yield Notice("wide_contact", "the contact at rest is wider than the tooth face", "face_width", rank="invalid")
@@ -131,4 +132,11 @@ def orbit_notices(
 def unusual_values(inputs: CouplingInputs | RecommendationInputs, _result: object) -> Iterator[Notice]:
     """Return the notices about unusual values in the description of a coupling."""
     coupling = (inputs.design if isinstance(inputs, RecommendationInputs) else inputs).coupling
-    return plausibility.tall_tooth(coupling.tooth_height, coupling.module)
+    return tall_tooth(coupling.tooth_height, coupling.module)
+
+
+def tall_tooth(height: float, module: float, section: str = "coupling") -> Iterator[Notice]:
+    """Warn of a tooth height [m] of a coupling that is unusual for its module [m]."""
+    if height > TALLEST_TOOTH * module:
+        message = f"{height * 1e3:g} mm is beyond {TALLEST_TOOTH:g} modules; is it a diameter?"
+        yield unusual_value(f"{section}.tooth_height", message)

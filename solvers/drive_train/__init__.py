@@ -7,6 +7,7 @@ the gap, and `warm_up` follows both over time. Own derivation; sources are given
 """
 
 from solvers.drive_train import states, warm_up
+from solvers.drive_train.former import ShaftBearing
 from solvers.drive_train.inputs import (
     Alignment,
     Arrangement,
@@ -17,14 +18,13 @@ from solvers.drive_train.inputs import (
     LinearBearing,
     RigidBearing,
     Shaft,
-    ShaftBearing,
     ShaftSection,
     UnitCoupling,
 )
 from solvers.drive_train.notices import unusual_values
 from solvers.drive_train.results import DriveTrainResult
 from solvers.drive_train.warm_up import UnitWarmUp, WarmUpInputs
-from solvers.plausibility import guarded
+from solvers.guards import guarded
 
 solve = guarded(states.solve, unusual_values)
 solve_warm_up = guarded(warm_up.solve, warm_up.unusual_values)

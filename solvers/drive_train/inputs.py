@@ -10,7 +10,6 @@ from typing import Literal
 
 from solvers.coupling.inputs import Coupling, Friction, ModelOptions
 from solvers.coupling.inputs import Lubricant as CouplingLubricant
-from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.lubricants import Lubricant
 from solvers.oils import OilSheet, lubricant_at
@@ -26,35 +25,15 @@ State = Literal["hot", "cold"]
 ASSUMED_RESPONSE = 0.5  # chosen within the range of published values, 0.2 to 1
 FILM_ABOVE_OIL = 15.0  # K
 COINCIDENT = 1e-9  # m; nearer positions are the same
-BEARING_POSITION = "Position along the Z of the unit [m]."
-BEARING_OFFSET = "Offset (X, Y) of the bore from the datum axis [m]."
 
 
 @record
-class SectionDesign:
-    """A cylinder of a shaft as the user describes it; the diameter may be left out under the teeth."""
+class ShaftSection:
+    """A cylinder of a shaft."""
 
     length: float = quantity("section length", "l", unit="mm", ge=0.1, le=5000)
-    outer_diameter: float | None = quantity(
-        "section outer diameter",
-        "d_o",
-        unit="mm",
-        default=None,
-        ge=5,
-        le=3000,
-        text="under the teeth the diameter that carries torsion",
-        default_text="under the teeth d - m_n h_fP*; required elsewhere",
-        assumed="under the teeth d - m_n h_fP*, the root circle and a third of the tooth; the reference diameter "
-        "twists too little",
-    )
+    outer_diameter: float = quantity("section outer diameter", "d_o", unit="mm", ge=5, le=3000)
     inner_diameter: float = quantity("section bore", "d_i", unit="mm", default=0.0, ge=0, le=3000, tolerance=0.1)
-
-
-@record
-class ShaftSection(SectionDesign):
-    """A cylinder of a shaft whose diameter is given."""
-
-    outer_diameter: float = quantity("section outer diameter used", "d_o", unit="mm", ge=5, le=3000)
 
 
 def torsion_diameter(gears: GearPairInputs, teeth: GearTeeth) -> float:
@@ -80,127 +59,33 @@ def torsion_diameter(gears: GearPairInputs, teeth: GearTeeth) -> float:
     return reference - gears.normal_module * teeth.dedendum
 
 
-def sections_of(
-    name: str, start: float, described: tuple[SectionDesign, ...], face: tuple[float, float], diameter: float
-) -> tuple[ShaftSection, ...]:
-    """Return the sections of a shaft with all diameters.
-
-    Parameters
-    ----------
-    name : str
-        Field of the shaft in the inputs, for error messages.
-    start : float
-        Position of the shaft's end of lowest Z [m].
-    described : tuple of SectionDesign
-        The sections in order of Z.
-    face : tuple of float
-        Positions of both ends of the face [m].
-    diameter : float
-        Outer diameter of sections under the face that have none [m].
-
-    Returns
-    -------
-    tuple of ShaftSection
-        The sections in the same order.
-
-    Raises
-    ------
-    InvalidInput
-        `section_diameter` if a section beside the face has no diameter.
-    """
-    sections, position = [], start
-    for k, section in enumerate(described):
-        outer, end = section.outer_diameter, position + section.length
-        if outer is None:
-            if position > face[1] - COINCIDENT or end < face[0] + COINCIDENT:
-                message = f"section {k} is not under the teeth and needs its diameter"
-                raise InvalidInput("section_diameter", message, f"{name}.sections.{k}.outer_diameter")
-            outer = diameter
-        sections.append(ShaftSection(section.length, outer, section.inner_diameter))
-        position = end
-    return tuple(sections)
-
-
 @record
-class JournalBearing:
-    """A plain bearing."""
-
-    position: float = described(BEARING_POSITION)
-    diameter: float = described("Diameter of the journal [m].")
-    width: float = described("Width of the bearing [m].")
-    viscosity: float = described("Viscosity of the oil in the film [Pa s].")
-    radial_clearance: float | None = described(
-        "Radial clearance; None: 1.5e-3 of the radius of the journal [m].", default=None
-    )
-    offset: Vector2 = described(BEARING_OFFSET, default=(0.0, 0.0))
-    in_gear_oil: bool = described(
-        "Whether the oil of the gears lubricates the bearing; its viscosity then follows the temperature of the film "
-        "in a heat balance.",
-        default=False,
-    )
-    oil_flow: float | None = described(
-        "Oil flow in a heat balance; None: the leakage at the sides [m^3/s].", default=None
-    )
-
-    @property
-    def clearance(self) -> float:
-        """Radial clearance, given or assumed [m]."""
-        return 0.75e-3 * self.diameter if self.radial_clearance is None else self.radial_clearance
-
-
-@record
-class LinearBearing:
-    """A bearing given by its stiffness."""
-
-    position: float = described(BEARING_POSITION)
-    stiffness: tuple[Vector2, Vector2] = described("Stiffness ((xx, xy), (yx, yy)), symmetric or not [N/m].")
-    offset: Vector2 = described(BEARING_OFFSET, default=(0.0, 0.0))
-
-
-@record
-class RigidBearing:
-    """A bearing that does not yield; position and offset [m]."""
-
-    position: float = described(BEARING_POSITION)
-    offset: Vector2 = described(BEARING_OFFSET, default=(0.0, 0.0))
-
-
-Bearing = JournalBearing | LinearBearing | RigidBearing
-
-
-@record
-class ShaftBearing:
-    """A radial bearing as the user describes it: plain, of given stiffness, or rigid."""
+class RadialBearing:
+    """Position and offset, which every radial bearing of a shaft has."""
 
     position: float = quantity(
         "bearing position", "z_B", unit="mm", ge=-20000, le=20000, tolerance=0.1, text="along the unit's Z"
-    )
-    type: Literal["journal", "linear", "rigid"] = quantity(
-        "bearing type", default="journal", text="short plain bearing; stiffness given; rigid"
     )
     offset: Vector2 = quantity(
         "bore offset",
         "e_B",
         unit="um",
+        kw_only=True,
         default=(0.0, 0.0),
         ge=-5000,
         le=5000,
         tolerance=2,
         text="[X, Y] of the bore against the datum axis",
     )
-    diameter: float | None = quantity(
-        "journal diameter",
-        "D",
-        OCVIRK,
-        unit="mm",
-        default=None,
-        ge=5,
-        le=3000,
-        default_text="required of plain bearings",
-    )
-    width: float | None = quantity(
-        "bearing width", "B", OCVIRK, unit="mm", default=None, ge=1, le=3000, default_text="required of plain bearings"
-    )
+
+
+@record
+class JournalBearing(RadialBearing):
+    """A plain bearing."""
+
+    diameter: float = quantity("journal diameter", "D", OCVIRK, unit="mm", ge=5, le=3000)
+    width: float = quantity("bearing width", "B", OCVIRK, unit="mm", ge=1, le=3000)
+    viscosity: float = quantity("oil viscosity in the bearing", "η_B", OCVIRK, unit="pa_s")
     radial_clearance: float | None = quantity(
         "radial clearance of the bearing",
         "c",
@@ -213,134 +98,73 @@ class ShaftBearing:
         default_text="1.5e-3 of the journal's radius",
         assumed="1.5e-3 of the journal's radius, usual for high-speed plain bearings",
     )
-    viscosity: float | None = quantity(
-        "oil viscosity in the bearing",
-        "η_B",
-        OCVIRK,
-        unit="pa_s",
-        default=None,
-        ge=1e-5,
-        le=100,
-        default_text="the gears' oil at the film temperature",
-        assumed=f"the gears' oil at the film temperature: that of the heat balance if there is one, else "
-        f"{FILM_ABOVE_OIL:.0f} K above the oil's unless given",
-    )
-    film_temperature: float | None = quantity(
-        "film temperature of the bearing",
-        "θ_B",
-        unit="c",
-        default=None,
-        ge=-50,
-        le=300,
-        tolerance=5,
-        text="temperature at which the oil's viscosity is taken where none is given",
-        default_text=f"by the heat balance if there is one, else oil temperature and {FILM_ABOVE_OIL:.0f} K",
+    in_gear_oil: bool = described(
+        "Whether the oil of the gears lubricates the bearing; its viscosity then follows the temperature of the film "
+        "in a heat balance.",
+        default=False,
+        kw_only=True,
     )
     oil_flow: float | None = quantity(
         "oil flow to the bearing",
         "Q_B",
         unit="l_per_min",
+        kw_only=True,
         default=None,
         ge=0.01,
         le=1000,
         text="used by the heat balance",
         default_text="what leaks at the sides of the film",
     )
-    stiffness: tuple[Vector2, Vector2] | None = quantity(
+
+    @property
+    def clearance(self) -> float:
+        """Radial clearance, given or assumed [m]."""
+        return 0.75e-3 * self.diameter if self.radial_clearance is None else self.radial_clearance
+
+
+@record
+class LinearBearing(RadialBearing):
+    """A bearing given by its stiffness, a matrix ((xx, xy), (yx, yy)) that is symmetric or not."""
+
+    stiffness: tuple[Vector2, Vector2] = quantity(
         "bearing stiffness",
         "k_B",
         unit="n_per_um",
-        default=None,
         ge=-1e5,
         le=1e5,
         tolerance=1,
         relative_tolerance=0.1,
         text="a number or [[xx, xy], [yx, yy]]",
-        default_text="required of linear bearings",
     )
 
-    def bearing(self, oil: OilSheet | Lubricant | None, oil_temperature: float) -> Bearing:
-        """Return the bearing in the form that the model uses.
 
-        Parameters
-        ----------
-        oil : OilSheet, Lubricant or None
-            Oil of the gears, in which a bearing without a viscosity of its own runs.
-        oil_temperature : float
-            Temperature of the gears' oil [K].
-
-        Returns
-        -------
-        JournalBearing, LinearBearing or RigidBearing
-            The bearing.
-
-        Raises
-        ------
-        InvalidInput
-            `no_oil` if a plain bearing has neither a viscosity nor an oil, `bearing_data` if data of its type are
-            missing.
-        """
-        if self.type == "rigid":
-            return RigidBearing(self.position, self.offset)
-        if self.type == "linear":
-            if self.stiffness is None:
-                raise InvalidInput("bearing_data", "A linear bearing needs its stiffness", "stiffness")
-            return LinearBearing(self.position, self.stiffness, self.offset)
-        if self.diameter is None or self.width is None:
-            missing = "diameter" if self.diameter is None else "width"
-            raise InvalidInput("bearing_data", "A journal bearing needs diameter and width", missing)
-        viscosity = self.viscosity
-        if viscosity is None:
-            if oil is None:
-                message = "a plain bearing needs a viscosity if the gears have no oil; give the viscosity or the oil"
-                raise InvalidInput("no_oil", message, "viscosity")
-            film = oil_temperature + FILM_ABOVE_OIL if self.film_temperature is None else self.film_temperature
-            viscosity = lubricant_at(oil, film).viscosity_at(0.0, film)
-        return JournalBearing(
-            position=self.position,
-            diameter=self.diameter,
-            width=self.width,
-            viscosity=viscosity,
-            radial_clearance=self.radial_clearance,
-            offset=self.offset,
-            in_gear_oil=self.viscosity is None and self.film_temperature is None,
-            oil_flow=self.oil_flow,
-        )
+@record
+class RigidBearing(RadialBearing):
+    """A bearing that does not yield."""
 
 
-def bearings_of(
-    shaft: str, described: tuple[ShaftBearing, ...], oil: OilSheet | Lubricant | None, oil_temperature: float
-) -> tuple[Bearing, ...]:
-    """Return the bearings of a shaft in the form that the model uses.
+Bearing = JournalBearing | LinearBearing | RigidBearing
+
+
+def gear_oil_viscosity(oil: OilSheet | Lubricant, oil_temperature: float, film_temperature: float | None) -> float:
+    """Compute the viscosity of the gears' oil in a plain bearing.
 
     Parameters
     ----------
-    shaft : str
-        Field of the shaft in the inputs, "pinion_shaft" or "wheel_shaft", for error messages.
-    described : tuple of ShaftBearing
-        The bearings as the user describes them.
-    oil : OilSheet, Lubricant or None
+    oil : OilSheet or Lubricant
         Oil of the gears.
     oil_temperature : float
         Temperature of the gears' oil [K].
+    film_temperature : float or None
+        Temperature of the film; None: 15 K above the temperature of the oil [K].
 
     Returns
     -------
-    tuple of JournalBearing, LinearBearing or RigidBearing
-        The bearings in the same order.
-
-    Raises
-    ------
-    InvalidInput
-        The errors of `ShaftBearing.bearing`, with the full name of the field.
+    float
+        Viscosity [Pa s].
     """
-    bearings = []
-    for index, bearing in enumerate(described):
-        try:
-            bearings.append(bearing.bearing(oil, oil_temperature))
-        except InvalidInput as error:
-            raise InvalidInput(error.code, error.message, f"{shaft}.bearings.{index}.{error.field}") from error
-    return tuple(bearings)
+    film = oil_temperature + FILM_ABOVE_OIL if film_temperature is None else film_temperature
+    return lubricant_at(oil, film).viscosity_at(0.0, film)
 
 
 @record

@@ -3,7 +3,8 @@
 from collections.abc import Iterator
 from dataclasses import replace
 
-from solvers import plausibility
+from solvers.contact.notices import high_pressure
+from solvers.coupling.notices import tall_tooth
 from solvers.drive_train.checks import NAMES
 from solvers.drive_train.inputs import DriveTrainInputs, JournalBearing
 from solvers.drive_train.results import (
@@ -13,7 +14,10 @@ from solvers.drive_train.results import (
     ShaftResult,
     TrainLosses,
 )
+from solvers.gears.notices import tooth_load, tooth_temperature, unusual_gears
+from solvers.lubricants import hot_oil, oil_temperature, thick_oil
 from solvers.notices import Notice
+from solvers.pumping.notices import thin_air
 from solvers.scuffing.notices import unusual_modifications, unusual_temperatures
 
 SHORT_BEARING = 0.7  # width over diameter
@@ -105,21 +109,21 @@ def coupling_notices(
 def unusual_values(inputs: DriveTrainInputs, result: DriveTrainResult) -> Iterator[Notice]:
     """Tell of unusual values of oils, temperatures, ambient, couplings, gears, modifications and load."""
     derived, mesh, load = result.derived, inputs.mesh.distribution, result.load
-    yield from plausibility.thick_oil(derived.lubricant.viscosity if derived.lubricant else None)
+    yield from thick_oil(derived.lubricant.viscosity if derived.lubricant else None)
     for name, shaft in zip(NAMES, (derived.pinion_shaft, derived.wheel_shaft), strict=True):
         for k, bearing in enumerate(shaft.bearings):
-            yield from plausibility.thick_oil(bearing.viscosity, f"{name}.bearings.{k}.viscosity")
+            yield from thick_oil(bearing.viscosity, f"{name}.bearings.{k}.viscosity")
     if inputs.mesh.known_oil is not None:
         yield from unusual_temperatures(inputs.mesh.temperatures)
-        yield from plausibility.hot_oil(inputs.mesh.temperatures.oil, derived.temperatures.bulk)
-    yield from plausibility.tooth_temperature(inputs.heat.pinion_bulk, "heat.pinion_bulk")
-    yield from plausibility.tooth_temperature(inputs.heat.wheel_bulk, "heat.wheel_bulk")
-    yield from plausibility.thin_air(inputs.pumping.ambient.pressure)
+        yield from hot_oil(inputs.mesh.temperatures.oil, derived.temperatures.bulk)
+    yield from tooth_temperature(inputs.heat.pinion_bulk, "heat.pinion_bulk")
+    yield from tooth_temperature(inputs.heat.wheel_bulk, "heat.wheel_bulk")
+    yield from thin_air(inputs.pumping.ambient.pressure)
     for k, each in enumerate(inputs.couplings):
-        yield from plausibility.tall_tooth(each.coupling.tooth_height, each.coupling.module, f"couplings.{k}.coupling")
+        yield from tall_tooth(each.coupling.tooth_height, each.coupling.module, f"couplings.{k}.coupling")
         if each.lubricant.temperature is not None:
-            yield from plausibility.oil_temperature(each.lubricant.temperature, f"couplings.{k}.lubricant.temperature")
-    yield from plausibility.gears(mesh.gears, mesh.load.pinion_speed)
+            yield from oil_temperature(each.lubricant.temperature, f"couplings.{k}.lubricant.temperature")
+    yield from unusual_gears(mesh.gears, mesh.load.pinion_speed)
     yield from unusual_modifications(mesh.modifications)
-    yield from plausibility.high_pressure(load.max_pressure)
-    yield from plausibility.tooth_load(mesh.gears, mesh.load.torque, load.max_line_load)
+    yield from high_pressure(load.max_pressure)
+    yield from tooth_load(mesh.gears, mesh.load.torque, load.max_line_load)

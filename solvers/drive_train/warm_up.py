@@ -6,7 +6,7 @@ from math import cos
 
 import numpy as np
 
-from solvers import heat_balance, plausibility
+from solvers import heat_balance
 from solvers.arrays import ROUNDING, FloatArray, frozen
 from solvers.drive_train.derived import Derived, derived
 from solvers.drive_train.inputs import DriveTrainInputs, JournalBearing, Shaft, torsion_diameter
@@ -19,6 +19,7 @@ from solvers.gears.pair import GearPair
 from solvers.heat_balance import Capacities, Heat, WarmUp, cylinders_capacity, loaded_teeth_capacity
 from solvers.heat_balance.capacities import STEEL_HEAT
 from solvers.heat_balance.network import BODIES, FLANKS, MIST, Network
+from solvers.lubricants import oil_temperature
 from solvers.materials import Solid
 from solvers.notices import Notice
 from solvers.pumping.space.tooth_space import normal_backlash
@@ -156,7 +157,7 @@ def solve(inputs: WarmUpInputs) -> UnitWarmUp:
 
 def unusual_values(inputs: WarmUpInputs, _: UnitWarmUp) -> Iterator[Notice]:
     """Tell of an unusual temperature of the oil."""
-    yield from plausibility.oil_temperature(inputs.unit.mesh.temperatures.oil)
+    yield from oil_temperature(inputs.unit.mesh.temperatures.oil)
 
 
 def _derived(warm: WarmUnit) -> Derived:

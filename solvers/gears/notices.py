@@ -1,10 +1,21 @@
-"""Warnings about a gear pair that meshes; they are the same in every model."""
+"""Warnings about a gear pair that meshes and about its load; they are the same in every model."""
+
+from collections.abc import Iterator
+from math import cos
 
 from solvers.gears.gear import Gear, rack_tip_radius
+from solvers.gears.inputs import GearPairInputs
 from solvers.gears.pair import PathOfContact
-from solvers.notices import Notice
+from solvers.lubricants import hotter_than_gears
+from solvers.notices import Notice, unusual_value
 
 THIN_TIP = 0.2  # normal modules
+# Chosen limits of unusual values.
+WIDEST_FACE = 3.0  # pitch diameters of the pinion
+NARROWEST_FACE = 0.5  # modules
+FASTEST = 250.0  # m/s at the pitch line
+HIGHEST_ROOT_LOAD = 400e6  # Pa, F_t/(b m_n); the stress in the root is four times it, beyond steel's strength
+LEAST_LOAD = 1e3  # N/m
 
 
 def pair_notices(path: PathOfContact) -> list[Notice]:
@@ -47,3 +58,41 @@ def _tooth_notices(gear: Gear, module: float, name: str) -> list[Notice]:
         )
         notices.append(Notice("thin_tip", message, f"{name}.addendum"))
     return notices
+
+
+def unusual_gears(pair: GearPairInputs, pinion_speed: float | None = None) -> Iterator[Notice]:
+    """Warn of an unusual face width, and of an unusual pitch-line velocity at this speed of the pinion [rad/s]."""
+    diameter, width = pitch_diameter(pair), pair.face_width
+    if width > WIDEST_FACE * diameter:
+        message = f"{width * 1e3:g} mm is beyond {WIDEST_FACE:g} pitch diameters of the pinion; was cm meant?"
+        yield unusual_value("gears.face_width", message)
+    if width < NARROWEST_FACE * pair.module:
+        yield unusual_value("gears.face_width", f"{width * 1e3:g} mm is below half a module; were cm or inches meant?")
+    if pinion_speed is not None and (velocity := pinion_speed * diameter / 2) > FASTEST:
+        message = f"the pitch-line velocity is {velocity:.4g} m/s, beyond {FASTEST:g}"
+        message += "; is it the speed of another shaft?"
+        yield unusual_value("pinion_speed", message)
+
+
+def tooth_load(pair: GearPairInputs, torque: float, line_load: float) -> Iterator[Notice]:
+    """Warn of a torque of the pinion [N m] or a largest line load [N/m] that is unusual for the teeth."""
+    root = 2 * torque / pitch_diameter(pair) / (pair.face_width * pair.module)
+    if root > HIGHEST_ROOT_LOAD:
+        message = f"the tooth force of {root / 1e6:.4g} N per mm of face and module breaks a tooth of steel"
+        message += "; were W or N mm meant?"
+        yield unusual_value("pinion_torque", message)
+    if 0.0 < line_load < LEAST_LOAD:
+        message = f"the line load is {line_load / 1e3:.3g} N/mm at most; were kW or kN m meant?"
+        yield unusual_value("pinion_torque", message)
+
+
+def tooth_temperature(temperature: float | None, field: str = "temperatures.bulk") -> Iterator[Notice]:
+    """Warn of a temperature [K] of the teeth that is too high for gears in service."""
+    if temperature is not None:
+        yield from hotter_than_gears(temperature, field)
+
+
+def pitch_diameter(pair: GearPairInputs) -> float:
+    """Return the reference diameter of the pinion [m]."""
+    transverse = 1.0 if pair.module_plane == "transverse" else cos(pair.helix_angle)
+    return pair.module / transverse * pair.pinion.teeth

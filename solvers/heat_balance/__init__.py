@@ -5,6 +5,7 @@ solution (equilibrium), calibration (by measured temperatures), band -> results,
 `warm_up` follows the network over time with its capacities. Own derivation; sources are given with the equations.
 """
 
+from solvers.guards import guarded
 from solvers.heat_balance import model
 from solvers.heat_balance.bearings import Journal, Operation, journal_leakage
 from solvers.heat_balance.capacities import Capacities, cylinders_capacity, loaded_teeth_capacity
@@ -25,7 +26,6 @@ from solvers.heat_balance.model import (
 from solvers.heat_balance.oil import CoolingOil, cooling_oil
 from solvers.heat_balance.results import Heat
 from solvers.heat_balance.warm_up import WarmUp, warm_up
-from solvers.plausibility import guarded
 
 solve = guarded(model.solve, unusual_values)
 

@@ -8,8 +8,7 @@ from solvers.heat_balance.inputs import Cooling
 from solvers.heat_balance.network import MIST, Network
 from solvers.heat_balance.oil import CoolingOil
 from solvers.heat_balance.results import Heat
-from solvers.notices import Notice
-from solvers.plausibility import unusual_value
+from solvers.notices import Notice, unusual_value
 
 SLOW = 40.0  # m/s; below this speed the flanks are not wetted by the jets alone
 TURBULENT = 41.0  # times sqrt(R/c): Reynolds number at which vortices begin in a plain bearing (Taylor)

@@ -6,7 +6,7 @@ duct, record) -> one of gas, chain and incompressible -> resolution, lead_correc
 `choking` and `speed_scan` build on it.
 """
 
-from solvers.plausibility import guarded
+from solvers.guards import guarded
 from solvers.pumping import choking, model
 from solvers.pumping.inputs import (
     Ambient,

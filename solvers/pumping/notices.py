@@ -3,10 +3,9 @@
 from collections.abc import Iterator, Sequence
 from math import degrees, expm1, inf, pi
 
-from solvers import plausibility
-from solvers.gears.notices import pair_notices
+from solvers.gears.notices import pair_notices, unusual_gears
 from solvers.gears.pair import GearPair, PathOfContact
-from solvers.notices import Notice
+from solvers.notices import Notice, unusual_value
 from solvers.pumping.flow.nozzle import Gas
 from solvers.pumping.inputs import ChokingInputs, Flow, PumpingInputs, PumpingSetup
 from solvers.pumping.results import MassFlow, Resolution
@@ -21,6 +20,7 @@ RESOLVED = 0.06  # largest relative uncertainty of a result without a warning
 NET_UNCERTAINTY = 0.3  # largest uncertainty of a net flow without a warning, relative to the net flow
 NEGLIGIBLE = 1e-3  # of the gross flow; a smaller uncertainty of the net flow is not worth a warning
 LEAST_GAUGE_PRESSURE = 1e-6  # of the ambient pressure
+THIN_AIR = 20e3  # Pa, chosen; nearly a vacuum
 
 
 def setup_notices(setup: PumpingSetup, path: PathOfContact, active_slices: float) -> list[Notice]:
@@ -134,6 +134,12 @@ def speed_notices(pair: GearPair, gas: Gas, pinion_speed: float) -> list[Notice]
 
 def unusual_values(inputs: PumpingInputs | ChokingInputs, _result: object) -> Iterator[Notice]:
     """Yield the warnings about unusual values of the ambient, the gears and the speed."""
-    yield from plausibility.thin_air(inputs.setup.ambient.pressure)
+    yield from thin_air(inputs.setup.ambient.pressure)
     speed = inputs.pinion_speed if isinstance(inputs, PumpingInputs) else None
-    yield from plausibility.gears(inputs.setup.gears, speed)
+    yield from unusual_gears(inputs.setup.gears, speed)
+
+
+def thin_air(pressure: float) -> Iterator[Notice]:
+    """Warn of an ambient pressure [Pa] that is nearly a vacuum."""
+    if pressure < THIN_AIR:
+        yield unusual_value("ambient.pressure", f"{pressure / 1e3:g} kPa is nearly a vacuum; was bar meant?")

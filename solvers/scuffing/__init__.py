@@ -8,9 +8,11 @@ Source: Xue, Zhang, Wang, "The Load Distribution with Modification and Misalignm
 Lubrication Simulation of Helical Gears", Global J. of Researches in Engineering A 20(1), 2020 ("the paper").
 """
 
+from solvers.former_oils import OilChoice
 from solvers.gears.inputs import GearPairInputs, GearTeeth
-from solvers.oils import OilChoice
-from solvers.plausibility import guarded
+from solvers.guards import guarded
+from solvers.lubricants import Lubricant
+from solvers.oils import OilSheet, iso_vg
 from solvers.scuffing import model, safety
 from solvers.scuffing.inputs import (
     LeadCurve,
@@ -37,14 +39,17 @@ __all__ = [
     "Load",
     "LoadDistribution",
     "LoadDistributionInputs",
+    "Lubricant",
     "Model",
     "Modifications",
     "OilChoice",
+    "OilSheet",
     "Resolution",
     "Scuffing",
     "ScuffingInputs",
     "ScuffingTest",
     "Temperatures",
+    "iso_vg",
     "solve_load_distribution",
     "solve_scuffing",
 ]

@@ -5,11 +5,12 @@ from math import degrees
 
 import numpy as np
 
-from solvers import plausibility
+from solvers.contact.notices import high_pressure
 from solvers.gears.inputs import GearPairInputs
-from solvers.gears.notices import pair_notices
+from solvers.gears.notices import pair_notices, tooth_load, tooth_temperature, unusual_gears
 from solvers.gears.pair import PathOfContact
-from solvers.notices import Notice
+from solvers.lubricants import hot_oil, oil_temperature, thick_oil
+from solvers.notices import Notice, unusual_value
 from solvers.quantity import quantities
 from solvers.scuffing.contact_lines import ContactLengths
 from solvers.scuffing.contact_slices import reaches_base_circle
@@ -22,6 +23,7 @@ LEAST_TEETH = 8  # chosen: gears of fewer teeth are not in use
 PRESSURE_ANGLES = (14.5, 30.0)  # degrees
 LARGEST_HELIX = 45.0  # degrees
 TRANSVERSE_HELIX = 15.0  # degrees
+LEAST_MODIFICATION = 0.5e-6  # m, chosen; less cannot be ground
 LEAST_LENGTH_RATIO = 0.2  # chosen: below it the total length of the lines nearly vanishes once per base pitch
 
 
@@ -140,10 +142,10 @@ def load_notices(balance: LoadBalance) -> list[Notice]:
 
 def unusual_load_values(inputs: LoadDistributionInputs, result: LoadDistribution) -> Iterator[Notice]:
     """Warn of unusual values of gears, modifications and load."""
-    yield from plausibility.gears(inputs.gears, inputs.load.pinion_speed)
+    yield from unusual_gears(inputs.gears, inputs.load.pinion_speed)
     yield from unusual_modifications(inputs.modifications)
-    yield from plausibility.high_pressure(result.pressure.max)
-    yield from plausibility.tooth_load(inputs.gears, inputs.load.torque, result.load.max_line_load)
+    yield from high_pressure(result.pressure.max)
+    yield from tooth_load(inputs.gears, inputs.load.torque, result.load.max_line_load)
 
 
 def unusual_modifications(modifications: Modifications) -> Iterator[Notice]:
@@ -153,21 +155,28 @@ def unusual_modifications(modifications: Modifications) -> Iterator[Notice]:
         for name, declared in quantities(Modifications).items()
         if declared.unit == "um"
     }
-    return plausibility.modifications(depths, modifications.lead_curve.gap)
+    for name, value in depths.items():
+        if 0.0 < abs(value) < LEAST_MODIFICATION:
+            message = f"{value * 1e6:g} µm is less than can be ground; was mm meant?"
+            yield unusual_value(f"modifications.{name}", message)
+    highest = max(map(abs, modifications.lead_curve.gap), default=0.0)
+    if 0.0 < highest < LEAST_MODIFICATION:
+        message = f"{highest * 1e6:g} µm is less than can be ground; was mm meant?"
+        yield unusual_value("modifications.lead_curve.gap", message)
 
 
 def unusual_temperatures(temperatures: Temperatures) -> Iterator[Notice]:
     """Warn of temperatures of the oil, and of given temperatures of the teeth, that gears in service do not have."""
-    yield from plausibility.oil_temperature(temperatures.oil)
+    yield from oil_temperature(temperatures.oil)
     if temperatures.bulk_method == "given":
-        yield from plausibility.tooth_temperature(temperatures.bulk)
+        yield from tooth_temperature(temperatures.bulk)
 
 
 def unusual_scuffing_values(inputs: ScuffingInputs, result: Scuffing) -> Iterator[Notice]:
     """Warn of unusual values of oil, temperatures, gears, modifications and load."""
     oil, hottest = result.derived.oil, result.contact_temperature
-    yield from plausibility.thick_oil(oil.viscosity if oil else None)
+    yield from thick_oil(oil.viscosity if oil else None)
     if inputs.known_oil is not None:
         yield from unusual_temperatures(inputs.temperatures)
-        yield from plausibility.hot_oil(inputs.temperatures.oil, hottest.bulk if hottest else None)
+        yield from hot_oil(inputs.temperatures.oil, hottest.bulk if hottest else None)
     yield from unusual_load_values(inputs.distribution, result.distribution)

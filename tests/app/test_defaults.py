@@ -15,7 +15,6 @@ from app.figures.units import shown
 from app.pages.results import cards
 from app.schema.fields import leaves
 from app.schema.scuffing import ScuffingRequest
-from solvers.oils import OilChoice
 from tests.support.requests import CONTACT, COUPLING, GONE, refused, solved
 
 COUPLED, SCUFFING, TRAIN = "/v1/coupling", "/v1/scuffing", "/v1/drive-train"
@@ -350,6 +349,8 @@ def test_examples_of_the_paper_assume_nothing_of_oil_bulk_and_friction(name: str
 
 LEFT_OPEN = {
     ("Load", "pinion_torque"): "torque or power",
+    ("Lubricant", "viscosity"): "without one, a grade or a data sheet no oil is known",
+    ("Lubricant", "temperature"): "of a coupling's oil, told where a grade or a data sheet names it",
     ("LoadDistributionInputs", "friction_coefficient"): "scuffing takes the law of friction instead",
 }
 """Inputs of the solvers whose default the service cannot have, and why."""
@@ -361,7 +362,7 @@ def test_inputs_of_the_solvers_have_the_defaults_of_the_service_or_none(calculat
     for leaf in leaves(calculation.request):
         record, name = getattr(leaf.declared, "origin", None) or (None, "")
         own = {each.name: each.default for each in fields(record)}.get(name, MISSING) if record else MISSING
-        if own is MISSING or (record is OilChoice and own is None) or (record.__name__, name) in LEFT_OPEN:
+        if own is MISSING or (record.__name__, name) in LEFT_OPEN:
             continue
         default = list(leaf.default) if isinstance(leaf.default, list | tuple) else leaf.default
         shown = leaf.declared.from_si(own) if isinstance(own, float) else own

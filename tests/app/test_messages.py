@@ -7,7 +7,7 @@ import pytest
 
 from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearTeeth
-from solvers.plausibility import checked
+from solvers.guards import checked
 from tests.support.gear_pairs import FZG_A
 from tests.support.requests import COUPLING, GONE, PAIR, all_faults, refused
 

@@ -30,10 +30,10 @@ from app.schema.reading import validated
 from app.settings import settings
 from app.studies.points import Question, solve_point
 from solvers.arrays import FloatArray
-from solvers.coupling.inputs import Coupling, CouplingDesign
+from solvers.coupling.inputs import Coupling
 from solvers.errors import InvalidInput
+from solvers.guards import checked
 from solvers.notices import Notice
-from solvers.plausibility import checked
 from solvers.quantity import quantities, quantity, record
 
 
@@ -320,10 +320,22 @@ def test_a_section_names_declared_fields_only() -> None:
             views: ClassVar = {"colour": View(headline=1)}
 
 
+def test_one_model_stands_for_a_dataclass_whatever_the_order() -> None:
+    with pytest.raises(TypeError, match="InnerGroup and Twin both stand for Inner"):
+
+        class Twin(Group, of=Inner):
+            """Another width."""
+
+    class Other(Group, of=Inner, stands=False):
+        """A width that no other dataclass holds."""
+
+    assert list(Other.model_fields) == ["width_mm"]
+
+
 def test_defaults_are_written_in_the_shown_unit_and_held_in_si() -> None:
     assert Spring(1.0).stiffness == 2e6
     assert quantities(Spring)["stiffness"].default == 2.0
-    assert CouplingDesign(teeth=52, module=3e-3).hub_distance == 0.2
+    assert Coupling(teeth=52, module=3e-3).hub_distance == 0.2
 
 
 def test_inputs_built_in_python_are_checked_where_the_user_asks_for_it() -> None:
@@ -336,11 +348,10 @@ def test_inputs_built_in_python_are_checked_where_the_user_asks_for_it() -> None
     with pytest.raises(InvalidInput):
         checked(replace(spring, force=float("nan")))
     with pytest.raises(InvalidInput) as refused:
-        checked(CouplingDesign(teeth=52, module=3e-3, pitch_errors=(0.0, 1.0)))
+        checked(Coupling(teeth=52, module=3e-3, pitch_errors=(0.0, 1.0)))
     assert refused.value.field == "pitch_errors.1"
 
 
 def test_a_coupling_s_proportions_follow_the_module() -> None:
-    coupling = CouplingDesign(teeth=52, module=3e-3, tooth_height=5e-3).coupling()
-    assert isinstance(coupling, Coupling)
+    coupling = Coupling(teeth=52, module=3e-3, tooth_height=5e-3)
     assert (coupling.face_width, coupling.tooth_height) == (0.024, 0.005)

@@ -11,9 +11,9 @@ import pytest
 from app.calculations import BY_PATH
 from app.examples import examples
 from app.schema.fields import headlines
-from app.studies.design import Design
+from app.studies.kinds.corners import Corners
+from app.studies.kinds.design import Design
 from app.studies.requests import EXAMPLES
-from app.studies.sweep import Corners
 from tests.support.requests import Post, changed, refusals, value_at
 
 COUPLING = examples()["pahl-heavily-crowned"]

@@ -21,18 +21,20 @@ from app.figures.data import Axis, values
 from app.figures.drawing.image import draw, places
 from app.figures.studies import MOST_CURVES, Coordinate, Grid, figures_of
 from app.pages.cases import Asked
-from app.pages.query import STUDY_NAMES, VIEW_NAMES, WRITTEN, body_of
+from app.pages.query import VIEW_NAMES, WRITTEN, body_of
 from app.pages.studies import page as pages
-from app.pages.studies.design import DesignPage
+from app.pages.studies.controls import field_choices
 from app.pages.studies.page import output_choices
-from app.pages.studies.spectrum import SpectrumPage
-from app.pages.studies.sweep import SweepPage, field_choices
+from app.pages.study_kinds import control_names
 from app.pages.study_links import STUDIES, StudyExample
 from app.schema.fields import leaf_at, leaves
 from app.sources import SHORT_SOURCES
-from app.studies.engine import Line, point_line
+from app.studies.kinds.design import DesignPage
+from app.studies.kinds.spectrum import SpectrumPage
+from app.studies.kinds.sweep import SweepPage
 from app.studies.point_sets import PointSet
 from app.studies.points import Question, solve_point
+from app.studies.runner import Line, point_line
 from tests.support import pages as support
 from tests.support.pages import DEADLINE_S, MOST, asked, asked_by, fault_at, html_of, opened, whole
 
@@ -75,7 +77,7 @@ def study_of(example: StudyExample) -> Asked:
 
 def test_what_a_study_says_is_no_field_of_a_request() -> None:
     for calculation in CALCULATIONS:
-        assert not VIEW_NAMES & {leaf.path for leaf in leaves(calculation.request)}
+        assert not (VIEW_NAMES | control_names()) & {leaf.path for leaf in leaves(calculation.request)}
 
 
 @pytest.mark.parametrize("example", STUDIES, ids=lambda each: each.title)
@@ -382,9 +384,9 @@ def test_the_names_of_a_study_are_those_of_its_form() -> None:
     studies = ((SweepPage, varied_one), (DesignPage, unit), (SpectrumPage, scattering))
     pattern = r'<(?:input|select|textarea)\b[^>]*?\bname="([^"]+)"'
     found = [set(re.findall(pattern, opened(page, case))) for page, case in studies]
-    assert set.union(*found) >= STUDY_NAMES
+    assert set.union(*found) >= control_names()
     for names, case in zip(found, (varied_one, unit, scattering), strict=True):
-        assert names - STUDY_NAMES == {WRITTEN, *dict(case.pairs)}
+        assert names - control_names() == {WRITTEN, *dict(case.pairs)}
 
 
 def test_a_curve_is_shaded_where_it_is_invalid_and_ringed_where_it_is_doubtful() -> None:

@@ -1,5 +1,7 @@
 """What of the manual the code makes: tables, pictures, anchors. `python -m tests.manual.test_generated` renews them.
 
+The chapter on inputs and outputs is made whole, by `tests.manual.fields`; `docs/fields.md` leads to it.
+
 In a chapter a table stands between `<!-- generated: NAME -->` and `<!-- end -->`. Pictures are named after an example
 and one of its figures, or after a study; they are for readers of the repository, the service draws its own. Before
 each numbered equation stands an anchor for them; the service's equations are anchors themselves.
@@ -20,15 +22,17 @@ from app.manual import NAMES, chapters
 from app.manual.equations import anchor
 from app.pages.cases import Asked
 from app.pages.manual import shown_studies
-from app.pages.studies import PAGES
 from app.pages.studies.page import checked, file
+from app.pages.study_kinds import study_page
 from app.settings import Settings
-from app.studies.engine import Clock, Line
+from app.studies.runner import Clock, Line
 from solvers.published import STATEMENTS, Row
+from tests.manual import fields
 from tests.manual.pictures import figures_of, studies_of
 from tests.support.pools import InlinePool
 
 FOLDER = Path(__file__).parents[2] / "app" / "manual"
+FIELDS_FILE = FOLDER / "fields.md"
 BLOCK = re.compile(r"<!-- generated: ([\w -]+) -->\n(.*?)<!-- end -->", re.DOTALL)
 NUMBERED = re.compile(
     r"(?:^<a id=\"eq-[\w.-]+\"></a>\n\n)?(^\$\$\n(?:(?!\$\$).)*?\\tag\{([^}]+)\}\n\$\$)", re.MULTILINE | re.DOTALL
@@ -144,9 +148,8 @@ def _renewed(block: re.Match[str]) -> str:
 def study_figure(name: str) -> bytes:
     """The picture of a study."""
     shown = shown_studies()[name]
-    page = next(each for link, each in PAGES.items() if link.name == shown.page)
     asked = Asked(shown.path, shown.pairs, {**shown.controls, "theme": "light"})
-    study = checked(page, asked, STUDY_POINTS, DEADLINE_S)
+    study = checked(study_page(shown.page), asked, STUDY_POINTS, DEADLINE_S)
 
     async def lines() -> list[Line]:
         clock = Clock(study.study.total)
@@ -183,7 +186,18 @@ def renew_figures() -> None:
         (folder / f"{name}.{shown}.png").write_bytes(draw_figure(calculation, declaration, request, "png", "light"))
 
 
+def fields_chapter() -> str:
+    """The chapter "Inputs and outputs"."""
+    return fields.chapter(table)
+
+
+def test_the_table_of_fields_is_as_the_code_makes_it() -> None:
+    assert FIELDS_FILE.read_text("utf-8") == fields_chapter(), "renew it by python -m tests.manual.test_generated"
+
+
 if __name__ == "__main__":
+    FIELDS_FILE.write_text(fields_chapter(), "utf-8")
+    chapters.cache_clear()
     renew_chapters()
     renew_figures()
     renew_studies()

@@ -10,7 +10,16 @@ from solvers.gears.inputs import GROUND_FILLET, GearPairInputs, GearTeeth
 from solvers.gears.pair import meshing_path
 from solvers.lubricants import Lubricant, OilKind
 from solvers.materials import Solid
-from solvers.oils import GRADES, KINDS, OilBySheet, OilSheet, iso_vg, lubricant_at, viscosity_index, viscosity_of_index
+from solvers.oils import (
+    GRADES,
+    KINDS,
+    OilSheet,
+    iso_vg,
+    lubricant_at,
+    sheet_of_index,
+    viscosity_index,
+    viscosity_of_index,
+)
 from solvers.scuffing.inputs import Load, LoadDistributionInputs, OilSupply, angular_speed
 from solvers.scuffing.model import solve as solve_load_distribution
 from solvers.scuffing.thermal import practice
@@ -64,9 +73,7 @@ def test_an_oil_of_an_index_has_that_index(thick: float, index: float) -> None:
 
 def test_a_viscosity_at_40_degrees_alone_has_the_index_of_its_kind() -> None:
     for kind, index in (("mineral", 95.0), ("pao", 150.0), ("ester", 150.0), ("polyglycol", 210.0)):
-        sheet = OilBySheet(kinematic_viscosity_40=100e-6, kind=kind).sheet()
-        assert sheet is not None
-        assert sheet.viscosity_index == pytest.approx(index, abs=1e-6)
+        assert sheet_of_index(100e-6, kind=kind).viscosity_index == pytest.approx(index, abs=1e-6)
 
 
 def test_walther_is_a_straight_line_in_its_coordinates() -> None:

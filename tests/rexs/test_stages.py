@@ -13,7 +13,7 @@ from app.calculations import BY_PATH
 from app.evaluate import evaluate
 from app.rexs.document import read
 from app.rexs.unit import gear_unit
-from app.studies.spectrum import Spectrum
+from app.studies.kinds.spectrum import Spectrum
 from tests.rexs.units import Unit, Value, three_stages, turbo_unit
 
 MOST_BYTES = 20_000_000

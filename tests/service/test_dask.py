@@ -14,9 +14,9 @@ import httpx
 import pytest
 
 from app.examples import examples
+from app.studies.kinds.spectrum import Spectrum
+from app.studies.kinds.sweep import Sweep
 from app.studies.requests import EXAMPLES
-from app.studies.spectrum import Spectrum
-from app.studies.sweep import Sweep
 from solvers.digest import digest_of
 from tests.support.dask_cluster import DaskProcesses, running_cluster
 from tests.support.server import ROOT, Server, free_port, running_server

@@ -8,7 +8,7 @@ from playwright.sync_api import Page
 from app.calculations import CALCULATIONS, Calculation
 from app.examples import examples
 from app.manual import NAMES
-from app.pages.study_links import DESIGN, studies_of, study_links
+from app.pages.study_links import studies_of, study_links
 from app.pages.templating import example_link, examples_of, page_path
 from tests.rexs.units import three_stages, turbo_unit
 from tests.support.browsing import DESK, PHONE, address_of, overflow, violations
@@ -36,7 +36,7 @@ def pages_of(calculation: Calculation) -> dict[str, str]:
     for study_link in study_links(calculation):
         found[study_link.label] = f"{path}/{study_link.name}"
         found[f"{study_link.label} of a case"] = (
-            f"{path}/{study_link.name}?{query}{'&trials=3' * (study_link is DESIGN)}"
+            f"{path}/{study_link.name}?{query}{'&trials=3' * (study_link.name == 'design')}"
         )
     return found
 

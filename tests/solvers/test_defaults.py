@@ -6,7 +6,7 @@ import pytest
 
 from solvers import scuffing
 from solvers.contact.ehl import Contact, LineContactInputs
-from solvers.oils import OilChoice
+from solvers.oils import iso_vg
 from tests.support.outcomes import refused
 
 PAIR = scuffing.GearPairInputs(
@@ -29,14 +29,14 @@ def test_no_oil_is_assumed() -> None:
 
 
 def test_friction_and_bulk_temperature_follow_from_the_oil() -> None:
-    result = check(oil=OilChoice(iso_vg=220).resolve())
+    result = check(oil=iso_vg(220))
     assert result.flash.friction_coefficient != LOADED.friction_coefficient
     assert result.contact_temperature
     assert result.contact_temperature.bulk > scuffing.Temperatures().oil
 
 
 def test_a_bulk_temperature_is_not_given_and_estimated() -> None:
-    oil, both = OilChoice(iso_vg=220).resolve(), scuffing.Temperatures(bulk=353.15)
+    oil, both = iso_vg(220), scuffing.Temperatures(bulk=353.15)
     assert refused(lambda: check(oil=oil, temperatures=both))[0] == "exclusive"
     given = check(oil=oil, temperatures=scuffing.Temperatures(bulk=353.15, bulk_method="given"))
     assert given.contact_temperature

@@ -3,16 +3,13 @@
 A constant with a dimension that hides in an equation, and a tolerance in metres that decides something, would show.
 """
 
-from dataclasses import replace
-from typing import Any
-
 import numpy as np
 from hypothesis import strategies as st
 from numpy.random import Generator
 
 from solvers.coupling.model import solve as solve_coupling
 from solvers.coupling.orbit import solve_orbit
-from solvers.drive_train.inputs import Bearing, DriveTrainInputs, JournalBearing, LinearBearing
+from solvers.drive_train.inputs import DriveTrainInputs
 from solvers.drive_train.states import solve as solve_drive_train
 from solvers.pumping import PumpingInputs, PumpingModel
 from solvers.pumping.model import solve as solve_pumping
@@ -20,7 +17,7 @@ from solvers.scuffing.model import solve as solve_load_distribution
 from tests.support.answers import differences
 from tests.support.changes import changed
 from tests.support.couplings import random_inputs
-from tests.support.dimensions import Units, factor, in_other_units, rescaled
+from tests.support.dimensions import Units, in_other_units, rescaled
 from tests.support.flanks import draw_flank
 from tests.support.properties import examples, seeds
 from tests.support.pumping_cases import random_setup, random_speed
@@ -85,21 +82,8 @@ def test_load_distribution(random: Generator) -> None:
 
 
 def unit_in_other_units(inputs: DriveTrainInputs, units: Units) -> DriveTrainInputs:
-    """A gear unit, with its bearings, whose numbers carry no units, and with gravity, which is a factor."""
-    length, viscosity, stiffness = (factor(units, unit) for unit in ("mm", "pa_s", "n_per_um"))
-
-    def bearing(one: Bearing) -> Bearing:
-        x, y = one.offset
-        known: dict[str, Any] = {"position": length * one.position, "offset": (length * x, length * y)}
-        if isinstance(one, JournalBearing):
-            known |= {name: length * getattr(one, name) for name in ("diameter", "width", "radial_clearance")}
-            known["viscosity"] = viscosity * one.viscosity
-        elif isinstance(one, LinearBearing):
-            known["stiffness"] = tuple(tuple(stiffness * value for value in row) for row in one.stiffness)
-        return replace(one, **known)
-
-    shafts = [replace(shaft, bearings=tuple(bearing(one) for one in shaft.bearings)) for shaft in inputs.shafts]
-    converted = in_other_units(replace(inputs, pinion_shaft=shafts[0], wheel_shaft=shafts[1]), units)
+    """A gear unit in other units, with gravity, which is a factor."""
+    converted = in_other_units(inputs, units)
     gravity = inputs.arrangement.gravity_factor * units.length / units.time**2
     return changed(converted, {"arrangement.gravity_factor": gravity})
 

@@ -10,9 +10,9 @@ import pytest
 
 from app.calculations import BY_PATH
 from app.examples import examples
-from solvers.coupling.inputs import CouplingDesign
+from solvers.coupling.inputs import Coupling
 from solvers.errors import InvalidInput
-from solvers.plausibility import checked
+from solvers.guards import checked
 from solvers.quantity import quantity, record, to_dict
 
 NAMES = (
@@ -93,6 +93,6 @@ def compared(shown: Any, answer: Any) -> int:
 
 def test_millimetres_given_as_metres_are_refused_by_name() -> None:
     with pytest.raises(InvalidInput, match=r"module is 3000 mm; permissible 0\.1 to 100 mm"):
-        checked(CouplingDesign(teeth=52, module=3.0))
+        checked(Coupling(teeth=52, module=3.0))
     with pytest.raises(InvalidInput, match="pressure_angle is 1145"):
-        checked(CouplingDesign(teeth=52, module=3e-3, pressure_angle=20.0))
+        checked(Coupling(teeth=52, module=3e-3, pressure_angle=20.0))

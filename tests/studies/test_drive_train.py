@@ -9,12 +9,13 @@ import pytest
 from app.calculations import BY_PATH
 from app.evaluate import evaluate
 from app.examples import examples
-from app.studies.design import Design, next_place
-from app.studies.engine import Pool
 from app.studies.fields import value_at
+from app.studies.kinds.corners import Corners
+from app.studies.kinds.design import Design, next_place
+from app.studies.kinds.sweep import Sweep
 from app.studies.points import reduced_request, with_overrides
 from app.studies.requests import DRIVE_TRAIN
-from app.studies.sweep import Corners, Sweep
+from app.studies.runner import Pool
 from solvers.arrays import FloatArray
 from solvers.errors import NoSolution
 from tests.support import studies

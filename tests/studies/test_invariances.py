@@ -5,9 +5,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from app.studies.sensitivity import Sensitivity
-from app.studies.spectrum import Spectrum
-from app.studies.sweep import Sweep
+from app.studies.kinds.sensitivity import Sensitivity
+from app.studies.kinds.spectrum import Spectrum
+from app.studies.kinds.sweep import Sweep
 from tests.support.pools import InlinePool
 from tests.support.properties import seeds
 from tests.support.studies import lines_of, study_of, timeless

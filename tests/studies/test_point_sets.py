@@ -10,9 +10,9 @@ import pytest
 from app.calculations import CALCULATIONS, Calculation
 from app.examples import examples
 from app.schema.fields import leaves
-from app.studies.sensitivity import Sensitivity
-from app.studies.spectrum import Spectrum
-from app.studies.sweep import Sweep
+from app.studies.kinds.sensitivity import Sensitivity
+from app.studies.kinds.spectrum import Spectrum
+from app.studies.kinds.sweep import Sweep
 from tests.support.requests import changed
 from tests.support.studies import fault_of, study_of
 

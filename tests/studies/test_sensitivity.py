@@ -9,8 +9,8 @@ from app.calculations import BY_PATH, CALCULATIONS, Calculation
 from app.examples import examples
 from app.schema.fields import Leaf, leaf_at, leaves
 from app.studies.fields import fault
-from app.studies.sensitivity import Perturbation, Sensitivity, differences, perturbation
-from app.studies.sweep import Sweep
+from app.studies.kinds.sensitivity import Perturbation, Sensitivity, differences, perturbation
+from app.studies.kinds.sweep import Sweep
 from tests.support.requests import changed
 from tests.support.studies import lines_of, study_of
 

@@ -12,10 +12,10 @@ from app.calculations import BY_PATH
 from app.evaluate import evaluate
 from app.examples import examples
 from app.studies.fields import value_at
+from app.studies.kinds.spectrum import Spectrum
+from app.studies.kinds.sweep import Sweep
 from app.studies.points import Point
 from app.studies.requests import EXAMPLES
-from app.studies.spectrum import Spectrum
-from app.studies.sweep import Sweep
 from solvers.arrays import FloatArray
 from tests.support.pools import InlinePool
 from tests.support.requests import changed

@@ -9,7 +9,7 @@ from prometheus_client import REGISTRY
 from starlette.types import Message
 
 from app.http.routes.studies import StudyStream
-from app.studies.engine import Clock, Line, PoolLost, guarded
+from app.studies.runner import Clock, Line, PoolLost, guarded
 
 
 def lines_of(*steps: float | Exception, progress_s: float = 2.0) -> list[Line]:

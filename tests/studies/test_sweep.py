@@ -10,10 +10,10 @@ import pytest
 from scipy.stats import spearmanr
 
 from app.schema.fields import Leaf
+from app.studies.kinds.sweep import Best, Summary, Sweep, table_row
 from app.studies.point_sets import PointSet
 from app.studies.points import Point
-from app.studies.requests import Best
-from app.studies.sweep import Summary, Sweep, statistics, table_row
+from app.studies.statistics import of_sample
 from tests.support.pools import InlinePool
 from tests.support.studies import fault_of, lines_of, study_of, timeless
 
@@ -164,7 +164,7 @@ def test_statistics_by_hand() -> None:
     outputs = np.array(
         [[1.0, nan, 2.0, 5.0], [8.0, nan, nan, 5.0], [27.0, nan, nan, 5.0], [64.0, nan, nan, 5.0], [nan, nan, 3.0, 5.0]]
     )
-    found = statistics(inputs, outputs, ["a", "b"], ["rises", "nothing", "two", "constant"])
+    found = of_sample(inputs, outputs, ["a", "b"], ["rises", "nothing", "two", "constant"])
     assert found["quantiles"]["rises"] == pytest.approx([1 + 0.15 * 7, 17.5, 64 - 0.15 * 37])
     assert found["rank_correlation"] == {
         "rises": {"a": pytest.approx(1.0), "b": None},

@@ -9,8 +9,8 @@ from scipy.stats import norm
 from app.calculations import BY_PATH
 from app.schema.fields import leaves
 from app.studies.point_sets import drawn, unit_cube
-from app.studies.probability import Limit, of_case
 from app.studies.requests import Method, Normal
+from app.studies.statistics import Limit, of_case
 from solvers.arrays import FloatArray
 
 FRICTION = next(leaf for leaf in leaves(BY_PATH["/v1/coupling"].request) if leaf.path == "friction.coefficient")

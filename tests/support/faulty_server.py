@@ -16,7 +16,7 @@ from fastapi import FastAPI, Request
 from app.calculations import COUPLING, LOADS
 from app.command import serve
 from app.main import create_app
-from app.studies import engine, points
+from app.studies import points, runner
 from app.studies.points import Chunk, Point, Question, solve_chunk, solve_point
 from app.studies.requests import Overrides
 from app.workers import start_up
@@ -70,7 +70,7 @@ def solve_chunk_with_pauses(question: Question, overrides: Sequence[Overrides]) 
 
 
 def create_faulty_app() -> FastAPI:
-    patch.object(engine, "solve_chunk", solve_chunk_with_pauses).start()
+    patch.object(runner, "solve_chunk", solve_chunk_with_pauses).start()
     patch.object(start_up, "STAGES", STAGES).start()
     app = create_app()
 

@@ -36,12 +36,12 @@ def _bearings(draw: st.DrawFn, first: float, second: float, kind: str) -> tuple[
         if kind == "journal":
             diameter = draw(st.floats(0.12, 0.2))
             viscosity, clearance = draw(st.floats(0.008, 0.03)), draw(st.floats(1e-3, 2e-3)) * diameter / 2
-            built.append(JournalBearing(position, diameter, 0.6 * diameter, viscosity, clearance, offset))
+            built.append(JournalBearing(position, diameter, 0.6 * diameter, viscosity, clearance, offset=offset))
         elif kind == "linear":
             stiff, cross = draw(st.floats(2e8, 2e9)), draw(st.floats(-1e8, 1e8))
-            built.append(LinearBearing(position, ((stiff, cross), (-0.7 * cross, 1.4 * stiff)), offset))
+            built.append(LinearBearing(position, ((stiff, cross), (-0.7 * cross, 1.4 * stiff)), offset=offset))
         else:
-            built.append(RigidBearing(position, offset))
+            built.append(RigidBearing(position, offset=offset))
     return built[0], built[1]
 
 

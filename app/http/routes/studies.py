@@ -2,7 +2,7 @@
 
 import asyncio
 import inspect
-from collections.abc import AsyncGenerator, Callable, Coroutine
+from collections.abc import AsyncGenerator, Callable
 from contextlib import ExitStack, aclosing
 from functools import partial
 from typing import Annotated, Any, Literal
@@ -14,12 +14,10 @@ from starlette.types import Receive, Scope, Send
 
 from app.http.json_route import JsonRoute
 from app.http.problems import documented
-from app.studies.design import Design
-from app.studies.engine import PROGRESS_S, Clock, Lines, Study, encoded, guarded
+from app.pages.studies.page import StudyPage
+from app.pages.study_kinds import study_pages
 from app.studies.requests import EXAMPLES
-from app.studies.sensitivity import Sensitivity
-from app.studies.spectrum import Spectrum
-from app.studies.sweep import Corners, Sweep, encoder
+from app.studies.runner import PROGRESS_S, Clock, Lines, Study, encoded, guarded
 
 Format = Literal["ndjson", "csv"]
 MEDIA_TYPES: dict[Format, str] = {"ndjson": "application/x-ndjson", "csv": "text/csv"}
@@ -76,7 +74,7 @@ async def started(http: Request, kind: type[Study], body: BaseModel, written_as:
     http.app.state.start_up.require()
     study: Study = await planned(http, partial(kind, body), getattr(http.app.state.settings, kind.most))
     http.app.state.start_up.require(study.question.endpoint)
-    encode = encoder(study, written_as)
+    encode = study.encoder(written_as)
     return await streamed(http, study, lambda lines, _: encoded(lines, encode), MEDIA_TYPES[written_as])
 
 
@@ -91,10 +89,25 @@ def wanted_format(http: Request, named: Format) -> Format:
 router = APIRouter(tags=["studies"], route_class=JsonRoute, responses=documented(400, 413, 415, 422, 500, 503, 504))
 
 
-def _add(kind: type[Study], answer: Callable[..., Coroutine[Any, Any, Response]], *formats: Format) -> None:
-    """Add the endpoint of a kind of study."""
-    answer.__annotations__["body"] = Annotated[kind.model, Body(openapi_examples=EXAMPLES[kind.path])]
-    content = {MEDIA_TYPES[each]: {"schema": {"type": "string"}} for each in formats}
+def _add(page: type[StudyPage]) -> None:
+    """Add the endpoint of a kind of study, with a choice of formats if its lines can be a table."""
+    kind = page.plan
+
+    async def lines(http: Request, body: Any) -> Response:
+        return await started(http, kind, body)
+
+    async def lines_or_table(
+        http: Request,
+        body: Any,
+        written_as: Annotated[
+            Format, Query(alias="format", description="JSON a line, or a table; the Accept header can choose it too")
+        ] = "ndjson",
+    ) -> Response:
+        return await started(http, kind, body, wanted_format(http, written_as))
+
+    answer = lines_or_table if "csv" in page.files else lines
+    answer.__annotations__["body"] = Annotated[kind.model, Body(openapi_examples=EXAMPLES.get(kind.path))]
+    content = {media: {"schema": {"type": "string"}} for name, media in MEDIA_TYPES.items() if name in page.files}
     router.add_api_route(
         kind.path,
         answer,
@@ -107,24 +120,5 @@ def _add(kind: type[Study], answer: Callable[..., Coroutine[Any, Any, Response]]
     )
 
 
-def _lines_of(kind: type[Study]) -> Callable[..., Coroutine[Any, Any, Response]]:
-    async def answer(http: Request, body: Any) -> Response:
-        return await started(http, kind, body)
-
-    return answer
-
-
-async def sweep(
-    http: Request,
-    body: Any,
-    written_as: Annotated[
-        Format, Query(alias="format", description="JSON a line, or a table; the Accept header can choose it too")
-    ] = "ndjson",
-) -> Response:
-    """Return the lines of a sweep, or its table."""
-    return await started(http, Sweep, body, wanted_format(http, written_as))
-
-
-_add(Sweep, sweep, "ndjson", "csv")
-for each in (Sensitivity, Spectrum, Corners, Design):
-    _add(each, _lines_of(each), "ndjson")
+for page in study_pages():
+    _add(page)

@@ -15,14 +15,13 @@ from app.errors import StudyEnded
 from app.http.routes import pages
 from app.http.routes.studies import MEDIA_TYPES, begun, planned, streamed
 from app.pages.cases import Asked
-from app.pages.studies import PAGES
 from app.pages.studies import page as study_page
 from app.pages.studies.page import StudyPage
 from app.pages.studies.stream import pieces, report_pieces
+from app.pages.study_kinds import study_page as kind_named
 from app.pages.study_links import study_links
 from app.pages.templating import page_path
-from app.studies.engine import encoded, twice_if_lost
-from app.studies.sweep import encoder
+from app.studies.runner import encoded, twice_if_lost
 from app.workers.pool import unless_gone
 
 LINE_TYPES = {str(name): media for name, media in MEDIA_TYPES.items()}
@@ -52,7 +51,7 @@ def _add(calculation: Calculation, own: type[StudyPage]) -> None:
         if media not in own.files:
             raise HTTPException(404, f"Available: {', '.join(f'{own.link.name}.{each}' for each in own.files)}")
         study = (await checked(http)).study
-        encode = encoder(study, media)
+        encode = study.encoder(media)
         return await streamed(http, study, lambda found, _: encoded(found, encode), LINE_TYPES[media], policy)
 
     async def figure(http: Request, name: str, image_format: str) -> Response:
@@ -123,4 +122,4 @@ async def _made(http: Request, study: StudyPage, view: Callable[..., bytes | str
 
 for each in CALCULATIONS:
     for study_link in study_links(each):
-        _add(each, PAGES[study_link])
+        _add(each, kind_named(study_link.name))

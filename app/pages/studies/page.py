@@ -5,7 +5,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from http import HTTPStatus
-from itertools import groupby
 from typing import Any, NamedTuple
 
 from app.calculations import Calculation
@@ -15,45 +14,24 @@ from app.figures.data import Figure
 from app.pages.cases import FILE_NAMES, REFUSED, Asked, Case, Fault, faults_of, solved
 from app.pages.charts import embedded
 from app.pages.form import FieldView
-from app.pages.query import CASES, LONGEST_QUERY, STUDY_NAMES, link, pairs_of, written_of
+from app.pages.query import CASES, LONGEST_QUERY, link, pairs_of, written_of
 from app.pages.results import NOT_RESULTS
-from app.pages.study_links import Starter, StudyExample, StudyLink
+from app.pages.studies.controls import Choice, Control, Menu, Options, body_of, control_at, menu
+from app.pages.study_kinds import StudyLink, control_names
+from app.pages.study_links import Starter, StudyExample
 from app.pages.templating import examples_of, rendered
-from app.pages.typed import as_typed, number_of, question, text_of
+from app.pages.typed import as_typed, question, text_of
 from app.pages.views import report as case_report
 from app.schema.fields import ITEM, Leaf, headlines, leaf_at, leaves, tree
 from app.sources import SHORT_SOURCES
-from app.studies.engine import Line, Study
 from app.studies.fields import NUMBERS, scalar_at
 from app.studies.points import reduced_request, with_overrides
 from app.studies.requests import Overrides, Scalar
+from app.studies.runner import Line, Study
 
 FRAMES = "<!-- the figures -->"
-Options = tuple[tuple[str, str], ...]
-
-
-class Choice(NamedTuple):
-    """An entry of a menu, with the title of its group."""
-
-    path: str
-    label: str
-    group: str
-
-
-class Menu(NamedTuple):
-    """A menu with grouped entries.
-
-    `chosen` is the path of the chosen entry, empty where there is no choice, of which `empty` is the label. `shown` is
-    the label of the choice, printed below the menu because a narrow menu cuts it off.
-    """
-
-    name: str
-    label: str
-    empty: str
-    chosen: str
-    shown: str
-    groups: list[tuple[str, list[Choice]]]
-    fault: str | None
+OUTPUT = Control("show", "outputs", sets=False)
+"""The menu of outputs, which every page has."""
 
 
 class Controls(NamedTuple):
@@ -119,8 +97,12 @@ class StudyPage(ABC):
     ----------
     link, question, about
         Name in addresses and label of the page, its heading, and the sentence below that.
+    names
+        The controls that it may have, beside the menu of outputs.
     figures, files
         Names of all figures that the page can show, and the formats in which the lines can be downloaded.
+    template
+        Of the result.
     outputs
         Outputs in order of preference: the first that the answer has is shown where none is chosen, else the first
         headline.
@@ -139,7 +121,9 @@ class StudyPage(ABC):
     link: StudyLink
     question: str
     about: str
+    names: frozenset[str] = frozenset()
     figures: tuple[str, ...]
+    template = "study_result.html"
     outputs: tuple[str, ...] = ()
     grows = False
     needs: tuple[str, ...] = ()
@@ -170,9 +154,16 @@ class StudyPage(ABC):
         """The form fields placed beside the menu of outputs."""
         return ()
 
-    def places(self) -> dict[str, str]:
-        """The name of the control from which each part of the body is made, by the dotted path of the part."""
-        return {}
+    def declared(self) -> tuple[Control, ...]:
+        """The controls with the parts of the body that they set, beside the output shown.
+
+        Where the query is refused faults are looked up here: raises nothing.
+        """
+        return ()
+
+    def given(self) -> dict[str, Any]:
+        """The parts of the body that the declared controls set, as typed or by default."""
+        return body_of(self.declared(), self.views)
 
     def starters(self) -> Sequence[Starter | StudyExample]:
         """Links to ready studies, one for each example; none where the query has a case."""
@@ -201,20 +192,10 @@ class StudyPage(ABC):
             raise Unprocessable("unknown_output", f"{output.title} is no number", "outputs.0")
         return output
 
-    def number(self, control: str, usual: float | None = None) -> Any:
-        """The number typed at a control, or `usual` where it is empty; other text is returned as it is."""
-        text = self.views.get(control)
-        return number_of(text) if text else usual
-
     def menu(self, name: str, label: str, empty: str, choices: list[Choice]) -> Menu:
         """A menu of these choices; one that the query names and that is not among them is added."""
         chosen = self.views.get(name, "")
-        labels = {choice.path: choice.label for choice in choices}
-        groups = [(group, list(items)) for group, items in groupby(choices, key=lambda choice: choice.group)]
-        if chosen and chosen not in labels:
-            groups.append(("asked for", [Choice(chosen, chosen, "")]))
-        shown = labels.get(chosen, chosen) or empty
-        return Menu(name, label, empty, chosen, shown, groups, dict(self.faults).get(name))
+        return menu(name, label, empty, choices, chosen, dict(self.faults).get(name))
 
     def field(self, name: str, label: str, usual: Scalar = None, unit: str = "", options: Options = ()) -> FieldView:
         """A form field with the text typed and the usual value as placeholder; a menu if there are options."""
@@ -229,18 +210,20 @@ class StudyPage(ABC):
             fault=dict(self.faults).get(name),
         )
 
+    def field_of(self, control: Control) -> FieldView:
+        """The form field of a declared control, its default as placeholder."""
+        return self.field(control.name, control.label, control.default, control.unit, control.options)
+
     def control_at(self, path: str) -> str:
         """The name of the control for a dotted path in the body; fields of the case are controls themselves."""
-        head, *rest = parts = path.split(".")
+        head, *rest = path.split(".")
         if head == "request":
             return ".".join(rest)
-        places = {"outputs": "show", **self.places()}
-        above = (".".join(parts[:end]) for end in range(len(parts), 0, -1))
-        return next((places[each] for each in above if each in places), path)
+        return control_at((OUTPUT, *self.declared()), path)
 
     def view(self, below: str) -> str:
         """The address of this page with `below` appended to its path: a file, a figure, the report."""
-        kept = STUDY_NAMES | {"theme", *FILE_NAMES}
+        kept = control_names() | {"theme", *FILE_NAMES}
         views = {name: text for name, text in self.views.items() if name in kept}
         return link(f"{self.asked.path}/{self.link.name}{below}", self.asked.pairs, **views, sources=SHORT_SOURCES)
 
@@ -252,6 +235,13 @@ class StudyPage(ABC):
     def image(self, figure: str, image_format: str) -> str:
         """The address of one figure as a file."""
         return self.view(f"/figures/{figure}.{image_format}")
+
+    def field_at(self, path: str) -> Leaf | None:
+        """The field of the request at a path that was asked for; None where there is no single value."""
+        try:
+            return self.input(path)
+        except Unprocessable:
+            return None
 
     def input(self, path: str) -> Leaf:
         """The field of the request at a path, which has to be a single value."""
@@ -352,7 +342,7 @@ def drawn(page: StudyPage, lines: list[Line], done: int | None = None) -> bytes:
     if charts:
         charts[0] = replace(charts[0], study=found.script)
     return rendered(
-        "study_result.html",
+        page.template,
         page.asked.root,
         page=page,
         found=found,

@@ -7,7 +7,7 @@ from typing import Any
 
 from app.errors import DeadlineExceeded, WorkerLost
 from app.pages.studies.page import Opened, StudyPage, drawn, report, report_head, report_progress
-from app.studies.engine import Clock, Line, Lines, Pool, twice_if_lost
+from app.studies.runner import Clock, Line, Lines, Pool, twice_if_lost
 
 FIRST_FRAME_S = 0.3  # until a page shows its first points
 FRAME_SHARE = 0.3  # of the time a study has run passes until its page is drawn again

@@ -12,8 +12,8 @@ from solvers.contact.ehl.model import warm_up
 from solvers.contact.ehl.notices import unusual_values
 from solvers.contact.ehl.path import solve_path
 from solvers.contact.ehl.results import LineContactResult, Stage
+from solvers.guards import guarded
 from solvers.lubricants import Lubricant
-from solvers.plausibility import guarded
 
 solve = guarded(model.solve, unusual_values)
 

@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator
 
-from solvers import plausibility
 from solvers.contact.ehl.inputs import LineContactInputs
 from solvers.contact.ehl.results import (
     ContactFriction,
@@ -14,6 +13,8 @@ from solvers.contact.ehl.results import (
     MeshError,
     Stage,
 )
+from solvers.contact.notices import high_pressure
+from solvers.lubricants import oil_temperature, thick_oil
 from solvers.notices import Notice
 
 LOWEST_PECLET = 5.0  # usual limit above which conduction along the surface is neglected
@@ -104,6 +105,6 @@ def failure_notice(convergence: Convergence) -> Notice:
 
 def unusual_values(inputs: LineContactInputs, result: LineContactResult) -> Iterator[Notice]:
     """Unusual values of oil, temperatures and load."""
-    yield from plausibility.oil_temperature(inputs.temperatures.inlet, "temperatures.inlet")
-    yield from plausibility.thick_oil(result.derived.viscosity)
-    yield from plausibility.high_pressure(result.hertz.max_pressure, "line_load")
+    yield from oil_temperature(inputs.temperatures.inlet, "temperatures.inlet")
+    yield from thick_oil(result.derived.viscosity)
+    yield from high_pressure(result.hertz.max_pressure, "line_load")

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.optimize import root
 
-from solvers.coupling.inputs import Arrangement, CouplingInputs, KinematicModel, ModelOptions, OperatingPoint
+from solvers.coupling.inputs import Arrangement, CouplingInputs, KinematicModel, ModelOptions, tilt_of_offset
 from solvers.coupling.kinematics import rotor_samples, tooth_geometry
 from solvers.coupling.model import solve
 from solvers.coupling.results import SelfInducedThrust
@@ -226,9 +226,8 @@ def test_customary_thrust_needs_a_shaft() -> None:
 
 
 def test_parallel_offset_tilts_both_hubs() -> None:
-    ahead, behind = (OperatingPoint(1.0, 1.0, parallel_offset=offset) for offset in (0.35e-3, -0.35e-3))
-    assert ahead.operation(hub_distance=0.2).misalignment == pytest.approx(radians(0.10027), rel=1e-4)
-    assert behind.operation(0.2).misalignment == -ahead.operation(0.2).misalignment
+    assert tilt_of_offset(0.35e-3, hub_distance=0.2) == pytest.approx(radians(0.10027), rel=1e-4)
+    assert tilt_of_offset(-0.35e-3, 0.2) == -tilt_of_offset(0.35e-3, 0.2)
 
 
 def test_overturned_sleeve_is_no_solution() -> None:

@@ -225,7 +225,7 @@ def test_finer_stations_change_little() -> None:
 
 
 def test_without_torque_the_shafts_bend_by_weight_and_offsets_alone() -> None:
-    bearings = (RigidBearing(0.22, (0.0, 20e-6)), RigidBearing(0.62))
+    bearings = (RigidBearing(0.22, offset=(0.0, 20e-6)), RigidBearing(0.62))
     idle = {"mesh.distribution.load.pinion_torque": 0.0, "pinion_shaft.bearings": bearings}
     found = solve(changed(turbo_gear(), idle))
     assert (found.load.face_load_factor, found.load.face_load_at) == (None, None)

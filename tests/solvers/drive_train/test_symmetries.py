@@ -122,7 +122,7 @@ def without_sense_of_rotation(inputs: DriveTrainInputs) -> DriveTrainInputs:
 
     def bearing(one: Bearing) -> Bearing:
         if isinstance(one, JournalBearing):
-            return LinearBearing(one.position, ((4e8, 1e8), (-0.5e8, 6e8)), one.offset)
+            return LinearBearing(one.position, ((4e8, 1e8), (-0.5e8, 6e8)), offset=one.offset)
         return one
 
     shafts = [replace(shaft, bearings=tuple(bearing(one) for one in shaft.bearings)) for shaft in inputs.shafts]

@@ -1,25 +1,50 @@
 """Sensitivity: derivatives of each output with respect to each number of a case, by differences.
 
 An input is moved by its tolerance, else by 1 % (1 K for a temperature, 1 for a count); a step of a tolerance is checked
-at half of it.
+at half of it. On its page the inputs are sorted by what they change, as a figure and a table.
 """
 
 from collections import Counter
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Annotated, Any
+
+from pydantic import Field
 
 from app.errors import Unprocessable
+from app.figures.data import Figure
+from app.figures.studies import Influence, influence
+from app.figures.units import axis_of
+from app.figures.wording import difference_unit
+from app.pages.query import link
+from app.pages.studies.controls import numbered
+from app.pages.studies.page import Link, Number, Result, StudyPage, Table
+from app.pages.study_kinds import StudyLink
+from app.pages.study_links import VARY
+from app.pages.typesetting import shown
 from app.schema.fields import ITEM, Leaf, leaves
-from app.studies import engine
-from app.studies.engine import Clock, Line, Lines, Pool, Study, output_header
-from app.studies.fields import NUMBERS, fault, not_a_number, scalar_at, value_at
+from app.schema.quantities import Input
+from app.schema.scuffing import GIVEN_BULK
+from app.studies import runner
+from app.studies.fields import NUMBERS, fault, indexed, not_a_number, scalar_at, value_at
 from app.studies.points import BaseRequest, Point, check_count, check_distinct
-from app.studies.requests import Overrides, SensitivityRequest
+from app.studies.requests import FieldPath, Overrides, StudyRequest
+from app.studies.runner import Clock, Line, Lines, Pool, Study, output_header
 
 RELATIVE_STEP = 0.01  # of a value: small against its range, large against the solver's tolerance
 KELVIN_STEP = 1.0  # of a temperature, whose zero means nothing
 DISAGREEMENT = 0.1  # relative difference of two slopes
 NOISE = 1e-7  # relative change of an output that an iteration may leave
+MOST_ROWS = 40  # of a table that can be read; the file has all
+
+
+class SensitivityRequest(StudyRequest):
+    """How each output moves with each input."""
+
+    inputs: Annotated[
+        list[FieldPath] | None,
+        Field(min_length=1, max_length=200),
+        Input("inputs", text="dotted paths of the numbers to move", default_text="every number of the case"),
+    ] = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -124,7 +149,7 @@ class Sensitivity(Study):
         """
         moved: list[Overrides] = [{each.leaf.path: place} for each in self.perturbations for place in each.places]
         overrides, points = [{}, *moved], list[Point]()
-        async for _, found in engine.in_order(pool, self.question, overrides.__getitem__, range(self.total), clock):
+        async for _, found in runner.in_order(pool, self.question, overrides.__getitem__, range(self.total), clock):
             points += found
         yield [line for column in range(len(self.outputs)) for line in self._ranked(column, points)]
         base = points[0]
@@ -164,18 +189,9 @@ def _every_number(base: BaseRequest, case: dict[str, Any]) -> list[Leaf]:
         replace(leaf, path=path, dimensions=0)
         for leaf in leaves(base.calculation.request)
         if leaf.dimensions < 2 and leaf.kind in NUMBERS and not leaf.advanced
-        for path in places(leaf.path if leaf.is_scalar else f"{leaf.path}.{ITEM}", case)
+        for path in indexed(leaf.path if leaf.is_scalar else f"{leaf.path}.{ITEM}", case)
         if value_at(case, path) is not None
     ]
-
-
-def places(path: str, case: dict[str, Any]) -> list[str]:
-    """The path with every index that its lists have."""
-    before, star, after = path.partition(f".{ITEM}")
-    if not star:
-        return [path]
-    items = range(len(value_at(case, before) or ()))
-    return [place for index in items for place in places(f"{before}.{index}{after}", case)]
 
 
 def _named(base: BaseRequest, case: dict[str, Any], paths: list[str]) -> list[Leaf]:
@@ -190,3 +206,63 @@ def _named(base: BaseRequest, case: dict[str, Any], paths: list[str]) -> list[Le
         if value_at(case, leaf.path) is None:
             raise Unprocessable("not_scalar", f"{leaf.path} has no number in this case", f"inputs.{place}")
     return named
+
+
+class SensitivityPage(StudyPage):
+    """Which inputs change an output most."""
+
+    link = StudyLink(
+        "influence", "What matters", "every input moved by its tolerance: which moves the result most", place=2
+    )
+    question = "which input matters?"
+    about = "Every number of the case is moved by its usual tolerance, else by 1 % (1 K, 1)."
+    figures = ("influence",)
+    plan = Sensitivity
+
+    def body(self) -> dict[str, Any]:
+        """The request of the case, and the output that is shown."""
+        outputs = [self.output.path]
+        return {"endpoint": self.calculation.path, "request": self.asked.body, "outputs": outputs}
+
+    def result(self, lines: list[Line]) -> Result:
+        """The change of the output by one step of each input, largest first, as a bar chart and a table."""
+        end, output = lines[-1], self.output
+        inputs = {each["path"]: each for each in end["inputs"]}
+        steps, rows = list[Influence](), []
+        for line in lines:
+            if line["type"] == "sensitivity" and line["change"] is not None:
+                path, known = line["path"], inputs[line["path"]]
+                name, unit = numbered(known["title"], path), known["unit"] or ""
+                step = f"+{shown(line['step'], 3)} {difference_unit(unit)}".rstrip()
+                varied = {"x": path, "show": output.path, "theme": self.asked.theme}
+                row = (
+                    Link(name, link(f"{self.asked.path}/{VARY}", self.asked.pairs, **varied)),
+                    shown(float(known["value"])),
+                    unit,
+                    step,
+                    shown(line["change"], 4),
+                    shown(line["elasticity"], 3),
+                    "up and down differ" if line["kink"] else "half a step differs" if line["curved"] else "",
+                )
+                steps.append(Influence(name, step, line["change"], bool(line["kink"])))
+                rows.append(row)
+        value, figures, remarks = end["outputs"][0]["value"], dict[str, Figure](), []
+        if not isinstance(value, int | float):
+            remarks.append(f"The case has no {output.title}, so nothing moves it.")
+        elif (figure := influence(axis_of(output), float(value), steps)).panels:
+            figures["influence"] = figure
+        else:
+            remarks.append(f"No input moves the {output.title} of this case.")
+        if GIVEN_BULK in {each["reason"] for each in end["assumptions"]}:
+            remarks.append(f"Oil temperature: {GIVEN_BULK}.")
+        changes = f"changes the {output.title} by{f', {difference_unit(output.unit)}' if output.unit else ''}"
+        head = ("input", Number("value"), "unit", Number("one step"), Number(changes), Number("% for 1 %"), "remark")
+        more = len(rows) - MOST_ROWS
+        note = "A name leads to the curve over that input."
+        note += f" {more} inputs more change it less." if more > 0 else ""
+        table = Table("Inputs, the most influential first", head, rows[:MOST_ROWS], note)
+        progress = f"{end['points']} cases in {shown(end['elapsed_s'], 2)} s"
+        return Result(progress, figures, (table,) if rows else (), tuple(remarks))
+
+
+PAGE = SensitivityPage

@@ -12,8 +12,10 @@ from app.calculations import CALCULATIONS, Calculation
 from app.schema.fields import Leaf, leaves
 from app.schema.quantities import Input
 from app.studies.fields import fault
+from app.studies.kinds.sweep import Sweep
 from app.studies.point_sets import cut, drawn
-from app.studies.probability import (
+from app.studies.requests import Lognormal, Method, Normal, Range, Triangular, Uniform
+from app.studies.statistics import (
     Limit,
     Side,
     deciding,
@@ -25,8 +27,6 @@ from app.studies.probability import (
     rank_correlation,
     weighted_mean,
 )
-from app.studies.requests import Lognormal, Method, Normal, Range, Triangular, Uniform
-from app.studies.sweep import Sweep
 from tests.support.coverage import FRICTION, coverage
 from tests.support.studies import fault_of, study_of
 
@@ -275,7 +275,7 @@ def test_the_interval_covers_the_truth(method: Method, tolerances: int) -> None:
 @pytest.mark.parametrize("confidence", [0.8, 0.98])
 def test_a_wrong_interval_is_noticed(monkeypatch: pytest.MonkeyPatch, method: Method, confidence: float) -> None:
     """Intervals of 80 or 98 % in place of 90 % leave the bounds."""
-    monkeypatch.setattr("app.studies.probability.CONFIDENCE", confidence)
+    monkeypatch.setattr("app.studies.statistics.CONFIDENCE", confidence)
     least, most = COVERED[method]
     *usual, _ = coverage(method, 6, 0.5).values()
     assert not all(least <= each.covered <= most for each in usual)

@@ -6,8 +6,8 @@ from contextlib import aclosing
 import pytest
 
 from app.errors import DeadlineExceeded, WorkerLost
-from app.studies.engine import CHUNKS_PER_SLOT, Clock, PoolLost, in_order
 from app.studies.points import CHUNK_SECONDS, Point
+from app.studies.runner import CHUNKS_PER_SLOT, Clock, PoolLost, in_order
 from tests.support.pools import QUESTION, ScriptedPool, at
 
 

@@ -1,29 +1,102 @@
-"""Corners: an output over every combination of the uncertain inputs of a unit, and the load at the worst one."""
+"""Corners: a sweep over every combination of the uncertain inputs of a gear unit.
+
+On its page stand an output over all of them, and the load at the worst one.
+"""
 
 from dataclasses import replace
-from functools import cached_property
-from typing import Any
+from functools import cached_property, partial
+from typing import Annotated, Any, ClassVar
 
+from app.errors import Unprocessable
 from app.figures.comparison import compared
 from app.figures.data import Figure, Hue, NoFigure, Row
 from app.figures.models.drive_train import LOAD_ALONE
 from app.figures.studies import corners
 from app.figures.units import axis_of
 from app.figures.wording import listed, number
-from app.pages import study_links
 from app.pages.cases import REFUSED, Case
 from app.pages.query import CORNER
+from app.pages.studies.controls import Control, numbered
 from app.pages.studies.page import Controls, Link, Number, Result, StudyPage, Table, titled
-from app.pages.studies.sweep import numbered
+from app.pages.study_kinds import StudyLink
 from app.pages.typed import number_of, text_of
 from app.pages.typesetting import shown
 from app.schema.fields import headlines
-from app.studies.engine import Line
+from app.schema.quantities import Input
 from app.studies.fields import value_at
-from app.studies.point_sets import usual_corners
-from app.studies.points import COLD, BaseRequest, needs_film
-from app.studies.requests import DRIVE_TRAIN, USUAL_RANGES, Axis, Overrides
-from app.studies.sweep import Corners
+from app.studies.kinds.sweep import Summary, Sweep
+from app.studies.point_sets import PointSet, grid, usual_corners
+from app.studies.points import COLD, SOLVED, BaseRequest, needs_film
+from app.studies.requests import (
+    DRIVE_TRAIN,
+    RANGES,
+    Axis,
+    DriveTrainStudy,
+    FromIndex,
+    Outputs,
+    Overrides,
+    Ranges,
+)
+from app.studies.runner import Line
+from solvers.drive_train.uncertainty import MOST_CORNERS, no_convergence
+
+USUAL_RANGES = (
+    "wall response, clearances of a shaft's plain bearings against each other, friction, direction of the offset and "
+    "thrust of the couplings"
+)
+UNCERTAIN = ("wall response", "pinion clearance", "wheel clearance", "friction", "offset", "thrust fraction")
+"""What may be uncertain of a gear unit."""
+DESIGN = "design"
+"""The name of the page of the study that mends the worst corner."""
+
+
+class CornersRequest(DriveTrainStudy):
+    """A gear unit at every combination of its uncertain inputs."""
+
+    sample: ClassVar[None] = None
+    best: ClassVar[None] = None
+
+    ranges: Annotated[Ranges, Input("ranges", text=RANGES, default_text=USUAL_RANGES)] = None
+    outputs: Outputs = None
+    from_index: FromIndex = 0
+
+
+class Corners(Sweep):
+    """Every corner is the endpoint's own answer, up to 256 of them; `extremes` are the least and largest values.
+
+    Where no output needs the thermal film, it is not calculated: corners are twenty times as fast and have fewer
+    warnings. The last line warns `no_convergence_of_corner` where corners have no solution; their own lines say why.
+    """
+
+    path = "/v1/drive-train/corners"
+    summary = "A gear unit at every combination of its uncertain inputs"
+    answer = "a line for the ranges, each corner, the extremes of each output, and one for the end"
+    model = CornersRequest
+    is_reduced = True
+
+    def _points(self, base: BaseRequest, most: int) -> PointSet:
+        ranges: list[Axis] | None = self.body.ranges
+        if ranges is None:
+            ranges = list(usual_corners(base.checked({})).values())
+        if not ranges:
+            raise Unprocessable("no_corners", "nothing is uncertain here; name what is", "ranges")
+        return grid(ranges, base, min(most, MOST_CORNERS), "ranges")
+
+    def _closing(self, summary: Summary, end: Line) -> list[Line]:
+        """The extremes of every output, and the end with a warning where corners have no solution."""
+        extremes: list[Line] = []
+        for path, found in summary.extremes.items():
+            ends = {name: {"value": value, "at": self.points.overrides(at)} for name, (value, at) in found.items()}
+            extremes.append({"type": "extremes", "output": path, **ends})
+        unsolved = self.total - sum(summary.counts[status] for status in SOLVED)
+        notice = no_convergence(unsolved)
+        warning = {"rank": notice.rank, "code": notice.code, "message": notice.message}
+        return [*extremes, {**end, "warnings": [warning] if unsolved else []}]
+
+
+def control_of(quantity: str) -> str:
+    """The control of an uncertain input."""
+    return f"{CORNER}{quantity.replace(' ', '_')}"
 
 
 class UnitPage(StudyPage):
@@ -32,6 +105,7 @@ class UnitPage(StudyPage):
     The uncertain inputs in `left_alone` are as in the case where nothing is typed.
     """
 
+    names = frozenset(map(control_of, UNCERTAIN))
     outputs = ("safety.blok_flank",)
     corners = "corners"
     left_alone: tuple[str, ...] = ()
@@ -44,18 +118,18 @@ class UnitPage(StudyPage):
         except REFUSED:
             return {}
 
-    def ranges(self) -> dict[str, dict[str, Any]]:
-        """The values of the uncertain inputs as typed, else the usual ones, by the names of their controls."""
-        found = {}
+    def declared(self) -> tuple[Control, ...]:
+        """The values of each uncertain input, the usual ones by default; what is wrong with all is shown at the first.
+
+        Of an input that is left alone only values that are typed count.
+        """
+        found: list[Control] = []
         for quantity, axis in self.uncertain.items():
-            values, name = axis.values, _control(quantity)
-            if text := self.views.get(name):
-                rows = [[number_of(each) for each in row.split()] for row in text.split(";")]
-                values = [row[0] if len(row) == 1 else row for row in rows]
-            elif quantity in self.left_alone:
-                continue
-            found[name] = {"path": axis.path, "values": values}
-        return found
+            name = control_of(quantity)
+            usual = None if quantity in self.left_alone else {"path": axis.path, "values": axis.values}
+            if usual or self.views.get(name):
+                found.append(Control(name, f"{self.corners}.{len(found)}", usual, partial(_typed, axis)))
+        return (*(Control(each.name, self.corners, sets=False) for each in found[:1]), *found)
 
     def controls(self) -> tuple[Controls, ...]:
         """A field for the values of each uncertain input."""
@@ -65,15 +139,9 @@ class UnitPage(StudyPage):
             text = "; ".join(" ".join(map(text_of, row)) for row in rows)
             label = titled(replace(self.input(axis.paths[0]), title=quantity))
             usual = "as in the case" if quantity in self.left_alone else text
-            fields.append(self.field(_control(quantity), label, usual))
+            fields.append(self.field(control_of(quantity), label, usual))
         about = "Values with semicolons between; blanks between inputs that move together."
         return (Controls("Uncertain inputs", fields=tuple(fields), about=about),)
-
-    def places(self) -> dict[str, str]:
-        """The control of each uncertain input; faults of all inputs together are shown at the first."""
-        names = list(self.ranges())
-        places = {f"{self.corners}.{place}": name for place, name in enumerate(names)}
-        return {self.corners: names[0], **places} if names else {}
 
     def corner_table(self, title: str, case: Case, corner: Overrides) -> Table:
         """What a corner changes in the case."""
@@ -85,9 +153,10 @@ class UnitPage(StudyPage):
         return Table(title, ("input", Number("as described"), Number("there"), "unit"), rows)
 
 
-def _control(quantity: str) -> str:
-    """The control of an uncertain input."""
-    return f"{CORNER}{quantity.replace(' ', '_')}"
+def _typed(axis: Axis, text: str) -> dict[str, Any]:
+    """The axis with the values that are typed, with semicolons between them and blanks inside them."""
+    rows = [[number_of(each) for each in row.split()] for row in text.split(";")]
+    return {"path": axis.path, "values": [row[0] if len(row) == 1 else row for row in rows]}
 
 
 def load_figure(case: Case, reference: Case, name: str, finding: str) -> dict[str, Figure]:
@@ -105,7 +174,13 @@ def load_figure(case: Case, reference: Case, name: str, finding: str) -> dict[st
 class CornersPage(UnitPage):
     """The worst corner of a gear unit."""
 
-    link = study_links.CORNERS
+    link = StudyLink(
+        "corners",
+        "Worst corner",
+        "every combination of the uncertain inputs: where the result is worst",
+        place=4,
+        endpoint=DRIVE_TRAIN,
+    )
     question = "which corner is worst?"
     about = f"Every combination of the uncertain inputs: {USUAL_RANGES}."
     figures = ("corners", LOAD_ALONE.name)
@@ -119,7 +194,7 @@ class CornersPage(UnitPage):
         deciding = [path for path in paths if not (needs_film(DRIVE_TRAIN, path) or path.startswith(COLD))]
         return {
             "request": self.asked.body,
-            "ranges": list(self.ranges().values()) or None,
+            **self.given(),
             "outputs": list(dict.fromkeys([output, *deciding])),
         }
 
@@ -139,7 +214,7 @@ class CornersPage(UnitPage):
         leads = (
             Link("Open the worst corner", self.address(worst)),
             Link("Its report", self.address(worst, "/report")),
-            Link("What to grind", self.asked.study(study_links.DESIGN.name)),
+            Link("What to grind", self.asked.study(DESIGN)),
         )
         tables = (self._extremes(extremes, case), self.corner_table("The worst corner", case, worst))
         return Result(progress, {"corners": found, **load}, tables, tuple(remarks), leads)
@@ -174,3 +249,6 @@ class CornersPage(UnitPage):
                 rows.append((leaf.title, shown(value_at(case.response, leaf.path)), least, largest, leaf.unit or ""))
         head = ("output", Number("as described"), Number("least"), Number("largest"), "unit")
         return Table("Over all corners", head, rows, "A number leads to the case at its corner.")
+
+
+PAGE = CornersPage

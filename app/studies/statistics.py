@@ -1,4 +1,6 @@
-"""Probabilities over a load spectrum with tolerances, on plain arrays `[replicate, draw, case]`; NaN is unsolved.
+"""Statistics of samples, and probabilities over a load spectrum with tolerances.
+
+A spectrum is a plain array `[replicate, draw, case]`; NaN is unsolved.
 
 A draw is one machine, which runs every case: the worst case of a draw decides whether it exceeds a limit. A limit that
 is normally distributed is integrated in closed form, so that the noise is that of the tolerances alone. Replicates are
@@ -6,7 +8,8 @@ independent: their scatter gives the error of every mean.
 """
 
 from collections.abc import Sequence
-from typing import Literal, NamedTuple
+from math import isnan
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 from scipy.special import ndtr
@@ -172,3 +175,28 @@ def rank_correlation(x: FloatArray, y: FloatArray) -> float | None:
     if y.size < 3 or np.ptp(x) == 0.0 or np.ptp(y) == 0.0:
         return None
     return float(spearmanr(x, y).statistic)
+
+
+def of_sample(
+    inputs: FloatArray, outputs: FloatArray, input_paths: list[str], output_paths: Sequence[str]
+) -> dict[str, Any]:
+    """Quantiles with their bounds and rank correlation of a random sample, a row a point; runs in a worker.
+
+    Bounds are the order statistics that hold a quantile with 90 % confidence, whatever the distribution; null where the
+    sample is too small for one.
+    """
+    from scipy.stats import quantile_test  # noqa: PLC0415  half a second that only random samples need
+
+    found: dict[str, Any] = {"quantiles": {}, "quantile_bounds": {}, "rank_correlation": {}}
+    for path, column in zip(output_paths, outputs.T, strict=True):
+        there = ~np.isnan(column)
+        if there.any():
+            values = column[there]
+            tests: list[Any] = [quantile_test(values, p=share) for share in QUANTILES]
+            bounds = [test.confidence_interval(CONFIDENCE) for test in tests]
+            found["quantiles"][path] = np.quantile(values, QUANTILES).tolist()
+            found["quantile_bounds"][path] = [[None if isnan(end) else float(end) for end in ends] for ends in bounds]
+            found["rank_correlation"][path] = {
+                name: rank_correlation(own[there], values) for name, own in zip(input_paths, inputs.T, strict=True)
+            }
+    return found

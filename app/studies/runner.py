@@ -193,6 +193,10 @@ class Study(ABC):
     def lines(self, pool: Pool, clock: Clock) -> Lines:
         """All lines but those of progress."""
 
+    def encoder(self, _: str) -> Callable[[Line], bytes]:
+        """Return what writes a line in a format; here there is only JSON."""
+        return json_line
+
     def header(self, **content: Any) -> Line:
         """A line that identifies the study."""
         identity = {"model_version": MODEL_VERSION, "sources": SOURCES, "case": self.case}

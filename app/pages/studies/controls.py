@@ -1,0 +1,158 @@
+"""The controls of a study's form and the parts of its body that they set: one list, read in both directions.
+
+`body_of` makes the body of what was typed, `texts_of` what to type for a body; `control_at` finds the control at which
+a fault of the body is shown.
+"""
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from itertools import groupby
+from typing import Any, NamedTuple
+
+from app.calculations import Calculation
+from app.pages.typed import number_of, text_of
+from app.pages.typesetting import shown
+from app.schema.fields import Leaf, leaves, tree
+from app.studies.fields import NUMBERS, indexed, value_at
+
+Options = tuple[tuple[str, str], ...]
+
+
+class Control(NamedTuple):
+    """A control of the form and the part of the body that it sets.
+
+    Attributes
+    ----------
+    name
+        Of the control, as links have it.
+    path
+        Of the part of the body, dotted, with numbers for the places in lists.
+    default
+        What counts where nothing is typed; None leaves the part out.
+    read
+        Makes the value of a typed text.
+    label, unit, options
+        What the form shows.
+    sets
+        False where something else sets the part, and the control only shows what is wrong with it.
+
+    """
+
+    name: str
+    path: str
+    default: Any = None
+    read: Callable[[str], Any] = number_of
+    label: str = ""
+    unit: str = ""
+    options: Options = ()
+    sets: bool = True
+
+
+def body_of(controls: Iterable[Control], typed: Mapping[str, str]) -> dict[str, Any]:
+    """The body, or its parts, that the controls set."""
+    body: dict[str, Any] = {}
+    for control in controls:
+        if control.sets:
+            text = typed.get(control.name)
+            value = control.read(text) if text else control.default
+            if value is not None:
+                _put(body, control.path.split("."), value)
+    return body
+
+
+def _put(place: Any, parts: list[str], value: Any) -> None:
+    """Set a value at the end of a path; a list grows by one place where the path names the next."""
+    for part, following in zip(parts, [*parts[1:], None], strict=True):
+        key: Any = int(part) if isinstance(place, list) else part
+        inner: Any = value if following is None else [] if following.isdecimal() else {}
+        if isinstance(place, list) and key == len(place):
+            place.append(inner)
+        elif following is None:
+            place[key] = value
+        elif not isinstance(place, list):
+            place.setdefault(key, inner)
+        place = place[key]
+
+
+def texts_of(controls: Iterable[Control], body: Any) -> dict[str, str]:
+    """What to type so that `body_of` makes this body, or its parts, by the controls; defaults are left out."""
+    values = ((control, value_at(body, control.path)) for control in controls if control.sets)
+    return {control.name: text_of(value) for control, value in values if value is not None and value != control.default}
+
+
+def control_at(controls: Sequence[Control], path: str) -> str:
+    """The name of the control for a path in the body, or for the part around it; the path itself where there is none.
+
+    Of several controls of one part the last counts.
+    """
+    parts = path.split(".")
+    names = {control.path: control.name for control in controls}
+    above = (".".join(parts[:end]) for end in range(len(parts), 0, -1))
+    return next((names[each] for each in above if each in names), path)
+
+
+class Choice(NamedTuple):
+    """An entry of a menu, with the title of its group."""
+
+    path: str
+    label: str
+    group: str
+
+
+class Menu(NamedTuple):
+    """A menu with grouped entries.
+
+    `chosen` is the path of the chosen entry, empty where there is no choice, of which `empty` is the label. `shown` is
+    the label of the choice, printed below the menu because a narrow menu cuts it off.
+    """
+
+    name: str
+    label: str
+    empty: str
+    chosen: str
+    shown: str
+    groups: list[tuple[str, list[Choice]]]
+    fault: str | None
+
+
+def menu(name: str, label: str, empty: str, choices: list[Choice], chosen: str, fault: str | None) -> Menu:
+    """A menu of these choices; one that is chosen and not among them is added."""
+    labels = {choice.path: choice.label for choice in choices}
+    groups = [(group, list(items)) for group, items in groupby(choices, key=lambda choice: choice.group)]
+    if chosen and chosen not in labels:
+        groups.append(("asked for", [Choice(chosen, chosen, "")]))
+    return Menu(name, label, empty, chosen, labels.get(chosen, chosen) or empty, groups, fault)
+
+
+def field_choices(calculation: Calculation, case: dict[str, Any], *, texts: bool) -> list[Choice]:
+    """Every single field that has numbers, with its value in this case; and those with texts to choose from."""
+    titles = {branch.path: branch.title for branch in tree(calculation.request).branches}
+    found = []
+    for leaf in leaves(calculation.request):
+        if leaf.is_scalar and leaf.path != "detail" and (has_numbers(leaf) or (texts and choices_of(leaf))):
+            group = titles.get(leaf.path.partition(".")[0], "general")
+            unit = f" {leaf.unit}" if leaf.unit else ""
+            for path in indexed(leaf.path, case):
+                name, value = numbered(leaf.title, path), value_at(case, path)
+                found.append(Choice(path, name if value is None else f"{name} ({shown(value)}{unit})", group))
+    return found
+
+
+def numbered(title: str, path: str) -> str:
+    """Title of an input; which one it is where there are several."""
+    places = [str(int(part) + 1) for part in path.split(".") if part.isdecimal()]
+    return f"{title} {'.'.join(places)}" if places else title
+
+
+def is_number(value: Any) -> bool:
+    """Whether a value is a number and no truth value."""
+    return isinstance(value, int | float) and not isinstance(value, bool)
+
+
+def choices_of(leaf: Leaf) -> list[Any]:
+    """All values of a field that takes only some, either texts or numbers."""
+    return [True, False] if leaf.kind == "boolean" else list(leaf.options)
+
+
+def has_numbers(leaf: Leaf) -> bool:
+    """Whether an axis can run along it."""
+    return leaf.kind in NUMBERS or any(map(is_number, leaf.options))

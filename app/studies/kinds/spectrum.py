@@ -1,0 +1,879 @@
+"""Load spectra: a machine with its tolerances over its cases, and the probability that it exceeds its limits.
+
+On its page the cases are a table to paste, the tolerances stand beside the fields that scatter.
+"""
+
+import csv
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from time import perf_counter
+from types import MappingProxyType
+from typing import Annotated, Any, NamedTuple, Self
+
+import numpy as np
+from pydantic import Field, model_validator
+from pydantic_core import PydanticCustomError
+
+from app.calculations import Calculation
+from app.errors import Unprocessable
+from app.figures.data import Figure, NoFigure
+from app.figures.spectrum import Limited, SpectrumCase, chance_text, chances, deciding, losses, overlap, sentence
+from app.figures.units import axis_of
+from app.figures.wording import difference_unit, number, percent
+from app.pages.form import FieldView
+from app.pages.query import CASES, Pairs, link, pairs_of
+from app.pages.studies.controls import Control, field_choices, is_number, texts_of
+from app.pages.studies.page import Controls, Link, Number, Result, StudyPage, Table, titled
+from app.pages.study_kinds import StudyLink
+from app.pages.study_links import Starter
+from app.pages.templating import page_path
+from app.pages.typed import as_typed, number_of, power_between, question, scaled, separator_of, text_of
+from app.pages.typesetting import cited, shown, words
+from app.schema.fields import ITEM, Leaf, leaf_at, leaves
+from app.schema.quantities import Input, split_unit
+from app.studies import runner, statistics
+from app.studies.fields import NUMBERS, scalar_at, value_at
+from app.studies.point_sets import anchors, cut, drawn, fields_set, scattering, unit_cube
+from app.studies.points import SOLVED, BaseRequest, Question, solve_point
+from app.studies.requests import (
+    COUNT,
+    DRIVE_TRAIN,
+    EXAMPLES,
+    LARGEST,
+    METHOD,
+    FieldPath,
+    Inputs,
+    Method,
+    Overrides,
+    Part,
+    Seed,
+    StudyRequest,
+    Value,
+)
+from app.studies.runner import Clock, Line, Lines, Pool, Study, output_header, paths_of
+from app.studies.statistics import Limit
+from solvers.arrays import FloatArray
+
+PROGRESS_S = 0.5  # between two lines that say how far a spectrum has come
+KILOWATTS = {"W": 1e-3, "kW": 1.0}  # per unit
+RELATIVE_DEVIATION = 0.15  # AGMA 925-A03, quoted, not verified against the standard
+LIMIT_VARIES = 1e-9  # relative
+SHARES_OFF = 0.01  # how far the sum of the shares may be from 1
+ASSUMED_DEVIATION = (
+    "the scuffing temperature is normally distributed with 0.15 of itself as deviation (AGMA 925-A03, secondary source)"
+)
+
+RARE = 0.005  # below this the intervals of a probability cover less than they say
+RARE_NOTE = (
+    "a probability below 0.5 %: the means of the replicates are skewed, and a 90 % interval covers less, about 80 % at "
+    "0.1 % with 128 machines in each of 8 replicates; draw more machines"
+)
+NOT_USED = "not used"  # how the reason of an assumption begins whose value changes nothing
+
+NAME, SHARE = "name", "share"
+REPLICATES = 8  # samples from which the page tells how certain a mean is
+MACHINES = (("", "256"), ("64", "64"), ("1024", "1024"), ("4096", "4096"))
+LAWS = (("", "normal"), ("uniform", "uniform"), ("triangular", "triangular"), ("lognormal", "lognormal"))
+SIDES = (("", "by the output"), ("above", "above is bad"), ("below", "below is bad"))
+AROUND_UNIT = " ,;[]()"  # and between a label and its unit
+# Fields that a case of the spectrum usually changes, for the table to start from.
+USUAL = (
+    *("load.power_kw", "load.pinion_torque_n_m", "load.pinion_speed_rpm"),
+    *("operation.power_kw", "operation.pinion_torque_n_m", "operation.torque_n_m"),
+    *("operation.pinion_speed_rpm", "operation.speed_rpm", "temperatures.oil_c"),
+)
+LOSSES = {
+    "/v1/coupling": ("losses.friction_power_w",),
+    "/v1/pumping": ("total.pumping_power_w",),
+    "/v1/scuffing/load-distribution": ("friction_loss.power_w",),
+    "/v1/scuffing": ("friction_loss.power_w",),
+    DRIVE_TRAIN: ("losses.coupling_w", "losses.pumping_w", "losses.mesh_w", "losses.bearings_w"),
+}
+MOST_BARS = 40  # that fit a page side by side
+TOLERANCES = tuple(f"t{place}" for place in range(12))  # fields that may scatter on the page
+
+
+class LoadCase(Part):
+    """A part of the operating time, and what it changes in the request."""
+
+    name: Annotated[str | None, Field(max_length=100), Input("name", default_text="its number")] = None
+    share: Annotated[
+        float | None, Input("share", text="of the operating time", ge=0.0, le=1.01, default_text="equal shares")
+    ] = None
+    set: Annotated[dict[str, Value], Input("what the case changes", text="values by their dotted paths")] = Field({})
+
+
+class Tolerances(Part):
+    """The distributions of the fields of a machine, and how many machines are drawn."""
+
+    method: Annotated[Method, METHOD] = "sobol"
+    count: Annotated[int, COUNT] = 128
+    replicates: Annotated[
+        int, Input("replicates", text="independent samples; the scatter of their means is the error", ge=1, le=1000)
+    ] = 8
+    seed: Seed = 1
+    inputs: Annotated[Inputs, Input("distributions", text="the fields and their distributions")]
+
+
+class Threshold(Part):
+    """A number, or normally distributed: a property of oil and material, one value for all cases of a machine."""
+
+    value: Annotated[float | None, Input("fixed limit", ge=-LARGEST, le=LARGEST)] = None
+    mean: Annotated[float | None, Input("mean of the limit", ge=-LARGEST, le=LARGEST)] = None
+    deviation: Annotated[float | None, Input("standard deviation of the limit", gt=0.0, le=LARGEST)] = None
+
+    @model_validator(mode="after")
+    def one_kind(self) -> Self:
+        """Refuse a limit that is neither fixed nor distributed."""
+        if (self.mean is None) != (self.deviation is None) or (self.value is None) == (self.mean is None):
+            raise PydanticCustomError("value_or_mean", "Give either value, or mean and deviation")
+        return self
+
+
+class SpectrumLimit(Part):
+    """A limit on one output of every case."""
+
+    exactly_one = ("above", "below")
+    output: Annotated[FieldPath, Input("limited output", text="dotted path of a single number of the answer")]
+    above: Annotated[Threshold | None, Input("upper limit", text="values above it exceed the limit")] = None
+    below: Annotated[Threshold | None, Input("lower limit", text="values below it exceed the limit")] = None
+
+
+class SpectrumRequest(StudyRequest):
+    """A machine with its tolerances over the cases of its load spectrum."""
+
+    cases: Annotated[
+        list[LoadCase],
+        Field(min_length=1, max_length=100),
+        Input("cases", text="what each case changes, and its share"),
+    ]
+    tolerances: Annotated[Tolerances | None, Input("tolerances", default_text="the nominal machine alone")] = None
+    limits: Annotated[
+        list[SpectrumLimit] | None,
+        Field(max_length=20),
+        Input(
+            "limits",
+            text="values that an output must not exceed",
+            default_text="the scuffing temperature, where there is one",
+        ),
+    ] = None
+    hours_per_year: Annotated[
+        float | None,
+        Input("hours per year", text="operating time, to turn mean powers into energies", gt=0.0, le=8784.0),
+    ] = None
+    points: Annotated[bool, Input("points", text="whether every solved point is a line of the answer")] = False
+
+
+class Scuffing(NamedTuple):
+    """The paths of contact temperature and scuffing temperature in an answer."""
+
+    contact: str
+    limit: str
+
+
+SCUFFING = {
+    "/v1/scuffing": Scuffing("contact_temperature.blok_max_c", "safety.scuffing_c"),
+    DRIVE_TRAIN: Scuffing("flash.contact_max_c", "derived.temperatures.scuffing_c"),
+}
+
+
+class Spectrum(Study):
+    """Machines are drawn from the tolerances; each runs every case, and its worst case is compared with the limits.
+
+    The last line has the probability of exceeding each limit with its 90 % interval, for the spectrum and for each case
+    alone; how often each case is the worst (`decides`); the rank correlation with each tolerance; and of every output
+    the mean over the operating time, the extremes, and the 5, 50 and 95 % quantiles in each case. Draws without
+    solution are counted: where there are any, the probability is only known between its `bounds`. Where no output needs
+    the thermal film, it is not calculated. Lines of `progress` come every half second.
+    """
+
+    path = "/v1/spectrum"
+    summary = "A machine with its tolerances over its load spectrum: probabilities, losses, what decides"
+    answer = "a line for the spectrum, one for each point if asked for, and one for the end"
+    model = SpectrumRequest
+    most = "spectrum_solves"
+    body: SpectrumRequest
+
+    def _outputs(self, base: BaseRequest) -> tuple[Leaf, ...]:
+        """The outputs asked for, by default the headline numbers, and those that are limited."""
+        body = self.body
+        found = {f"outputs.{place}": leaf for place, leaf in enumerate(base.outputs(body.outputs))}
+        if body.outputs is None:
+            found = {place: leaf for place, leaf in found.items() if leaf.kind in NUMBERS}
+        for index, each in enumerate(body.limits or ()):
+            place = f"limits.{index}.output"
+            found[place] = base.output(each.output, place)
+        for place, leaf in found.items():
+            if leaf.kind not in NUMBERS:
+                raise Unprocessable("unknown_output", f"{leaf.path} is no number", place)
+        if body.limits is None and body.endpoint in SCUFFING:
+            found["limits"] = base.output(SCUFFING[body.endpoint].contact, "limits")
+        return tuple({leaf.path: leaf for leaf in found.values()}.values())
+
+    def _planned(self, base: BaseRequest, most: int) -> int:
+        body, tolerances = self.body, self.body.tolerances
+        known = fields_set([case.set for case in body.cases], base, "cases.{}.set")
+        inputs = tolerances.inputs if tolerances else []
+        self.scattering = scattering(inputs, base, "tolerances.inputs")
+        for place, leaf in enumerate(self.scattering):
+            if leaf.path in known:
+                message = f"{leaf.path} has a value in a case; a field either scatters or is set"
+                raise Unprocessable("duplicate_path", message, f"tolerances.inputs.{place}.path")
+        if body.limits is None and body.endpoint in SCUFFING:  # columns behind those of the outputs
+            columns = dict.fromkeys([*self.question.outputs, *SCUFFING[body.endpoint]])
+            self.question = self.question._replace(outputs=list(columns))
+        typical = {each.path: next(iter(anchors(each).values())) for each in inputs}
+        for case in body.cases:
+            base.checked({**typical, **case.set})
+        total = len(body.cases) * (tolerances.count * tolerances.replicates if tolerances else 1)
+        if total > most:
+            message = _too_many(self.question, {**typical, **body.cases[0].set}, total, most)
+            raise Unprocessable("too_many_points", message, "tolerances.count" if tolerances else "cases")
+        self.cases = _with_shares(body.cases)
+        # The values that scatter, a row a machine, replicate after replicate; the nominal machine alone has none.
+        self.machines = _machines(tolerances, self.scattering) if tolerances else np.empty((1, 0))
+        return total
+
+    def overrides(self, index: int) -> Overrides:
+        """What a point changes in the base request; points are the cases of the first machine, then of the next."""
+        draw, case = divmod(index, len(self.cases))
+        machine = dict(zip(paths_of(self.scattering), self.machines[draw].tolist(), strict=True))
+        return machine | self.cases[case].set
+
+    async def lines(self, pool: Pool, clock: Clock) -> Lines:
+        """The header, the points if they are asked for, how far it has come, the end."""
+        yield [
+            self.header(
+                cases=[case.model_dump() for case in self.cases],
+                tolerances=self._tolerances_header(),
+                outputs=[output_header(leaf) for leaf in self.outputs],
+                total=self.total,
+            )
+        ]
+        tally, due = runner.Tally(self.question.outputs), PROGRESS_S
+        async for indices, points in runner.in_order(pool, self.question, self.overrides, range(self.total), clock):
+            lines: list[Line] = []
+            for index, point in zip(indices, points, strict=True):
+                tally.add(point)
+                tally.keep(point.out if point.status in SOLVED else [None] * len(point.out))
+                if self.body.points:
+                    draw, case = divmod(index, len(self.cases))
+                    shown = point._replace(out=point.out[: len(self.outputs)])
+                    lines.append({**runner.point_line(index, self.overrides(index), shown), "draw": draw, "case": case})
+            if clock.elapsed_s >= due:
+                lines.append(clock.line())
+                due = clock.elapsed_s + PROGRESS_S
+            yield lines
+        replicates = self.body.tolerances.replicates if self.body.tolerances else 1
+        values = tally.values.reshape(replicates, -1, len(self.cases), len(self.question.outputs))
+        concluded = await runner.twice_if_lost(pool, evaluated, self, values)
+        assumptions = list(tally.assumptions.values())
+        yield [
+            {
+                "type": "end",
+                **concluded,
+                "notes": [*concluded["notes"], *self._ignored(assumptions)],
+                "points": self.total,
+                "counts": dict(sorted(tally.counts.items())),
+                "errors": dict(sorted(tally.errors.items())),
+                "warnings": dict(sorted(tally.warnings.items())),
+                "assumptions": [*concluded["assumptions"], *assumptions],
+                "elapsed_s": clock.elapsed_s,
+            }
+        ]
+
+    def _tolerances_header(self) -> Line | None:
+        """How the machines are drawn, and what share of each distribution is cut off."""
+        if self.body.tolerances is None:
+            return None
+        inputs = [
+            {**each.model_dump(), "unit": leaf.unit, "title": leaf.title, "cut_off": cut(each, leaf).cut_off}
+            for each, leaf in zip(self.body.tolerances.inputs, self.scattering, strict=True)
+        ]
+        return {**self.body.tolerances.model_dump(), "inputs": inputs}
+
+    def _ignored(self, assumptions: Sequence[Line]) -> list[str]:
+        """What is to be said of tolerances that the model does not use as the request stands."""
+        found = {each["field"]: each["reason"] for each in assumptions if each["reason"].startswith(NOT_USED)}
+        return [f"{path} scatters without effect; {found[path]}" for path in paths_of(self.scattering) if path in found]
+
+
+def evaluated(study: Spectrum, values: FloatArray) -> Line:
+    """The content of the last line, from the outputs `[replicate, draw, case, output]`; runs in a worker."""
+    columns = {path: values[..., place] for place, path in enumerate(study.question.outputs)}
+    limits, assumptions, notes = _limits(study, columns)
+    limited = [_of_limit(study, each, columns[each.output]) for each in limits]
+    if any(each["interval"] and each["deviation"] and each["bounds"][1] < RARE for each in limited):
+        notes = [*notes, RARE_NOTE]
+    shown = {leaf.path: columns[leaf.path] for leaf in study.outputs}
+    return {
+        "cases": [
+            {
+                "name": case.name,
+                "share": case.share,
+                "unsolved": float(np.isnan(values[:, :, place]).all(axis=-1).mean()),
+                "means": {path: statistics.mean(column[..., place]) for path, column in shown.items()},
+                "quantiles": {path: statistics.quantiles(column[..., place]) for path, column in shown.items()},
+                "limits": [statistics.of_case(columns[each.output][..., place], each)._asdict() for each in limits],
+            }
+            for place, case in enumerate(study.cases)
+        ],
+        "limits": limited,
+        "outputs": {leaf.path: _of_output(study, leaf, columns[leaf.path]) for leaf in study.outputs},
+        "notes": notes,
+        "assumptions": assumptions,
+    }
+
+
+def _limits(study: Spectrum, columns: dict[str, FloatArray]) -> tuple[list[Limit], list[Line], list[str]]:
+    """The limits used, the assumption where the default limit is used, and notes."""
+    paths = SCUFFING.get(study.question.endpoint)
+    if study.body.limits is not None or paths is None:
+        return [_limit(each) for each in study.body.limits or ()], [], []
+    known = columns[paths.limit][~np.isnan(columns[paths.limit])]
+    if not known.size:
+        return [], [], ["no limit is given, and the request has no scuffing temperature: give one of them"]
+    first = columns[paths.limit][..., 0]
+    mean = float(np.nanmedian(known if np.isnan(first).all() else first))  # no single machine of a sample sets it
+    limit = Limit("above", mean, RELATIVE_DEVIATION * abs(mean), paths.contact)
+    assumption = {"field": "limits", "value": limit.deviation, "reason": ASSUMED_DEVIATION}
+    varies = np.ptp(known) > LIMIT_VARIES * abs(mean)
+    note = (
+        "the scuffing temperature differs between the cases or the machines; the limit is its median in the first "
+        f"case, {mean:.4g}; give limits"
+    )
+    return [limit], [assumption], [note] if varies else []
+
+
+def _of_limit(study: Spectrum, limit: Limit, outputs: FloatArray) -> Line:
+    """The probability over the spectrum, how often each case is the worst, the correlation with each tolerance."""
+    worst = limit.worst(outputs)
+    edges, density = statistics.histogram(worst)
+    solved = ~np.isnan(outputs).any(axis=-1).ravel()
+    correlation = {
+        leaf.path: statistics.rank_correlation(column[solved], worst.ravel()[solved])
+        for leaf, column in zip(study.scattering, study.machines.T, strict=True)
+    }
+    return {
+        "output": limit.output,
+        "side": limit.side,
+        "mean": limit.mean,
+        "deviation": limit.deviation or None,
+        **statistics.of_spectrum(outputs, limit)._asdict(),
+        "unsolved": 1.0 - float(solved.mean()),
+        "decides": statistics.deciding(outputs.reshape(-1, outputs.shape[-1]), limit),
+        "rank_correlation": correlation or None,
+        "quantiles": statistics.quantiles(worst),
+        "histogram": {"edges": edges, "density": density},
+    }
+
+
+def _of_output(study: Spectrum, leaf: Leaf, column: FloatArray) -> Line:
+    """Mean of an output over the spectrum, the energy per year of a power, and the extremes."""
+    mean = statistics.weighted_mean(column, [case.share or 0.0 for case in study.cases])
+    content: Line = mean._asdict() if mean else {"mean": None, "standard_error": None, "interval": None}
+    scale = KILOWATTS.get(leaf.unit or "")
+    if mean is not None and scale is not None and study.body.hours_per_year is not None:
+        content["energy_kwh_per_year"] = mean.mean * scale * study.body.hours_per_year
+    if np.isnan(column).all():
+        return {**content, "min": None, "max": None}
+    for end, index in {"min": int(np.nanargmin(column)), "max": int(np.nanargmax(column))}.items():
+        draw, case = divmod(index, len(study.cases))
+        content[end] = {"value": float(column.flat[index]), "case": case, "draw": draw, "at": study.overrides(index)}
+    return content
+
+
+def _limit(given: SpectrumLimit) -> Limit:
+    """A limit of the request."""
+    threshold = given.above or given.below
+    assert threshold is not None
+    mean = threshold.mean if threshold.value is None else threshold.value
+    assert mean is not None
+    return Limit("above" if given.above else "below", mean, threshold.deviation or 0.0, given.output)
+
+
+def _with_shares(cases: Sequence[LoadCase]) -> list[LoadCase]:
+    """The cases with their names and their shares of the operating time, whose sum is 1; raises Unprocessable."""
+    given = [each.share for each in cases if each.share is not None]
+    if given and len(given) < len(cases):
+        raise Unprocessable("shares", "give every case its share, or none", "cases")
+    shares = given or [1.0] * len(cases)
+    whole = sum(shares)
+    if given and abs(whole - 1.0) > SHARES_OFF + 1e-12:
+        message = f"the shares add up to {whole:.6g}; give fractions of the time that add up to 1"
+        raise Unprocessable("shares", message, "cases")
+    return [
+        each.model_copy(update={"name": each.name or f"case {place}", "share": share / whole})
+        for place, (each, share) in enumerate(zip(cases, shares, strict=True), start=1)
+    ]
+
+
+def _machines(tolerances: Tolerances, leaves: Sequence[Leaf]) -> FloatArray:
+    """The values that scatter, a row a machine; each replicate is a random sample of its own."""
+    seeds = np.random.SeedSequence(tolerances.seed).spawn(tolerances.replicates)
+    cubes = [
+        unit_cube(tolerances.method, tolerances.count, len(leaves), np.random.default_rng(seed), "tolerances.count")
+        for seed in seeds
+    ]
+    return drawn(tolerances.inputs, leaves, np.concatenate(cubes))
+
+
+def _too_many(question: Question, overrides: Overrides, total: int, most: int) -> str:
+    """The refusal of a study with too many points, with an estimate of its time from one of them."""
+    solve_point(question, overrides)  # the first one may load kernels
+    started = perf_counter()
+    solve_point(question, overrides)
+    seconds = perf_counter() - started
+    return (
+        f"cases x machines are {total} solutions; the limit is {most}. One takes some {seconds:.2g} s, "
+        f"all of them {total * seconds:,.0f} s on one core"
+    )
+
+
+class Column(NamedTuple):
+    """A column of the table: name, share, or the path of a field; its numbers are multiplied by ten to the `power`."""
+
+    path: str
+    power: int = 0
+
+
+def cases_of(calculation: Calculation, text: str) -> list[dict[str, Any]]:
+    """The cases of a table whose first line names the columns: name, share, and fields by their labels or paths.
+
+    Columns are parted by tabs, as a spreadsheet copies them, or by semicolons; an empty cell changes nothing. Raises
+    Unprocessable.
+    """
+    lines = [line for line in text.splitlines() if line.strip()] or [""]
+    try:
+        heading, *rows = csv.reader(lines, delimiter=separator_of(text))
+    except csv.Error:
+        raise Unprocessable("table", "the table cannot be read", "cases") from None
+    columns = [_column(calculation, cell.strip()) for cell in heading]
+    return [_case(calculation, columns, row, place) for place, row in enumerate(rows, start=2)] or [{}]
+
+
+def _column(calculation: Calculation, heading: str) -> Column:
+    """The column of a heading, which may be a path, a name or a label of the form, with or without a unit.
+
+    Raises Unprocessable where the heading means several fields; one that means none stays, for the study to refuse.
+    """
+    plain = heading.lower()
+    if leaf_at(calculation.request, heading) or plain in {NAME, SHARE}:
+        return Column(heading if plain not in {NAME, SHARE} else plain)
+    if plain.startswith(SHARE) and plain.removeprefix(SHARE).strip(AROUND_UNIT) == "%":
+        return Column(SHARE, -2)
+    alike: dict[tuple[int, bool], dict[str, Column]] = {}  # by length; what the form shows counts before names
+    for leaf in (leaf for leaf in leaves(calculation.request) if leaf.is_scalar and ITEM not in leaf.path):
+        name = leaf.path.rpartition(".")[2]
+        labels = {leaf.title, leaf.declared.title, name, words(split_unit(name)[0])}
+        for label in filter(plain.startswith, map(str.lower, labels)):
+            power = power_between(heading[len(label) :].strip(AROUND_UNIT), leaf.unit)
+            if power is not None:
+                shown = label == leaf.title.lower()
+                alike.setdefault((len(label), shown), {})[leaf.title] = Column(leaf.path, power)
+    meant = alike[max(alike)] if alike else {heading: Column(heading)}
+    if len(meant) > 1:
+        raise Unprocessable("table", f"the column {heading} may be {' or '.join(meant)}; write one of these", "cases")
+    return next(iter(meant.values()))
+
+
+def _case(calculation: Calculation, columns: list[Column], row: list[str], line: int) -> dict[str, Any]:
+    """A line of the table; a cell that its field does not take stays text, for the study to refuse."""
+    if any(cell.strip() for cell in row[len(columns) :]):
+        raise Unprocessable("table", f"line {line} has more columns than the first line names", "cases")
+    case: dict[str, Any] = {"set": {}}
+    for (column, power), cell in zip(columns, map(str.strip, row), strict=False):
+        leaf = leaf_at(calculation.request, column)
+        if not cell:
+            continue
+        if column != NAME and (asked := question(cell)):
+            raise Unprocessable("table", f"line {line}: {asked}", "cases")
+        if column == NAME:
+            case[NAME] = cell
+        elif column == SHARE:
+            share = scaled(number_of(cell.removesuffix("%").strip()), -2 if cell.endswith("%") else power)
+            if isinstance(share, str):
+                raise Unprocessable("table", f"line {line}: the share is no number", "cases")
+            case[SHARE] = float(share)
+        elif leaf is not None and leaf.kind == "boolean":
+            case["set"][column] = {"true": True, "false": False}.get(cell, cell)
+        else:
+            case["set"][column] = scaled(number_of(cell), power) if leaf is None or leaf.kind in NUMBERS else cell
+    return case
+
+
+def table_of(calculation: Calculation, cases: list[dict[str, Any]]) -> str:
+    """The table of cases as `cases_of` reads it, with the labels of the form in its first line."""
+    paths = list(dict.fromkeys(path for case in cases for path in case.get("set", {})))
+    rows = [[NAME, SHARE, *(_heading(calculation, path) for path in paths)]]
+    for place, case in enumerate(cases, start=1):
+        own = case.get("set", {})
+        head = [str(case.get(NAME) or f"case {place}"), text_of(case[SHARE]) if case.get(SHARE) is not None else ""]
+        rows.append([*head, *(text_of(own[path]) if path in own else "" for path in paths)])
+    return "\n".join("\t".join(cell.replace("\t", " ") for cell in row) for row in rows)
+
+
+def _heading(calculation: Calculation, path: str) -> str:
+    """The label and unit of a field, or its path where a column of that name would be another one."""
+    leaf = leaf_at(calculation.request, path)
+    if leaf is None:
+        return path
+    try:
+        meant = _column(calculation, titled(leaf))
+    except Unprocessable:
+        return path
+    return titled(leaf) if meant == Column(path) else path
+
+
+CONTROLS = (
+    Control(CASES, "cases", "", str),
+    Control("machines", "tolerances.count", int(MACHINES[0][1])),
+    Control("hours", "hours_per_year"),
+    Control("limit", "limit.value"),
+    Control("limit.side", "limit.side", read=str),
+    Control("limit.by", "limit.deviation"),
+)
+TOLERANCE = (
+    Control("", "path", read=str),
+    Control(".law", "distribution", "normal", str),
+    Control(".about", "mean"),
+    Control(".by", "deviation"),
+)
+"""The controls of a tolerance, named behind it, and what they set: the middle and the width of any distribution."""
+STATED = {"normal": ("mean", "deviation"), "lognormal": ("median", "factor")}
+"""What middle and width are of these distributions; of others they lie between `min` and `max`."""
+
+
+def _tolerance(place: int, name: str, about: Any = None, by: Any = None) -> list[Control]:
+    """The controls of a tolerance, around a value and by its width where nothing is typed."""
+    usual = {"mean": about, "deviation": by}
+    return [
+        each._replace(
+            name=f"{name}{each.name}",
+            path=f"tolerances.inputs.{place}.{each.path}",
+            default=usual.get(each.path, each.default),
+        )
+        for each in TOLERANCE
+    ]
+
+
+def _stated(law: str, about: Any, by: Any) -> dict[str, Any]:
+    """What a distribution states of its middle and width; nothing where there is no such distribution."""
+    if names := STATED.get(law):
+        return dict(zip(names, (about, by), strict=True))
+    ends = {"uniform": ("min", "max"), "triangular": ("min", "mode", "max")}.get(law, ())
+    return {end: {"min": about - by, "mode": about, "max": about + by}[end] for end in ends}
+
+
+def _typed(scatter: dict[str, Any]) -> dict[str, Any]:
+    """The middle and width of what a distribution states, for the controls: the inverse of `_stated`."""
+    law = scatter["distribution"]
+    if names := STATED.get(law):
+        about, by = (scatter[name] for name in names)
+    else:
+        about, by = (scatter["min"] + scatter["max"]) / 2, (scatter["max"] - scatter["min"]) / 2
+    return {"path": scatter["path"], "distribution": law, "mean": about, "deviation": by}
+
+
+def address_of(
+    endpoint: Calculation, request: Pairs, body: dict[str, Any], file: Mapping[str, str] = MappingProxyType({})
+) -> str:
+    """Return the page of a study of the API, with the first of its limits, and the file that it was read from."""
+    inputs, views = [_typed(each) for each in (body.get("tolerances") or {"inputs": []})["inputs"]], dict(file)
+    given = {
+        "cases": table_of(endpoint, body["cases"]),
+        "tolerances": {"inputs": inputs},
+        "hours_per_year": body.get("hours_per_year"),
+    }
+    for each in (body.get("limits") or ())[:1]:
+        (side,) = {"above", "below"} & set(each)
+        known = each[side]
+        views["show"] = each["output"]
+        given["limit"] = {"value": known.get("mean"), **known, "side": side}
+    controls = [*CONTROLS, *(each for place in range(len(inputs)) for each in _tolerance(place, TOLERANCES[place]))]
+    return link(f"{page_path(endpoint)}/{SpectrumPage.link.name}", request, **views, **texts_of(controls, given))
+
+
+class SpectrumPage(StudyPage):
+    """A machine with its tolerances over its load spectrum."""
+
+    link = StudyLink(
+        "spectrum",
+        "Load spectrum",
+        "cases and tolerances: the probability of exceeding a limit, and the mean losses",
+        place=3,
+    )
+    question = "its load spectrum"
+    about = "Machines are drawn from the tolerances; each runs every case, and its worst case meets the limit."
+    names = frozenset(
+        {each.name for each in CONTROLS} | {f"{name}{each.name}" for name in TOLERANCES for each in TOLERANCE}
+    )
+    figures = ("limit", "probability", "decides", "losses")
+    outputs = tuple(paths.contact for paths in SCUFFING.values())
+    needs = ("cases", *TOLERANCES)
+    choose = "Cases are a table of what each part of the operating time changes; tolerances say how the fields scatter."
+    plan = Spectrum
+    address_of = staticmethod(address_of)
+    study: Spectrum
+
+    def body(self) -> dict[str, Any]:
+        """The cases and tolerances as typed, the output shown with its limit, and the losses."""
+        calculation, output, given = self.calculation, self.output.path, self.given()
+        tolerances = given["tolerances"]
+        drawn = tolerances.get("inputs", [])
+        inputs = [self._scatter(each, f"tolerances.inputs.{place}") for place, each in enumerate(drawn)]
+        machines = tolerances["count"]
+        if not isinstance(machines, int):
+            raise Unprocessable("int_type", "give a whole number", "tolerances.count")
+        tolerances = {"inputs": inputs, "count": machines // REPLICATES, "replicates": REPLICATES}
+        return {
+            "endpoint": calculation.path,
+            "request": self.asked.body,
+            "cases": cases_of(calculation, given["cases"]),
+            "tolerances": tolerances if inputs else None,
+            "outputs": list(dict.fromkeys([output, *LOSSES.get(calculation.path, ())])),
+            "limits": self._limits(given.get("limit", {})),
+            "hours_per_year": given.get("hours_per_year"),
+        }
+
+    def _given(self) -> list[str]:
+        """The controls of the tolerances that are filled in; others between them may be empty."""
+        return [name for name in TOLERANCES if self.views.get(name)]
+
+    def declared(self) -> tuple[Control, ...]:
+        """The table of cases, the machines, the hours, and each tolerance around the value of the case, by its own."""
+        found = [
+            *CONTROLS,
+            Control("machines", "tolerances", sets=False),
+            Control("limit", "limits", sets=False),
+        ]
+        for place, name in enumerate(self._given()):
+            path = self.views[name]
+            leaf, where = self.field_at(path), f"tolerances.inputs.{place}"
+            found += _tolerance(place, name, value_at(self.case, path), leaf.declared.tolerance if leaf else None)
+            found += (
+                Control(f"{name}.about", f"{where}.median", sets=False),
+                Control(f"{name}.by", where, sets=False),
+            )
+        return (*found, *(Control(name, "tolerances.inputs", sets=False) for name in self._given()[:1]))
+
+    def _scatter(self, given: dict[str, Any], where: str) -> dict[str, Any]:
+        """The distribution of one field by its law: what is given are its mean and deviation."""
+        leaf = scalar_at(self.calculation.request, given["path"], f"{where}.path", "unknown_path")
+        about: Any = given.get("mean")
+        by: Any = given.get("deviation")
+        for value, lacks in ((about, "around which value"), (by, "by how much")):
+            if not is_number(value):
+                raise Unprocessable("missing", f"{leaf.title}: say {lacks}", where)
+        law = given["distribution"]
+        return {"path": leaf.path, "distribution": law, **_stated(law, about, by)}
+
+    @property
+    def _assumes_limit(self) -> bool:
+        """Whether the output is compared with the scuffing temperature where no limit is given."""
+        scuffing = SCUFFING.get(self.calculation.path)
+        return scuffing is not None and (self.views.get("show") or self.usual_output.path) == scuffing.contact
+
+    def _limits(self, given: dict[str, Any]) -> list[dict[str, Any]] | None:
+        """The limit typed, or else the usual limit of the output; None if the scuffing temperature is the limit."""
+        view, scatter, value = self.output.view, given.get("deviation"), given.get("value")
+        if value is None and view.bound and isinstance(view.limit, int | float) and not self._assumes_limit:
+            value = view.limit
+        if value is None and scatter is not None:
+            raise Unprocessable("missing", "give the limit whose deviation this is", "limits.0.above")
+        if value is None:
+            return None if self._assumes_limit else []
+        side = given.get("side") or ("below" if view.greatest_is_best else "above")
+        threshold = {"value": value} if scatter is None else {"mean": value, "deviation": scatter}
+        return [{"output": self.output.path, side: threshold}]
+
+    def controls(self) -> tuple[Controls, ...]:
+        """The table of cases, and the tolerances: those given and two more."""
+        case = self.case
+        text = as_typed(self.views.get("cases", "")) or _suggested(self.calculation, case)
+        about = (
+            "The first line names the columns: name, share (of the time) and fields, as the form or the request does.",
+            "One line a case, columns parted by tabs or semicolons, as pasted from a spreadsheet.",
+            "An empty cell changes nothing.",
+        )
+        table = replace(self.field("cases", "cases"), widget="table", text=text, help=about)
+        groups = [Controls("Load spectrum", fields=(table,))]
+        last = max((place for place, name in enumerate(TOLERANCES) if self.views.get(name)), default=-1)
+        choices = field_choices(self.calculation, case, texts=False) if self.asked.pairs else []
+        for place, name in enumerate(TOLERANCES[: last + 3]):
+            path = self.views.get(name, "")
+            leaf, own = leaf_at(self.calculation.request, path), value_at(case, path)
+            unit, usual = (leaf.unit or "", leaf.declared.tolerance) if leaf else ("", None)
+            fields = (
+                self.field(f"{name}.law", "distribution", options=LAWS),
+                self.field(f"{name}.by", "by", usual, difference_unit(unit) or ""),
+                self.field(f"{name}.about", "around", own, unit),
+            )
+            groups.append(Controls(f"Tolerance {place + 1}", self.menu(name, "field", "none", choices), fields))
+        return tuple(groups)
+
+    def shows(self) -> tuple[FieldView, ...]:
+        """The limit of the output, how many machines are drawn, and the hours of operation."""
+        assumed = self._assumes_limit and not self.views.get("limit")
+        deviation = f"{percent(RELATIVE_DEVIATION)} of it" if assumed else "none"
+        return (
+            self.field("limit", "limit", "its own"),
+            self.field("limit.by", "deviation of the limit", deviation),
+            self.field("limit.side", "side", options=SIDES),
+            self.field("machines", "machines drawn", options=MACHINES),
+            self.field("hours", "hours a year"),
+        )
+
+    def starters(self) -> Sequence[Starter]:
+        """Links to the ready studies of /v1/spectrum; none where the query has a case."""
+        starters = []
+        for each in EXAMPLES["/v1/spectrum"].values():
+            body = each["value"]
+            if body["endpoint"] == self.calculation.path and not self.asked.pairs:
+                address = address_of(self.calculation, pairs_of(body["request"]), body)
+                starters.append(Starter(each["summary"], "example", address))
+        return starters
+
+    def result(self, lines: list[Line]) -> Result:
+        """The probability of failure with the limit, the deciding cases, the influences and the losses."""
+        header, end, output = lines[0], lines[-1], self.output
+        cases = len(self.study.cases)
+        machines = end["points"] // cases
+        counted = [f"{count} {noun}{'s' * (count > 1)}" for count, noun in ((machines, "machine"), (cases, "case"))]
+        progress = f"{' in '.join(counted)}, {shown(end['elapsed_s'], 2)} s"
+        figures, notes = dict[str, Figure](), [*end["notes"]]
+        found = next((each for each in end["limits"] if each["output"] == output.path), None)
+        if found is not None:
+            limited, said = self._limited(end, found), sentence(found)
+            progress = f"{said[0].upper()}{said[1:]}; {progress}"
+            for name, draw in (("limit", overlap), ("probability", chances), ("decides", deciding)):
+                try:
+                    figures[name] = draw(limited)
+                except NoFigure as error:
+                    notes.append(error.message)
+        elif not notes:
+            notes.append(f"the {output.title} has no limit here; state one, and there is a probability")
+        unsolved = end["points"] - sum(end["counts"].get(status, 0) for status in SOLVED)
+        if unsolved:
+            notes.append(
+                f"{unsolved} of {end['points']} points have no solution; each probability lies between taking them as "
+                "good and as bad"
+            )
+        tables = (
+            *((self._limit_table(end, found),) if found else ()),
+            self._cases_table(end, found),
+            self._outputs_table(end),
+            *((_tolerances_table(header, found),) if header["tolerances"] else ()),
+        )
+        remarks = tuple(f"{note[0].upper()}{note[1:]}." for note in notes)
+        leads = (Link("Report with this spectrum", self.view("/report")),)
+        return Result(progress, figures | self._losses(end), tables, remarks, leads)
+
+    def _limited(self, end: Line, found: Line) -> Limited:
+        """The limit shown, with its most probable cases where there are many."""
+        place = end["limits"].index(found)
+        decides = found["decides"] or [None] * len(end["cases"])
+        cases = [
+            SpectrumCase(each["name"], each["quantiles"][self.output.path], each["limits"][place], share)
+            for each, share in zip(end["cases"], decides, strict=True)
+        ]
+        worst = sorted(cases, key=lambda case: -case.chance["bounds"][1])[:MOST_BARS]
+        titles = {leaf.path: leaf.title for leaf in self.study.scattering}
+        ranks = found["rank_correlation"] or {}
+        influences = {titles[path]: value for path, value in ranks.items() if value is not None}
+        return Limited(axis_of(self.output), found, [case for case in cases if case in worst], influences)
+
+    def _losses(self, end: Line) -> dict[str, Figure]:
+        """Mean losses of the cases [kW]; nothing where none of them is known."""
+        wanted, outputs = LOSSES.get(self.calculation.path, ()), end["outputs"]
+        titles = {leaf.path: leaf.title for leaf in self.study.outputs}
+        known = {path: titles[path] for path in wanted if outputs[path]["mean"] is not None}
+        if not known:
+            return {}
+        cases = {
+            each["name"]: {title: (each["means"][path] or 0.0) / 1e3 for path, title in known.items()}
+            for each in end["cases"][:MOST_BARS]
+        }
+        mean = {title: outputs[path]["mean"] / 1e3 for path, title in known.items()}
+        years = [outputs[path].get("energy_kwh_per_year") for path in known]
+        return {"losses": losses(cases, mean, None if None in years else sum(years) / 1e3)}
+
+    def _limit_table(self, end: Line, found: Line) -> Table:
+        """The limit with its deviation, and where it comes from."""
+        assumed = next((each["reason"] for each in end["assumptions"] if each["field"] == "limits"), None)
+        row = (
+            self.output.title,
+            f"not {found['side']}",
+            shown(found["mean"], 4),
+            "exact" if found["deviation"] is None else _deviation(found["deviation"], self.output.unit, 4),
+            self.output.unit or "",
+            "given" if assumed is None else f"assumed: {cited(assumed)}",
+        )
+        return Table("Limit", ("output", "side", Number("limit"), Number("deviation"), "unit", "source"), (row,))
+
+    def _cases_table(self, end: Line, found: Line | None) -> Table:
+        """Every case with its share, its probability, how often it decides, and its output."""
+        output, rows = self.output, list[tuple[str | Link, ...]]()
+        for index, (case, each) in enumerate(zip(self.study.cases, end["cases"], strict=True)):
+            row: list[str | Link] = [Link(each["name"], self.address(case.set)), percent(each["share"])]
+            if found:
+                row.append(chance_text(each["limits"][end["limits"].index(found)]))
+                row.append(percent(found["decides"][index]) if found["decides"] else "–")
+            row += [shown(value, 4) for value in each["quantiles"][output.path] or [None] * 3]
+            rows.append((*row, percent(each["unsolved"])))
+        unit = f", {output.unit}" if output.unit else ""
+        judged = ("probability alone", "decides") if found else ()
+        heads = ("share", *judged, f"5 %{unit}", "50 %", "95 %", "unsolved")
+        note = f"Of each case 5, 50 and 95 % of the machines have a lower {output.title}."
+        return Table("Cases", ("case", *map(Number, heads)), rows, f"{note} A name leads to the nominal case.")
+
+    def _outputs_table(self, end: Line) -> Table:
+        """Means over the operating time, and the extremes with the machine and case where they are."""
+        rows = []
+        for leaf in self.study.outputs:
+            found = end["outputs"][leaf.path]
+            ends = (
+                Link(shown(extreme["value"], 4), self.address(extreme["at"])) if extreme else "–"
+                for extreme in (found["min"], found["max"])
+            )
+            mean, error = shown(found["mean"], 4), _deviation(found["standard_error"], leaf.unit, 2)
+            energy = shown(found.get("energy_kwh_per_year"), 4)
+            rows.append((leaf.title, mean, error, *ends, leaf.unit or "", energy))
+        heads = map(Number, ("mean", "standard error", "least", "largest"))
+        head = ("output", *heads, "unit", Number("kWh a year"))
+        return Table("Over the operating time", head, rows, "A number leads to the machine and case where it is.")
+
+
+def _deviation(value: float | None, unit: str | None, digits: int) -> str:
+    """A difference of values in this unit, with a unit of its own where that is another one."""
+    own = difference_unit(unit)
+    return shown(value, digits) if own == unit or value is None else number(value, own, digits)
+
+
+def _suggested(calculation: Calculation, case: dict[str, Any]) -> str:
+    """A table to start from: the case itself for most of the time, and half its load."""
+    known = {path: value for path in USUAL if isinstance(value := value_at(case, path), int | float)}
+    half = {path: value / 2 if "power" in path or "torque" in path else value for path, value in known.items()}
+    return table_of(
+        calculation, [{NAME: "full load", SHARE: 0.8, "set": known}, {NAME: "half load", SHARE: 0.2, "set": half}]
+    )
+
+
+def _tolerances_table(header: Line, found: Line | None) -> Table:
+    """How the fields scatter, what is cut off, and how the worst case goes with them."""
+    numbers = ("mean", "deviation", "median", "factor", "min", "mode", "max")
+    ranks = (found and found["rank_correlation"]) or {}
+    rows = []
+    for each in header["tolerances"]["inputs"]:
+        stated = {name: shown(each[name], 4) for name in numbers if each.get(name) is not None}
+        if "deviation" in stated:
+            stated["deviation"] = _deviation(each["deviation"], each["unit"], 4)
+        law = ", ".join(f"{name} {value}" for name, value in stated.items())
+        drawn = (each["title"], f"{each['distribution']}: {law}", each["unit"] or "")
+        rows.append((*drawn, percent(each["cut_off"]), shown(ranks.get(each["path"]), 3)))
+    head = ("field", "distribution", "unit", Number("cut off"), Number("rank"))
+    note = "Cut off is the share beyond four deviations or the field's range"
+    return Table("Tolerances", head, rows, f"{note}; rank is the correlation with the worst case.")
+
+
+PAGE = SpectrumPage

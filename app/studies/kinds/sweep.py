@@ -1,0 +1,546 @@
+"""Sweeps: one request at many points, each the endpoint's own answer; a line a point, then extremes and statistics.
+
+On its page one field of a case is varied, or two, drawn as a curve, as curves or as a map while the points come.
+"""
+
+import json
+from collections import Counter
+from collections.abc import Callable, Sequence
+from functools import partial
+from math import ceil, floor, inf, isfinite, nan
+from typing import Annotated, Any, ClassVar
+
+import numpy as np
+from pydantic import Field
+
+from app.errors import Unprocessable
+from app.figures.data import Figure, values
+from app.figures.studies import Coordinate, Grid, answer, figures_of
+from app.figures.units import axis_of
+from app.pages.form import FieldView
+from app.pages.studies.controls import Control, choices_of, field_choices, has_numbers
+from app.pages.studies.controls import is_number as is_plain_number
+from app.pages.studies.page import Controls, Link, Number, Result, StudyPage, Table, titled
+from app.pages.study_kinds import StudyLink
+from app.pages.study_links import VARY, Starter, StudyExample, studies_of, studies_of_case
+from app.pages.typesetting import shown, words
+from app.schema.fields import Leaf, leaf_at
+from app.schema.quantities import Input
+from app.spreadsheet import csv_of
+from app.studies import runner
+from app.studies.fields import did_you_mean, is_number, scalar_at, value_at
+from app.studies.point_sets import CheckedAxis, PointSet, drawn, grid, listed, scattering, unit_cube
+from app.studies.points import SOLVED, BaseRequest, Point, check_count
+from app.studies.requests import (
+    COUNT,
+    METHOD,
+    Axis,
+    Cases,
+    FieldPath,
+    FromIndex,
+    Inputs,
+    Method,
+    Part,
+    Range,
+    Scatter,
+    Seed,
+    StudyRequest,
+)
+from app.studies.runner import Clock, Line, Lines, Pool, Study, output_header, paths_of
+from app.studies.statistics import of_sample
+
+AROUND = 0.5  # of a value, to both sides
+TOLERANCES = 4.0  # to both sides of zero
+INSIDE = 1e-3  # of a range, away from an end that is not allowed
+COUNTS = {"x": 21, "y": 5}  # points offered at first: a curve that looks smooth, few curves
+MOST_WHOLE = 10_000  # whole numbers that an axis is spread over
+FIRST = "vary.0"  # the axis along which a curve runs
+MOST_ROWS = 200  # of a table on a page; the file has all
+MOST_REASONS = 6  # why points are missing, the most frequent
+
+
+class Sample(Part):
+    """Points at random: evenly over ranges, or by distributions."""
+
+    exactly_one = ("ranges", "inputs")
+    method: Annotated[Method, METHOD] = "latin_hypercube"
+    count: Annotated[int, COUNT]
+    seed: Seed = 1
+    ranges: Annotated[
+        list[Range] | None, Field(min_length=1, max_length=50), Input("ranges", text="the fields and their ranges")
+    ] = None
+    inputs: Annotated[Inputs | None, Input("distributions", text="the fields and their distributions")] = None
+
+
+class Bound(Part):
+    """A limit on one output."""
+
+    output: Annotated[FieldPath, Input("limited output", text="dotted path of one of the outputs")]
+    min: Annotated[float | None, Input("least permissible value")] = None
+    max: Annotated[float | None, Input("largest permissible value")] = None
+
+
+class Best(Part):
+    """Which point is the best one."""
+
+    exactly_one = ("minimise", "maximise")
+    minimise: Annotated[FieldPath | None, Input("output to minimise")] = None
+    maximise: Annotated[FieldPath | None, Input("output to maximise")] = None
+    where: Annotated[list[Bound], Field(max_length=20), Input("limits", text="limits that the best point keeps")] = (
+        Field([])
+    )
+
+    @property
+    def output(self) -> str:
+        """The output that decides."""
+        return str(self.minimise or self.maximise)
+
+
+class SweepRequest(StudyRequest):
+    """One request at many points: a grid, a list of cases or a random sample."""
+
+    exactly_one = ("vary", "cases", "sample")
+    vary: Annotated[list[Axis] | None, Field(min_length=1, max_length=3), Input("axes of a grid")] = None
+    cases: Annotated[Cases, Input("cases", text="what each case changes")] = None
+    sample: Annotated[Sample | None, Input("random sample")] = None
+    best: Annotated[Best | None, Input("best point", text="which point to pick at the end")] = None
+    from_index: FromIndex = 0
+
+
+class Summary(runner.Tally):
+    """What the end of a sweep says of its points.
+
+    `extremes` are the least and the largest value of every output that has any, as `min` and `max`, each with the
+    index of its point; `best_point` is the index of the best one, with its outputs.
+    """
+
+    def __init__(self, outputs: Sequence[str], best: Best | None = None, first: int = 0) -> None:
+        super().__init__(outputs)
+        self.extremes: dict[str, dict[str, tuple[float, int]]] = {}
+        self.best_point: tuple[int, list[Any]] | None = None
+        self._best = best
+        self._first = first
+        self._least = inf
+
+    def add(self, point: Point) -> None:
+        """Take in the next point, in order; of equal values the first counts."""
+        index = self._first + self.counts.total()
+        super().add(point)
+        for path, value in zip(self.outputs, point.out, strict=True):
+            if is_number(value):
+                known = self.extremes.setdefault(path, {"min": (value, index), "max": (value, index)})
+                if value < known["min"][0]:
+                    known["min"] = (value, index)
+                if value > known["max"][0]:
+                    known["max"] = (value, index)
+        if self._best is not None:
+            self._compare(self._best, index, point.out)
+
+    def _compare(self, best: Best, index: int, out: list[Any]) -> None:
+        """Keep the point if it is the best so far inside all limits."""
+        values = dict(zip(self.outputs, out, strict=True))
+        inside = all(
+            is_number(values[bound.output])
+            and (bound.min is None or values[bound.output] >= bound.min)
+            and (bound.max is None or values[bound.output] <= bound.max)
+            for bound in best.where
+        )
+        value = values[best.output]
+        if inside and is_number(value) and (least := value if best.minimise else -value) < self._least:
+            self.best_point, self._least = (index, out), least
+
+
+class Sweep(Study):
+    """Every point is the endpoint's own answer.
+
+    Lines are `sweep`, then `point` in order with the first axis slowest, `progress` when nothing else was sent for two
+    seconds, and `end`; or `error`, which ends a study early and is the last row of a table. A stream without either was
+    cut off: with `from_index` the study goes on, with the same points and lines from there.
+    The end of a sample has the 5, 50 and 95 % quantiles, and in `quantile_bounds` their 90 % confidence intervals.
+    """
+
+    path = "/v1/sweep"
+    summary = "One request at many points: a grid, a list of cases, a random sample"
+    answer = "a line for the sweep, one for each point in order, one for the end"
+    model: ClassVar[type[Any]] = SweepRequest
+    is_reduced = False
+    points: PointSet
+
+    def _planned(self, base: BaseRequest, most: int) -> int:
+        self.points = self._points(base, most)
+        first: int = self.body.from_index
+        if first >= self.points.total:
+            message = f"the study has {self.points.total} points, counted from 0"
+            raise Unprocessable("out_of_range", message, "from_index")
+        base.checked(self.points.overrides(0))
+        return self.points.total - first
+
+    def _points(self, base: BaseRequest, most: int) -> PointSet:
+        """The points that the body asks for."""
+        body: SweepRequest = self.body
+        if body.best is not None:
+            _check_best(body.best, self.outputs)
+        if body.cases is not None:
+            return listed(body.cases, base, most, "cases")
+        if body.sample is not None:
+            return _sampled(body.sample, base, most)
+        return grid(body.vary or [], base, most, "vary")
+
+    async def lines(self, pool: Pool, clock: Clock) -> Lines:
+        """The header, each point, the closing lines."""
+        points, first, outputs = self.points, self.body.from_index, self.question.outputs
+        yield [
+            self.header(
+                axes=[axis.header() for axis in points.axes],
+                outputs=[output_header(leaf) for leaf in self.outputs],
+                total=points.total,
+                **({"from_index": first} if first else {}),
+            )
+        ]
+        summary, indices = Summary(outputs, self.body.best, first), range(first, points.total)
+        async for solved, found in runner.in_order(pool, self.question, points.overrides, indices, clock):
+            lines = []
+            for index, point in zip(solved, found, strict=True):
+                summary.add(point)
+                if self.body.sample:
+                    summary.keep(point.out)
+                lines.append(runner.point_line(index, points.rows[index], point))
+            yield lines
+        sampled: Line = {"quantiles": None, "quantile_bounds": None, "rank_correlation": None}
+        if self.body.sample:
+            inputs, varied = np.array(points.rows[first:]), paths_of(points.varied)
+            sampled = await runner.twice_if_lost(pool, of_sample, inputs, summary.values, varied, outputs)
+        best = summary.best_point
+        end = {
+            "type": "end",
+            "points": self.total,
+            "counts": dict(sorted(summary.counts.items())),
+            "ranges": summary.extremes,
+            **sampled,
+            "best": best and {"index": best[0], "at": points.rows[best[0]], "out": best[1]},
+            "assumptions": list(summary.assumptions.values()),
+            "elapsed_s": clock.elapsed_s,
+        }
+        yield self._closing(summary, end)
+
+    def _closing(self, _: Summary, end: Line) -> list[Line]:
+        """The lines behind those of the points, of which `end` is the last."""
+        return [end]
+
+    def encoder(self, written_as: str) -> Callable[[Line], bytes]:
+        """Return what writes a line: as JSON, or as a row of a table."""
+        if written_as == "csv":
+            return partial(table_row, self.points, self.outputs)
+        return super().encoder(written_as)
+
+
+def table_row(points: PointSet, outputs: tuple[Leaf, ...], line: Line) -> bytes:
+    """A line of a sweep as comma-separated values, the first one as a header with units.
+
+    Nothing for progress and end; an error has a row with its message.
+    """
+    error = line if line["type"] == "error" else line.get("error")
+    message = f"{error['code']}: {error['message']}" if error else None
+    row: list[Any]
+    match line["type"]:
+        case "sweep":
+            inputs, results = (
+                [f"{leaf.path} [{leaf.unit}]" if leaf.unit else leaf.path for leaf in leaves]
+                for leaves in (points.varied, outputs)
+            )
+            row = ["index", *inputs, "status", *results, "warnings", "error"]
+        case "point":
+            overrides = points.overrides(line["index"])
+            at = [overrides.get(leaf.path) for leaf in points.varied]
+            row = [line["index"], *at, line["status"], *line["out"], " ".join(line["warnings"]), message]
+        case "error":
+            row = [None, *[None] * len(points.varied), "error", *[None] * len(outputs), None, message]
+        case _:
+            return b""
+    return csv_of([row])
+
+
+def _sampled(sample: Sample, base: BaseRequest, most: int) -> PointSet:
+    """Random points, the same for the same seed."""
+    check_count(sample.count, most, "sample.count")
+    scatters: Sequence[Range | Scatter] = sample.ranges or sample.inputs or ()
+    leaves = scattering(scatters, base, "sample.ranges" if sample.ranges else "sample.inputs")
+    cube = unit_cube(sample.method, sample.count, len(leaves), sample.seed, "sample.count")
+    axes = [CheckedAxis(leaf.path, (leaf,), None) for leaf in leaves]
+    return PointSet(axes, leaves, drawn(scatters, leaves, cube).tolist())
+
+
+def _check_best(best: Best, outputs: tuple[Leaf, ...]) -> None:
+    """Refuse a best point by what is no output of the sweep, or no number."""
+    known = {leaf.path: leaf for leaf in outputs}
+    judged = {"best.minimise" if best.minimise else "best.maximise": best.output}
+    judged |= {f"best.where.{place}.output": bound.output for place, bound in enumerate(best.where)}
+    for place, path in judged.items():
+        if path not in known:
+            message = f"{path} is not among the outputs of the sweep{did_you_mean(path, known)}"
+            raise Unprocessable("unknown_output", message, place)
+        if known[path].kind == "text":
+            raise Unprocessable("unknown_output", f"{path} is no number", place)
+
+
+AXES = ("x", "y")
+AXIS = (
+    Control("", "path", read=str),
+    Control(".from", "start", label="from"),
+    Control(".to", "stop", label="to"),
+    Control(".count", "count", label="points"),
+    Control(".scale", "scale", "linear", str, label="steps", options=(("", "even steps"), ("log", "even ratios"))),
+)
+"""The controls of an axis, named behind it, and its fields that they set."""
+
+
+class SweepPage(StudyPage):
+    """A sweep of a case over one or two fields."""
+
+    link = StudyLink(VARY, "Vary", "one input or two over a range: a curve or a map", place=1)
+    question = "vary an input"
+    about = "One question asked many times; every point is a case of its own."
+    names = frozenset({"best"} | {f"{axis}{control.name}" for axis in AXES for control in AXIS})
+    figures = ("curve", "family", "map", "worst")
+    grows = True
+    needs = AXES
+    choose = (
+        "Choose a field to vary. One field makes a curve; two make curves or a map. Without a range it goes from "
+        "half to one and a half times the value of the case."
+    )
+    files = ("csv", "ndjson")
+    plan = Sweep
+    study: Sweep
+
+    def _own(self, leaf: Leaf) -> float | None:
+        """The number in the case at the path of a field."""
+        value = value_at(self.case, leaf.path)
+        return float(value) if is_plain_number(value) else None
+
+    def _usual_ends(self, leaf: Leaf) -> tuple[float, float] | tuple[None, None]:
+        """The ends between which a field is varied if none are typed; (None, None) where none can be chosen.
+
+        They lie around the value of the case, inside the range of the field; without a value they are the range itself,
+        if it has two finite ends. Integers, or numbers of four significant digits.
+        """
+        if numbers := [each for each in leaf.options if is_plain_number(each)]:
+            return min(numbers), max(numbers)
+        value, bounds, tolerance = self._own(leaf), leaf.declared.bounds, leaf.declared.tolerance
+        low, high = bounds.get("ge", bounds.get("gt", -inf)), bounds.get("le", bounds.get("lt", inf))
+        margin = INSIDE * (high - low) if isfinite(high - low) else INSIDE
+        if "gt" in bounds:
+            low += margin
+        if "lt" in bounds:
+            high -= margin
+        if value:
+            low, high = max(low, value - AROUND * abs(value)), min(high, value + AROUND * abs(value))
+        elif value is not None and tolerance is not None:
+            low, high = max(low, value - TOLERANCES * tolerance), min(high, value + TOLERANCES * tolerance)
+        if not isfinite(high - low):
+            return None, None
+        return (ceil(low), floor(high)) if leaf.kind == "integer" else (float(f"{low:.4g}"), float(f"{high:.4g}"))
+
+    def declared(self) -> tuple[Control, ...]:
+        """The controls of the axes; what is wrong with an axis is shown at its first end, with all at their number."""
+        found = [Control("x.count", "vary", sets=False)]
+        for place, name in enumerate(AXES):
+            path = self.views.get(name, "")
+            usual: dict[str, Any] = {"count": COUNTS[name]}
+            if leaf := self.field_at(path):
+                usual |= zip(("start", "stop"), self._usual_ends(leaf), strict=True)
+            for each in AXIS:
+                own = each._replace(name=f"{name}{each.name}", path=f"vary.{place}.{each.path}", sets=bool(path))
+                found.append(own._replace(default=usual.get(each.path, each.default)))
+            found.append(Control(f"{name}.from", f"vary.{place}", sets=False))
+        return tuple(found)
+
+    def _axis(self, given: dict[str, Any], where: str) -> dict[str, Any]:
+        """The axis of a field with the ends, number and steps given.
+
+        A field that takes only certain values gets these, numbers only those between the ends; integers are spread as
+        evenly as possible, each once. Other faults are left to the validator of the body. Raises Unprocessable at
+        `where`.
+        """
+        leaf = scalar_at(self.calculation.request, given["path"], f"{where}.path", "unknown_path")
+        axis, choices = {"path": leaf.path}, choices_of(leaf)
+        if not has_numbers(leaf):
+            if where == FIRST or not choices:
+                message = f"{leaf.title} has no numbers; vary another field along it"
+                raise Unprocessable("not_scalar", message, f"{where}.path")
+            return {**axis, "values": choices}
+        start, stop, count, scale = given.get("start"), given.get("stop"), given["count"], given["scale"]
+        if start is None or stop is None:
+            raise Unprocessable("values_or_range", "the case has no value here to go from: give from and to", where)
+        if start == stop:
+            raise Unprocessable("values_or_range", "from and to are the same", where)
+        if choices and is_plain_number(start) and is_plain_number(stop):
+            return {**axis, "values": [each for each in choices if min(start, stop) <= each <= max(start, stop)]}
+        whole = leaf.kind == "integer" and all(isinstance(each, int) for each in (start, stop, count))
+        if not whole or not 2 <= count <= MOST_WHOLE:
+            return {**axis, "start": start, "stop": stop, "count": count, "scale": scale}
+        spread = np.geomspace if scale == "log" and min(start, stop) > 0 else np.linspace
+        return {**axis, "values": np.unique(spread(start, stop, count).round()).astype(int).tolist(), "scale": scale}
+
+    @property
+    def is_greatest_best(self) -> bool:
+        """Whether the greatest value is sought; raises Unprocessable."""
+        best = self.views.get("best", "greatest" if self.output.view.greatest_is_best else "least")
+        if best not in {"least", "greatest"}:
+            raise Unprocessable("literal_error", "best: must be one of least, greatest", "best")
+        return best == "greatest"
+
+    def body(self) -> dict[str, Any]:
+        """The axes as typed or usual, the output, and whether its least or greatest value is sought."""
+        goal = "maximise" if self.is_greatest_best else "minimise"
+        x, y = map(self.views.get, AXES)
+        if y and not x:
+            raise Unprocessable("missing", "choose a field to vary before a second one", "vary.0.path")
+        if y and y == x:
+            raise Unprocessable("duplicate_path", "this field is varied already; choose another", "vary.1.path")
+        return {
+            "endpoint": self.calculation.path,
+            "request": self.asked.body,
+            "vary": [self._axis(axis, f"vary.{place}") for place, axis in enumerate(self.given().get("vary", []))],
+            "outputs": [self.output.path],
+            "best": {goal: self.output.path},
+        }
+
+    def controls(self) -> tuple[Controls, ...]:
+        """For each axis a menu of fields and the controls of its range, whose placeholders are the usual ends."""
+        fields = dict(zip(AXES, self.study.points.varied, strict=False)) if self.study else {}
+        groups = []
+        for name, title, empty in (("x", "Vary", "choose …"), ("y", "and, as curves or a map", "nothing else")):
+            leaf = fields.get(name)
+            unit = (leaf.unit or "") if leaf else ""
+            start, stop = self._usual_ends(leaf) if leaf else (None, None)
+            shows = {"start": (start, unit), "stop": (stop, unit), "count": (COUNTS[name], "")}
+            ends = []
+            for each in AXIS[1:]:
+                usual, own = shows.get(each.path, (None, ""))
+                ends.append(self.field_of(each._replace(name=f"{name}{each.name}", default=usual, unit=own)))
+            choices = field_choices(self.calculation, self.case, texts=name == "y")
+            groups.append(Controls(title, self.menu(name, "field", empty, choices), tuple(ends)))
+        return tuple(groups)
+
+    def shows(self) -> tuple[FieldView, ...]:
+        """The menu of whether the least or the greatest value of the output is sought."""
+        ends = (("", "by the output"), ("least", "least"), ("greatest", "greatest"))
+        return (self.field("best", "the best is", options=ends),)
+
+    def starters(self) -> Sequence[Starter | StudyExample]:
+        """Links to ready studies of examples; where the query has a case, of this case and around its values."""
+        if not self.asked.pairs:
+            return studies_of(self.calculation)
+        return studies_of_case(self.calculation, self.asked.pairs, self.case)
+
+    def result(self, lines: list[Line]) -> Result:
+        """The figures, once the study has ended also a table of the points with links to their cases."""
+        received = [line for line in lines if line["type"] == "point"]
+        grid = self._grid(received)
+        figures = figures_of(grid)
+        first = next(iter(figures))
+        if lines[-1]["type"] in {"sweep", "point"}:  # there are points to come
+            return Result("", {first: figures[first]})
+        progress = f"{len(received)} points in {shown(lines[-1].get('elapsed_s'), 2)} s"
+        reasons = Counter(text for line in received for text in _remarks(line)).most_common(MOST_REASONS)
+        return Result(
+            progress + (f"; {grid.unsolved} without solution" if grid.unsolved else ""),
+            figures,
+            (self._table(received),),
+            tuple(f"{text} at {count} of {len(received)} points" for text, count in reasons),
+            script=self._script(received, figures[first]),
+            answer=answer(grid),
+        )
+
+    def _grid(self, received: list[Line]) -> Grid:
+        """The data of the figures; points without solution, and those that have not arrived, are NaN."""
+        points = self.study.points
+        found = np.full(points.total, nan)
+        found[: len(received)] = [nan if line["out"][0] is None else float(line["out"][0]) for line in received]
+        coordinates, orders = zip(*map(self._coordinate, AXES, points.varied, points.axes), strict=True)
+        is_whole_curve = len(coordinates) == 1 and len(received) == points.total
+        sorted_points = [received[place] for place in orders[0]] if is_whole_curve else []
+        invalid = tuple(_invalid(line) for line in sorted_points)
+        doubtful = tuple("doubtful" in line["ranks"] for line in sorted_points)
+        limit = self.output.view.limit if self.output.view.bound else None
+        if isinstance(limit, str):  # a field of the case
+            limit = value_at(self.case, limit)
+        return Grid(
+            x=coordinates[0],
+            y=coordinates[1] if len(coordinates) > 1 else None,
+            output=axis_of(self.output),
+            values=values(found.reshape([len(each) for each in orders])[np.ix_(*orders)]),
+            greatest=self.is_greatest_best,
+            limit=float(limit) if isinstance(limit, int | float) else None,
+            invalid=invalid if len(set(invalid)) > 1 else (),
+            doubtful=doubtful if len(set(doubtful)) > 1 else (),
+            unsolved=sum(line["status"] not in SOLVED for line in received),
+        )
+
+    def _coordinate(self, name: str, leaf: Leaf, checked: CheckedAxis) -> tuple[Coordinate, list[int]]:
+        """The values of a field in rising order, and the places where they stand in the sweep."""
+        listed = checked.values or []
+        if not all(map(is_plain_number, listed)):
+            order = list(range(len(listed)))
+            texts = tuple(("yes" if each else "no") if isinstance(each, bool) else words(str(each)) for each in listed)
+            return Coordinate(axis_of(leaf), values(order), texts), order
+        numbers = np.array(listed, dtype=np.float64)
+        order = np.argsort(numbers, kind="stable").tolist()
+        rising = values(numbers[order])
+        log = self.views.get(f"{name}.scale") == "log" and not leaf.options
+        limits = (float(rising[0]), float(rising[-1])) if log else None
+        axis = axis_of(leaf, log=log, magnitude=False, limits=limits)
+        return Coordinate(axis, rising, own=self._own(leaf), scatters=leaf.declared.tolerance is not None), order
+
+    def _table(self, received: list[Line]) -> Table:
+        rows = []
+        for line in received[:MOST_ROWS]:
+            at = [shown(each, 6) for each in line["at"]]
+            status, remarks = line["status"].replace("_", " "), ", ".join(_remarks(line))
+            opened = Link("open", self.point_address(line["index"]), f"open the case at {', '.join(at)}")
+            rows.append((*at, shown(line["out"][0]), f"{status}: {remarks}" if remarks else status, opened))
+        titles = [Number(titled(leaf)) for leaf in (*self.study.points.varied, self.output)]
+        more = len(received) - MOST_ROWS
+        note = f"and {more} points more in the CSV file" if more > 0 else ""
+        return Table("Points", (*titles, "status", "case"), rows, note, folded=True)
+
+    def point_address(self, index: int) -> str:
+        """The address of the page of the case at a point."""
+        return self.address(self.study.points.overrides(index))
+
+    def _script(self, received: list[Line], figure: Figure) -> str:
+        """What the script of the page needs to find the point under the pointer and to open its case."""
+        points = self.study.points
+        if None in [leaf_at(self.calculation.request, leaf.path) for leaf in points.varied]:  # no field of the form
+            return ""
+        from app.figures.drawing.image import places as places_of  # noqa: PLC0415  only workers draw
+
+        place = places_of(figure)[0]
+        content = {
+            "address": self.asked.root + self.point_address(0),
+            "axes": [
+                {"path": leaf.path, "name": leaf.title, "unit": leaf.unit or "", "at": axis.values}
+                for leaf, axis in zip(points.varied, points.axes, strict=True)
+            ],
+            "out": [line["out"][0] for line in received],
+            "title": self.output.title,
+            "unit": self.output.unit or "",
+            "map": place.panel.map is not None,
+            "box": place.box,
+            "ranges": [place.x, place.y],
+        }
+        return json.dumps(content)
+
+
+def _remarks(point: Line) -> list[str]:
+    """Why a point has no solution, or its warnings."""
+    return [point["error"]["message"]] if "error" in point else [words(code) for code in point["warnings"]]
+
+
+def _invalid(point: Line) -> str | None:
+    """The warnings that leave a value without meaning."""
+    found = [words(code) for code, rank in zip(point["warnings"], point["ranks"], strict=True) if rank == "invalid"]
+    return ", ".join(found) or None
+
+
+PAGE = SweepPage

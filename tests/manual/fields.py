@@ -1,0 +1,173 @@
+"""The chapter "Inputs and outputs": every field of every request and answer, read from the models of the service."""
+
+from collections.abc import Callable, Iterator
+from inspect import get_annotations
+from types import NoneType
+from typing import Any, Literal, NamedTuple, get_args, get_origin
+
+from fastapi.routing import APIRoute
+from pydantic import BaseModel
+from pydantic.fields import FieldInfo
+
+from app.calculations import CALCULATIONS
+from app.http.routes import calculations, rexs, service
+from app.manual.fields import COLUMNS, SECTIONS
+from app.pages.study_kinds import study_pages
+from app.schema.fields import ITEM
+from app.schema.model import kinds
+from app.schema.quantities import Input, Output, meaning_of
+from solvers.quantity import UNITS, allowed
+
+HEAD = """# Inputs and outputs
+
+Every field of every request and answer, with its unit, its range, and where it is declared.
+
+Names carry their unit. A `*` in a path stands for the place in a list. Where paths are alike, endpoints that share a \
+declaration share a row. An attribute of the solver is in SI: the line that computes an output is where this attribute \
+gets its value, as `limits.allowable_misalignment_deg` does at `allowable_misalignment=` in the package named. \
+A value without a solver's attribute is made by the service itself, in the class of its schema. The lines of studies \
+are described in [their section](service.md#studies).
+"""
+WORDS: dict[Any, str] = {float: "number", int: "integer", bool: "boolean", str: "text", Any: "any"}
+
+
+class Field(NamedTuple):
+    """A field that holds values: its path, the class that declares it, and what it means, if that is declared."""
+
+    path: str
+    model: type[BaseModel]
+    name: str
+    info: FieldInfo
+    meaning: Input | Output | None
+    lists: int
+    kinds: tuple[Any, ...]
+
+
+def fields_of(model: type[BaseModel], above: str = "") -> Iterator[Field]:
+    """Every field of a model and of the models inside it, in the order of the schema."""
+    for name, info in model.model_fields.items():
+        path = f"{above}.{name}" if above else name
+        allowed_kinds = tuple(kinds(info.annotation))
+        lists = max((lists for _, lists in allowed_kinds), default=0)
+        inner = [kind for kind, _ in allowed_kinds if isinstance(kind, type) and issubclass(kind, BaseModel)]
+        for each in inner:
+            yield from fields_of(each, path + f".{ITEM}" * lists)
+        if not inner:
+            found = tuple(kind for kind, _ in allowed_kinds)
+            yield Field(path, _declaring(model, name), name, info, meaning_of(info.metadata), lists, found)
+
+
+def _declaring(model: type[Any], name: str) -> type[Any]:
+    """The class of a model or of its bases that has the field in its own annotations."""
+    return next(base for base in model.__mro__ if name in get_annotations(base))
+
+
+def _type(field: Field) -> str:
+    """What a field holds, in words."""
+    words = []
+    if Any in field.kinds:  # checked by a validator, which brings its own schema
+        document = field.model.model_json_schema()["properties"][field.name]
+        return " or ".join(dict.fromkeys(_words(document)))
+    for kind in field.kinds:
+        if get_origin(kind) is Literal:
+            words += [f"`{each}`" if isinstance(each, str) else str(each) for each in get_args(kind)]
+        elif isinstance(getattr(kind, "__members__", None), object) and hasattr(kind, "__members__"):
+            words += [f"`{each.value}`" for each in kind]
+        else:
+            words.append(WORDS.get(kind, "object" if get_origin(kind) is dict or kind is dict else str(kind)))
+    text = " or ".join(dict.fromkeys(words))
+    text = ("", "list of ", "matrix of ")[field.lists] + text
+    return f"{text} or null" if NoneType in get_args(field.info.annotation) else text
+
+
+def _words(document: dict[str, Any]) -> Iterator[str]:
+    """What a JSON schema allows, in words."""
+    for each in document.get("anyOf", [document]):
+        match each.get("type"):
+            case "array":
+                yield from (f"list of {word}" for word in dict.fromkeys(_words(each["items"])))
+            case "string":
+                yield "path of a field" if "pattern" in each else "text"
+            case kind:
+                yield kind or "any"
+
+
+def _default(field: Field) -> str:
+    """The default of an input in its shown unit; nothing where an answer has the field."""
+    if isinstance(field.meaning, Output):
+        return ""
+    if field.info.is_required():
+        return "required"
+    value = field.info.get_default(call_default_factory=True)
+    stated = field.meaning.default_text if field.meaning else None
+    if value is None:
+        return f"null: {stated}" if stated else "null"
+    if isinstance(value, list | dict):
+        return f"`{value}`" if value else "empty"
+    if isinstance(value, bool):
+        return str(value).lower()
+    return f"{value:.12g}" if isinstance(value, int | float) else f"`{value}`"
+
+
+def _solver(meaning: Input | Output | None) -> str:
+    """The attribute of the solver's dataclass, under the class that declares it."""
+    if meaning is None or meaning.origin is None:
+        return ""
+    record, name = meaning.origin
+    owner: Any = next(base for base in record.__mro__ if name in get_annotations(base) or name in vars(base))
+    return f"`{owner.__module__}.{owner.__qualname__}.{name}`"
+
+
+def row(field: Field) -> tuple[str, ...]:
+    """What stands of a field behind its path and endpoints."""
+    meaning = field.meaning
+    unit = meaning.unit if meaning else None
+    return (
+        _type(field),
+        UNITS[unit].symbol if unit else "",
+        allowed(meaning) if isinstance(meaning, Input) else "",
+        _default(field),
+        (meaning.symbol or "") if meaning else "",
+        (meaning.source or "") if meaning else "",
+        meaning.title if meaning else field.info.description or "",
+        _solver(meaning),
+        f"`{field.model.__module__}.{field.model.__qualname__}`",
+    )
+
+
+def models() -> dict[str, list[tuple[str, type[BaseModel]]]]:
+    """The models of requests and answers with their endpoints, by section."""
+    others = []
+    known = {each.path for each in CALCULATIONS}
+    for route in (
+        *calculations.router.routes,
+        *calculations.figures.routes,
+        *rexs.router.routes,
+        *service.router.routes,
+    ):
+        if isinstance(route, APIRoute) and route.include_in_schema and route.path not in known:
+            found = (kind for kind, _ in kinds(route.response_model) if isinstance(kind, type))
+            others += [(route.path, kind) for kind in found if issubclass(kind, BaseModel)]
+    return {
+        "Requests": [(each.path, each.request) for each in CALCULATIONS],
+        "Answers": [(each.path, each.response) for each in CALCULATIONS],
+        "Studies": [(page.plan.path, page.plan.model) for page in study_pages()],
+        "Service": others,
+    }
+
+
+def rows(section: str) -> list[tuple[str, ...]]:
+    """The rows of a section: one for each path and what stands of it, with the endpoints that have it."""
+    found: dict[tuple[str, ...], list[str]] = {}
+    for endpoint, model in models()[section]:
+        for field in fields_of(model):
+            endpoints = found.setdefault((f"`{field.path}`", *row(field)), [])
+            if endpoint not in endpoints:
+                endpoints.append(endpoint)
+    return [(path, " ".join(endpoints), *rest) for (path, *rest), endpoints in found.items()]
+
+
+def chapter(table: Callable[[tuple[str, ...], Iterator[tuple[str, ...]]], str]) -> str:
+    """The text of the chapter; `table` writes a table in Markdown."""
+    parts = [f"## {name}\n\n{about}\n\n{table(COLUMNS, iter(rows(name)))}" for name, about in SECTIONS.items()]
+    return "\n".join([HEAD, *parts])
