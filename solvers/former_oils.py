@@ -1,27 +1,35 @@
-"""Former names, which leave with the next minor version: oils that had the fields of a request.
+"""Former names of oils with the fields of a request; the next minor version removes them.
 
-`OilSheet`, `iso_vg` and `sheet_of_index` make an oil by its data sheet or grade, `Lubricant` one by its viscosity.
+`OilSheet`, `iso_vg` and `sheet_of_index` describe an oil by its data sheet or grade, `Lubricant` by its viscosity.
 """
 
-from dataclasses import dataclass, fields, replace
+from dataclasses import fields, replace
 
 from solvers.lubricants import Lubricant, OilKind, PressureViscosityLaw
 from solvers.oils import IsoGrade, OilSheet, iso_vg, sheet_of_index
+from solvers.quantity import described, record
 
 
-@dataclass(frozen=True)
+@record
 class OilBySheet:
-    """Now `OilSheet`, `iso_vg` or `sheet_of_index`."""
+    """Former oil by grade or data sheet, now `OilSheet`, `iso_vg` or `sheet_of_index`."""
 
-    iso_vg: IsoGrade | None = None
-    kinematic_viscosity_40: float | None = None
-    kinematic_viscosity_100: float | None = None
-    viscosity_index: float | None = None
-    kind: OilKind = "mineral"
-    density_15: float | None = None
+    iso_vg: IsoGrade | None = described("ISO 3448 viscosity grade.", default=None)
+    kinematic_viscosity_40: float | None = described("Kinematic viscosity at 40 C [m^2/s].", default=None)
+    kinematic_viscosity_100: float | None = described(
+        "Kinematic viscosity at 100 C; None: by the viscosity index, else typical of the kind [m^2/s].", default=None
+    )
+    viscosity_index: float | None = described(
+        "Viscosity index; None: by the viscosity at 100 C, else typical of the kind [-].", default=None
+    )
+    kind: OilKind = described("Kind of oil.", default="mineral")
+    density_15: float | None = described("Density at 15 C; None: typical of the kind [kg/m^3].", default=None)
 
     def sheet(self) -> OilSheet | None:
-        """Return the oil by grade or data sheet; None where neither is given."""
+        """Return the oil by grade or data sheet; None if neither is given.
+
+        Raises InvalidInput (`viscosity_order`, `viscosity_index`) for viscosities that no oil has.
+        """
         index, kind, density = self.viscosity_index, self.kind, self.density_15
         if self.iso_vg is not None:
             return iso_vg(self.iso_vg, kind, index, density)
@@ -32,26 +40,34 @@ class OilBySheet:
         return OilSheet(self.kinematic_viscosity_40, self.kinematic_viscosity_100, kind, density)
 
 
-@dataclass(frozen=True)
+@record
 class OilChoice(OilBySheet):
-    """Now `OilSheet` or `Lubricant`."""
+    """Former oil by grade, data sheet or viscosity, now `OilSheet` or `Lubricant`.
 
-    viscosity: float | None = None
-    reference_temperature: float | None = None
-    pressure_viscosity: float | None = None
-    temperature_viscosity: float | None = None
-    density: float | None = None
-    specific_heat: float | None = None
-    thermal_conductivity: float | None = None
-    pressure_viscosity_law: PressureViscosityLaw = "roelands"
-    compressible: bool = True
+    With a grade or data sheet, a property that is None is typical of the kind of oil; otherwise it is the property of
+    the default `Lubricant`.
+    """
+
+    viscosity: float | None = described(
+        "Viscosity at the reference temperature; not used with a grade or data sheet [Pa s].", default=None
+    )
+    reference_temperature: float | None = described("Temperature of viscosity and density [K].", default=None)
+    pressure_viscosity: float | None = described("Pressure-viscosity coefficient of Barus [1/Pa].", default=None)
+    temperature_viscosity: float | None = described(
+        "Temperature-viscosity coefficient of Reynolds [1/K].", default=None
+    )
+    density: float | None = described("Density at the reference temperature [kg/m^3].", default=None)
+    specific_heat: float | None = described("Specific heat [J/(kg K)].", default=None)
+    thermal_conductivity: float | None = described("Thermal conductivity [W/(m K)].", default=None)
+    pressure_viscosity_law: PressureViscosityLaw = described("Law of the viscosity over pressure.", default="roelands")
+    compressible: bool = described("Whether the density depends on pressure and temperature.", default=True)
 
     def resolve(self) -> OilSheet | Lubricant | None:
-        """Return the oil of the models; None where nothing says how viscous it is."""
-        given = {each.name: getattr(self, each.name) for each in fields(self)}
+        """Return the oil for the models; None if no viscosity is given."""
+        given = {item.name: getattr(self, item.name) for item in fields(self)}
         if sheet := self.sheet():
-            open_to = {each.name for each in fields(OilSheet)} - {each.name for each in fields(OilBySheet)}
-            return replace(sheet, **{name: given[name] for name in open_to})
-        properties = {each.name for each in fields(Lubricant)}
-        known = {name: value for name, value in given.items() if name in properties and value is not None}
-        return None if self.viscosity is None else Lubricant(**known)
+            names = {item.name for item in fields(OilSheet)} - {item.name for item in fields(OilBySheet)}
+            return replace(sheet, **{name: given[name] for name in names})
+        names = {item.name for item in fields(Lubricant)}
+        properties = {name: value for name, value in given.items() if name in names and value is not None}
+        return None if self.viscosity is None else Lubricant(**properties)

@@ -1,51 +1,63 @@
-"""Former names, which leave with the next minor version: inputs that had the sections of a request.
+"""Former names of inputs with the sections of a request; the next minor version removes them.
 
-`Coupling` fills in its proportions itself. `Operation` has the tilt, which `tilt_of_offset` computes from a parallel
-offset. `Lubricant` has the viscosity at the teeth; `OilSheet.viscosity` is that of an oil by grade or data sheet.
+`Coupling` itself has defaults for its proportions. `Operation` contains the tilt; `tilt_of_offset` computes it from a
+parallel offset. `Lubricant` contains the viscosity at the teeth; `OilSheet.viscosity` computes the viscosity of an oil
+by grade or data sheet.
 """
 
-from dataclasses import dataclass, fields
+from dataclasses import fields
 
 from solvers.coupling.inputs import Arrangement, Coupling, Lubricant, Operation, tilt_of_offset
 from solvers.errors import InvalidInput
 from solvers.former_oils import OilBySheet
 from solvers.oils import CELSIUS
-from solvers.quantity import record
+from solvers.quantity import described, record
 
 
 @record
 class CouplingDesign(Coupling):
-    """Now `Coupling`."""
+    """Former name of `Coupling`."""
 
     def coupling(self) -> Coupling:
         """Return the coupling."""
-        return Coupling(**{each.name: getattr(self, each.name) for each in fields(Coupling)})
+        return Coupling(**{item.name: getattr(self, item.name) for item in fields(Coupling)})
 
 
-@dataclass(frozen=True)
+@record
 class Load:
-    """Now part of `Operation`."""
+    """Former part of `Operation`."""
 
-    torque: float
-    speed: float
-    axial_velocity: float = 0.0
-    arrangement: Arrangement = "single"
-    shaft_diameter: float | None = None
+    torque: float = described("Transmitted torque [N m].")
+    speed: float = described("Speed; the sign is the sense of rotation [rad/s].")
+    axial_velocity: float = described(
+        "Axial speed of the hub against the sleeve; positive: the shafts move apart [m/s].", default=0.0
+    )
+    arrangement: Arrangement = described(
+        "One mesh, two with a parallel offset, or two with an angle.", default="single"
+    )
+    shaft_diameter: float | None = described(
+        "Shaft diameter of the customary thrust; None: no customary thrust [m].", default=None
+    )
 
     def at(self, misalignment: float) -> Operation:
         """Return the operating point with this tilt [rad]."""
-        return Operation(**{each.name: getattr(self, each.name) for each in fields(Load)}, misalignment=misalignment)
+        return Operation(**{item.name: getattr(self, item.name) for item in fields(Load)}, misalignment=misalignment)
 
 
-@dataclass(frozen=True)
+@record
 class OperatingPoint(Load):
-    """Now `Operation`."""
+    """Former name of `Operation`, with the tilt or the offset of the shafts."""
 
-    misalignment: float | None = None
-    parallel_offset: float | None = None
+    misalignment: float | None = described(
+        "Tilt of the hub against the sleeve; None: by the parallel offset [rad].", default=None
+    )
+    parallel_offset: float | None = described("Parallel offset of the shafts, used without a tilt [m].", default=None)
 
     def operation(self, hub_distance: float) -> Operation:
-        """Return the operating point; `hub_distance` [m] lies between the tooth planes."""
+        """Return the operating point; `hub_distance` [m] lies between the tooth planes.
+
+        Raises InvalidInput misalignment_or_offset if both are None.
+        """
         if self.misalignment is not None:
             return self.at(self.misalignment)
         if self.parallel_offset is None:
@@ -53,27 +65,34 @@ class OperatingPoint(Load):
         return self.at(tilt_of_offset(self.parallel_offset, hub_distance))
 
 
-@dataclass(frozen=True, kw_only=True)
+@record
 class OperatingRange(Load):
-    """Now `Operation` beside the ends of the range in `RecommendationInputs`."""
+    """Former operating point with a range of misalignment, now `Operation` and the range in `RecommendationInputs`."""
 
-    misalignment_range: tuple[float, float]
+    misalignment_range: tuple[float, float] = described("Smallest and largest tilt of the hub [rad].", kw_only=True)
 
     def operation(self) -> Operation:
         """Return the operating point at the smallest misalignment."""
         return self.at(self.misalignment_range[0])
 
 
-@dataclass(frozen=True)
+@record
 class CouplingOil(OilBySheet):
-    """Now `Lubricant`, with the viscosity of an `OilSheet`."""
+    """Former oil by viscosity, grade or data sheet, now `Lubricant` with the viscosity of an `OilSheet`."""
 
-    viscosity: float | None = 0.025
-    temperature: float = 50.0 + CELSIUS
-    reference_film: float = 1e-6
+    viscosity: float | None = described(
+        "Viscosity at the teeth; not used with a grade or data sheet [Pa s].", default=0.025
+    )
+    temperature: float = described(
+        "Temperature at which a grade or data sheet gives the viscosity [K].", default=50.0 + CELSIUS
+    )
+    reference_film: float = described("Film thickness at which the load capacity is stated [m].", default=1e-6)
 
     def lubricant(self) -> Lubricant:
-        """Return the oil at the teeth; grade or data sheet count before the viscosity."""
+        """Return the oil at the teeth; a grade or data sheet takes precedence over the viscosity.
+
+        Raises InvalidInput missing_property if neither is given.
+        """
         if sheet := self.sheet():
             viscosity = sheet.viscosity(self.temperature)
             return Lubricant(viscosity, self.reference_film, sheet.viscosity_index, self.temperature)

@@ -1,6 +1,5 @@
-"""A former name, which leaves with the next minor version: a bearing that had the fields of a request."""
+"""Former name of a bearing with the fields of a request; the next minor version removes it."""
 
-from dataclasses import dataclass
 from typing import Literal
 
 from solvers.drive_train.inputs import (
@@ -14,22 +13,34 @@ from solvers.drive_train.inputs import (
 from solvers.errors import InvalidInput
 from solvers.lubricants import Lubricant
 from solvers.oils import OilSheet
+from solvers.quantity import described, record
 
 
-@dataclass(frozen=True)
+@record
 class ShaftBearing:
-    """Now `JournalBearing`, `LinearBearing` or `RigidBearing`."""
+    """Former bearing of any type, now `JournalBearing`, `LinearBearing` or `RigidBearing`."""
 
-    position: float
-    type: Literal["journal", "linear", "rigid"] = "journal"
-    offset: Vector2 = (0.0, 0.0)
-    diameter: float | None = None
-    width: float | None = None
-    radial_clearance: float | None = None
-    viscosity: float | None = None
-    film_temperature: float | None = None
-    oil_flow: float | None = None
-    stiffness: tuple[Vector2, Vector2] | None = None
+    position: float = described("Position along the Z of the unit [m].")
+    type: Literal["journal", "linear", "rigid"] = described("Type of the bearing.", default="journal")
+    offset: Vector2 = described("Offset (X, Y) of the bore from the datum axis [m].", default=(0.0, 0.0))
+    diameter: float | None = described("Diameter of the journal, required of a plain bearing [m].", default=None)
+    width: float | None = described("Width, required of a plain bearing [m].", default=None)
+    radial_clearance: float | None = described(
+        "Radial clearance; None: 1.5e-3 of the radius of the journal [m].", default=None
+    )
+    viscosity: float | None = described(
+        "Viscosity of the oil in the film; None: the viscosity of the gears' oil at the film temperature [Pa s].",
+        default=None,
+    )
+    film_temperature: float | None = described(
+        "Temperature of the film; None: 15 K above the temperature of the gears' oil [K].", default=None
+    )
+    oil_flow: float | None = described(
+        "Oil flow in a heat balance; None: the leakage at the sides [m^3/s].", default=None
+    )
+    stiffness: tuple[Vector2, Vector2] | None = described(
+        "Stiffness ((xx, xy), (yx, yy)), required of a linear bearing [N/m].", default=None
+    )
 
     def bearing(self, oil: OilSheet | Lubricant | None, oil_temperature: float) -> Bearing:
         """Return the bearing in the form that the model uses.
