@@ -1,7 +1,7 @@
 """The theory manual: chapters in Markdown beside this file.
 
-`equations` finds their numbered equations and the functions that implement them, `results` says which of them computes
-each result, `fields` has the rows of the table of all fields; `app.pages.manual` makes pages of the chapters.
+`equations` finds the numbered equations and the functions that implement them. `results` tells which function computes
+a result. `fields` contains the rows of the table of all fields. `app.pages.manual` writes the pages of the chapters.
 """
 
 import re

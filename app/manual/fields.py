@@ -1,6 +1,6 @@
-"""The chapter "Inputs and outputs", a table of all fields, which the models of the service make.
+"""The chapter "Inputs and outputs": a table of all fields, generated from the models of the service.
 
-`python -m tests.manual.test_generated` renews it; pages read it here.
+`python -m tests.manual.test_generated` renews the table; the pages read the table here.
 """
 
 from functools import cache
@@ -17,7 +17,7 @@ SECTIONS = {
     "Studies": "What a study takes; its `request` is that of the endpoint it studies.",
     "Service": "What the other addresses answer.",
 }
-BAR = "\N{BROKEN BAR}"  # stands for an escaped bar while a row is parted
+BAR = "\N{BROKEN BAR}"  # replaces an escaped bar while a row is split
 
 
 class Entry(NamedTuple):
@@ -29,39 +29,39 @@ class Entry(NamedTuple):
 
     @property
     def path(self) -> str:
-        """The field."""
+        """Path of the field."""
         return self.cells[0].strip("`")
 
     @property
     def endpoints(self) -> list[str]:
-        """The endpoints that have it."""
+        """Endpoints that have the field."""
         return self.cells[1].split()
 
 
 @cache
 def entries() -> tuple[Entry, ...]:
-    """Every row of the table."""
-    chapter, found, known = chapters()[FIELDS], list[Entry](), set[str]()
+    """Return the rows of the table."""
+    chapter, rows, anchors = chapters()[FIELDS], list[Entry](), set[str]()
     for section in SECTIONS:
         for line in chapter.section(section).splitlines():
             if line.startswith("| `"):
                 cells = [cell.strip().replace(BAR, "|") for cell in line.replace(r"\|", BAR).strip("|").split("|")]
                 anchor = name = f"{section.lower()}.{cells[0].strip('`')}"
-                places = 1
-                while anchor in known:
-                    places += 1
-                    anchor = f"{name}-{places}"
-                known.add(anchor)
-                found.append(Entry(anchor, section, tuple(cells)))
-    return tuple(found)
+                number = 1
+                while anchor in anchors:
+                    number += 1
+                    anchor = f"{name}-{number}"
+                anchors.add(anchor)
+                rows.append(Entry(anchor, section, tuple(cells)))
+    return tuple(rows)
 
 
 @cache
 def _anchors() -> dict[tuple[str, str, str], str]:
-    return {(each.section, endpoint, each.path): each.anchor for each in entries() for endpoint in each.endpoints}
+    return {(row.section, endpoint, row.path): row.anchor for row in entries() for endpoint in row.endpoints}
 
 
 def address(section: str, endpoint: str, path: str) -> str:
-    """The address of the row of a field; empty where it has none."""
+    """Return the address of the row of a field, or an empty text if the field has no row."""
     anchor = _anchors().get((section, endpoint, path))
     return f"/manual/{FIELDS}#{anchor}" if anchor else ""

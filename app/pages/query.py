@@ -23,7 +23,7 @@ from app.schema.model import Documented
 
 Pairs = list[tuple[str, str]]
 
-# Controls of studies that hold no single number: the values of an uncertain input, and a table of cases.
+# Controls of studies that are not a single number: the values of an uncertain input, and a table of cases.
 CORNER, CASES = "corner.", "cases"
 REPORT_NAMES = {
     "title": 200,
@@ -41,7 +41,7 @@ REPORT_NAMES = {
 VIEW_NAMES = REPORT_NAMES.keys() | {
     *("paper", "ref", "also", "pair", "theme", "sources", "curve", "unlinked", "extent", "rexs_stage")
 }
-"""Of what concerns only how a case is looked at; the controls of studies come to these."""
+"""Names that concern only the view of a case; the names of the controls of studies are added to them."""
 PICK = "pick:"
 """Before the name of a choice between fields that exclude each other; its value is the field that counts."""
 WRITTEN = "written"

@@ -1,7 +1,7 @@
-"""The kinds of study that there are: one module of `app.studies.kinds` each, known by its `PAGE`.
+"""The kinds of study: each module of `app.studies.kinds` is one kind and has a `PAGE`.
 
-They are looked up when they are asked for, not imported: pages link to studies, and the pages of studies are made of
-parts of other pages.
+The modules are imported at the first call, because pages link to studies, and pages of studies consist of parts of
+other pages.
 """
 
 import pkgutil
@@ -13,9 +13,9 @@ from app.studies import kinds as package
 
 
 class StudyLink(NamedTuple):
-    """The last part of the address of a study's page, the label of the link to it, a description, and its place.
+    """A link to the page of a study: last part of the address, label, description, and position among the links.
 
-    `endpoint` is the only one whose cases have the study; None where all have it.
+    `endpoint` is the only endpoint whose cases have the study; None if the cases of all endpoints have the study.
     """
 
     name: str
@@ -27,17 +27,17 @@ class StudyLink(NamedTuple):
 
 @cache
 def study_pages() -> tuple[type[Any], ...]:
-    """The `PAGE` of every kind of study, a `StudyPage`, in the order of their links."""
-    modules = (import_module(f"{package.__name__}.{each.name}") for each in pkgutil.iter_modules(package.__path__))
+    """Return the `PAGE` of every kind of study, a `StudyPage`, in the order of their links."""
+    modules = (import_module(f"{package.__name__}.{module.name}") for module in pkgutil.iter_modules(package.__path__))
     return tuple(sorted((module.PAGE for module in modules), key=lambda page: page.link.place))
 
 
 def study_page(name: str) -> type[Any]:
-    """The page of the kind of study that has this name in addresses."""
+    """Return the page of the kind of study that has this name in addresses."""
     return next(page for page in study_pages() if page.link.name == name)
 
 
 @cache
 def control_names() -> frozenset[str]:
-    """The names in a query that are controls of some study, not fields of a case."""
+    """Return the names in a query that are controls of any study, not fields of a case."""
     return frozenset().union({"show"}, *(page.names for page in study_pages()))

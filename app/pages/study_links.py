@@ -24,7 +24,7 @@ def study_links(calculation: Calculation) -> tuple[StudyLink, ...]:
 
 
 VARY = "vary"
-"""The name of the page on which the examples are studied."""
+"""Name of the page of the studies of examples."""
 
 
 class StudyExample(NamedTuple):

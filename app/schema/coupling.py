@@ -58,7 +58,7 @@ class CouplingOperation(CouplingLoad):
     ] = None
 
     def operation(self, hub_distance: float) -> si.Operation:
-        """The operating point of the solver; `hub_distance` [m] lies between the tooth planes."""
+        """Return the operating point of the solver; `hub_distance` [m] is the distance of the tooth planes."""
         if self.parallel_offset_mm is None:
             return self.si(si.Operation)
         offset = UNITS["mm"].to_si(self.parallel_offset_mm)
@@ -259,7 +259,7 @@ class CrowningScan(Group, of=crowning.CrowningScan):
 
 
 def _used(name: str, title: str) -> Output:
-    """The declaration of what the coupling has if the request omits it."""
+    """Return the declaration of a property of the coupling that a request may omit."""
     declared = quantities(si.Coupling)[name]
     return Output(title, declared.symbol, unit=declared.unit, origin=(si.Coupling, name))
 

@@ -157,9 +157,10 @@ class ShaftBearing(Section):
         return dict.fromkeys(("radial_clearance_um", "viscosity_pa_s"), self.type != "journal")
 
     def bearing(self, scuffing: mesh.ScuffingInputs) -> si.Bearing:
-        """The solver's bearing; without a viscosity of its own it runs in the gears' oil.
+        """Return the solver's bearing; a plain bearing without a viscosity of its own runs in the gears' oil.
 
-        Raises InvalidInput no_oil where there is none, bearing_data where data of its type are missing.
+        Raises InvalidInput `no_oil` if a plain bearing has neither a viscosity nor an oil, and `bearing_data` if data
+        of its type are missing.
         """
         if self.type == "rigid":
             return self.si(si.RigidBearing)
@@ -193,9 +194,9 @@ class UnitShaft(Section, of=si.Shaft, without=("ultimate_thrust",)):
     thrust_bearing: Annotated[ThrustBearing, Input("thrust bearing")] = ThrustBearing()
 
     def shaft(self, name: str, scuffing: mesh.ScuffingInputs, face_start: float) -> si.Shaft:
-        """The solver's shaft, named "pinion_shaft" or "wheel_shaft"; the face starts at `face_start` [m].
+        """Return the solver's shaft, named "pinion_shaft" or "wheel_shaft"; the face starts at `face_start` [m].
 
-        Raises InvalidInput with the full name of the field at fault.
+        Raises InvalidInput with the full name of the wrong field.
         """
         sections = tuple(self._sections(name, scuffing.distribution.gears, face_start))
         bearings = []
@@ -207,9 +208,9 @@ class UnitShaft(Section, of=si.Shaft, without=("ultimate_thrust",)):
         return self.si(si.Shaft, self.thrust_bearing, bearings=tuple(bearings), sections=sections)
 
     def _sections(self, name: str, gears: GearPairInputs, face_start: float) -> Iterator[si.ShaftSection]:
-        """The solver's sections; those under the face that have no diameter take that which carries torsion.
+        """Yield the solver's sections; a section under the face without a diameter gets the diameter for torsion.
 
-        Raises InvalidInput section_diameter where another has none.
+        Raises InvalidInput `section_diameter` if a section beside the face has no diameter.
         """
         teeth = gears.pinion if name == "pinion_shaft" else gears.wheel
         position = UNITS["mm"].to_si(self.start_mm)

@@ -59,7 +59,7 @@ class Documented(BaseModel):
     member_unit: ClassVar[str | None] = None
     views: ClassVar[dict[str, View]] = {}
     _declares: ClassVar[type[Input] | type[Output]] = Input
-    _stands: ClassVar[bool] = True  # whether it may be inside another model
+    _stands: ClassVar[bool] = True  # whether the model is used for its dataclass inside other models
     _optional: ClassVar[bool] = False  # whether filled fields may be missing: where there is no solution
 
     if TYPE_CHECKING:
@@ -79,8 +79,8 @@ class Documented(BaseModel):
         """Fill the model from the declarations of dataclasses: all, `only` some, or all `without` some.
 
         Of several the first is the solver's result; the others are members of it, which may be None. Fields that a base
-        has stay as they are. A model of a whole dataclass `stands` for it wherever another dataclass holds it; raises
-        TypeError where two do.
+        has stay as they are. If a model `stands` for its whole dataclass, it is the model of this dataclass inside
+        other models. Raises TypeError if two models stand for one dataclass.
         """
         super().__init_subclass__(**config)
         records: tuple[Any, ...] = of if isinstance(of, tuple) else (of,)
@@ -118,7 +118,7 @@ class Documented(BaseModel):
 
 
 _MODELS: dict[tuple[type, type], type[Documented]] = {}
-"""The model that stands for a dataclass in a request, or in an answer, wherever another dataclass holds it."""
+"""The model of a dataclass inside other models, of requests and of answers."""
 
 
 def _published(hint: Any, declared: Quantity, declares: type) -> Any:
@@ -207,7 +207,7 @@ def _record_in(hint: Any) -> Any:
 
 
 def _in_si(value: Any, unit: Unit | None, record: Any) -> Any:
-    """A value of a request in SI; a section fills the dataclass `record`."""
+    """Return a value of a request in SI; a section fills the dataclass `record`."""
     inside = None if record is None else lambda section: section.si(record)
     return converted(value, unit.to_si if unit else _unchanged, inside)
 
@@ -297,7 +297,7 @@ class Section(Documented):
         return kind(**self.filling(kind, *others, **known))
 
     def filling(self, kind: type[Any], /, *others: "Section", **known: Any) -> dict[str, Any]:
-        """What `si` gives the dataclass, by the names of its fields."""
+        """Return the values that `si` gives to the dataclass, by the names of its fields."""
         given: dict[str, Any] = {}
         record: Any = kind
         for section in reversed((self, *others)):
@@ -393,7 +393,7 @@ class Derived(Group):
 
 
 GROUNDS = frozenset({"assumptions", "model_version", "sources", "model", "derived", "inputs", "case"})
-"""What results rest on: the last fields of every answer."""
+"""The last fields of every answer: the basis of the results."""
 
 
 class Response(Group):

@@ -25,7 +25,7 @@ RARELY = "by the kind of oil; a data sheet rarely gives it"
 
 
 def _of_a_sheet(name: str, ge: float, le: float, text: str, assumed: str | None = None) -> Input:
-    """The declaration of a property that follows from grade or data sheet where one of them is given."""
+    """Return the declaration of a property that follows from a grade or data sheet if one of them is given."""
     return Input.of(
         Lubricant,
         name,
@@ -94,9 +94,9 @@ class SheetOil(Section):
         return self
 
     def sheet(self) -> OilSheet | None:
-        """The solver's oil by grade or data sheet; None where neither is given.
+        """Return the solver's oil by grade or data sheet, or None if neither is given.
 
-        Raises InvalidInput (viscosity_order, viscosity_index) for an oil that none can be.
+        Raises InvalidInput (`viscosity_order`, `viscosity_index`) for viscosities that no oil has.
         """
         index, kind, density = self.viscosity_index, self.kind, self.density_15_kg_per_m3
         if self.iso_vg is not None:
@@ -191,7 +191,7 @@ class Oil(SheetOil, of=Lubricant):
         return self
 
     def resolve(self) -> OilSheet | Lubricant | None:
-        """The solver's oil; None where nothing says how viscous it is. Raises what `sheet` raises."""
+        """Return the solver's oil, or None if no viscosity is given. Raises the errors of `sheet`."""
         sheet, properties = self.sheet(), self.filling(Lubricant, kind=self.kind)
         if sheet is not None:
             beyond = (each.name for each in fields(OilSheet) if each.name in properties)
@@ -244,7 +244,7 @@ class CouplingLubricant(SheetOil):
         return self
 
     def at_teeth(self) -> OilAtTeeth:
-        """The solver's oil; grade or data sheet count before the viscosity."""
+        """Return the solver's oil; a grade or data sheet takes precedence over the viscosity."""
         sheet = self.sheet()
         if sheet is None:
             return self.si(OilAtTeeth, temperature=None)

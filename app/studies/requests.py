@@ -1,4 +1,4 @@
-"""What the bodies of studies share: paths and values of fields, axes, distributions, the request that is studied."""
+"""Common parts of the bodies of studies: paths and values of fields, axes, distributions, the request to study."""
 
 import json
 import re

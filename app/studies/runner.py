@@ -194,7 +194,7 @@ class Study(ABC):
         """All lines but those of progress."""
 
     def encoder(self, _: str) -> Callable[[Line], bytes]:
-        """Return what writes a line in a format; here there is only JSON."""
+        """Return the function that writes a line in a format; the only format here is JSON."""
         return json_line
 
     def header(self, **content: Any) -> Line:

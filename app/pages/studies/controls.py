@@ -1,7 +1,7 @@
-"""The controls of a study's form and the parts of its body that they set: one list, read in both directions.
+"""The controls of a study's form and the parts of the request body that they set, as one list.
 
-`body_of` makes the body of what was typed, `texts_of` what to type for a body; `control_at` finds the control at which
-a fault of the body is shown.
+`body_of` converts typed texts into the body, and `texts_of` converts a body into texts. `control_at` finds the control
+at which an error of the body is shown.
 """
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -23,18 +23,18 @@ class Control(NamedTuple):
     Attributes
     ----------
     name
-        Of the control, as links have it.
+        Name of the control in links.
     path
-        Of the part of the body, dotted, with numbers for the places in lists.
+        Dotted path of the part of the body, with numbers for positions in lists.
     default
-        What counts where nothing is typed; None leaves the part out.
+        Value if nothing is typed; None leaves the part out.
     read
-        Makes the value of a typed text.
+        Converts a typed text into the value.
     label, unit, options
-        What the form shows.
+        Label, unit and choices in the form.
     sets
-        False where something else sets the part, and the control only shows what is wrong with it.
-
+        Whether the control sets the part; otherwise something else sets the part, and the control only shows its
+        errors.
     """
 
     name: str
@@ -48,7 +48,7 @@ class Control(NamedTuple):
 
 
 def body_of(controls: Iterable[Control], typed: Mapping[str, str]) -> dict[str, Any]:
-    """The body, or its parts, that the controls set."""
+    """Return the parts of the body that the controls set."""
     body: dict[str, Any] = {}
     for control in controls:
         if control.sets:
@@ -60,7 +60,7 @@ def body_of(controls: Iterable[Control], typed: Mapping[str, str]) -> dict[str, 
 
 
 def _put(place: Any, parts: list[str], value: Any) -> None:
-    """Set a value at the end of a path; a list grows by one place where the path names the next."""
+    """Set a value at the end of a path; append to a list if the path names the position after its last one."""
     for part, following in zip(parts, [*parts[1:], None], strict=True):
         key: Any = int(part) if isinstance(place, list) else part
         inner: Any = value if following is None else [] if following.isdecimal() else {}
@@ -74,15 +74,15 @@ def _put(place: Any, parts: list[str], value: Any) -> None:
 
 
 def texts_of(controls: Iterable[Control], body: Any) -> dict[str, str]:
-    """What to type so that `body_of` makes this body, or its parts, by the controls; defaults are left out."""
+    """Return the texts from which `body_of` makes the parts of this body, without the texts of defaults."""
     values = ((control, value_at(body, control.path)) for control in controls if control.sets)
     return {control.name: text_of(value) for control, value in values if value is not None and value != control.default}
 
 
 def control_at(controls: Sequence[Control], path: str) -> str:
-    """The name of the control for a path in the body, or for the part around it; the path itself where there is none.
+    """Return the name of the control for a path in the body, or for the part around this path, or else the path itself.
 
-    Of several controls of one part the last counts.
+    If several controls set one part, the last one counts.
     """
     parts = path.split(".")
     names = {control.path: control.name for control in controls}
@@ -115,7 +115,7 @@ class Menu(NamedTuple):
 
 
 def menu(name: str, label: str, empty: str, choices: list[Choice], chosen: str, fault: str | None) -> Menu:
-    """A menu of these choices; one that is chosen and not among them is added."""
+    """Return a menu of these choices, and of the chosen entry if it is not one of them."""
     labels = {choice.path: choice.label for choice in choices}
     groups = [(group, list(items)) for group, items in groupby(choices, key=lambda choice: choice.group)]
     if chosen and chosen not in labels:

@@ -31,7 +31,7 @@ from app.studies.runner import Line, Study
 
 FRAMES = "<!-- the figures -->"
 OUTPUT = Control("show", "outputs", sets=False)
-"""The menu of outputs, which every page has."""
+"""The menu of outputs, which is on every page."""
 
 
 class Controls(NamedTuple):
@@ -155,14 +155,14 @@ class StudyPage(ABC):
         return ()
 
     def declared(self) -> tuple[Control, ...]:
-        """The controls with the parts of the body that they set, beside the output shown.
+        """Return the controls with the parts of the body that they set, without the menu of outputs.
 
-        Where the query is refused faults are looked up here: raises nothing.
+        The page of a rejected query also uses these controls, so this method does not raise errors.
         """
         return ()
 
     def given(self) -> dict[str, Any]:
-        """The parts of the body that the declared controls set, as typed or by default."""
+        """Return the parts of the body that the declared controls set, as typed or by default."""
         return body_of(self.declared(), self.views)
 
     def starters(self) -> Sequence[Starter | StudyExample]:
@@ -211,7 +211,7 @@ class StudyPage(ABC):
         )
 
     def field_of(self, control: Control) -> FieldView:
-        """The form field of a declared control, its default as placeholder."""
+        """Return the form field of a declared control, with its default as placeholder."""
         return self.field(control.name, control.label, control.default, control.unit, control.options)
 
     def control_at(self, path: str) -> str:
@@ -237,7 +237,7 @@ class StudyPage(ABC):
         return self.view(f"/figures/{figure}.{image_format}")
 
     def field_at(self, path: str) -> Leaf | None:
-        """The field of the request at a path that was asked for; None where there is no single value."""
+        """Return the field of the request at a path from the query, or None if the path has no single value."""
         try:
             return self.input(path)
         except Unprocessable:

@@ -1,6 +1,6 @@
 """Corners: a sweep over every combination of the uncertain inputs of a gear unit.
 
-On its page stand an output over all of them, and the load at the worst one.
+Its page shows an output at all combinations, and the load at the worst one.
 """
 
 from dataclasses import replace
@@ -119,9 +119,9 @@ class UnitPage(StudyPage):
             return {}
 
     def declared(self) -> tuple[Control, ...]:
-        """The values of each uncertain input, the usual ones by default; what is wrong with all is shown at the first.
+        """Return the controls of the values of each uncertain input, with the usual values as default.
 
-        Of an input that is left alone only values that are typed count.
+        Errors of all axes together are shown at the first control. An input that is left alone has no default.
         """
         found: list[Control] = []
         for quantity, axis in self.uncertain.items():
@@ -154,7 +154,7 @@ class UnitPage(StudyPage):
 
 
 def _typed(axis: Axis, text: str) -> dict[str, Any]:
-    """The axis with the values that are typed, with semicolons between them and blanks inside them."""
+    """Return the axis with the typed values, which are separated by semicolons and contain blanks."""
     rows = [[number_of(each) for each in row.split()] for row in text.split(";")]
     return {"path": axis.path, "values": [row[0] if len(row) == 1 else row for row in rows]}
 

@@ -1,6 +1,7 @@
 """Design: values of some inputs whose worst case is best, searched trial by trial.
 
-On its page they are the flank correction of a gear unit, as a sheet for the grinder, and how it was found.
+On its page, the inputs are the flank correction of a gear unit. The page shows the correction as a sheet for the
+grinder, and the course of the search.
 """
 
 from collections.abc import Sequence
@@ -359,7 +360,7 @@ class DesignPage(UnitPage):
         }
 
     def declared(self) -> tuple[Control, ...]:
-        """How many corrections are tried, the ranges of what may be ground, and the uncertain inputs."""
+        """Return the controls of the number of trials, of the ranges to grind, and of the uncertain inputs."""
         whole = (Control(f"low.{place}", f"variables.{place}", sets=False) for place in range(len(GROUND)))
         objective = Control(OUTPUT.name, "objective", sets=False)
         return (TRIALS, *ENDS, *whole, objective, *super().declared())

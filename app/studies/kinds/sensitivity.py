@@ -1,7 +1,7 @@
 """Sensitivity: derivatives of each output with respect to each number of a case, by differences.
 
 An input is moved by its tolerance, else by 1 % (1 K for a temperature, 1 for a count); a step of a tolerance is checked
-at half of it. On its page the inputs are sorted by what they change, as a figure and a table.
+at half of it. Its page shows the inputs, sorted by the change that they cause, as a figure and a table.
 """
 
 from collections import Counter

@@ -1,6 +1,6 @@
 """Load spectra: a machine with its tolerances over its cases, and the probability that it exceeds its limits.
 
-On its page the cases are a table to paste, the tolerances stand beside the fields that scatter.
+On its page, the cases are a table to paste, and the tolerances are beside the fields that scatter.
 """
 
 import csv
@@ -539,13 +539,13 @@ TOLERANCE = (
     Control(".about", "mean"),
     Control(".by", "deviation"),
 )
-"""The controls of a tolerance, named behind it, and what they set: the middle and the width of any distribution."""
+"""The controls of a tolerance, with the ends of their names; they set mean and width of any distribution."""
 STATED = {"normal": ("mean", "deviation"), "lognormal": ("median", "factor")}
-"""What middle and width are of these distributions; of others they lie between `min` and `max`."""
+"""Parameters of these distributions that are mean and width; the others have `min` and `max`."""
 
 
 def _tolerance(place: int, name: str, about: Any = None, by: Any = None) -> list[Control]:
-    """The controls of a tolerance, around a value and by its width where nothing is typed."""
+    """Return the controls of a tolerance, with a value and its usual deviation as defaults."""
     usual = {"mean": about, "deviation": by}
     return [
         each._replace(
@@ -558,7 +558,7 @@ def _tolerance(place: int, name: str, about: Any = None, by: Any = None) -> list
 
 
 def _stated(law: str, about: Any, by: Any) -> dict[str, Any]:
-    """What a distribution states of its middle and width; nothing where there is no such distribution."""
+    """Return the parameters of a distribution by its mean and width; none if the distribution does not exist."""
     if names := STATED.get(law):
         return dict(zip(names, (about, by), strict=True))
     ends = {"uniform": ("min", "max"), "triangular": ("min", "mode", "max")}.get(law, ())
@@ -566,7 +566,7 @@ def _stated(law: str, about: Any, by: Any) -> dict[str, Any]:
 
 
 def _typed(scatter: dict[str, Any]) -> dict[str, Any]:
-    """The middle and width of what a distribution states, for the controls: the inverse of `_stated`."""
+    """Return mean and width of a distribution for the controls; this is the inverse of `_stated`."""
     law = scatter["distribution"]
     if names := STATED.get(law):
         about, by = (scatter[name] for name in names)
@@ -641,7 +641,7 @@ class SpectrumPage(StudyPage):
         return [name for name in TOLERANCES if self.views.get(name)]
 
     def declared(self) -> tuple[Control, ...]:
-        """The table of cases, the machines, the hours, and each tolerance around the value of the case, by its own."""
+        """Return the controls of cases, machines, hours and tolerances; the mean of a tolerance is the case's value."""
         found = [
             *CONTROLS,
             Control("machines", "tolerances", sets=False),
@@ -658,7 +658,7 @@ class SpectrumPage(StudyPage):
         return (*found, *(Control(name, "tolerances.inputs", sets=False) for name in self._given()[:1]))
 
     def _scatter(self, given: dict[str, Any], where: str) -> dict[str, Any]:
-        """The distribution of one field by its law: what is given are its mean and deviation."""
+        """Return the distribution of one field by its law, from its mean and deviation."""
         leaf = scalar_at(self.calculation.request, given["path"], f"{where}.path", "unknown_path")
         about: Any = given.get("mean")
         by: Any = given.get("deviation")

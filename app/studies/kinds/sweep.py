@@ -1,6 +1,6 @@
 """Sweeps: one request at many points, each the endpoint's own answer; a line a point, then extremes and statistics.
 
-On its page one field of a case is varied, or two, drawn as a curve, as curves or as a map while the points come.
+On its page, one or two fields of a case are varied; a curve, curves or a map are drawn while the points arrive.
 """
 
 import json
@@ -228,7 +228,7 @@ class Sweep(Study):
         return [end]
 
     def encoder(self, written_as: str) -> Callable[[Line], bytes]:
-        """Return what writes a line: as JSON, or as a row of a table."""
+        """Return the function that writes a line, as JSON or as a row of a table."""
         if written_as == "csv":
             return partial(table_row, self.points, self.outputs)
         return super().encoder(written_as)
@@ -341,7 +341,7 @@ class SweepPage(StudyPage):
         return (ceil(low), floor(high)) if leaf.kind == "integer" else (float(f"{low:.4g}"), float(f"{high:.4g}"))
 
     def declared(self) -> tuple[Control, ...]:
-        """The controls of the axes; what is wrong with an axis is shown at its first end, with all at their number."""
+        """Return the controls of the axes; errors of an axis are at its first end, errors of all axes at `x.count`."""
         found = [Control("x.count", "vary", sets=False)]
         for place, name in enumerate(AXES):
             path = self.views.get(name, "")
