@@ -109,7 +109,7 @@ class Asked:
 
     @property
     def written(self) -> str:
-        """The text by which a form tells how the texts in its fields were written."""
+        """The texts that the service writes into a form of the case but would read differently if they were typed."""
         return written_of(self.calculation.request, self.pairs)
 
     @property
