@@ -98,7 +98,7 @@ def items_in_link(text: str) -> str:
 
 
 def table_in_link(text: str) -> str:
-    """Return the text of a link for a table whose first line names the columns. Cells below `name` are not read."""
+    """Return the text of a link for a table whose first line names the columns. The column `name` stays text."""
     separator = separator_of(text)
     heading, *rows = text.split("\n")
     named = [cell.strip().lower() == "name" for cell in heading.split(separator)]

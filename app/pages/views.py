@@ -191,12 +191,13 @@ def _elsewhere(asked: Asked) -> list[tuple[str, str, list[str]]]:
 
     Each of them has its title, the address of the case on its page, and the titles of the figures.
     """
-    pages, figures = [], asked.calculation.figures
-    for path in dict.fromkeys(figure.shown_at for figure in figures if figure.shown_at):
+    pages, declarations = [], asked.calculation.figures
+    for path in dict.fromkeys(declaration.shown_at for declaration in declarations if declaration.shown_at):
         other = BY_PATH[path]
         pairs = [(name, text) for name, text in asked.pairs if leaf_at(other.request, name)]
         address = link(page_path(other), pairs, theme=asked.theme)
-        pages.append((other.title, address, [figure.title for figure in figures if figure.shown_at == path]))
+        titles = [declaration.title for declaration in declarations if declaration.shown_at == path]
+        pages.append((other.title, address, titles))
     return pages
 
 
