@@ -1,8 +1,9 @@
 r"""The numbered equations of the manual and the functions of `solvers` that implement them.
 
-An equation is a block of dollars with a `\tag`. Numbers of a paper are tagged with its name (`Xue 25`), ours begin
-with a letter (`C4`). The paragraph after it says by which functions it is implemented; their docstrings cite its
-number: `Eq. 25` in a package that implements Xue's paper, `Eq. C4` anywhere.
+An equation is a block between `$$` with a `\tag`. The tag of a paper's equation begins with the paper's name
+(`Xue 25`), the tag of our own equations with a letter (`C4`). The paragraph below an equation names the functions that
+implement the equation. Their docstrings cite its number: `Eq. 25` in a package that implements Xue's paper, `Eq. C4`
+in any package.
 """
 
 import ast
@@ -19,7 +20,7 @@ _FUNCTION = re.compile(r"\[`(solvers[\w.]+)`\]\(")
 
 @dataclass(frozen=True, slots=True)
 class Equation:
-    """A numbered equation, the chapter it stands in and the functions below it."""
+    """A numbered equation, its chapter and the functions named below it."""
 
     number: str
     chapter: str
@@ -28,13 +29,13 @@ class Equation:
 
     @property
     def address(self) -> str:
-        """Where it is."""
+        """The address of the equation in the manual."""
         return f"/manual/{self.chapter}#{anchor(self.number)}"
 
 
 @dataclass(frozen=True, slots=True)
 class Function:
-    """A function or class that implements equations: its head and docstring as they stand in the source."""
+    """A function or class that implements equations, with its head and docstring as in the source."""
 
     name: str
     head: str
@@ -43,13 +44,13 @@ class Function:
 
 
 def anchor(number: str) -> str:
-    """The anchor of an equation."""
+    """Return the anchor of the equation of this number."""
     return f"eq-{number.lower().replace(' ', '-')}"
 
 
 @cache
 def equations() -> dict[str, Equation]:
-    """Every numbered equation by its number."""
+    """Return all numbered equations by their numbers."""
     return {
         number: Equation(number, chapter.name, text, tuple(_FUNCTION.findall(below)))
         for chapter in chapters().values()
@@ -59,16 +60,16 @@ def equations() -> dict[str, Equation]:
 
 @cache
 def functions() -> tuple[Function, ...]:
-    """Every function that is named below an equation, by name."""
+    """Return all functions that are named below an equation, sorted by name."""
     names = sorted({name for equation in equations().values() for name in equation.functions})
     return tuple(
-        Function(name, *_definition(name), tuple(each for each in equations().values() if name in each.functions))
+        Function(name, *_definition(name), tuple(eq for eq in equations().values() if name in eq.functions))
         for name in names
     )
 
 
 def module_of(name: str) -> str:
-    """The module that holds a function, method or class, by its dotted name."""
+    """Return the module that defines the function, method or class of this dotted name."""
     parts = name.split(".")
     while not files(parts[0]).joinpath(*parts[1:-1], f"{parts[-1]}.py").is_file():
         parts.pop()
@@ -76,12 +77,12 @@ def module_of(name: str) -> str:
 
 
 def _definition(name: str) -> tuple[str, str]:
-    """Head and docstring of a function, method or class."""
+    """Return the head and the docstring of a function, method or class."""
     module = module_of(name)
     package, *rest = module.split(".")
     body: list[ast.stmt] = ast.parse(files(package).joinpath(*rest[:-1], f"{rest[-1]}.py").read_text("utf-8")).body
     for part in name.removeprefix(f"{module}.").split("."):
-        node = next(each for each in body if isinstance(each, ast.ClassDef | ast.FunctionDef) and each.name == part)
+        node = next(item for item in body if isinstance(item, ast.ClassDef | ast.FunctionDef) and item.name == part)
         body = node.body
     if isinstance(node, ast.ClassDef):
         return f"class {node.name}", ast.get_docstring(node) or ""

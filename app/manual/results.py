@@ -1,7 +1,7 @@
-"""The place in the manual that says how each result is computed.
+"""The places in the manual that say how the results are computed.
 
-A place is a numbered equation, or a section where no equation of its own defines the number: a count, a setting in
-force, a measure of convergence.
+A place is a numbered equation. If no equation defines the number, such as a count, a setting in force or a measure of
+convergence, the place is a section.
 """
 
 from functools import cache
@@ -156,11 +156,14 @@ PLACES = {
     "heat_balance.warm_up.WarmUp": "H24",
     "drive_train.warm_up.UnitWarmUp": "D15; largest_face_load_factor: L17; least_backlash: H22",
 }
-"""By the dataclass of the solvers that declares results: the place of all of them, then those of single fields."""
+"""Places by the dataclass of the solvers that declares the results.
+
+The first target is the place of all fields; the targets after it are the places of the fields that they name.
+"""
 
 
 class Place(NamedTuple):
-    """A place in the manual: what a link to it says, and its address."""
+    """A place in the manual: the text of a link to the place, and its address."""
 
     text: str
     address: str
@@ -169,30 +172,30 @@ class Place(NamedTuple):
 
 @cache
 def place_of(declared: Quantity) -> Place | None:
-    """Return the place that says how a declared result is computed; None for what is no result of a solver."""
+    """Return the place that says how a declared result is computed, or None if it is not a result of a solver."""
     origin = getattr(declared, "origin", None)
     if origin is None:
         return None
     record, name = origin
     for kind in record.__mro__:
-        known = PLACES.get(f"{kind.__module__.removeprefix('solvers.')}.{kind.__qualname__}")
-        if known is not None:
-            return _place(_target(known, name))
+        targets = PLACES.get(f"{kind.__module__.removeprefix('solvers.')}.{kind.__qualname__}")
+        if targets is not None:
+            return _place(_target(targets, name))
     return None
 
 
-def _target(known: str, name: str) -> str:
-    """The place of a field among those of its dataclass."""
-    target, *others = known.split("; ")
-    for each in others:
-        names, _, own = each.partition(": ")
+def _target(targets: str, name: str) -> str:
+    """Return the target of a field among the targets of its dataclass."""
+    target, *others = targets.split("; ")
+    for other in others:
+        names, _, own = other.partition(": ")
         if name in names.split():
             return own
     return target
 
 
 def _place(target: str) -> Place:
-    """An equation by its number, or the section of a chapter by its anchor."""
+    """Return the place of a target: the number of an equation, or a chapter and the anchor of its section."""
     chapter, _, section = target.partition("#")
     if section:
         return Place(f"section {section.replace('-', ' ')}", f"/manual/{target}", chapter)

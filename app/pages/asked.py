@@ -12,9 +12,9 @@ from app.pages.templating import example_link, page_path
 
 
 def asked_in(calculation: Calculation, text: str, root: str, answers: Mapping[str, bytes]) -> tuple[Asked, bool]:
-    """Return the case, and whether its text was a link in the shortest form, without empty fields.
+    """Return the case, and whether its text was already a link in the shortest form, without empty fields.
 
-    `root` is the prefix of a proxy, `answers` holds what was calculated lately.
+    `root` is the prefix of a proxy. `answers` holds the answers that were calculated lately.
     """
     fields = pairs_of_query(text)
     pressed = WRITTEN in dict(fields)
@@ -27,6 +27,6 @@ def asked_in(calculation: Calculation, text: str, root: str, answers: Mapping[st
         return Asked(page_path(calculation), sent, given, root=root), False
     pairs = normalised(calculation.request, sent)
     asked = Asked(page_path(calculation), pairs, given, root=root)
-    kept, kept_ref = (answers.get(key_of(asked.path, each)) for each in (pairs, asked.ref_pairs))
+    kept, kept_ref = (answers.get(key_of(asked.path, variant)) for variant in (pairs, asked.ref_pairs))
     asked = replace(asked, kept=kept, kept_ref=kept_ref, pressed=pressed)
     return asked, not pressed and pairs == sent and given == looks

@@ -1,7 +1,7 @@
 """Links to other calculations of the same gears or coupling.
 
-What the other page has no field for goes along in the view `pair`, so that a link from there to a third page, or back,
-loses no value. The REXS file from which the case was read goes along too.
+The view `pair` of a link holds the values for which the other page has no field. A link from that page to a third page,
+or back, therefore loses no value. A link also keeps the REXS file from which the case was read.
 """
 
 from collections.abc import Iterable, Iterator
@@ -18,11 +18,11 @@ from app.schema.model import Documented
 SUBJECTS = {"gears": "pair", "coupling": "coupling"}
 """Sections that several calculations share, with the word for their subject: a gear pair or a coupling."""
 LOAD, OPERATION = "load.", "operation."
-"""Scuffing calls the operation of the gears their load; names in `pair` are those of scuffing."""
+"""Two names of one section: `load` in the request of scuffing and in `pair`, `operation` in the other requests."""
 
 
 class Use(NamedTuple):
-    """The same pair on the page of another calculation, and what is missing there."""
+    """A link to the same subject on the page of another calculation, and the fields that are missing there."""
 
     title: str
     address: str
@@ -30,25 +30,25 @@ class Use(NamedTuple):
 
 
 def subject_of(calculation: Calculation) -> str:
-    """Return what a case of a calculation is about: pair, coupling, or nothing that others have."""
+    """Return the subject of a calculation: pair or coupling. It is empty if no other calculation shares the subject."""
     return next((name for section, name in SUBJECTS.items() if section in branches(calculation.request)), "")
 
 
 def uses(asked: Asked) -> list[Use]:
     """Return the other calculations of the same gears or the same coupling, with a link to each."""
     subject = subject_of(asked.calculation)
-    others = (each for each in CALCULATIONS if each is not asked.calculation and subject_of(each) == subject)
-    return [_use(asked, each) for each in others] if subject else []
+    others = (other for other in CALCULATIONS if other is not asked.calculation and subject_of(other) == subject)
+    return [_use(asked, other) for other in others] if subject else []
 
 
 def _use(asked: Asked, other: Calculation) -> Use:
-    """The pair of a case in another calculation."""
+    """Return the link that carries the fields of a case to another calculation."""
     own = [(_common(asked.calculation, name), text) for name, text in asked.pairs]
     beyond = pairs_of_query(asked.views.get("pair", ""))
-    known = dict(beyond) | dict(own)
-    there = {name: _there(other, name) for name in known}
-    taken: Pairs = [(there[name], text) for name, text in known.items() if _has(other.request, there[name])]
-    left: Pairs = [(name, text) for name, text in known.items() if not _has(other.request, there[name])]
+    fields = dict(beyond) | dict(own)
+    there = {name: _there(other, name) for name in fields}
+    taken: Pairs = [(there[name], text) for name, text in fields.items() if _has(other.request, there[name])]
+    left: Pairs = [(name, text) for name, text in fields.items() if not _has(other.request, there[name])]
     views = {"theme": asked.theme, **asked.file}
     address = link(page_path(other), taken, **views, pair=urlencode(left, safe=",:", errors="replace"))
     if len(address) > LONGEST_QUERY:
@@ -57,7 +57,7 @@ def _use(asked: Asked, other: Calculation) -> Use:
 
 
 def _common(calculation: Calculation, name: str) -> str:
-    """The name of a field among all calculations of gears."""
+    """Return the name under which calculations of gears share a field: its name in the request of scuffing."""
     if subject_of(calculation) != "pair" or not name.startswith(OPERATION):
         return name
     renamed = f"{LOAD}{name.removeprefix(OPERATION)}"
@@ -65,7 +65,7 @@ def _common(calculation: Calculation, name: str) -> str:
 
 
 def _there(calculation: Calculation, name: str) -> str:
-    """The name of a common field in a calculation."""
+    """Return the name in the request of a calculation of the field with this shared name."""
     if name.startswith(LOAD) and not _has(calculation.request, name):
         return f"{OPERATION}{name.removeprefix(LOAD)}"
     return name
@@ -79,7 +79,7 @@ def _has(model: type[Documented], name: str) -> bool:
 
 
 def _missing(branch: Branch, names: set[str]) -> Iterator[str]:
-    """Titles of what a request requires and the names do not give."""
+    """Yield the titles of the fields that a request requires and that are not among the names."""
     for group in _choices(branch.model):
         paths = [f"{branch.path}.{name}" for name in group]
         if names.isdisjoint(paths):
@@ -100,7 +100,7 @@ def _missing(branch: Branch, names: set[str]) -> Iterator[str]:
 
 
 def _choices(model: type[Documented]) -> Iterable[tuple[str, ...]]:
-    """The fields of which one must be given."""
+    """Return the groups of fields of which one must be given."""
     groups: Any = model.exclusive if getattr(model, "choice_missing", None) else ()
     return [group for group in groups[:1] if all(model.model_fields[name].default is None for name in group)]
 
@@ -110,5 +110,5 @@ def _leaf(branch: Branch, path: str) -> Leaf | None:
 
 
 def _is_given(path: str, names: set[str]) -> bool:
-    """Whether something at or below a path is given."""
+    """Return whether the names hold the path or a field below it."""
     return any(name == path or name.startswith(f"{path}.") for name in names)

@@ -1,4 +1,7 @@
-"""A case from its query to its answer, which is kept: figure, report and download of it need no second solve."""
+"""A case from its query to its answer.
+
+The answer is kept, so that the figures, the report and the downloads of the case do not solve it again.
+"""
 
 import pickle
 import re
@@ -36,13 +39,13 @@ REFUSED = (Unreadable, InvalidBody, Unprocessable)
 
 @dataclass(frozen=True, slots=True)
 class Asked:
-    """A case to look at, and the addresses of its views.
+    """A requested case, and the addresses of its views.
 
-    Addresses that people keep name the solvers' sources, so that a later reader is told whether numbers may differ.
-    `kept` and `kept_ref` are the answers of it and of its variant, if they are still known. `root` is the prefix that
-    a proxy puts before the addresses of the service. A case too long for a link has to be posted; its figures are
-    addressed by `answered`, the hashes in its answer and in that of the variant, while both answers are kept. `pressed`
-    says that the form was sent, if with no field.
+    Addresses that people keep name the sources of the solvers, so that a page can tell a later reader whether numbers
+    may differ. `kept` and `kept_ref` are the answers of the case and of its variant if they are still kept. `root` is
+    the prefix that a proxy puts before the addresses of the service. A case that is too long for a link is posted. The
+    addresses of its figures then hold `answered`, the hashes in the answers of the case and of the variant, and work
+    as long as both answers are kept. `pressed` says that the form was sent, even if no field was filled in.
     """
 
     path: str
@@ -61,12 +64,12 @@ class Asked:
 
     @property
     def body(self) -> dict[str, Any]:
-        """The request body made of the fields; raises Unreadable where names contradict each other."""
+        """The request body made of the fields; raises Unreadable if names contradict each other."""
         return body_of(self.calculation.request, self.pairs)
 
     @property
     def case(self) -> dict[str, Any]:
-        """The request with its defaults; as far as it is given where that is refused, empty where it is unreadable."""
+        """The request with its defaults; the body alone if the request is refused, empty if it is unreadable."""
         try:
             return validated(self.calculation.request, self.body).model_dump()
         except InvalidBody:
@@ -76,12 +79,12 @@ class Asked:
 
     @property
     def theme(self) -> ThemeName | None:
-        """The theme asked for; a page without one follows the reader's system."""
+        """The requested theme. A page without a theme follows the reader's system."""
         return next((theme for theme in get_args(ThemeName) if theme == self.views.get("theme")), None)
 
     @property
     def title(self) -> str:
-        """What its author calls the case."""
+        """The title that the author gave to the case."""
         return self.views.get("title", "")
 
     @property
@@ -96,17 +99,17 @@ class Asked:
 
     @property
     def outdated(self) -> list[str]:
-        """What has changed since the link was made, as far as it names the solvers' sources."""
+        """The changes since the link was made; empty if the link does not name the sources of the solvers."""
         return changes_since(self.views.get("sources", ""))
 
     @property
     def query(self) -> str:
-        """The case alone."""
+        """The query of the case without views."""
         return link("", self.pairs).removeprefix("?")
 
     @property
     def written(self) -> str:
-        """What a form that is filled with the case says of its texts."""
+        """The texts that the service writes into a form of the case but would read differently if they were typed."""
         return written_of(self.calculation.request, self.pairs)
 
     @property
@@ -116,17 +119,17 @@ class Asked:
 
     @property
     def page(self) -> str:
-        """The page of the case, beside the case that it is compared with."""
+        """The address of the page of the case, with the variant that the case is compared with."""
         return self.beside(self.ref)
 
     def beside(self, ref: str) -> str:
-        """The page of the case, compared with the case of another query unless that is empty."""
+        """Return the address of the page that compares the case with that of the query `ref`, unless `ref` is empty."""
         also = self.views.get("also") if ref else None
         views = {"ref": ref, "also": also, "pair": self.views.get("pair"), "theme": self.theme, "title": self.title}
         return link(self.path, self.pairs, **views, **self.file, sources=SHORT_SOURCES)
 
     def view(self, name: str, **views: str | None) -> str:
-        """The address of a view of the case."""
+        """Return the address of a view of the case."""
         return link(f"{self.path}/{name}", self.pairs, **views)
 
     @property
@@ -136,15 +139,15 @@ class Asked:
 
     @property
     def report(self) -> str:
-        """The address of the report of the case, which shows the compared case too if there is one."""
+        """The address of the report of the case. The report also shows the variant if there is one."""
         return self.view("report", ref=self.ref, title=self.title, **self.file, sources=SHORT_SOURCES)
 
     def study(self, name: str) -> str:
-        """The address of the page of a study of the case."""
+        """Return the address of the page of a study of the case."""
         return self.view(name, theme=self.theme, title=self.title, **self.file)
 
     def image(self, figure: str, image_format: str, theme: ThemeName | None = None) -> str:
-        """One figure as a file."""
+        """Return the address of the file of a figure."""
         name, theme = f"figures/{figure}.{image_format}", theme or self.theme
         if self.too_long:
             case, ref_case = self.answered
@@ -153,7 +156,7 @@ class Asked:
 
 
 def opened(content: bytes, root: str) -> Asked:
-    """The case that a file holds; raises Unreadable where it holds none."""
+    """Return the case that a file holds; raise Unreadable if the file holds none."""
     try:
         case = content_of(content)
         endpoint, title = str(case["endpoint"]), str(case.get("title", ""))
@@ -166,12 +169,16 @@ def opened(content: bytes, root: str) -> Asked:
 
 
 def key_of(path: str, pairs: Pairs) -> str:
-    """The key of an answer: page and fields of its case, whatever their order, or the hash of the answer as `case`."""
+    """Return the key of an answer: a hash of the page and the fields of its case.
+
+    The order of the fields does not matter. If the case is too long for a link, its only field is `case`, the hash of
+    the case in the answer.
+    """
     return sha256(repr((path, sorted(pairs))).encode()).hexdigest()
 
 
 class Fault(NamedTuple):
-    """What is wrong with the field at a dotted path."""
+    """A fault of the field at a dotted path."""
 
     path: str
     message: str
@@ -179,7 +186,7 @@ class Fault(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Case:
-    """A request and its answer; `kept` are the request and the solver's result as they are kept."""
+    """A request and its answer; `kept` holds the request and the solver's result, pickled and compressed."""
 
     calculation: Calculation
     request: Request
@@ -188,9 +195,10 @@ class Case:
 
 
 def solved(calculation: Calculation, pairs: Pairs, kept: bytes | None, detail: Detail = "fields") -> Case:
-    """The case, usually with all that its figures need; the one that is kept if there is one, whatever the fields.
+    """Return the case with its answer, by default with all fields that its figures need.
 
-    Raises Unreadable, InvalidBody and Unprocessable.
+    If an answer is kept, its request and result are taken and `pairs` is ignored. Raises Unreadable, InvalidBody and
+    Unprocessable.
     """
     if kept is None:
         body = body_of(calculation.request, pairs)
@@ -205,34 +213,37 @@ def solved(calculation: Calculation, pairs: Pairs, kept: bytes | None, detail: D
 
 
 def faults_of(error: Exception, calculation: Calculation) -> list[Fault]:
-    """What a case was refused for; the messages name fields by their titles."""
+    """Return the faults for which a case was refused. Their messages name fields by their titles."""
     match error:
         case InvalidBody():
-            dotted = ((each.pointer.removeprefix("/").replace("/", "."), each.message) for each in error.faults)
-            found = [(path.replace("~1", "/").replace("~0", "~"), message) for path, message in dotted]
+            dotted = ((fault.pointer.removeprefix("/").replace("/", "."), fault.message) for fault in error.faults)
+            messages = [(path.replace("~1", "/").replace("~0", "~"), message) for path, message in dotted]
         case Unprocessable():
-            found = [(error.path or "", error.message)]
+            messages = [(error.path or "", error.message)]
         case _:
-            found = [("", str(error))]
-    return [Fault(path, _titled(message, path, calculation)) for path, message in found]
+            messages = [("", str(error))]
+    return [Fault(path, _titled(message, path, calculation)) for path, message in messages]
 
 
 def _titled(message: str, path: str, calculation: Calculation) -> str:
-    """A message with titles for the names of fields; among fields of one name, the one beside `path`."""
+    """Replace the names of fields in a message by their titles; prefer a field in the section of `path`."""
     section, _, own = path.rpartition(".")
     models = (calculation.request, calculation.response)
 
     def title(name: re.Match[str]) -> str:
-        exact = (leaf_at(model, each) for each in (f"{section}.{name[0]}", name[0]) for model in models)
+        exact = (leaf_at(model, sibling) for sibling in (f"{section}.{name[0]}", name[0]) for model in models)
         alike = (leaf for model in models for leaf in leaves(model) if leaf.path.endswith(f".{name[0]}"))
-        found = next(filter(None, exact), None) or next(alike if "." not in name[0] else iter(()), None)
-        return found.title if found else name[0]
+        leaf = next(filter(None, exact), None) or next(alike if "." not in name[0] else iter(()), None)
+        return leaf.title if leaf else name[0]
 
     return re.sub(rf"^{re.escape(own)}(?= )|{NAME}", title, message)
 
 
 def _fill(branch: Branch, body: dict[str, Any]) -> None:
-    """Empty sections where required ones are missing: people see fields, which the validator then names."""
+    """Add empty sections to the body if required sections are missing.
+
+    The validator then names the missing fields, which people see, instead of the section.
+    """
     for inner in branch.branches:
         name = inner.path.rpartition(".")[2]
         if inner.required and not inner.optional and not inner.repeated:

@@ -1,4 +1,4 @@
-"""The figures of a case on a page: where their images are, and what the script and the table of values show of them."""
+"""The figures of a case on a page: the addresses of their images, and their values for the script and the table."""
 
 import base64
 import json
@@ -19,17 +19,17 @@ from app.pages.cases import Asked, Case
 VARIANT = "variant A"
 MOST_LINES = 200  # of a table on a page; the file has all
 DIGITS = 6  # more than any solver's tolerance leaves
-PIXELS = 100  # of an inch
+PIXELS = 100  # per inch
 
 
 @dataclass(frozen=True, slots=True)
 class Chart:
     """A figure on a page.
 
-    `image` is the address of its image, `dark` that of the one for dark pages if there are two. Its values are either
-    at the address `values`, or in `content`, as JSON, and in `table`; `study` is JSON too: the points of a sweep, each
-    of which opens its case. `size` is width and height in pixels, None where they are not known before the figure is
-    drawn.
+    `image` is the address of the image, and `dark` the address of a second image for dark pages if there is one. The
+    values of the figure are either at the address `values`, or in `content` (as JSON) and `table`. `study` is JSON too:
+    the points of a sweep with links to their cases. `size` is width and height in pixels, or None if they are not known
+    before the figure is drawn.
     """
 
     name: str
@@ -45,7 +45,7 @@ class Chart:
 
 
 def figure_of(declaration: Declaration, case: Case, variant: Case | None) -> Figure:
-    """The data of one figure, and of the variant beside it, if the variant has the figure; raises NoFigure."""
+    """Return a figure of the case, compared with that of the variant if the variant has it; raise NoFigure."""
     figure = declaration.figure(case.request, case.response)
     if variant is None:
         return figure
@@ -59,23 +59,26 @@ def figure_of(declaration: Declaration, case: Case, variant: Case | None) -> Fig
 def figures_of(
     case: Case, variant: Case | None, *, compute: bool = False
 ) -> tuple[list[tuple[Declaration, Figure | None]], list[tuple[str, NoFigure]]]:
-    """The figures that the page of a case shows, and the titles of those that it lacks with the reasons.
+    """Return the figures that the page of a case shows, and the titles of the missing figures with the reasons.
 
-    The data of figures that need more than the answer are None unless `compute` asks for them.
+    If a figure needs more than the answer, its data are None unless `compute` is set.
     """
-    found, missing = [], []
+    figures, missing = [], []
     for declaration in case.calculation.figures:
         if not declaration.shown_at and declaration.is_asked(case.request):
-            known = compute or declaration.compute is None
+            has_data = compute or declaration.compute is None
             try:
-                found.append((declaration, figure_of(declaration, case, variant) if known else None))
+                figures.append((declaration, figure_of(declaration, case, variant) if has_data else None))
             except NoFigure as reason:
                 missing.append((declaration.title, reason))
-    return found, missing
+    return figures, missing
 
 
 def linked(declaration: Declaration, figure: Figure | None, asked: Asked) -> Chart:
-    """A figure whose image and values are at addresses of their own, dark on dark pages unless the page has a theme."""
+    """Return the chart of a figure whose image and values are at addresses of their own.
+
+    The chart has a second image for dark pages unless the page has a theme.
+    """
     return Chart(
         name=declaration.name,
         title=figure.title if figure else declaration.title,
@@ -88,7 +91,10 @@ def linked(declaration: Declaration, figure: Figure | None, asked: Asked) -> Cha
 
 
 def embedded(name: str, figure: Figure, theme: ThemeName | None) -> Chart:
-    """A figure that is a part of the page with its values; dark on dark pages unless the page has a theme."""
+    """Return the chart of a figure whose image and values are part of the page.
+
+    The chart has a second image for dark pages unless the page has a theme.
+    """
     return Chart(
         name=name,
         title=figure.title,
@@ -109,15 +115,15 @@ def _pixels(figure: Figure) -> tuple[int, int]:
 
 
 def data_address(figure: Figure, theme: ThemeName = "light") -> str:
-    """An address that holds the image of a figure."""
+    """Return a data address that holds the image of a figure."""
     return "data:image/svg+xml;base64," + base64.b64encode(written(figure, "svg", theme)).decode()
 
 
 def in_columns(figures: Iterable[Figure]) -> list[Figure]:
-    """Return the figures in the order in which a report in two columns sets them.
+    """Return the figures in the order in which they stand in a report with two columns.
 
-    Beside a figure that fits into a column stands the one of the nearest height. A figure that needs the whole width
-    stays as it is; such figures come last.
+    A figure that fits into a column is followed by the remaining figure of the nearest height. Figures that need the
+    whole width come last and keep their shape.
     """
     from app.figures.drawing.image import narrowed, size  # noqa: PLC0415  only workers draw
 
@@ -131,12 +137,12 @@ def in_columns(figures: Iterable[Figure]) -> list[Figure]:
 
 
 def values_of(figure: Figure) -> bytes:
-    """JSON of where the panels lie in the image, their curves, and the table of values."""
+    """Return the places of the panels in the image, their curves and the table of values as JSON."""
     return json.dumps({"panels": _panels(figure), **_table(figure)}).encode()
 
 
 def _table(figure: Figure) -> dict[str, Any]:
-    """The header of a table of the figure's numbers, its first lines, and how many more there are."""
+    """Return the table of the figure's numbers: its header, its first lines and the number of further lines."""
     columns = columns_of(figure)
     cells = [map(_cell, column.content[:MOST_LINES]) for column in columns]
     count = max((len(column.content) for column in columns), default=0)
@@ -154,10 +160,10 @@ def _cell(item: Item) -> str:
 
 
 def _panels(figure: Figure) -> list[dict[str, Any]]:
-    """Where each panel with curves lies, as fractions of the image, and its curves."""
+    """Return the curves of the panels that have curves, and the places of these panels as fractions of the image."""
     from app.figures.drawing.image import places  # noqa: PLC0415  only workers draw
 
-    found = []
+    panels = []
     for place in places(figure):
         panel, curves = place.panel, []
         for series in (*panel.lines, *panel.bars):
@@ -166,8 +172,8 @@ def _panels(figure: Figure) -> list[dict[str, Any]]:
             curves.append(curve)
         if curves:
             x = {"range": place.x, "name": panel.x.title, "unit": panel.x.unit or ""}
-            found.append({"box": place.box, **x, "curves": curves})
-    return found
+            panels.append({"box": place.box, **x, "curves": curves})
+    return panels
 
 
 def _numbers(values: Values) -> list[float | None]:

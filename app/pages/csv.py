@@ -1,6 +1,6 @@
 """An answer as CSV for spreadsheets: the case, its inputs and results in lines, or its curves in columns.
 
-Results have six significant digits; JSON has all of them.
+Results have six significant digits; the JSON answer has all digits.
 """
 
 from itertools import product, zip_longest
@@ -19,7 +19,7 @@ DIGITS = 6  # more than any solver's tolerance leaves
 
 
 def values(case: Case, title: str) -> bytes:
-    """What the case is, every input with its default, and every single result."""
+    """Return a table of the identity of the case, of all inputs with their defaults, and of all scalar results."""
     response = case.response
     identity = {
         "title": title,
@@ -33,7 +33,7 @@ def values(case: Case, title: str) -> bytes:
         for path, value in flattened(response.inputs).items()
         if (leaf := leaf_at(type(case.request), path)) and value is not None
     ]
-    results = [(each.leaf, each.path, each.value) for each in entries(response) if each.leaf.is_scalar]
+    results = [(entry.leaf, entry.path, entry.value) for entry in entries(response) if entry.leaf.is_scalar]
     named = [(name, name.replace("_", " "), text, "", "") for name, text in identity.items()]
     lines = [
         (path, leaf.title, value, leaf.unit or "", leaf.declared.symbol or "")
@@ -43,27 +43,27 @@ def values(case: Case, title: str) -> bytes:
 
 
 def curves(response: Response) -> dict[str, str]:
-    """Return titles by path: of groups that hold curves, and of curves outside groups."""
+    """Return the titles of the groups that hold curves, and of the curves outside groups, by path."""
     listed = (
-        each
-        for each in entries(response)
-        if each.leaf.dimensions == 1 and each.value is not None and each.leaf.kind in {"number", "integer"}
+        entry
+        for entry in entries(response)
+        if entry.leaf.dimensions == 1 and entry.value is not None and entry.leaf.kind in {"number", "integer"}
     )
-    return {each.path.rpartition(".")[0] or each.path: each.group or each.leaf.title for each in listed}
+    return {entry.path.rpartition(".")[0] or entry.path: entry.group or entry.leaf.title for entry in listed}
 
 
 def curve(response: Response, path: str) -> bytes:
-    """One curve or map, or all curves of a group, with their axes; raises Unprocessable where nothing has this name.
+    """Return a table of a curve, of a map or of all curves of a group, with their axes.
 
-    Curves stand in columns; a map has a line for each of its points.
+    Curves stand in columns; a map has one line per point. Raises Unprocessable if nothing has this path.
     """
     model = type(response)
     wanted = [leaf for leaf in leaves(model) if leaf.dimensions and f"{leaf.path}.".startswith(f"{path}.")]
-    known = {leaf.path: found for leaf in wanted if (found := value_at(response, leaf.path))}
-    shape = max((leaf.dimensions for leaf in wanted if leaf.path in known), default=0)
+    contents = {leaf.path: content for leaf in wanted if (content := value_at(response, leaf.path))}
+    shape = max((leaf.dimensions for leaf in wanted if leaf.path in contents), default=0)
     if shape == 0:
         raise Unprocessable("unknown_curve", f"Available curves: {', '.join(curves(response))}", "curve")
-    chosen = [leaf for leaf in wanted if leaf.path in known and leaf.dimensions == shape]
+    chosen = [leaf for leaf in wanted if leaf.path in contents and leaf.dimensions == shape]
     names = dict.fromkeys(name for leaf in chosen for name in leaf.axes)
     axes = [axis for name in names if (axis := leaf_at(model, name))]
     columns: list[Leaf]
@@ -73,7 +73,7 @@ def curve(response: Response, path: str) -> bytes:
     else:
         columns = [*axes[:2], *chosen]
         points = product(*(value_at(response, axis.path) for axis in axes[:2]))
-        maps = ([value for row in known[leaf.path] for value in row] for leaf in chosen)
+        maps = ([value for row in contents[leaf.path] for value in row] for leaf in chosen)
         lines = ((*point, *at_point) for point, *at_point in zip(points, *maps, strict=True))
     header = [f"{' '.join(filter(None, (leaf.title, leaf.declared.symbol)))} [{leaf.unit or '-'}]" for leaf in columns]
     return csv_of([header, *lines], DIGITS)

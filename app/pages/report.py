@@ -1,4 +1,4 @@
-"""What a report says beside the result: names, date, every input with where it comes from, how to repeat it."""
+"""The parts of a report beside the result: names, date, all inputs with their origins, and code to repeat the case."""
 
 import json
 import re
@@ -18,7 +18,7 @@ from app.pages.results import flattened, resolved, texts_of
 from app.pages.typesetting import cited
 from app.schema.fields import Leaf, leaf_at
 
-SECTION_CHAPTERS = {"heat": "heat-balance"}  # where the chapter about a section has another name
+SECTION_CHAPTERS = {"heat": "heat-balance"}  # chapters about sections, if their names differ
 LOCAL = "http://localhost:8000"
 LABELS = {name: name for name in REPORT_NAMES} | {
     "checker": "checked by",
@@ -26,9 +26,9 @@ LABELS = {name: name for name in REPORT_NAMES} | {
     "rexs_file": "name of the REXS file",
     "rexs_sha256": "SHA-256 of the REXS file",
 }
-"""What the fields of the form are called."""
+"""The labels of the form's fields."""
 MOST_SHORT = 4  # figures of the short form, two beside each other
-LONGEST_LINK = 160  # as text; what it leads to is the whole
+LONGEST_LINK = 160  # characters of its printed text; the address behind the text is complete
 _element = re.compile(r"(\.\d+){1,2}$")  # of a list or a matrix of numbers
 
 
@@ -60,9 +60,9 @@ STATED = GIVEN | {"assumed", "derived"}
 
 
 def context(asked: Asked, case: Case, host: str) -> dict[str, Any]:
-    """What the template needs beside the result; without a host the link is relative.
+    """Return the variables of the template beside the result.
 
-    Raises Unprocessable for a name or note that is too long.
+    The link is relative if `host` is empty. Raises Unprocessable if a name or note is too long.
     """
     inputs = _inputs(case, asked.pairs)
     views, link = asked.views, "" if asked.too_long else host + asked.root + asked.page
@@ -78,7 +78,7 @@ def context(asked: Asked, case: Case, host: str) -> dict[str, Any]:
         "short": views.get("extent") == "short",
         "most": MOST_SHORT,
         "stage": views.get("rexs_stage", ""),
-        "symbols": [each for chapter in _chapters_behind(case) for each in symbols_of(chapter)],
+        "symbols": [symbol for chapter in _chapters_behind(case) for symbol in symbols_of(chapter)],
         "command": for_shell((host or LOCAL) + asked.root, case),
         "link": link,
         "link_text": link if len(link) <= LONGEST_LINK else f"{link[:LONGEST_LINK]}…",
@@ -87,7 +87,7 @@ def context(asked: Asked, case: Case, host: str) -> dict[str, Any]:
 
 
 def _with_origin(sections: list[Section], origins: frozenset[str]) -> list[Section]:
-    """Return the sections that have inputs with one of these origins, and those inputs."""
+    """Return the sections that have inputs with one of these origins; they keep only these inputs."""
     chosen = (
         section._replace(rows=[row for row in section.rows if not origins.isdisjoint(_origins(row.cells))])
         for section in sections
@@ -96,9 +96,10 @@ def _with_origin(sections: list[Section], origins: frozenset[str]) -> list[Secti
 
 
 def _left(sections: list[Section]) -> list[tuple[str, list[tuple[Leaf, str, bool]]]]:
-    """Return the inputs left to their defaults by the title of their section: value used, and whether it is a number.
+    """Return the inputs left to their defaults, by the title of their section.
 
-    What stands for an empty input without a number is a text, such as what it is estimated from.
+    Each input has a text, and whether the text is a value. If an empty input has no value, the text says what stands
+    for the input, for example what it is estimated from.
     """
     left = []
     for title, _, rows in sections:
@@ -116,29 +117,29 @@ def _origins(cells: dict[int, Cell]) -> set[str]:
 
 
 def _chapters_behind(case: Case) -> list[Chapter]:
-    """The chapter about the calculation, and those about the sections of its answer that were asked for."""
+    """Return the chapter about the calculation, and the chapters about the optional sections of the answer."""
     present = (name for name in type(case.response).model_fields if getattr(case.response, name) is not None)
     sections = [SECTION_CHAPTERS.get(name, name) for name in present]
     return [chapter_of(case.calculation), *(chapters()[name] for name in sections if name in chapters())]
 
 
 def _said(name: str, text: str, longest: int) -> str:
-    """A name or note without characters that cannot be seen, some of which turn text around."""
+    """Return a name or note without invisible characters, some of which reverse the direction of text."""
     if len(text) > longest:
         message = f"{name}: {len(text)} characters; at most {longest} have room on the report"
         raise Unprocessable("too_long", message, None)
     lines = text.splitlines() if name == "notes" else [" ".join(text.split())]
-    return "\n".join("".join(each for each in line if category(each) not in {"Cc", "Cf"}) for line in lines)
+    return "\n".join("".join(letter for letter in line if category(letter) not in {"Cc", "Cf"}) for line in lines)
 
 
 def for_shell(address: str, case: Case) -> str:
-    """A command for curl that repeats a case; `address` is that of the service."""
+    """Return a command for curl that repeats a case; `address` is that of the service."""
     sent = shlex.quote(json.dumps(_given(case)))
     return f"curl -s {address}{case.calculation.path} -H 'Content-Type: application/json' -d {sent}"
 
 
 def for_python(address: str, case: Case) -> str:
-    """A program that asks the service at `address` for a case and prints the answer's status."""
+    """Return a program that asks the service at `address` for a case and prints the status of the answer."""
     method = case.calculation.path.rpartition("/")[2].replace("-", "_")
     return (
         "from app.client import Tribodrive\n\n"
@@ -149,7 +150,7 @@ def for_python(address: str, case: Case) -> str:
 
 
 def body_of(case: Case) -> str:
-    """Return the fields that the user has given as a JSON text."""
+    """Return a JSON text of the fields that the user has given."""
     return json.dumps(_given(case))
 
 
@@ -159,9 +160,9 @@ def _given(case: Case) -> dict[str, Any]:
 
 
 def _inputs(case: Case, pairs: Pairs) -> list[Section]:
-    """Return every input with the value used and where it comes from, by section."""
+    """Return the inputs by section, each with the value used and its origin."""
     typed = {_element.sub("", name) for name, _ in pairs}
-    assumed = {each.field: each.value for each in case.response.assumptions}
+    assumed = {assumption.field: assumption.value for assumption in case.response.assumptions}
     used = resolved(case.response) | assumed
     sections: dict[str, dict[str, Row]] = {}
     for path, stated in flattened(case.response.inputs).items():

@@ -1,4 +1,4 @@
-"""An answer as people read it: the numbers that decide with a verdict, and every number with symbol and unit."""
+"""An answer as people read it: headline numbers with verdicts, and all numbers with symbol and unit."""
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
@@ -16,7 +16,7 @@ NOT_RESULTS = frozenset(
 )
 DIGITS = 3  # of a headline
 SHAFTS = ("pinion shaft", "wheel shaft")
-"""In the order of the list of shafts."""
+"""Titles in the order of the list of shafts."""
 NEAR = 0.8  # of an upper limit
 LEVELS = ("plain", "good", "near", "bad")
 WELL_ABOVE = 2.0  # times a lower limit
@@ -34,10 +34,11 @@ class Entry(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """A line of a table: the value, or the items of a list; `before` is that of the variant, `change` lies between.
+    """A line of a table: a value, or the items of a list.
 
-    `remark` is the reason of an assumption, how well a result is known, or the verdict on a number that decides, whose
-    `level` is good, near, bad or plain.
+    `before` holds the items of the variant, and `change` the change from the variant to the case. `remark` is the
+    reason of an assumption, the uncertainty of a result, or the verdict on a headline number. `level` is the level of
+    the verdict: good, near, bad or plain.
     """
 
     leaf: Leaf
@@ -52,12 +53,12 @@ class Row:
 
     @property
     def value(self) -> str:
-        """All of it as a text."""
+        """All items as one text."""
         return ", ".join(self.items)
 
 
 def entries(response: Documented) -> Iterator[Entry]:
-    """Every result; those of a list one after the other."""
+    """Yield all results; the items of a list of sections follow one another."""
     for member in tree(type(response)).members:
         if member.path not in NOT_RESULTS:
             yield from _entries(member, getattr(response, member.path), member.path, "")
@@ -79,19 +80,19 @@ def _entries(member: Leaf | Branch, value: Any, path: str, around: str) -> Itera
 
 
 def _title_of_item(member: Branch, index: int) -> str:
-    """What a section of a list is called: a shaft by its gear, others by their number."""
+    """Return the title of a section of a list: that of a shaft names its gear, other titles have a number."""
     if member.path.rpartition(".")[2] == "shafts" and index < len(SHAFTS):
         return SHAFTS[index]
     return f"{member.title} {index + 1}"
 
 
 def values_by_path(response: Documented | None) -> dict[str, Any]:
-    """Every result by its path; empty without a response."""
+    """Return all results by their paths; empty if there is no response."""
     return {entry.path: entry.value for entry in entries(response)} if response is not None else {}
 
 
 def groups(response: Documented, before: Documented | None = None) -> dict[str, list[Row]]:
-    """Every scalar and short list of the answer by the title of its group, beside those of a variant."""
+    """Return the scalars and short lists of the answer by the title of their group, beside those of a variant."""
     old, remarks = values_by_path(before), response.remarks() if isinstance(response, Response) else {}
     tables: dict[str, list[Row]] = {}
     for group, leaf, path, value in entries(response):
@@ -104,7 +105,7 @@ def groups(response: Documented, before: Documented | None = None) -> dict[str, 
 
 
 def differences(request: type[Documented], response: Response, before: Response) -> list[Row]:
-    """The inputs that differ from those of a variant, with what the empty ones stand for."""
+    """Return the inputs that differ from those of a variant. An empty input shows the value that it stands for."""
     here, there = flattened(response.inputs), flattened(before.inputs)
     now, old = resolved(response), resolved(before)
     return [
@@ -115,11 +116,11 @@ def differences(request: type[Documented], response: Response, before: Response)
 
 
 def assumptions(request: type[Documented], response: Response) -> list[Row]:
-    """The defaults that the answer used and that are ours, each with the reason."""
+    """Return our own defaults that the answer used, with their reasons."""
     return [
-        replace(_row(leaf, each.field, each.value, label=leaf.title), remark=each.reason)
-        for each in response.assumptions
-        if (leaf := leaf_at(request, each.field))
+        replace(_row(leaf, assumption.field, assumption.value, label=leaf.title), remark=assumption.reason)
+        for assumption in response.assumptions
+        if (leaf := leaf_at(request, assumption.field))
     ]
 
 
@@ -127,13 +128,13 @@ def _row(leaf: Leaf, path: str, now: Any, before: Any = None, *, label: str, dig
     unit = leaf.unit or ""
     if leaf.view.percent:
         now, before, unit = (None if now is None else 100.0 * now, None if before is None else 100.0 * before, "%")
-    known_unit = unit if now is not None or before is not None else ""
+    unit_of_value = unit if now is not None or before is not None else ""
     items, old = (_named(leaf, texts_of(value, digits)) for value in (now, before))
-    return Row(leaf, label, path, items, known_unit, old, _change(now, before, unit))
+    return Row(leaf, label, path, items, unit_of_value, old, _change(now, before, unit))
 
 
 def _named(leaf: Leaf, items: tuple[str, ...]) -> tuple[str, ...]:
-    """Items of a list with the names that the declaration has for them: components, ends of a band."""
+    """Add the names of the items, such as components or ends of a band, if the declaration has them."""
     names = (leaf.declared.index or "").split(", ")
     return tuple(map(" ".join, zip(names, items, strict=True))) if len(names) == len(items) > 1 else items
 
@@ -144,7 +145,7 @@ def row_of(leaf: Leaf, path: str, value: Any = None, digits: int = DIGITS) -> Ro
 
 
 def texts_of(value: Any, digits: int, of_items: int = 4) -> tuple[str, ...]:
-    """A value, or the items of a list, with so many digits; of a matrix its rows."""
+    """Return the texts of a value with `digits` digits, or of the items of a list, or of the rows of a matrix."""
     if not isinstance(value, list):
         return (shown(value, digits),)
     if value and isinstance(value[0], list):
@@ -153,7 +154,7 @@ def texts_of(value: Any, digits: int, of_items: int = 4) -> tuple[str, ...]:
 
 
 def _change(now: Any, before: Any, unit: str) -> str:
-    """Return the change from `before` to `now` in words: a difference where ratios mean nothing, else per cent."""
+    """Return the change from `before` to `now` in words: per cent, or a difference if ratios mean nothing."""
     if isinstance(now, bool) or not isinstance(now, int | float) or not isinstance(before, int | float):
         return "no change" if now == before else "changed"
     if abs(now - before) <= UNCHANGED * abs(before):
@@ -164,7 +165,7 @@ def _change(now: Any, before: Any, unit: str) -> str:
 
 
 def flattened(content: Any, path: str = "") -> dict[str, Any]:
-    """Plain values, lists and matrices of numbers by dotted path."""
+    """Return the plain values, lists and matrices of numbers by their dotted paths."""
     inner: Iterable[tuple[Any, Any]]
     if isinstance(content, dict):
         inner = content.items()
@@ -172,14 +173,14 @@ def flattened(content: Any, path: str = "") -> dict[str, Any]:
         inner = enumerate(content)
     else:
         return {path: content}
-    found: dict[str, Any] = {}
-    for name, each in inner:
-        found |= flattened(each, f"{path}.{name}" if path else str(name))
-    return found
+    values: dict[str, Any] = {}
+    for name, part in inner:
+        values |= flattened(part, f"{path}.{name}" if path else str(name))
+    return values
 
 
 def resolved(response: Response) -> dict[str, Any]:
-    """What every input stands for: the inputs with their defaults, and what was derived for the empty ones."""
+    """Return the values used for all inputs: given values, defaults, and derived values for empty inputs."""
     derived = flattened(response.derived.model_dump()) if response.derived else {}
     return {
         path: derived.get(path, derived.get(path.rpartition(".")[2])) if value is None else value
@@ -188,29 +189,30 @@ def resolved(response: Response) -> dict[str, Any]:
 
 
 def cards(response: Documented, inputs: dict[str, Any], before: Documented | None = None) -> list[Row]:
-    """The headline numbers in order; of numbers that share a rank, only the one with the worst verdict or the largest.
+    """Return the headline numbers in the order of their ranks.
 
-    Where a warning makes the answer doubtful, no verdict is good.
+    Of several numbers of one rank, the one with the worst verdict is shown; if verdicts are equal, the largest one. If
+    a warning makes the answer doubtful, no verdict is good.
     """
-    known, old = values_by_path(response), values_by_path(before)
+    values, old = values_by_path(response), values_by_path(before)
     judged = verdicts(response) if isinstance(response, Response) else {}
     doubtful = any(warning.rank != "note" for warning in response.warnings)
-    found = []
+    rows = []
     for _, alike in groupby(headlines(type(response)), key=lambda leaf: leaf.view.headline):
-        leaf = max(alike, key=lambda leaf: (_badness(judged.get(leaf.path)), _size(known.get(leaf.path))))
-        level, verdict = judged.get(leaf.path) or _verdict(response, leaf, inputs | known)
+        leaf = max(alike, key=lambda leaf: (_badness(judged.get(leaf.path)), _size(values.get(leaf.path))))
+        level, verdict = judged.get(leaf.path) or _verdict(response, leaf, inputs | values)
         if level == "good" and doubtful:
             level, verdict = "near", f"{verdict}; see the warnings"
-        value = known.get(leaf.path)
+        value = values.get(leaf.path)
         row = _row(leaf, leaf.path, value, old.get(leaf.path), label=leaf.title, digits=DIGITS)
-        row = replace(row, items=_with_band(row.items, leaf, known), before=_with_band(row.before, leaf, old))
-        found.append(replace(row, unit="" if value is None else row.unit, level=level, remark=verdict))
-    return found
+        row = replace(row, items=_with_band(row.items, leaf, values), before=_with_band(row.before, leaf, old))
+        rows.append(replace(row, unit="" if value is None else row.unit, level=level, remark=verdict))
+    return rows
 
 
-def _with_band(items: tuple[str, ...], leaf: Leaf, known: dict[str, Any]) -> tuple[str, ...]:
-    """A headline with the ends of its band, if it has one: 2.28 (1.95 to 2.58)."""
-    ends = known.get(leaf.view.band) if leaf.view.band else None
+def _with_band(items: tuple[str, ...], leaf: Leaf, values: dict[str, Any]) -> tuple[str, ...]:
+    """Add the ends of its band to a headline number if it has a band: 2.28 (1.95 to 2.58)."""
+    ends = values.get(leaf.view.band) if leaf.view.band else None
     if not ends:
         return items
     low, high = (shown(end, DIGITS) for end in ends)
@@ -218,7 +220,7 @@ def _with_band(items: tuple[str, ...], leaf: Leaf, known: dict[str, Any]) -> tup
 
 
 def _badness(verdict: Verdict | None) -> int:
-    """The place of a verdict among the levels, from the best one up."""
+    """Return the place of a verdict's level among the levels; 0 if there is no verdict."""
     return LEVELS.index(verdict.level) if verdict else 0
 
 
@@ -226,22 +228,25 @@ def _size(value: Any) -> float:
     return float(value) if isinstance(value, int | float) else float("-inf")
 
 
-def _verdict(response: Documented, leaf: Leaf, known: dict[str, Any]) -> tuple[str, str]:
-    """Level and words of the verdict: how the value compares with its limit, as the answer says it where it does."""
-    view, value = leaf.view, known.get(leaf.path)
+def _verdict(response: Documented, leaf: Leaf, values: dict[str, Any]) -> tuple[str, str]:
+    """Return level and words of the verdict: the answer's own words if it has them, else the comparison with the limit.
+
+    `values` holds inputs and results by their paths.
+    """
+    view, value = leaf.view, values.get(leaf.path)
     if value is None:
         reason = leaf.description.partition("null ")[2]  # as the schema says it
         why = f"no value {reason}" if reason else "no value; the warnings say why"
         return "plain", "" if view.needs else why
     path = view.verdict or ""
     judge = leaf_at(type(response), leaf.path.rpartition(".")[0] + path if path.startswith(".") else path)
-    said = known.get(judge.path) if judge else None
+    said = values.get(judge.path) if judge else None
     if judge and isinstance(said, bool):
         return "bad" if said else "good", f"{judge.title}: {'yes' if said else 'no'}"
-    limit = known.get(view.limit) if isinstance(view.limit, str) else view.limit
+    limit = values.get(view.limit) if isinstance(view.limit, str) else view.limit
     if view.bound is None or limit is None or isinstance(value, bool):
         return "plain", ""
-    ends = (known.get(view.band) if view.band else None) or [value]
+    ends = (values.get(view.band) if view.band else None) or [value]
     worse = min(ends) if view.greatest_is_best else max(ends)
     level, standing = _standing(worse, limit, greatest_is_best=view.greatest_is_best)
     name = f"{shown(limit, 4)} {leaf.unit or ''}".strip()
@@ -250,7 +255,7 @@ def _verdict(response: Documented, leaf: Leaf, known: dict[str, Any]) -> tuple[s
 
 
 def _standing(value: float, limit: float, *, greatest_is_best: bool) -> tuple[str, str]:
-    """Level of a value, and how it compares with its limit, which stands for the braces."""
+    """Return the level of a value and the words that compare it with its limit; braces stand for the limit."""
     if greatest_is_best:
         if value < limit:
             return "bad", "below the limit {}"

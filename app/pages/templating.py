@@ -1,4 +1,4 @@
-"""The templates, and what all of them know: the calculations and their examples, with the addresses of their pages."""
+"""The templates with their common variables: calculations and examples, with the addresses of their pages."""
 
 from functools import cache, lru_cache
 from hashlib import sha256
@@ -17,53 +17,53 @@ from app.pages.query import link, pairs_of
 from app.pages.typesetting import cited, shown, symbol, typeset, words
 from app.schema.model import MODEL_VERSION
 
-ASSETS = {each.name: each.read_bytes() for each in files("app.pages").joinpath("static").iterdir()}
-"""The files that pages refer to."""
+ASSETS = {file.name: file.read_bytes() for file in files("app.pages").joinpath("static").iterdir()}
+"""The files to which pages refer."""
 
 
 def rendered(template: str, root: str, **context: Any) -> str:
-    """A page; `root` is the prefix that a proxy puts before the addresses of the service."""
+    """Return the page of a template; `root` is the prefix that a proxy puts before the addresses of the service."""
     return _environment(root).get_template(template).render(**context)
 
 
 def page_path(calculation: Calculation) -> str:
-    """Where the page of a calculation is."""
+    """Return the address of the page of a calculation."""
     return calculation.path.removeprefix("/v1")
 
 
 def model_of(calculation: Calculation) -> str:
-    """The model it belongs to."""
+    """Return the model to which a calculation belongs."""
     return page_path(calculation).split("/")[1]
 
 
 def examples_of(calculation: Calculation) -> list[Example]:
-    """The examples of a calculation, starters first."""
+    """Return the examples of a calculation, starters first."""
     return [example for example in examples().values() if example.endpoint == calculation.path]
 
 
 def example_link(calculation: Calculation, example: Example) -> str:
-    """The page of an example."""
+    """Return the address of the page of an example."""
     return link(page_path(calculation), pairs_of(example.request))
 
 
 @cache
 def by_model() -> dict[str, list[Calculation]]:
-    """The calculations of each model, the drive train first: it chains the others."""
+    """Return the calculations by model; the drive train comes first because it chains the other models."""
     models: dict[str, list[Calculation]] = {"drive-train": []}
-    for each in CALCULATIONS:
-        models.setdefault(model_of(each), []).append(each)
+    for calculation in CALCULATIONS:
+        models.setdefault(model_of(calculation), []).append(calculation)
     return models
 
 
 @lru_cache(maxsize=4)
 def _environment(root: str) -> Environment:
-    """Templates, in which the filter `url` makes an address of the service one that a browser can follow."""
+    """Return the templates; their filter `url` puts the prefix of the proxy before an address of the service."""
 
     def url(address: str) -> str:
         return root + address if address.startswith("/") else address
 
     def asset_address(name: str) -> str:
-        """The address of a file, which changes with its content."""
+        """Return the address of a file; the address changes with the content of the file."""
         return url(f"/static/{name}?{sha256(ASSETS[name]).hexdigest()[:12]}")
 
     environment = Environment(
@@ -74,7 +74,10 @@ def _environment(root: str) -> Environment:
         lstrip_blocks=True,
     )
     environment.globals |= {
-        "menu": [[(page_path(each), each.title) for each in some] for some in by_model().values()],
+        "menu": [
+            [(page_path(calculation), calculation.title) for calculation in calculations]
+            for calculations in by_model().values()
+        ],
         "version": MODEL_VERSION,
         "asset": asset_address,
         "anchor": anchor,

@@ -1,8 +1,8 @@
 """Numbers as people type them into a form, and the texts that stand for them in links.
 
 A typed number may have thousands in groups, a decimal point or comma, a power of ten, the minus sign that pages print,
-and the unit of its field with any prefix. A text with two readings is not read but asked back: in a link it ends with
-a question mark, with which it is no number, and `question` says what to ask.
+and the unit of its field with any prefix. A text with two readings is not read. In a link it ends with a question mark,
+so that it is not a number, and `question` returns the question to the user.
 """
 
 import re
@@ -22,8 +22,8 @@ _BLANKS = re.compile("[ '\u00a0\u2009\u202f]")
 _SPACED = re.compile(rf"[+-]?\d{{1,3}}({_BLANKS.pattern}\d{{3}})+([.,]\d*)?")
 _ENGLISH = re.compile(r"[+-]?\d{1,3}(,\d{3})+\.\d*|[+-]?\d{1,3}(,\d{3}){2,}")
 _GERMAN = re.compile(r"[+-]?\d{1,3}(\.\d{3})+,\d*|[+-]?\d{1,3}(\.\d{3}){2,}")
-_AMBIGUOUS = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}")  # in a link, where a point is the decimal one
-_DOUBTFUL = re.compile(r"([+-]?[1-9]\d{0,2})([.,])(\d{3})(?![\d.,'])")  # where it is typed
+_AMBIGUOUS = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}")  # in a link, where a point is always the decimal mark
+_DOUBTFUL = re.compile(r"([+-]?[1-9]\d{0,2})([.,])(\d{3})(?![\d.,'])")  # in a typed text
 _POWER = re.compile(r"(\d\s*[·×x*]\s*|(?<![\d.,']))10(?:\^([+-]?\d{1,4})|([⁻⁺]?[⁰¹²³⁴⁵⁶⁷⁸⁹]{1,4}))")
 _TYPED = re.compile(r"([+-]?[\d.,][\d.,' ]*?)(?:[eE]([+-]?\d{1,4}))?\s*((?:\s1/|/)?[A-Za-z°µμ(].*)?")
 
@@ -36,7 +36,7 @@ _ALIASES = {"rpm": "1/min", "RPM": "1/min", "U/min": "1/min", "deg": "°", "C": 
 
 
 def text_of(value: Any) -> str:
-    """A value as it is typed: integers without a point, other numbers in as few digits as give them back."""
+    """Return a value as it is typed: whole numbers without a point, others in the fewest digits that restore them."""
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, float) and value.is_integer() and abs(value) < 1e15:
@@ -47,7 +47,7 @@ def text_of(value: Any) -> str:
 def number_of(text: str) -> Any:
     """Read the number in a single field of a link, with a decimal point or comma. Other text stays text.
 
-    Digits may stand in groups of three, where that leaves no doubt which mark is the decimal one.
+    Digits may stand in groups of three if it is clear which mark is the decimal mark.
     """
     plain = _ungrouped(text)
     number = text if _AMBIGUOUS.fullmatch(plain) else plain_number_of(plain.replace(",", ".", 1))
@@ -93,12 +93,12 @@ def list_in_link(text: str, unit: str | None = None) -> str:
 
 
 def items_in_link(text: str) -> str:
-    """Return the text of a link for numbers in rows, each as it is read."""
+    """Return the text of a link for rows of typed numbers. Blanks and semicolons separate the numbers."""
     return re.sub(r"[^;\s]+", lambda item: in_link(item[0]), text)
 
 
 def table_in_link(text: str) -> str:
-    """Return the text of a link for a table whose first line names the columns: its cells are read as numbers."""
+    """Return the text of a link for a table whose first line names the columns. The column `name` stays text."""
     separator = separator_of(text)
     heading, *rows = text.split("\n")
     named = [cell.strip().lower() == "name" for cell in heading.split(separator)]
@@ -113,7 +113,7 @@ def table_in_link(text: str) -> str:
 def separator_of(text: str) -> str:
     """Return the separator of a table's columns: a tab, as spreadsheets copy them, or a semicolon."""
     first = next((line for line in text.splitlines() if line.strip()), "")
-    return next((each for each in "\t;" if each in first), "\t")
+    return next((separator for separator in "\t;" if separator in first), "\t")
 
 
 def scaled(value: Any, power: int) -> Any:
@@ -122,7 +122,7 @@ def scaled(value: Any, power: int) -> Any:
 
 
 def as_typed(text: str) -> str:
-    """Return the text as it was typed, without the marks of doubts."""
+    """Return the text as it was typed, without the question marks of doubtful numbers."""
 
     def unmarked(item: str) -> str:
         return item.removesuffix(DOUBT) if question(item) else item
@@ -131,7 +131,7 @@ def as_typed(text: str) -> str:
 
 
 def power_between(typed: str | None, own: str | None) -> int | None:
-    """Return the power of ten that converts numbers from a typed unit to a field's own; None for another quantity."""
+    """Return the power of ten that converts a typed unit to the field's own unit; None for another quantity."""
     if not typed or _packed(typed) == _packed(own or ""):
         return 0
     here, there = _factors(typed), _factors(own or "")
@@ -139,7 +139,7 @@ def power_between(typed: str | None, own: str | None) -> int | None:
 
 
 def question(text: str) -> str:
-    """Return the question about a text of a link with two readings. It is empty if the text has one reading."""
+    """Return the question about a text of a link with two readings; empty if the text has one reading."""
     asked = text.removesuffix(DOUBT)
     if asked == text and not _AMBIGUOUS.fullmatch(text):
         return ""
@@ -159,17 +159,17 @@ def question(text: str) -> str:
 
 
 def _parts(text: str) -> re.Match[str] | None:
-    """Digits, exponent and unit of a typed number; None where it is none."""
+    """Match the digits, the exponent and the unit of a typed number; return None if the text is not a number."""
     return _TYPED.fullmatch(_POWER.sub(_exponent, text.translate(_TIDY))) if len(text) <= LONGEST else None
 
 
 def _unit_in_doubt(parts: re.Match[str]) -> bool:
-    """Whether the last digit may belong to the unit: 19101/min."""
+    """Return whether the last digit may belong to the unit: 19101/min."""
     return parts[1].endswith("1") and (parts[3] or "").startswith("/")
 
 
 def _ungrouped(text: str) -> str:
-    """A number without the marks between groups of three digits, where these leave no doubt."""
+    """Remove the marks between groups of three digits if they cannot be decimal marks."""
     plain = _BLANKS.sub("", text) if _SPACED.fullmatch(text) else text
     if _ENGLISH.fullmatch(plain):
         return plain.replace(",", "")
@@ -177,21 +177,24 @@ def _ungrouped(text: str) -> str:
 
 
 def _exponent(power: re.Match[str]) -> str:
-    """A power of ten as pages print it, as programs write it."""
+    """Return a printed power of ten in the notation of programs: 3·10⁵ becomes 3e5."""
     exponent = power[2] or power[3].translate(_SUPERSCRIPTS)
     return f"{power[1][0] if power[1] else '1'}e{exponent}"
 
 
 def _items(text: str, unit: str | None) -> list[str] | None:
-    """The numbers of a list, parted by semicolons, lines and tabs, else by blanks, else by commas; None in doubt."""
+    """Return the items of a list; None if the text has two readings.
+
+    Semicolons, line breaks and tabs separate items; within these parts blanks, and then commas.
+    """
     cells = [cell.strip() for cell in re.split(r"[;\t\r\n]+", text.strip("; \t\r\n"))]
     items = list[str]()
     for cell in cells:
-        if len(cells) > 1 and _SPACED.fullmatch(cell):  # thousands, or several numbers in a line
+        if len(cells) > 1 and _SPACED.fullmatch(cell):  # groups of one number, or several numbers
             return None
         whole = " " not in cell or (not _SPACED.fullmatch(cell) and _NUMBER.fullmatch(in_link(cell, unit)))
         items += [cell] if whole else cell.split()
-    if any(re.match(r"0\d", item) for item in items[1:]):  # "1 050": the rest of a number
+    if any(re.match(r"0\d", item) for item in items[1:]):  # "1 050": may be the second group of a number
         return None
     if len(items) > 1:
         items = [item.removesuffix(",") for item in items]
@@ -201,15 +204,15 @@ def _items(text: str, unit: str | None) -> list[str] | None:
 
 
 def _has_several(item: str) -> bool:
-    """Whether commas part numbers with decimal points, or more than two numbers."""
+    """Return whether commas separate numbers: the numbers have decimal points, or there are more than two."""
     grouped = _ENGLISH.fullmatch(item) or _GERMAN.fullmatch(item)
     return not grouped and (item.count(",") > 1 or ("," in item and "." in item))
 
 
 def _settled(item: str, decimal: set[str]) -> str:
     """Add a fourth decimal to a doubtful number if other numbers of its list use its mark as the decimal mark."""
-    found = _DOUBTFUL.match(item)
-    return f"{item[: found.end()]}0{item[found.end() :]}" if found and found[2] in decimal else item
+    doubtful = _DOUBTFUL.match(item)
+    return f"{item[: doubtful.end()]}0{item[doubtful.end() :]}" if doubtful and doubtful[2] in decimal else item
 
 
 def _packed(unit: str) -> str:
@@ -218,7 +221,7 @@ def _packed(unit: str) -> str:
 
 
 def _factors(unit: str) -> tuple[frozenset[tuple[str, int]], int] | None:
-    """The base units of a unit with their exponents, and its power of ten; None where it is none."""
+    """Return the base units of a unit with their exponents, and its power of ten; None if it is not a unit."""
     text = _ALIASES.get(unit.strip(), unit).translate(_SUPERSCRIPTS).replace("μ", "µ")
     exponents: dict[str, int] = {}
     power = 0

@@ -1,4 +1,4 @@
-"""Symbols and numbers as print sets them."""
+"""Symbols and numbers as they are printed."""
 
 import re
 
@@ -34,12 +34,12 @@ _WORDS = {
 
 
 def typeset(text: str) -> Markup:
-    """A text in which `h_a` becomes a letter with a subscript."""
+    """Return a text in which names such as `h_a` are letters with subscripts."""
     return Markup(subscripts(str(escape(text)), "<i>{}</i><sub>{}</sub>".format))  # noqa: S704  escaped before
 
 
 def symbol(text: str | None) -> Markup:
-    """The symbol of a quantity; letters slanted, as print sets them."""
+    """Return the symbol of a quantity with letters in italics."""
     if not text:
         return Markup("")
     marked = Markup("<i>{}</i>").format(text) if _LETTER.fullmatch(text) else typeset(text)
@@ -47,7 +47,7 @@ def symbol(text: str | None) -> Markup:
 
 
 def shown(value: object, digits: int = 5) -> str:
-    """A single value in words or digits."""
+    """Return a single value in words or digits."""
     match value:
         case None:
             return NO_VALUE
@@ -62,10 +62,10 @@ def shown(value: object, digits: int = 5) -> str:
 
 
 def cited(text: str) -> str:
-    """A source or a reason for readers of pages, with today's standard; what was not read is said to be second-hand."""
+    """Return a source or reason as pages print it: with today's standard, and with "secondary source" if not read."""
     return text.replace(_SECOND_HAND, "secondary source").replace(REPORT, STANDARD)
 
 
 def words(name: str) -> str:
-    """A code or choice as people read it."""
+    """Return a code or a choice as people read it."""
     return _WORDS.get(name, name.replace("_", " "))

@@ -1,4 +1,4 @@
-"""Three or more variants of a case in a small table: the inputs that differ and the numbers that decide."""
+"""Three or more variants of a case in a small table: the inputs that differ and the headline numbers."""
 
 from collections.abc import Iterable
 from functools import lru_cache
@@ -11,14 +11,14 @@ from app.pages.results import DIGITS, Row, resolved, row_of, values_by_path
 from app.schema.fields import headlines, leaf_at
 
 SEPARATOR = "|"
-"""Between the queries of the variants in the view `also`."""
+"""Separates the queries of the variants in the view `also`."""
 MOST = 5  # further variants, more than fit beside each other
 NAMES = "BCDEFG"
-KEPT = 64  # variants of which a worker remembers the numbers
+KEPT = 64  # number of variants whose inputs and results a worker keeps
 
 
 class Column(NamedTuple):
-    """A variant: its name, its address, and its values by path; `trouble` says why there are none."""
+    """A variant: its name, its address, and its values by path; `trouble` says why it has no values."""
 
     name: str
     address: str
@@ -35,7 +35,7 @@ class Line(NamedTuple):
 
 
 class Variants(NamedTuple):
-    """The table of the variants."""
+    """The table of the variants: its columns, and its lines with inputs and results."""
 
     columns: list[Column]
     inputs: list[Line]
@@ -43,18 +43,21 @@ class Variants(NamedTuple):
 
 
 def queries_of(asked: Asked) -> list[str]:
-    """The queries of the variants beside the first one."""
+    """Return the queries of the variants after the first one."""
     return [query for query in asked.views.get("also", "").split(SEPARATOR) if query][:MOST]
 
 
 def with_this(asked: Asked) -> str:
-    """The view `also` with the case itself as one variant more; empty where there is no room."""
+    """Return the view `also` with the case as a further variant.
+
+    It is empty if there is no room for a further variant, or if the case is already one of the variants.
+    """
     queries = queries_of(asked)
     return SEPARATOR.join([*queries, asked.query]) if len(queries) < MOST and asked.query not in queries else ""
 
 
 def variants_of(asked: Asked, case: Case, first: Case | None) -> Variants | None:
-    """The first variant, the others and the case itself; None where no further variant is kept."""
+    """Return the table of the first variant, the further variants and the case; None if there is no further variant."""
     queries = queries_of(asked)
     if first is None or not queries:
         return None
@@ -75,7 +78,10 @@ def _of_query(name: str, asked: Asked, query: str) -> Column:
 
 @lru_cache(maxsize=KEPT)
 def _numbers(path: str, query: str) -> tuple[dict[str, Any], dict[str, Any]]:
-    """Inputs and results of a variant, which every edit of the case asks for again; raises what `solved` raises."""
+    """Return the inputs and the results of a variant; raise what `solved` raises.
+
+    They are cached because the page asks for them again after every edit of the case.
+    """
     calculation = BY_PATH[f"/v1{path}"]
     pairs: Pairs = split_views(normalised(calculation.request, pairs_of_query(query)))[0]
     response = solved(calculation, pairs, None, "summary").response
@@ -87,11 +93,11 @@ def _column(name: str, asked: Asked, query: str, case: Case) -> Column:
 
 
 def _table(asked: Asked, columns: list[Column]) -> Variants:
-    """The lines in which the variants differ, and all the headlines."""
-    known = [column for column in columns if not column.trouble]
+    """Return the table of the inputs that differ between variants, and of all headline numbers."""
+    filled = [column for column in columns if not column.trouble]
     request, response = asked.calculation.request, asked.calculation.response
-    paths = dict.fromkeys(path for column in known for path in column.inputs)
-    differing = [path for path in paths if len({repr(column.inputs.get(path)) for column in known}) > 1]
+    paths = dict.fromkeys(path for column in filled for path in column.inputs)
+    differing = [path for path in paths if len({repr(column.inputs.get(path)) for column in filled}) > 1]
     inputs = [row for path in differing if (leaf := leaf_at(request, path)) for row in [row_of(leaf, path)]]
     results = [row_of(leaf, leaf.path) for leaf in headlines(response)]
     return Variants(
@@ -101,5 +107,5 @@ def _table(asked: Asked, columns: list[Column]) -> Variants:
     )
 
 
-def _texts(row: Row, values: Iterable[dict[str, Any]]) -> list[str]:
-    return [row_of(row.leaf, row.path, known.get(row.path), digits=DIGITS + 1).value for known in values]
+def _texts(row: Row, columns: Iterable[dict[str, Any]]) -> list[str]:
+    return [row_of(row.leaf, row.path, values.get(row.path), digits=DIGITS + 1).value for values in columns]

@@ -19,7 +19,7 @@ class Verdict(NamedTuple):
 
 
 def verdicts(response: Response) -> dict[str, Verdict]:
-    """Return the verdicts on headline numbers that one limit does not judge, by the path of the number."""
+    """Return the verdicts on headline numbers that need more than a single limit, by the path of the number."""
     if response.status == "no_solution":
         return {}
     if isinstance(response, CouplingResponse):
@@ -53,7 +53,7 @@ def _of_pumping(response: PumpingResponse) -> dict[str, Verdict]:
 
 
 def _thrust(response: CouplingResponse) -> Verdict:
-    """Compare the thrust in motion with that of coaxial shafts, and the thrust to be held with 0.25 T/D."""
+    """Compare the thrust in motion with the limit of coaxial shafts, and the thrust to be held with 0.25 T/D."""
     thrust = response.axial_thrust
     share, customary, held = thrust.fraction_of_limit, thrust.customary_force_n, thrust.design_force_n
     limit = number(thrust.coaxial_limit_n, "N")
@@ -69,7 +69,7 @@ def _thrust(response: CouplingResponse) -> Verdict:
 
 
 def _misalignment(response: CouplingResponse) -> Verdict:
-    """Compare the misalignment at the limit of the sliding velocity with that of the case."""
+    """Judge the permissible misalignment by the ratio of the sliding velocity of the case to its limit."""
     most, sliding = response.limits.allowable_misalignment_deg, response.kinematics.max_sliding_velocity_m_per_s
     share = sliding / response.limits.sliding_velocity_limit_m_per_s
     if most is None:
@@ -94,13 +94,13 @@ def _coupling(response: CouplingResponse) -> str:
 
 
 def _spaces(response: PumpingResponse) -> dict[str, Any]:
-    """The tooth spaces asked for, by their gear."""
+    """Return the tooth spaces of the answer by their gear."""
     spaces = {"pinion": response.pinion_spaces, "wheel": response.wheel_spaces}
     return {gear: space for gear, space in spaces.items() if space is not None}
 
 
 def _axial(gear: str, space: Any, response: PumpingResponse) -> Verdict:
-    """Say whether an end is choked, and how far the Mach number is to be trusted."""
+    """Say whether an end is choked, and whether the Mach number is too uncertain to tell."""
     supersonic = space.peak_axial_mach > 1.0 and not space.axial_choked
     inside = "; inside the spaces the gas is faster than sound" if supersonic else ""
     level = "bad" if space.axial_choked else "near" if supersonic else "good"
@@ -109,14 +109,14 @@ def _axial(gear: str, space: Any, response: PumpingResponse) -> Verdict:
 
 
 def _radial(gear: str, space: Any, response: PumpingResponse) -> Verdict:
-    """Say whether radial clearances are choked, and how far the pressure is to be trusted."""
+    """Say whether radial clearances are choked, and whether the pressure is too uncertain to tell."""
     text = f"radial choking, {gear} spaces: {'yes' if space.radial_choked else 'no'}"
     verdict = Verdict("bad" if space.radial_choked else "good", text)
     return _as_known(verdict, response.resolution.peak_pressure, "the pressure above ambient")
 
 
 def _as_known(verdict: Verdict, uncertainty: float, name: str) -> Verdict:
-    """The verdict, doubtful if the number behind it is uncertain."""
+    """Return the verdict, marked as doubtful if the number behind the verdict is uncertain."""
     if uncertainty <= UNCERTAIN:
         return verdict
     doubt = f"doubtful: {name} is uncertain by {percent(uncertainty)}"
@@ -124,10 +124,10 @@ def _as_known(verdict: Verdict, uncertainty: float, name: str) -> Verdict:
 
 
 def _pumping(response: PumpingResponse) -> str:
-    """Say which openings become sonic."""
-    known = _spaces(response)
-    ends = [gear for gear, space in known.items() if space.axial_choked]
-    clearances = [gear for gear, space in known.items() if space.radial_choked]
+    """Say at which openings the flow becomes sonic."""
+    spaces = _spaces(response)
+    ends = [gear for gear, space in spaces.items() if space.axial_choked]
+    clearances = [gear for gear, space in spaces.items() if space.radial_choked]
     resolution = response.resolution
     doubt = max(resolution.axial_mach, resolution.peak_pressure)
     if doubt > UNCERTAIN:
@@ -143,7 +143,7 @@ def _pumping(response: PumpingResponse) -> str:
 
 
 def _choking(response: ChokingSpeedResponse) -> str:
-    """Say from which pinion speed on the mesh is choked."""
+    """Say at which pinion speed the mesh becomes choked."""
     speeds = {"ends": response.axial_choking_speed_rpm, "radial clearances": response.radial_choking_speed_rpm}
     sonic = [f"at the {place} from {number(speed, '1/min')}" for place, speed in speeds.items() if speed is not None]
     never = [

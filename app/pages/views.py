@@ -1,4 +1,4 @@
-"""One view of one case, from its fields to bytes; runs in a worker."""
+"""The views of a case as bytes, made from the fields of the case in a worker."""
 
 from dataclasses import dataclass, field, replace
 from typing import Any, Literal
@@ -27,7 +27,7 @@ from app.schema.fields import headlines, leaf_at
 
 @dataclass(frozen=True, slots=True)
 class Shown:
-    """A view; `keep` are answers to be kept, by their keys."""
+    """A view as bytes; `keep` holds the answers to be kept, by their keys."""
 
     content: bytes
     status: int = 200
@@ -35,7 +35,7 @@ class Shown:
 
 
 def page(asked: Asked) -> Shown:
-    """The page of a case: form and result, or the form and what is wrong with it."""
+    """Return the page of a case: the form and the result, or the form and its faults."""
     if not asked.pairs and not asked.pressed:
         return form_page(asked)
     texts = {name: as_typed(text) for name, text in asked.pairs}
@@ -43,17 +43,17 @@ def page(asked: Asked) -> Shown:
         case, variant, trouble = _both(asked)
     except REFUSED as error:
         faults = _asked_back(asked.pairs, faults_of(error, asked.calculation))
-        said = {path: "; ".join(each.message for each in faults if each.path == path) for path, _ in faults}
+        said = {path: "; ".join(fault.message for fault in faults if fault.path == path) for path, _ in faults}
         return _page(asked, State(texts, said), 400 if isinstance(error, Unreadable) else 422, faults=faults)
     response = case.response
     asked = replace(asked, answered=(response.case, variant.response.case if variant else ""))
-    found = _answered(asked, case, variant, trouble)
+    answer = _answered(asked, case, variant, trouble)
     return _page(
         asked,
-        State(texts, {}, resolved(response), {each.field for each in response.assumptions}),
+        State(texts, {}, resolved(response), {assumption.field for assumption in response.assumptions}),
         keep=_keep(asked, case, variant),
-        **found,
-        charts=[linked(each, figure, asked) for each, figure in found["figures"]],
+        **answer,
+        charts=[linked(declaration, figure, asked) for declaration, figure in answer["figures"]],
         ready=studies_of_case(asked.calculation, asked.pairs, response.inputs, resolved(response), asked.file),
         curves=csv.curves(response),
         sent=reports.body_of(case),
@@ -65,18 +65,18 @@ def page(asked: Asked) -> Shown:
 
 
 def form_page(asked: Asked) -> Shown:
-    """The page with the form as it was filled in, and no answer."""
+    """Return the page with the form as it was filled in, without an answer."""
     return _page(asked, State({name: as_typed(text) for name, text in asked.pairs}))
 
 
 def _deciding(calculation: Calculation) -> frozenset[str]:
-    """The inputs without which a headline has no value, and those that may stand for them."""
+    """Return the inputs without which a headline number has no value, and the inputs that may replace them."""
     needed = (leaf_at(calculation.request, leaf.view.needs or "") for leaf in headlines(calculation.response))
     return frozenset(path for leaf in needed if leaf for path in (leaf.path, *excluded(leaf.path, leaf)))
 
 
 def result(asked: Asked, media: Literal["json", "csv"]) -> Shown:
-    """The answer of the API, or its values as a table, or one of its curves."""
+    """Return the answer of the API, or its values as a table, or one of its curves."""
     case = solved(asked.calculation, asked.pairs, asked.kept, "curves" if media == "json" else "fields")
     if media == "json":
         content = json_written(case.response)
@@ -88,19 +88,20 @@ def result(asked: Asked, media: Literal["json", "csv"]) -> Shown:
 
 
 def figure(asked: Asked, name: str, image_format: Format | Literal["json"]) -> Shown:
-    """One figure as a file; as JSON what the script of the pages needs of it."""
+    """Return the file of a figure; as JSON, the values that the script of the pages needs."""
     case, variant, _ = _both(asked)
-    declaration = next(each for each in asked.calculation.figures if each.name == name)
+    declaration = next(declaration for declaration in asked.calculation.figures if declaration.name == name)
     data = figure_of(declaration, case, variant)
     content = values_of(data) if image_format == "json" else written(data, image_format, asked.theme or "light")
     return Shown(content, keep=_keep(asked, case, variant))
 
 
 def report(asked: Asked, host: str, study: dict[str, Any] | None = None) -> Shown:
-    """The report of a case, with a section about a study: its `title`, the `link` to it, and what was `found`.
+    """Return the report of a case, with a section about a study if there is one.
 
-    `host` is what addresses on it begin with; without one the link is relative, and the command asks this machine. An
-    input that cannot be computed is shown on its page.
+    `study` holds the `title` of the study, the `link` to its page and its result as `found`. Addresses on the report
+    begin with `host`; if it is empty, the link is relative, and the command asks the service on the reader's own
+    machine. If the case cannot be computed, its page is returned instead.
     """
     try:
         case, variant, trouble = _both(asked)
@@ -119,26 +120,29 @@ def report(asked: Asked, host: str, study: dict[str, Any] | None = None) -> Show
 
 
 def _asked_back(pairs: Pairs, faults: list[Fault]) -> list[Fault]:
-    """The faults; those of a text that has two readings are replaced by the question which is meant."""
+    """Replace the faults of a text that has two readings by the question which reading is meant."""
     asked = {name: question(text) for name, text in pairs if question(text)}
-    named = ((next((name for name in asked if f"{each.path}.".startswith(f"{name}.")), ""), each) for each in faults)
-    return [*dict.fromkeys(Fault(name, asked[name]) if name else each for name, each in named)]
+    named = ((next((name for name in asked if f"{fault.path}.".startswith(f"{name}.")), ""), fault) for fault in faults)
+    return [*dict.fromkeys(Fault(name, asked[name]) if name else fault for name, fault in named)]
 
 
 def _keep(asked: Asked, case: Case, variant: Case | None = None) -> dict[str, bytes]:
-    """Answers that were not kept yet, by the keys of their fields; those of a long case also by their hashes."""
+    """Return the answers that are not kept yet, by the keys of their fields.
+
+    The answers of a case that is too long for a link are also returned by the keys of their hashes.
+    """
     keep = {}
-    for pairs, kept, each in (asked.pairs, asked.kept, case), (asked.ref_pairs, asked.kept_ref, variant):
-        if each is not None and kept is None:
-            keep[key_of(asked.path, pairs)] = each.kept
-        if each is not None and asked.too_long:
-            keep[key_of(asked.path, [("case", each.response.case)])] = each.kept
+    for pairs, kept, answered in (asked.pairs, asked.kept, case), (asked.ref_pairs, asked.kept_ref, variant):
+        if answered is not None and kept is None:
+            keep[key_of(asked.path, pairs)] = answered.kept
+        if answered is not None and asked.too_long:
+            keep[key_of(asked.path, [("case", answered.response.case)])] = answered.kept
     return keep
 
 
-def _page(asked: Asked, state: State, status: int = 200, keep: dict[str, bytes] | None = None, **found: Any) -> Shown:
+def _page(asked: Asked, state: State, status: int = 200, keep: dict[str, bytes] | None = None, **answer: Any) -> Shown:
     calculation = asked.calculation
-    context = {"faults": [], "response": None, "compared": False, "cards": (), "trouble": "", **found}
+    context = {"faults": [], "response": None, "compared": False, "cards": (), "trouble": "", **answer}
     content = rendered(
         "calculation.html",
         asked.root,
@@ -157,7 +161,10 @@ def _page(asked: Asked, state: State, status: int = 200, keep: dict[str, bytes] 
 
 
 def _answered(asked: Asked, case: Case, variant: Case | None, trouble: str, *, compute: bool = False) -> dict[str, Any]:
-    """What page and report show of an answer, beside that of the variant, or the `trouble` with that."""
+    """Return the variables with which page and report show an answer and compare it with that of the variant.
+
+    `trouble` says why the variant cannot be computed.
+    """
     figures, missing = figures_of(case, variant, compute=compute)
     request, response, before = type(case.request), case.response, variant.response if variant else None
     derived = groups(response.derived) if response.derived else {}
@@ -180,18 +187,22 @@ def _answered(asked: Asked, case: Case, variant: Case | None, trouble: str, *, c
 
 
 def _elsewhere(asked: Asked) -> list[tuple[str, str, list[str]]]:
-    """The calculations whose pages show other figures of the case: title, address of the case there, the figures."""
-    found, figures = [], asked.calculation.figures
-    for path in dict.fromkeys(each.shown_at for each in figures if each.shown_at):
+    """Return the calculations whose pages show other figures of the case.
+
+    Each of them has its title, the address of the case on its page, and the titles of the figures.
+    """
+    pages, declarations = [], asked.calculation.figures
+    for path in dict.fromkeys(declaration.shown_at for declaration in declarations if declaration.shown_at):
         other = BY_PATH[path]
         pairs = [(name, text) for name, text in asked.pairs if leaf_at(other.request, name)]
         address = link(page_path(other), pairs, theme=asked.theme)
-        found.append((other.title, address, [each.title for each in figures if each.shown_at == path]))
-    return found
+        titles = [declaration.title for declaration in declarations if declaration.shown_at == path]
+        pages.append((other.title, address, titles))
+    return pages
 
 
 def _both(asked: Asked) -> tuple[Case, Case | None, str]:
-    """The case, and the one to compare it with or why that cannot be computed."""
+    """Return the case, the variant to compare it with if there is one, and why the variant cannot be computed."""
     case = solved(asked.calculation, asked.pairs, asked.kept)
     if not asked.ref and asked.kept_ref is None:
         return case, None, ""

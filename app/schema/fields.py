@@ -1,6 +1,6 @@
-"""The fields of a request or response in their sections: what forms, tables, files, studies and tests walk over.
+"""The fields of a request or response in their sections, for forms, tables, files, studies and tests.
 
-`field_path` tells which of them a solver means that names one of its own inputs.
+`field_path` returns the field that a solver means if it names one of its own inputs.
 """
 
 from collections import defaultdict
@@ -25,9 +25,10 @@ ITEM = "*"
 class Leaf:
     """A field that holds values, not fields.
 
-    `declared` says what the field means, `view` how a result is judged. `title` is unique within its request or answer:
-    where groups of one kind repeat, the group is named behind it. `dimensions` is 0 for a scalar, 1 for a list, 2 for a
-    matrix; `axes` are full paths, as long as the field has dimensions, or empty.
+    `declared` says what the field means, and `view` how a result is judged. `title` is unique within its request or
+    answer: if several sections have a field of this title, the name of the section follows the title. `dimensions` is
+    0 for a scalar, 1 for a list and 2 for a matrix. `axes` holds the full paths of the axes, one per dimension, or is
+    empty.
     """
 
     path: str
@@ -49,13 +50,17 @@ class Leaf:
 
     @property
     def is_scalar(self) -> bool:
-        """Whether it holds one value."""
+        """Whether the field holds a single value."""
         return self.dimensions == 0
 
 
 @dataclass(frozen=True, slots=True)
 class Branch:
-    """A section: `repeated` is a list of them, `optional` may be null; `path` has `*` for indices of lists."""
+    """A section of fields.
+
+    A `repeated` section is a list of sections; an `optional` section may be null. `path` has `*` in the place of the
+    indices of lists.
+    """
 
     path: str
     title: str
@@ -68,17 +73,17 @@ class Branch:
 
     @property
     def leaves(self) -> tuple[Leaf, ...]:
-        """Its own fields."""
+        """The section's own fields."""
         return tuple(member for member in self.members if isinstance(member, Leaf))
 
     @property
     def branches(self) -> tuple["Branch", ...]:
-        """Its own sections."""
+        """The section's own sections."""
         return tuple(member for member in self.members if isinstance(member, Branch))
 
     @property
     def required(self) -> bool:
-        """Whether something in it must be given."""
+        """Whether a field of the section must be given."""
         return any(leaf.required for leaf in self.leaves) or any(
             branch.required for branch in self.branches if not branch.repeated and not branch.optional
         )
@@ -86,15 +91,16 @@ class Branch:
 
 @cache
 def tree(model: type[Documented]) -> Branch:
-    """The whole request or response as one section without a name.
+    """Return the whole request or response as one section without a name.
 
-    Titles tell its leaves apart: each names the nearest section that its namesakes lack.
+    If several leaves have the same title, the name of the nearest section that contains only one of them follows the
+    title.
     """
     namesakes: dict[str, dict[str, list[str]]] = defaultdict(dict)
     for way in _ways(model):
         *around, leaf = way
         if leaf.group is None:
-            namesakes[leaf.meaning.title][_path(way)] = [each.meaning.title for each in reversed(around)]
+            namesakes[leaf.meaning.title][_path(way)] = [section.meaning.title for section in reversed(around)]
     titles = {}
     for title, places in namesakes.items():
         for path, sections in places.items():
@@ -106,27 +112,27 @@ def tree(model: type[Documented]) -> Branch:
 
 @cache
 def branches(model: type[Documented]) -> dict[str, Branch]:
-    """Every section by its path."""
-    return {each.path: each for each in _all(tree(model)) if isinstance(each, Branch)}
+    """Return all sections by their paths."""
+    return {member.path: member for member in _all(tree(model)) if isinstance(member, Branch)}
 
 
 @cache
 def leaves(model: type[Documented]) -> tuple[Leaf, ...]:
-    """Every leaf in the order of the schema."""
-    return tuple(each for each in _all(tree(model)) if isinstance(each, Leaf))
+    """Return all leaves in the order of the schema."""
+    return tuple(member for member in _all(tree(model)) if isinstance(member, Leaf))
 
 
 def leaf_at(model: type[Documented], path: str) -> Leaf | None:
-    """The leaf at a dotted path, whose list indices may be numbers; None where there is none."""
+    """Return the leaf at a dotted path, or None. Indices of lists may be numbers or `*`."""
     wanted = ".".join(ITEM if part.isdecimal() else part for part in path.split("."))
     return next((leaf for leaf in leaves(model) if leaf.path == wanted), None)
 
 
 @cache
 def headlines(response: type[Documented]) -> tuple[Leaf, ...]:
-    """The numbers that decide, the most important first.
+    """Return the headline numbers of an answer, the most important first.
 
-    An answer that extends another one has its own: those of the fields that it adds.
+    If an answer extends another one, only headline numbers among the added fields count.
     """
     added = response.__annotations__
     own = [leaf for leaf in leaves(response) if leaf.view.headline and leaf.path.split(".")[0] in added]
@@ -134,7 +140,7 @@ def headlines(response: type[Documented]) -> tuple[Leaf, ...]:
 
 
 def _all(member: Leaf | Branch) -> Iterator[Leaf | Branch]:
-    """A section and everything below it."""
+    """Yield a section and all members below it."""
     yield member
     if isinstance(member, Branch):
         for inner in member.members:
@@ -146,17 +152,17 @@ _Names = tuple[str, ...]
 
 
 def _ways(model: type[Documented], above: _Way = ()) -> Iterator[_Way]:
-    """For every field of a model and of its sections, the fields around it from the outermost on, and the field."""
-    for each in members(model):
-        yield (*above, each)
-        if each.group:
-            yield from _ways(each.group, (*above, each))
+    """Yield the ways to all fields of a model: the sections around a field from the outermost on, then the field."""
+    for member in members(model):
+        yield (*above, member)
+        if member.group:
+            yield from _ways(member.group, (*above, member))
 
 
 def _names(way: _Way, *, solvers: bool = False) -> _Names:
-    """The names along a way, in the interface or in the solver, with `*` after each list."""
-    names = ((each.solver_name if solvers else each.name, each.dimensions) for each in way)
-    return tuple(part for name, listed in names for part in ((name, ITEM) if listed else (name,)))
+    """Return the names along a way, in the interface or in the solver, with `*` after the name of a list."""
+    names = ((member.solver_name if solvers else member.name, member.dimensions) for member in way)
+    return tuple(part for name, dimensions in names for part in ((name, ITEM) if dimensions else (name,)))
 
 
 def _path(way: _Way) -> str:
@@ -164,34 +170,35 @@ def _path(way: _Way) -> str:
 
 
 def _below(model: type[Documented], above: _Way, titles: dict[str, str]) -> tuple[Leaf | Branch, ...]:
-    """The fields and sections of a model, which take over the level of detail of the sections around them."""
-    found: list[Leaf | Branch] = []
-    for each in members(model):
-        way = (*above, each)
-        if each.group is None:
-            found.append(_leaf(model, way, titles))
+    """Return the fields and sections of a model."""
+    below: list[Leaf | Branch] = []
+    for member in members(model):
+        way = (*above, member)
+        if member.group is None:
+            below.append(_leaf(model, way, titles))
             continue
-        found.append(
+        below.append(
             Branch(
                 _path(way),
-                each.meaning.title,
-                each.meaning.description,
-                each.group,
-                _below(each.group, way, titles),
-                repeated=each.dimensions > 0,
-                optional=NoneType in get_args(each.info.annotation),
-                advanced=each.meaning.advanced,
+                member.meaning.title,
+                member.meaning.description,
+                member.group,
+                _below(member.group, way, titles),
+                repeated=member.dimensions > 0,
+                optional=NoneType in get_args(member.info.annotation),
+                advanced=member.meaning.advanced,
             )
         )
-    return tuple(found)
+    return tuple(below)
 
 
 def _leaf(model: type[Documented], way: _Way, titles: dict[str, str]) -> Leaf:
+    """Return the leaf at the end of a way. Its level of detail is its own, or that of the nearest section with one."""
     member, path = way[-1], _path(way)
     info, meaning, prefix = member.info, member.meaning, path.rpartition(".")[0]
     options = _options(member.kinds)
-    fellows = (each for group in model.exclusive if member.name in group for each in group if each != member.name)
-    details = (each.meaning.detail for each in reversed(way) if each.meaning.detail != "summary")
+    fellows = (name for group in model.exclusive if member.name in group for name in group if name != member.name)
+    details = (step.meaning.detail for step in reversed(way) if step.meaning.detail != "summary")
     return Leaf(
         path=path,
         title=titles[path],
@@ -205,20 +212,20 @@ def _leaf(model: type[Documented], way: _Way, titles: dict[str, str]) -> Leaf:
         required=info.is_required(),
         default=None if info.is_required() else info.get_default(call_default_factory=True),
         options=options,
-        advanced=any(each.meaning.advanced for each in way),
-        exclusive=tuple(_absolute(each, prefix) for each in fellows),
+        advanced=any(step.meaning.advanced for step in way),
+        exclusive=tuple(_absolute(fellow, prefix) for fellow in fellows),
         detail=next(details, "summary"),
         axes=tuple(_absolute(axis, prefix) for axis in meaning.axes) if isinstance(meaning, Output) else (),
     )
 
 
 def _absolute(name: str, prefix: str) -> str:
-    """The full path of a sibling; a dotted name is one already."""
+    """Return the full path of a sibling; a dotted name is a full path already."""
     return name if "." in name or not prefix else f"{prefix}.{name}"
 
 
 def _options(allowed: tuple[Any, ...]) -> tuple[Any, ...]:
-    """The words of a choice."""
+    """Return the words of a choice; empty if the types allow no choice of words."""
     for kind in allowed:
         if get_origin(kind) is Literal:
             return get_args(kind)
@@ -228,16 +235,16 @@ def _options(allowed: tuple[Any, ...]) -> tuple[Any, ...]:
 
 
 def field_path(request: Documented, name: str) -> str | None:
-    """The dotted request field that the solver's dotted `name` (its end suffices) means, or None.
+    """Return the dotted request field that the solver's dotted `name` (its end suffices) means, or None.
 
-    Of several it is the outermost, of fields that exclude each other the one that was sent; where an item of a list
-    lacks what the solver names in it, it is the item.
+    If several fields match, return the outermost one. If fields exclude one another, return the one that was sent. If a
+    list item does not have the field that the solver names, return the item.
     """
     indices = [part for part in name.split(".") if part.isdecimal()]
     wanted = tuple(ITEM if part.isdecimal() else part for part in name.split("."))
     while wanted:
-        found = _meant(type(request), wanted)
-        if found and (path := _sent(request, found, iter(indices))):
+        names = _meant(type(request), wanted)
+        if names and (path := _sent(request, names, iter(indices))):
             return path
         wanted = wanted[:-1] if ITEM in wanted[:-1] else ()
     return None
@@ -245,17 +252,17 @@ def field_path(request: Documented, name: str) -> str | None:
 
 @cache
 def _meant(model: type[Documented], wanted: _Names) -> _Names | None:
-    """The names on the way to the outermost field or list item that a solver means by these names.
+    """Return the names on the way to the outermost field or list item that a solver means by these names.
 
-    The solver may leave out sections, but not lists; before a name at the root it may name parts of its inputs that
-    the request does not have.
+    The solver may leave out sections, but not lists. Before a name at the root, the solver may name parts of its inputs
+    that the request does not have.
     """
-    known: dict[_Names, _Names] = {}
+    request_names: dict[_Names, _Names] = {}
     for way in _ways(model):
         theirs, ours = _names(way, solvers=True), _names(way)
-        known |= {theirs: ours} | ({theirs[:-1]: ours[:-1]} if way[-1].dimensions else {})
+        request_names |= {theirs: ours} | ({theirs[:-1]: ours[:-1]} if way[-1].dimensions else {})
     for start in range(len(wanted)):
-        for theirs in sorted(known, key=len):
+        for theirs in sorted(request_names, key=len):
             rest = iter(theirs)
             if (
                 theirs[-1] == wanted[-1]
@@ -263,12 +270,15 @@ def _meant(model: type[Documented], wanted: _Names) -> _Names | None:
                 and all(name in rest for name in wanted[start:])  # in their order
                 and (start == 0 or theirs[0] == wanted[start])
             ):
-                return known[theirs]
+                return request_names[theirs]
     return None
 
 
 def _sent(request: Documented, path: _Names, indices: Iterator[str]) -> str | None:
-    """The path in this request, the field sent of those that exclude each other; None where a section or item lacks."""
+    """Return the path in this request; None if a section or an item is missing.
+
+    Of fields that exclude each other, the path has the one that was sent.
+    """
     here: Any = request
     taken: list[str] = []
     for part in path:

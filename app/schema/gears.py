@@ -20,7 +20,7 @@ class GearMember(Section, of=GearTeeth):
     @model_validator(mode="before")
     @classmethod
     def addendum_follows_the_tip_diameter(cls, given: Any) -> Any:
-        """With a tip diameter the default addendum is left out."""
+        """Leave the default addendum out if a tip diameter is given."""
         by_diameter = isinstance(given, dict) and given.get("tip_diameter_mm") is not None
         return {"addendum": None} | given if by_diameter else given
 

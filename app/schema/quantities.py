@@ -1,6 +1,6 @@
-"""What a field of a request or response means, as pydantic takes it: its checks and its part of the JSON schema.
+"""Declarations of the fields of requests and responses for pydantic: their checks and their part of the JSON schema.
 
-Units stand in field names: `face_width_mm` is the face width in millimetres.
+Names of fields contain the unit: `face_width_mm` is the face width in millimetres.
 """
 
 from collections.abc import Iterable
@@ -21,8 +21,8 @@ Bound = Literal["upper", "lower"]
 class _Declaration(Quantity):
     """A declaration that documents its field in the JSON schema.
 
-    `origin` is the solver's dataclass and its field that it was taken from, if it was. `in_schema` lists the attributes
-    that the JSON schema states: `default_text` as `x-default-text`.
+    `origin` is the solver's dataclass and its field from which the declaration was taken, or None. `in_schema` lists
+    the attributes that the JSON schema states: `default_text` as `x-default-text`.
     """
 
     origin: tuple[type, str] | None = None
@@ -30,17 +30,17 @@ class _Declaration(Quantity):
 
     @classmethod
     def of(cls, record: type, name: str, **changes: Any) -> Self:
-        """What the solver's dataclass declares of one of its fields, with changes."""
+        """Return the declaration of a field of the solver's dataclass, with changes."""
         return cls(**vars(quantities(record)[name]) | {"origin": (record, name)} | changes)
 
     @property
     def description(self) -> str:
-        """The text, else the title, and what a null means."""
+        """The text, or the title if there is no text, and the meaning of null."""
         text = self.text or self.title
         return f"{text}; null: {self.default_text}" if self.default_text else text
 
     def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
-        """The type's own JSON schema and what the field means."""
+        """Add the meaning of the field to the JSON schema of its type."""
         document = {**handler(schema), "title": self.title, "description": self.description}
         for name in self.in_schema:
             value = getattr(self, name)
@@ -56,17 +56,17 @@ class Input(_Declaration):
     in_schema = ("symbol", "source", "assumed", "default_text", "advanced", "folded", "tolerance", "relative_tolerance")
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
-        """The type's own schema; numbers are finite, in range, no text or booleans; lists have their length."""
+        """Add the checks: numbers are finite, in range, and neither text nor booleans; lists have their length."""
         return self._strict(handler(source))
 
     def _strict(self, schema: CoreSchema) -> CoreSchema:
         bounds: Any = self.bounds
         match schema["type"]:
-            case "float":  # strict: text and booleans are no numbers
+            case "float":  # strict: text and booleans are not numbers
                 return core_schema.float_schema(strict=True, allow_inf_nan=False, **bounds)
             case "int":
-                # A strict int would refuse 3.0. So: a number, of at most 2^53, up to which floats hold whole numbers
-                # exactly, then a whole one in its range.
+                # A strict int would refuse 3.0. The value is therefore checked in three steps: it is a number; it is
+                # at most 2^53, up to which floats hold whole numbers exactly; it is a whole number in its range.
                 number = core_schema.custom_error_schema(core_schema.float_schema(strict=True), "int_type")
                 exact = core_schema.float_schema(allow_inf_nan=False, ge=-(2.0**53), le=2.0**53)
                 whole = core_schema.chain_schema([number, exact, core_schema.int_schema(**bounds)])
@@ -88,13 +88,14 @@ class Input(_Declaration):
 
 @dataclass(frozen=True)
 class View:
-    """How a result is judged: rank among the headline numbers, 1 to 4, and what bounds it.
+    """The way in which a result is judged: its rank among the headline numbers, 1 to 4, and its limit.
 
-    `limit` is the number, or the dotted field of request or answer, that bounds the value; `bound` says on which side a
-    verdict finds the value safe: below an upper limit, above a lower one. `needs` is the request field without which
-    there is no value, `verdict` the field of the answer that judges it in words, or as a truth that is bad; beside the
-    value where it begins with a dot. `band` is the field of the answer that holds the ends of its range of uncertainty,
-    of which the worse one is judged. `percent` values are shares that pages show in per cent.
+    `limit` is the number that bounds the value, or the dotted field of the request or answer that holds this number.
+    `bound` says on which side the value is safe: below an upper limit, or above a lower limit. `needs` is the request
+    field without which there is no value. `verdict` is the field of the answer that judges the value in words, or as a
+    boolean that is true if the value is bad; a name that begins with a dot is a field beside the value. `band` is the
+    field of the answer that holds the ends of the value's range of uncertainty; the worse end is judged. If `percent`
+    is set, the value is a share that pages show in per cent.
     """
 
     headline: int | None = None
@@ -107,7 +108,7 @@ class View:
 
     @property
     def greatest_is_best(self) -> bool:
-        """Whether the value has to stay above something; of several values the least is then the worst."""
+        """Whether the limit is a lower one, so that the least of several values is the worst."""
         return self.bound == "lower"
 
 
@@ -119,18 +120,18 @@ class Output(View, _Declaration):
 
     @property
     def axes(self) -> tuple[str, ...]:
-        """The fields it runs over, in the order of its dimensions."""
+        """The fields that hold the axes, in the order of the dimensions."""
         return (self.axis,) if isinstance(self.axis, str) else self.axis or ()
 
 
 def meaning_of(metadata: Iterable[Any]) -> Input | Output | None:
-    """The declaration among what stands beside a field's type, if there is one."""
-    return next((each for each in metadata if isinstance(each, Input | Output)), None)
+    """Return the declaration among the metadata of a field's type, or None."""
+    return next((item for item in metadata if isinstance(item, Input | Output)), None)
 
 
 @cache
 def split_unit(name: str) -> tuple[str, Unit | None]:
-    """A field name without its unit, and the unit; the longest suffix that is a unit counts."""
+    """Split a field name into the name without unit and the unit, which is the longest suffix that names a unit."""
     words = name.split("_")
     for start in range(1, len(words)):
         unit = UNITS.get("_".join(words[start:]))

@@ -1,6 +1,6 @@
-"""From the content of a body to a validated request, or to what is wrong with it, field by field, in plain words.
+"""Validated requests from the content of bodies, or the faults of the fields in plain words.
 
-Numbers, digit-only text and field names of at most 40 letters may be repeated; nothing else of the input is.
+Messages repeat numbers, text of digits only and field names of at most 40 characters, but nothing else of the input.
 """
 
 import re
@@ -18,7 +18,7 @@ from solvers.quantity import UNITS, Quantity, advice, allowed
 
 M = TypeVar("M", bound=BaseModel)
 Models = tuple[type[BaseModel], ...]
-MOST_FAULTS = 100  # in one answer, chosen: nobody mends more at once
+MOST_FAULTS = 100  # in one answer; chosen: nobody corrects more at once
 _NAME = re.compile(r"[A-Za-z0-9_]{1,40}")
 _NUMBER = re.compile(r"[+-]?\d{1,20}([.,]\d{1,20})?")
 _RANGE_TYPES = {"greater_than", "greater_than_equal", "less_than", "less_than_equal"}
@@ -27,42 +27,49 @@ _SECTION_TYPES = {"model_type", "model_attributes_type", "dict_type", "dataclass
 
 
 def validated(model: type[M], content: Any) -> M:
-    """The request of this content, or InvalidBody."""
+    """Return the request with this content; raise InvalidBody if the content is not a valid request."""
     try:
         return model.model_validate(content)
     except ValidationError as error:
-        found = error.errors(include_url=False)
-        raise InvalidBody(faults(model, found)) from None  # type: ignore[arg-type]
+        items = error.errors(include_url=False)
+        raise InvalidBody(faults(model, items)) from None  # type: ignore[arg-type]
 
 
 def faults(model: type[BaseModel], items: Iterable[dict[str, Any]]) -> list[Fault]:
-    """The faults that a validation of `model` found, at most a hundred; items are pydantic's, their loc within it."""
-    found = []
+    """Return at most a hundred faults of a validation of `model`.
+
+    `items` are the errors of pydantic, with locations that begin at the model.
+    """
+    field_faults = []
     for item in islice(items, MOST_FAULTS):
         place, sections = _located(model, item["loc"])
         no_number = item["type"] in _NUMBER_TYPES and isinstance(item.get("input"), bool | str)
         code = "number_type" if no_number else str(item["type"])
-        found.append(Fault(pointer(place), code, _message(place, sections, item)))
-    return found
+        field_faults.append(Fault(pointer(place), code, _message(place, sections, item)))
+    return field_faults
 
 
 def _located(model: type[BaseModel], location: tuple[str | int, ...]) -> tuple[list[str | int], Models]:
-    """The location without the names of the types that a value could have had, and the sections that hold the field."""
+    """Return the location without the names of alternative types of a value, and the sections that hold the field."""
     kept: list[str | int] = []
     here: Models = (model,)
     for place, part in enumerate(location):
         last = place == len(location) - 1
-        known = [each.model_fields[part] for each in here if part in each.model_fields] if isinstance(part, str) else []
-        if isinstance(part, int) or known or not here or last:
+        fields = (
+            [section.model_fields[part] for section in here if part in section.model_fields]
+            if isinstance(part, str)
+            else []
+        )
+        if isinstance(part, int) or fields or not here or last:
             kept.append(part)
-        if known and not last:
-            inner = (kind for field in known for kind, _ in kinds(field.annotation))
+        if fields and not last:
+            inner = (kind for field in fields for kind, _ in kinds(field.annotation))
             here = tuple(kind for kind in inner if isinstance(kind, type) and issubclass(kind, BaseModel)) or here
     return kept, here
 
 
 def _message(location: list[str | int], sections: Models, item: dict[str, Any]) -> str:
-    """The one sentence that says what to change."""
+    """Return one sentence that says what to change."""
     kind, value = item["type"], item.get("input")
     name = next((part for part in reversed(location) if isinstance(part, str)), "")
     if kind == "extra_forbidden":
@@ -94,10 +101,10 @@ def _message(location: list[str | int], sections: Models, item: dict[str, Any]) 
 
 
 def _unknown(name: str, sections: Models) -> str:
-    """An unknown field, and the one that was meant."""
+    """Return the message about an unknown field, with the most similar name of a field if there is one."""
     if not _NAME.fullmatch(name):
         return "unknown field"
-    near = get_close_matches(name, [known for each in sections for known in each.model_fields], n=1, cutoff=0.6)
+    near = get_close_matches(name, [field for section in sections for field in section.model_fields], n=1, cutoff=0.6)
     return f"unknown field {name}" + (f"; did you mean {near[0]}?" if near else "")
 
 
@@ -114,7 +121,7 @@ def _no_number(value: Any) -> str:
 
 
 def _figure(value: Any) -> str:
-    """A number as an engineer writes it."""
+    """Return a number as an engineer writes it, or words if the number is beyond the range of floats."""
     try:
         return f"{float(value):.12g}"
     except OverflowError:  # a whole number of more than three hundred digits
@@ -122,13 +129,13 @@ def _figure(value: Any) -> str:
 
 
 def _declared(sections: Models, name: str) -> Quantity | None:
-    """The declaration of a field."""
+    """Return the declaration of a field, or None if no section has the field."""
     fields = (section.model_fields.get(name) for section in sections)
     return next((given for field in fields if field and (given := meaning_of(field.metadata))), None)
 
 
 def _allowed(sections: Models, name: str) -> str:
-    """The range of a field with its unit."""
+    """Return the permissible range of a field with its unit."""
     given = _declared(sections, name)
     if given is None:
         return "is another range"
@@ -136,6 +143,6 @@ def _allowed(sections: Models, name: str) -> str:
 
 
 def _advice(sections: Models, name: str, value: Any) -> str:
-    """What to give instead of the value."""
+    """Return the advice what to give instead of the value, or an empty text."""
     given = _declared(sections, name)
     return advice(given, value) if given else ""

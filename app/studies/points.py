@@ -1,6 +1,6 @@
-"""The request that a study varies, and the solution of its points; each point is the endpoint's own answer.
+"""The request that a study varies, and the solution of its points in worker processes.
 
-Points are solved in worker processes.
+A point has the same results as the endpoint's answer to the request of this point.
 """
 
 import copy
@@ -20,23 +20,23 @@ from app.studies.requests import DRIVE_TRAIN, Overrides
 from solvers.notices import Rank
 
 Status = Literal["ok", "ok_with_warnings", "no_solution", "refused", "failed"]
-SOLVED = ("ok", "ok_with_warnings")  # the status of a point that has an answer
-CHUNK_SECONDS = 0.25  # of work handed out at once: a study gives way within it
+SOLVED = ("ok", "ok_with_warnings")  # statuses of points with an answer
+CHUNK_SECONDS = 0.25  # of work handed out at once: a study gives way to other work after this time
 COLD = "states.cold."
 BY_FILM = {
     DRIVE_TRAIN: {"safety.minimum"},
     "/v1/scuffing": {"film.min_at_psi", "film.thickness_ratio", "unsolved_points"},
 }
-"""The outputs of an endpoint that need the thermal film, beside those named after it."""
+"""Outputs of an endpoint that need the thermal film, beside those with `thermal_ehl` in their names."""
 
 logger = logging.getLogger("tribodrive")
 
 
 class Point(NamedTuple):
-    """One answer, cut down to the outputs asked for; `error` where the point was refused or failed.
+    """An answer, reduced to the requested outputs; `error` is set if the point was refused or failed.
 
-    `warnings` are codes, the gravest first, `ranks` their ranks.
-    `assumptions` are left out where they are those of the point before it in its chunk.
+    `warnings` holds the codes of the warnings, the gravest first, and `ranks` their ranks. `assumptions` is empty if
+    the assumptions are those of the preceding point of the chunk.
     """
 
     status: Status
@@ -48,7 +48,7 @@ class Point(NamedTuple):
 
 
 class Question(NamedTuple):
-    """What is the same at every point."""
+    """The parts of a study that are the same at all points."""
 
     endpoint: str
     base: dict[str, Any]
@@ -56,7 +56,7 @@ class Question(NamedTuple):
     deadline_s: float
 
     def failed(self, code: str, message: str) -> Point:
-        """A point that failed for a reason outside its request."""
+        """Return a point that failed for a reason outside its request."""
         return Point("failed", [None] * len(self.outputs), [], {"pointer": "", "code": code, "message": message})
 
 
@@ -67,7 +67,10 @@ class BaseRequest(NamedTuple):
     body: dict[str, Any]
 
     def leaf(self, path: str, place: str) -> Leaf:
-        """The single value at a path of the request, where it can be set: the lists on the way are long enough."""
+        """Return the leaf of a single value at a path of the request.
+
+        Refuse the path if the value cannot be set because a list on the way to it is too short.
+        """
         leaf = scalar_at(self.calculation.request, path, place, "unknown_path")
         try:
             set_value(self.calculation.request, copy.deepcopy(self.body), path, None)
@@ -77,29 +80,29 @@ class BaseRequest(NamedTuple):
         return leaf
 
     def output(self, path: str, place: str) -> Leaf:
-        """The single value at a path of the answer."""
+        """Return the leaf of a single value at a path of the answer."""
         leaf = scalar_at(self.calculation.response, path, place, "unknown_output")
         if leaf.detail != "summary":
             raise Unprocessable("not_scalar", f"{path} belongs to a curve or field; a study has single values", place)
         return leaf
 
     def outputs(self, wanted: list[str] | None) -> tuple[Leaf, ...]:
-        """The outputs at these paths, by default the headline numbers."""
+        """Return the outputs at these paths, by default the headline numbers."""
         if wanted is None:
             return headlines(self.calculation.response)
         check_distinct(wanted, "outputs", numbered=True)
         return tuple(self.output(path, f"outputs.{number}") for number, path in enumerate(wanted))
 
     def checked(self, first: Overrides) -> Request:
-        """The request with the first point inserted; raises InvalidBody with pointers into the study.
+        """Return the request of the first point; raise InvalidBody with pointers into the study if it is not valid.
 
-        A request that the schema allows and the solver refuses is a refused point.
+        If the schema allows a request but the solver refuses it, the study goes on with a refused point.
         """
         try:
             return validated(self.calculation.request, with_overrides(self.calculation, self.body, first))
         except InvalidBody as error:
-            found = [each._replace(pointer=f"/request{each.pointer}") for each in error.faults]
-            raise InvalidBody(found) from None
+            faults = [fault._replace(pointer=f"/request{fault.pointer}") for fault in error.faults]
+            raise InvalidBody(faults) from None
 
 
 def check_count(count: int, most: int, place: str) -> None:
@@ -109,19 +112,22 @@ def check_count(count: int, most: int, place: str) -> None:
 
 
 def check_distinct(paths: Sequence[str], place: str, *, numbered: bool = False) -> None:
-    """Refuse a path that is given twice, where `numbered` at its own place in the list."""
+    """Refuse a path that is given twice; if `numbered`, the refusal names the place of the path in the list."""
     for number, path in enumerate(paths):
         if path in paths[:number]:
             raise Unprocessable("duplicate_path", f"{path} is given twice", f"{place}.{number}" if numbered else place)
 
 
 def needs_film(endpoint: str, output: str) -> bool:
-    """Whether an output needs the thermal film, which costs more than everything else."""
+    """Return whether an output needs the thermal film, which costs more than all other parts of the answer."""
     return "thermal_ehl" in output or output.removeprefix(COLD) in BY_FILM[endpoint]
 
 
 def reduced_request(endpoint: str, request: dict[str, Any], outputs: Sequence[str]) -> dict[str, Any]:
-    """The request without the thermal film and without other states if no output needs them; outputs are unchanged."""
+    """Return the request without the thermal film and without other states if no output needs them.
+
+    The outputs are unchanged.
+    """
     if endpoint not in BY_FILM:
         return request
     reduced = copy.deepcopy(request)
@@ -133,7 +139,7 @@ def reduced_request(endpoint: str, request: dict[str, Any], outputs: Sequence[st
 
 
 def with_overrides(calculation: Calculation, base: dict[str, Any], overrides: Overrides) -> dict[str, Any]:
-    """The base request with a point's values; a value of a field takes out those that it excludes."""
+    """Return the base request with the values of a point. A value removes the fields that its field excludes."""
     body = copy.deepcopy(base)
     for path, value in overrides.items():
         if value is not None:
@@ -145,28 +151,28 @@ def with_overrides(calculation: Calculation, base: dict[str, Any], overrides: Ov
 
 
 class Chunk(NamedTuple):
-    """Answers of the first of the points asked for, and how long they took [s]."""
+    """The answers of the first of the requested points, and the time that they took [s]."""
 
     points: list[Point]
     seconds: float
 
 
 def solve_chunk(question: Question, overrides: Sequence[Overrides]) -> Chunk:
-    """Solve consecutive points, as many as a chunk's time allows, at least one."""
+    """Solve consecutive points until the time of a chunk is used up, at least one point."""
     started = time.perf_counter()
     points: list[Point] = []
-    known: tuple[dict[str, Any], ...] = ()
-    for each in overrides:
-        point = solve_point(question, each)
-        points.append(point._replace(assumptions=()) if point.assumptions == known else point)
-        known = point.assumptions
+    preceding: tuple[dict[str, Any], ...] = ()
+    for values in overrides:
+        point = solve_point(question, values)
+        points.append(point._replace(assumptions=()) if point.assumptions == preceding else point)
+        preceding = point.assumptions
         if time.perf_counter() - started >= CHUNK_SECONDS:
             break
     return Chunk(points, time.perf_counter() - started)
 
 
 def solve_point(question: Question, overrides: Overrides) -> Point:
-    """One point; a refusal is a point too."""
+    """Solve one point. If its request is refused, return a point with status `refused`."""
     calculation = BY_PATH[question.endpoint]
     try:
         request = validated(calculation.request, with_overrides(calculation, question.base, overrides))
@@ -184,6 +190,6 @@ def solve_point(question: Question, overrides: Overrides) -> Point:
         answer.status,
         [value_at(answer, path) for path in question.outputs],
         [warning.code for warning in answer.warnings],
-        assumptions=tuple(dict(each) for each in answer.assumptions),
+        assumptions=tuple(dict(assumption) for assumption in answer.assumptions),
         ranks=tuple(warning.rank for warning in answer.warnings),
     )
