@@ -44,7 +44,7 @@ class Coupling:
         le=2000,
         tolerance=0.1,
         default_text="8 modules",
-        assumed="8 modules; the paper gives none",
+        assumed="8 times the module; the paper gives no face width",
     )
     tooth_height: float = quantity(
         "load-carrying tooth height",
