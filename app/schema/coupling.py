@@ -119,7 +119,7 @@ class _CouplingRequest(Request):
     )
 
     def unused(self) -> dict[str, bool]:
-        """Mark options as unused that other given values replace, or that do not apply to the arrangement."""
+        """Mark inputs as unused that other given values replace, or that do not apply to the arrangement."""
         arrangement, offset = self.operation.arrangement, getattr(self.operation, "parallel_offset_mm", None)
         return {
             "model.inlet": self.model.inlet_length_mm is not None,
