@@ -26,7 +26,7 @@ NAMES = (
     "service",
     FIELDS,
 )
-"""The chapters, in the order in which they are read."""
+"""The names of the chapters in reading order."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,16 +48,16 @@ class Chapter:
 
     @property
     def answers(self) -> list[str]:
-        """Which questions it answers."""
+        """The questions that the chapter answers."""
         return re.findall(r"^\* (.*)$", self.section("What it answers"), re.MULTILINE)
 
     def section(self, heading: str) -> str:
-        """The text below a heading, without it."""
+        """Return the text of the section with this heading, without the heading; empty if there is no such section."""
         return self.text.partition(f"\n## {heading}\n")[2].partition("\n## ")[0].strip()
 
 
 @cache
 def chapters() -> dict[str, Chapter]:
-    """Every chapter by name."""
+    """Return the chapters by their names, in reading order."""
     folder = files("app.manual")
     return {name: Chapter(name, folder.joinpath(f"{name}.md").read_text("utf-8")) for name in NAMES}

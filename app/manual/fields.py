@@ -29,12 +29,12 @@ class Entry(NamedTuple):
 
     @property
     def path(self) -> str:
-        """Path of the field."""
+        """The path of the field."""
         return self.cells[0].strip("`")
 
     @property
     def endpoints(self) -> list[str]:
-        """Endpoints that have the field."""
+        """The endpoints whose request or answer has the field."""
         return self.cells[1].split()
 
 

@@ -1,4 +1,4 @@
-"""The form of a case from the schema: fields with what was typed, what it means and what is wrong with it."""
+"""The form of a case, made from the schema: fields with their typed texts, their meanings and their faults."""
 
 from collections.abc import Iterable, Iterator, Mapping
 from collections.abc import Set as AbstractSet
@@ -17,19 +17,20 @@ from app.schema.model import Section as Fields
 from app.schema.quantities import split_unit
 
 REQUIRED, IF_USED = "required", "required if used"
-BESIDE = 10  # letters of an option that fit beside the label
-ENDPOINTS = {each.request: each.path for each in CALCULATIONS}
+BESIDE = 10  # letters of the longest option that fits beside the label
+ENDPOINTS = {calculation.request: calculation.path for calculation in CALCULATIONS}
 DETAIL = "detail"
-"""Not asked for: each view takes the level of detail that it needs."""
+"""The level of detail, which is not in the form, because each view sets the level that it needs."""
 
 
 @dataclass(frozen=True, slots=True)
 class State:
-    """What is known of a case beside the schema, by path: texts typed, faults, and what an answer resolved.
+    """The state of a form, by the names of its fields.
 
-    `endpoint` is that of the form. `assumed` are the fields whose default is ours. `required` is what stands beside a
-    field that must be given: always, or if the optional section that it is in is used. `deciding` are the fields on
-    which a verdict rests: their sections are open.
+    `texts` are the texts of the fields, `faults` the messages of their faults, and `resolved` the values that an answer
+    used for them. `assumed` are the fields whose default is ours. `required` is the remark beside a field that must be
+    given: either always, or only if the optional section of the field is used. `deciding` are the fields on which a
+    verdict depends; the sections of these fields are open. `endpoint` is the endpoint of the form.
     """
 
     texts: Mapping[str, str] = field(default_factory=dict)
@@ -45,9 +46,10 @@ class State:
 class FieldView:
     """What the template shows of a field; its `widget` is number, text, list, select or table.
 
-    `empty` says in a line what a field without a value stands for; `column` names the field where several stand side
-    by side; `excludes` are the fields and sections that must be empty where this one is given. A matrix has `elements`,
-    row by row. `reference` is the address of its row in the table of all fields.
+    `empty` describes in one line the value that is used if the field is empty. `column` names the section of the field
+    if several sections are shown side by side. `excludes` are the fields and sections that must be empty if this field
+    is given. `elements` are the elements of a matrix, row by row. `reference` is the address of the row of this field
+    in the table of all fields.
     """
 
     name: str
@@ -71,7 +73,7 @@ class FieldView:
 
     @property
     def id(self) -> str:
-        """Anchor on the page."""
+        """The anchor of the field on the page."""
         return anchor(self.name)
 
     @property
@@ -82,7 +84,7 @@ class FieldView:
 
 @dataclass(frozen=True, slots=True)
 class Choice:
-    """Fields of which one is given; `picked` is the one that counts."""
+    """Fields of which only one may be given; `picked` is the name of the field that is used."""
 
     name: str
     fields: tuple[FieldView, ...]
@@ -95,9 +97,10 @@ class Choice:
 class Section:
     """A part of the form.
 
-    Its `kind` is a section; rows, a list of sections, the last one empty to be filled; or twins, sections of one kind
-    side by side, a line for each field, whose titles are in `columns` by path. `switch` is the field that says that an
-    optional section is there.
+    There are three kinds of sections. A `section` has blocks below each other. `rows` are the items of a list of
+    sections; the last item is empty, so that the user can add an item. `twins` are sections of the same model side by
+    side, with one line per field; `columns` holds the titles of these sections by their paths. `switch` is the field by
+    which the user adds or removes an optional section.
     """
 
     path: str
@@ -121,29 +124,33 @@ Block = FieldView | Choice | Section | tuple[FieldView, ...]
 
 
 def anchor(path: str) -> str:
-    """The id of a field or section on the page."""
+    """Return the id of a field or section on the page."""
     return f"f.{path}"
 
 
 def link_to(request: type[Request], path: str) -> str:
-    """The link to a field on the page of its case, or to the next section above it."""
-    known = branches(request)
-    while path and leaf_at(request, path) is None and path not in known:
+    """Return the link to a field or section on the page of the case.
+
+    If the request has no field or section at this path, return the link to the nearest section around the path, or to
+    the form if there is no such section.
+    """
+    sections = branches(request)
+    while path and leaf_at(request, path) is None and path not in sections:
         path = path.rpartition(".")[0]
     return f"#{anchor(path)}" if path else "#form"
 
 
 def title_of(request: type[Request], path: str) -> str:
-    """What people call the field; a section is called by those around it too."""
+    """Return the title of a field, or the titles of a section and of the sections around it."""
     leaf = leaf_at(request, path)
     if leaf is not None:
         return leaf.title
-    known, around = branches(request), accumulate(path.split("."), "{}.{}".format)
-    return ", ".join(known[each].title for each in around if each in known) or path
+    sections, around = branches(request), accumulate(path.split("."), "{}.{}".format)
+    return ", ".join(sections[outer].title for outer in around if outer in sections) or path
 
 
 def form(request: type[Request], state: State) -> tuple[Section, ...]:
-    """The sections of the form: those with required fields first, model options last."""
+    """Return the sections of the form: sections with required fields first, advanced sections last."""
     root, loose = tree(request), list[Block]()
     state = replace(state, endpoint=ENDPOINTS.get(request, ""))
     sections = []
@@ -152,21 +159,24 @@ def form(request: type[Request], state: State) -> tuple[Section, ...]:
             loose.append(block)
         elif block.kind == "section":
             sections.append(block)
-        else:  # stands in a section of its own
+        else:  # rows and twins get a section of their own
             sections.append(replace(block, blocks=(block,), kind="section", id=f"{anchor(block.path)}-", fault=None))
     if loose:
         names = [leaf.path for leaf in root.leaves if leaf.path != DETAIL]
-        known: dict[str, Any] = {"path": "general", "id": anchor("general"), "fault": None}
+        attributes: dict[str, Any] = {"path": "general", "id": anchor("general"), "fault": None}
         needed = any(leaf.required for leaf in root.leaves)
-        sections.append(_section("general", loose, state, names, needed=needed, **known))
-    return tuple(sorted(sections, key=lambda each: (not each.needed, each.advanced, not each.deciding)))
+        sections.append(_section("general", loose, state, names, needed=needed, **attributes))
+    return tuple(sorted(sections, key=lambda section: (not section.needed, section.advanced, not section.deciding)))
 
 
 def _section(title: str, blocks: Iterable[Block], state: State, paths: list[str], **settled: Any) -> Section:
-    """A section with the fields at or below some paths; open where one of them is required, given or wrong."""
-    known = (state.texts, state.faults, state.assumed, state.deciding)
-    given, faulty, assumed, deciding = (sum(_count(names, each) for each in paths) for names in known)
-    found: dict[str, Any] = {
+    """Return the section with the fields at or below some paths; `settled` are attributes that are given.
+
+    The section is open if it is needed, or if one of its fields is given, has a fault or decides about a verdict.
+    """
+    groups = (state.texts, state.faults, state.assumed, state.deciding)
+    given, faulty, assumed, deciding = (sum(_count(names, path) for path in paths) for names in groups)
+    attributes: dict[str, Any] = {
         "path": paths[0],
         "open": settled.get("needed", False) or given > 0 or faulty > 0 or deciding > 0,
         "deciding": deciding > 0,
@@ -175,19 +185,19 @@ def _section(title: str, blocks: Iterable[Block], state: State, paths: list[str]
         "id": anchor(paths[0]),
         "fault": "; ".join(state.faults[path] for path in paths if path in state.faults) or None,
     }
-    return Section(title=title, blocks=tuple(blocks), **found | settled)
+    return Section(title=title, blocks=tuple(blocks), **attributes | settled)
 
 
 def _count(names: Iterable[str], path: str) -> int:
-    """How many of the names are at or below a path."""
+    """Return the number of names at or below a path."""
     return sum(name == path or name.startswith(f"{path}.") for name in names)
 
 
 def _branch(branch: Branch, path: str, state: State, item: int | None = None) -> Section:
-    """A section of the request, or the item of a list of sections."""
+    """Return a section of the request; `item` is its index if it is the item of a list of sections."""
     given = _count(state.texts, path) > 0
     switch = None
-    if branch.optional and not branch.required:  # says that the section is there, where none of its fields would
+    if branch.optional and not branch.required:  # adds the section even if all its fields are empty
         switch = FieldView(
             name=path,
             label=f"use {branch.title}",
@@ -210,7 +220,7 @@ def _branch(branch: Branch, path: str, state: State, item: int | None = None) ->
 
 
 def _with_folded(branch: Branch, path: str, state: State) -> Iterator[Block]:
-    """The blocks of a section; behind them, in a section of their own, the fields that few users know."""
+    """Yield the blocks of a section, and then an inner section with the fields that only few users need."""
     folded = {f"{path}.{_last(leaf.path)}" for leaf in branch.leaves if leaf.declared.folded}
     behind = list[Block]()
     for block in _blocks(branch, f"{path}.", state):
@@ -240,16 +250,16 @@ def _twins(group: tuple[Branch, ...], prefix: str, state: State) -> Section:
         )
         for line in zip(*(branch.leaves for branch in group), strict=True)
     ]
-    needed, title = any(each.required for line in lines for each in line), " and ".join(columns.values())
+    needed, title = any(view.required for line in lines for view in line), " and ".join(columns.values())
     return _section(title, lines, state, [*columns], needed=needed, columns=columns, kind="twins")
 
 
 def _blocks(branch: Branch, prefix: str, state: State) -> Iterator[Block]:
-    """Fields and the sections inside, in the order of the schema."""
+    """Yield the fields of a section and the sections inside the section, in the order of the schema."""
     choices = _choices(branch)
     shown = {DETAIL}
-    # Neighbours of one kind that hold fields alone stand side by side.
-    alike = groupby(branch.branches, lambda each: each.path if each.repeated or each.branches else each.model)
+    # Neighbouring sections of the same model are shown side by side if they contain only fields.
+    alike = groupby(branch.branches, lambda inner: inner.path if inner.repeated or inner.branches else inner.model)
     groups = {group[0].path: group for group in (tuple(members) for _, members in alike)}
     for member in branch.members:
         name = prefix + _last(member.path)
@@ -268,27 +278,30 @@ def _blocks(branch: Branch, prefix: str, state: State) -> Iterator[Block]:
 
 
 def _choices(branch: Branch) -> dict[str, tuple[Leaf, ...]]:
-    """Fields of which one is given, by the path of each of them; a field belongs to the first such group only."""
+    """Return, for the path of each field that has alternatives, the group of fields of which only one may be given.
+
+    If a field is in several groups, only the first group counts.
+    """
     fields = {_last(leaf.path): leaf for leaf in branch.leaves}
-    found: dict[str, tuple[Leaf, ...]] = {}
+    choices: dict[str, tuple[Leaf, ...]] = {}
     for group in branch.model.exclusive:
-        if all(name in fields and fields[name].path not in found for name in group):
+        if all(name in fields and fields[name].path not in choices for name in group):
             members = tuple(fields[name] for name in group)
-            found |= {leaf.path: members for leaf in members}
-    return found
+            choices |= {leaf.path: members for leaf in members}
+    return choices
 
 
 def _choice(group: tuple[Leaf, ...], prefix: str, state: State, required: str) -> Choice:
     fields = {prefix + _last(leaf.path): leaf for leaf in group}
     given = [name for name in fields if name in state.texts]
-    known = [name for name in fields if state.resolved.get(name) is not None]
+    resolved = [name for name in fields if state.resolved.get(name) is not None]
     first, *_ = fields
     views = tuple(field_view(leaf, name, state) for name, leaf in fields.items())
-    return Choice(PICK + first, views, [*given, *known, first][0], required)
+    return Choice(PICK + first, views, [*given, *resolved, first][0], required)
 
 
 def _own(leaf: Leaf, name: str, state: State) -> FieldView:
-    """A field on a line of its own, or a matrix with a field for each element."""
+    """Return the view of a field that is not part of a choice; a matrix has a field for each element."""
     whole, resolved = field_view(leaf, name, state), state.resolved.get(name)
     if leaf.dimensions < MATRIX:
         return whole
@@ -309,7 +322,7 @@ def _own(leaf: Leaf, name: str, state: State) -> FieldView:
 
 
 def field_view(leaf: Leaf, name: str, state: State) -> FieldView:
-    """A field under its name with indices."""
+    """Return the view of a field; `name` is its path with the indices of lists."""
     text, value = state.texts.get(name, ""), state.resolved.get(name, leaf.default)
     options = _options(leaf, text)
     widget = "text" if leaf.kind in {"text", "other"} else "number"
@@ -334,7 +347,7 @@ def field_view(leaf: Leaf, name: str, state: State) -> FieldView:
 
 
 def _placeholder(leaf: Leaf, value: Any) -> str:
-    """What an empty field stands for: the value in use after an answer, the default before."""
+    """Return the text in an empty field: the value that an answer used, or the default if there is no answer."""
     if isinstance(value, list) and value:
         return " ".join(text_of(item) for item in value[:6]) + (" …" if len(value) > 6 else "")
     if value is None or value == []:
@@ -343,7 +356,10 @@ def _placeholder(leaf: Leaf, value: Any) -> str:
 
 
 def _options(leaf: Leaf, text: str) -> tuple[tuple[str, str], ...]:
-    """Values and labels of a choice; the default is the empty one, and what is typed is offered whatever it is."""
+    """Return the values and labels of the options of a field, or nothing if the field has no options.
+
+    The value of the default is empty. The text of the field is always an option, even if it is not permissible.
+    """
     named = {str(option): words(str(option)) for option in leaf.options}
     if leaf.kind == "boolean":
         named = {"true": "yes", "false": "no"}
@@ -358,7 +374,7 @@ def _options(leaf: Leaf, text: str) -> tuple[tuple[str, str], ...]:
 
 
 def _help(leaf: Leaf, *, assumed: bool) -> tuple[str, ...]:
-    """Meaning, range, what is assumed and why, source."""
+    """Return the lines of help: meaning, permissible range, assumed default, alternatives and source."""
     ends = {"ge": "from", "gt": "above", "le": "to", "lt": "below"}
     bounds = [f"{ends[key]} {text_of(float(bound))}" for key, bound in leaf.declared.bounds.items()]
     fellows = (words(split_unit(fellow.rpartition(".")[2])[0]) for fellow in leaf.exclusive)

@@ -1,4 +1,7 @@
-"""Chapters as pages: Markdown to HTML, equations to MathML, pictures to the figures of the running service."""
+"""The pages of the manual.
+
+Markdown becomes HTML, equations become MathML, and pictures are replaced by the figures of the running service.
+"""
 
 import json
 import re
@@ -34,59 +37,62 @@ _SOURCE = re.compile(r"(?:\.\./)+solvers/.*\.py")
 FIXED = {
     "table_open": '<div class="scroll" tabindex="0"><table class="results">\n',
     "table_close": "</table></div>\n",
-    "html_block": "",  # comments are for those who renew generated parts
-    "html_inline": "",  # anchors are for readers of the repository
+    "html_block": "",  # comments that mark generated parts in the file
+    "html_inline": "",  # anchors for links between the files; the pages have anchors of their own
 }
-"""The HTML of parts that are the same everywhere."""
+"""The HTML of elements of Markdown whose HTML is always the same."""
 
 
 @lru_cache(maxsize=4)
 def contents_page(root: str) -> str:
-    """What the manual holds."""
+    """Return the page with the table of contents."""
     listed = [(chapter, headings(chapter)) for chapter in chapters().values()]
     return rendered("manual_contents.html", root, listed=listed)
 
 
 @lru_cache(maxsize=32)
 def chapter_page(root: str, name: str) -> str:
-    """One chapter."""
+    """Return the page of a chapter."""
     chapter, following = chapters()[name], chapters().get(dict(pairwise(NAMES)).get(name, ""))
     if name == FIELDS:
         head = _html(chapter.text.partition("\n## ")[0], root)
         table = {"sections": SECTIONS, "columns": COLUMNS, "entries": entries()}
         return rendered("manual_fields.html", root, chapter=chapter, body=head, **table)
     body = _html(chapter.text, root)
-    known: dict[str, Any] = {"headings": headings(chapter), "symbols": symbols_of(chapter)}
-    return rendered("manual.html", root, chapter=chapter, body=body, following=following, **known)
+    lists: dict[str, Any] = {"headings": headings(chapter), "symbols": symbols_of(chapter)}
+    return rendered("manual.html", root, chapter=chapter, body=body, following=following, **lists)
 
 
 @lru_cache(maxsize=4)
 def functions_page(root: str) -> str:
-    """The functions that implement the equations."""
+    """Return the page of the functions that implement the equations."""
     return rendered("manual_functions.html", root, functions=functions())
 
 
 def chapter_of(calculation: Calculation) -> Chapter:
-    """The chapter about a calculation."""
+    """Return the chapter about a calculation: its own chapter, or else the chapter about its model."""
     own = calculation.path.rpartition("/")[2]
     return chapters()[own if own in chapters() else model_of(calculation)]
 
 
 @cache
 def method_of(chapter: Chapter) -> dict[str, Any]:
-    """The method of a chapter in brief, without links: a report is printed."""
-    numbered = [each for each in equations().values() if each.chapter == chapter.name]
+    """Return the summary of a chapter for reports; it has no links, because reports are printed."""
+    numbered = [equation for equation in equations().values() if equation.chapter == chapter.name]
     return {
         "title": chapter.title,
         "lead": _plain(chapter.lead),
-        "equations": {each.number: Markup(_mathml(each.text, "inline")) for each in numbered},  # noqa: S704  our own
+        "equations": {
+            equation.number: Markup(_mathml(equation.text, "inline"))  # noqa: S704  the text is ours
+            for equation in numbered
+        },
         "misprints": _plain(chapter.section("Misprints and how they were decided")),
         "limits": _plain(chapter.section("Limits of validity").partition("\n\n![")[0]),
     }
 
 
 class Symbol(NamedTuple):
-    """A symbol, what it stands for, and the unit in which the service shows it."""
+    """A symbol, the title of its quantity, and the unit in which the service shows the quantity."""
 
     symbol: str
     title: str
@@ -95,26 +101,33 @@ class Symbol(NamedTuple):
 
 @cache
 def symbols_of(chapter: Chapter) -> list[Symbol]:
-    """The symbols of the results that a chapter says how to compute, and of the inputs of its calculations."""
-    found = dict[tuple[str, str], Symbol]()
+    """Return the symbols of the inputs of a chapter's calculations, and of the results whose computation it describes.
+
+    The symbols are sorted, and a symbol is repeated only if it has several titles.
+    """
+    symbols = dict[tuple[str, str], Symbol]()
     for calculation in CALCULATIONS:
         own = leaves(calculation.request) if chapter_of(calculation) == chapter else ()
         results = (leaf for leaf in leaves(calculation.response) if _is_of(leaf, chapter))
         for leaf in (*own, *results):
             if symbol := leaf.declared.symbol:
-                found.setdefault((symbol, leaf.declared.title), Symbol(symbol, leaf.declared.title, leaf.unit or ""))
-    return sorted(found.values(), key=lambda each: (each.symbol.casefold(), each.title))
+                symbols.setdefault((symbol, leaf.declared.title), Symbol(symbol, leaf.declared.title, leaf.unit or ""))
+    return sorted(symbols.values(), key=lambda symbol: (symbol.symbol.casefold(), symbol.title))
 
 
 def _is_of(leaf: Leaf, chapter: Chapter) -> bool:
-    """Whether a chapter says how a result is computed."""
+    """Return whether a chapter describes how a result is computed."""
     place = place_of(leaf.declared)
     return place is not None and place.chapter == chapter.name
 
 
 @dataclass(frozen=True, slots=True)
 class ShownStudy:
-    """A study of an example that a chapter shows: its case, its page with the controls, and one of its figures."""
+    """A study of an example, one of whose figures a chapter shows.
+
+    `path` and `pairs` make the link of the case. `page` is the part of the address that names the kind of study, and
+    `controls` are the settings of the study.
+    """
 
     title: str
     path: str
@@ -124,34 +137,34 @@ class ShownStudy:
     figure: str
 
     def address(self, file: str = "", **views: str) -> str:
-        """The page, or a file below it."""
+        """Return the address of the page of the study, or of a file below the page."""
         return link(f"{self.path}/{self.page}{file}", self.pairs, **self.controls, **views)
 
 
 @cache
 def shown_studies() -> dict[str, ShownStudy]:
-    """By the name of the picture."""
-    found = {}
-    for name, each in json.loads(files("app.manual").joinpath("studies.json").read_text("utf-8")).items():
-        example = examples()[each["example"]]
-        pairs = [*(dict(pairs_of(example.request)) | each["set"]).items()]
+    """Return the studies that chapters show, by the names of their pictures."""
+    studies = {}
+    for name, entry in json.loads(files("app.manual").joinpath("studies.json").read_text("utf-8")).items():
+        example = examples()[entry["example"]]
+        pairs = [*(dict(pairs_of(example.request)) | entry["set"]).items()]
         path = page_path(BY_PATH[example.endpoint])
-        found[name] = ShownStudy(each["title"], path, pairs, each["page"], each["controls"], each["figure"])
-    return found
+        studies[name] = ShownStudy(entry["title"], path, pairs, entry["page"], entry["controls"], entry["figure"])
+    return studies
 
 
 def _html(text: str, root: str) -> Markup:
-    """Markdown of ours as HTML, its addresses below the prefix."""
+    """Convert Markdown of the manual to HTML; the prefix `root` is put before addresses of the service."""
     return Markup(re.sub(r'\b(href|src|srcset)="/', rf'\1="{root}/', _markdown().render(text)))  # noqa: S704
 
 
 def _plain(text: str) -> Markup:
-    """Markdown of ours as HTML without links."""
+    """Convert Markdown of the manual to HTML without links."""
     return Markup(re.sub(r"</?a\b[^>]*>", "", _html(text, "")))  # noqa: S704
 
 
 def headings(chapter: Chapter) -> dict[str, str]:
-    """The titles of a chapter's sections by their anchors."""
+    """Return the titles of a chapter's sections by their anchors."""
     if chapter.name == FIELDS:
         return {section.lower(): section for section in SECTIONS}
     return {
@@ -163,7 +176,7 @@ def headings(chapter: Chapter) -> dict[str, str]:
 
 @cache
 def _markdown() -> MarkdownIt:
-    """CommonMark with tables, equations in dollars and headings that links can name."""
+    """Return the converter for CommonMark with tables, equations between dollar signs, and anchors of headings."""
     markdown = MarkdownIt("commonmark", {"html": True}).enable("table")
     markdown.use(anchors_plugin, max_level=3)
     markdown.use(dollarmath_plugin, allow_labels=False, renderer=lambda text, _: _mathml(text, "inline"))
@@ -176,7 +189,10 @@ def _markdown() -> MarkdownIt:
 
 
 def _mathml(text: str, display: str) -> str:
-    """MathML of an equation; the names of functions get the thin spaces that LaTeX sets and the converter does not."""
+    """Convert an equation to MathML.
+
+    Thin spaces are added around the names of functions, because LaTeX sets these spaces and the converter does not.
+    """
     spaced = _FUNCTION.sub(lambda name: rf"\,{name[0]}\,", text)
     spaced = re.sub(r"(^|[(\[{=+/|&-]|\\left.|\\\\)\s*\\,", r"\1", spaced)
     spaced = re.sub(r"\\,\s*(?=[(\[)\]])|\\,\s*(?=\\left)", "", spaced)
@@ -184,14 +200,14 @@ def _mathml(text: str, display: str) -> str:
 
 
 def _figures_stand_alone(state: Any) -> None:
-    """A paragraph that is one picture is no paragraph, nor is the anchor of an equation."""
+    """Remove the paragraph around a single picture, and around the anchor of an equation."""
     for before, inline, after in zip(state.tokens, state.tokens[1:], state.tokens[2:], strict=False):
         if inline.type == "inline" and {child.type for child in inline.children} in ({"image"}, {"html_inline"}):
             before.hidden = after.hidden = True
 
 
 def _math_block(_self: RendererHTML, tokens: Sequence[Token], place: int, *_: Any) -> str:
-    """An equation, with its number beside it and as its anchor if it has one."""
+    """Return the HTML of an equation; if the equation has a number, the number is shown and used as the anchor."""
     text = tokens[place].content
     tag = _TAG.search(text)
     math = _mathml(_TAG.sub("", text).strip(), "block")
@@ -207,33 +223,41 @@ def _math_block(_self: RendererHTML, tokens: Sequence[Token], place: int, *_: An
 def _image(
     renderer: RendererHTML, tokens: Sequence[Token], place: int, options: OptionsDict, environment: dict[str, Any]
 ) -> str:
-    """The figure of an example or of a study, drawn by the service, with a link to the case or the study."""
+    """Return the HTML of a picture.
+
+    The picture is the figure of an example or study that the service draws. Its caption ends with a link to the case or
+    the study.
+    """
     token = tokens[place]
     folder, _, file = str(token.attrs["src"]).removesuffix(".png").partition("/")
     if folder == "studies":
         study = shown_studies()[file]
         title, page, lead = study.title, study.address(), "The study"
-        drawn = {theme: study.address(f"/figures/{study.figure}.svg", theme=theme) for theme in ("light", "dark")}
+        images = {theme: study.address(f"/figures/{study.figure}.svg", theme=theme) for theme in ("light", "dark")}
     else:
         name, _, figure = file.partition(".")
         example = examples()[name]
         calculation = BY_PATH[example.endpoint]
-        title = next(each.title for each in calculation.figures if each.name == figure)
+        title = next(shown.title for shown in calculation.figures if shown.name == figure)
         page, lead, image = example_link(calculation, example), "The case", f"/figures/{figure}.svg"
-        drawn = {
+        images = {
             theme: link(page_path(calculation) + image, [("example", name)], theme=theme) for theme in ("light", "dark")
         }
     caption = renderer.renderInline(token.children or [], options, environment)
     to_page = Markup('<a href="{}">{}</a>').format(page, lead)
-    source = Markup('<source srcset="{}" media="(prefers-color-scheme: dark)">').format(drawn["dark"])
-    shown = Markup('<img src="{}" alt="{}" loading="lazy">').format(drawn["light"], title)
+    source = Markup('<source srcset="{}" media="(prefers-color-scheme: dark)">').format(images["dark"])
+    shown = Markup('<img src="{}" alt="{}" loading="lazy">').format(images["light"], title)
     return f"<figure><picture>{source}{shown}</picture><figcaption>{caption} {to_page}.</figcaption></figure>\n"
 
 
 def _link_open(
     renderer: RendererHTML, tokens: Sequence[Token], place: int, options: OptionsDict, environment: dict[str, Any]
 ) -> str:
-    """A link to a chapter's file is one to its page, a link to a source one to the function that it names."""
+    """Return the HTML at the start of a link.
+
+    A link to the file of a chapter becomes a link to the page of the chapter. A link to a source file becomes a link to
+    the function that the text of the link names.
+    """
     token = tokens[place]
     address = str(token.attrs["href"])
     if _SOURCE.fullmatch(address):

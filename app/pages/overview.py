@@ -1,4 +1,4 @@
-"""Pages that belong to no case: the start, the models, and a gear unit that was read from a file."""
+"""Pages that do not belong to a case: the start page, and the page of a gear unit that was read from a file."""
 
 from collections.abc import Iterable
 from functools import lru_cache
@@ -16,44 +16,52 @@ from app.pages.templating import by_model, example_link, examples_of, model_of, 
 from app.schema.fields import leaf_at
 
 ANSWERS = {"drive-train": "face-load", "coupling": "tooth-loads", "pumping": "mach-map", "scuffing": "flank-load"}
-"""The figure that answers the question of each model on the start page."""
+"""The name of the figure that the start page shows of each model."""
 SCUFFING = "/v1/scuffing"
-SPECTRA = (SCUFFING, "/v1/drive-train")  # shown of the load spectra of a stage
+SPECTRA = (SCUFFING, "/v1/drive-train")  # the endpoints to whose load spectra a stage has links
 CASE_COLUMNS = ("load.pinion_torque_n_m", "load.pinion_speed_rpm", "temperatures.oil_c")
 
 
 @lru_cache(maxsize=4)
 def start_page(root: str) -> str:
-    """A question of each model with the picture that answers it, and all that can be calculated."""
-    return rendered("start.html", root, models={name: _entry(some) for name, some in by_model().items()})
+    """Return the start page: for each model a question, the figure that answers the question, and the calculations."""
+    models = {name: _entry(calculations) for name, calculations in by_model().items()}
+    return rendered("start.html", root, models=models)
 
 
 def _entry(calculations: list[Calculation]) -> dict[str, Any]:
-    """What the start page shows of a model: a question of its first calculation, then every calculation."""
+    """Return what the start page shows of a model.
+
+    The question is the title of an example of the first calculation of the model. All calculations of the model follow.
+    """
     first = calculations[0]
-    known = examples_of(first)
-    example = next((each for each in known if each.title.endswith("?")), known[0])
-    shown = next(each for each in first.figures if each.name == ANSWERS[model_of(first)])
-    image, pairs = f"{page_path(first)}/figures/{shown.name}.svg", pairs_of(example.request)
+    of_first = examples_of(first)
+    example = next((example for example in of_first if example.title.endswith("?")), of_first[0])
+    figure = next(figure for figure in first.figures if figure.name == ANSWERS[model_of(first)])
+    image, pairs = f"{page_path(first)}/figures/{figure.name}.svg", pairs_of(example.request)
     return {
         "chapter": chapters()[model_of(first)],
         "question": example.title,
         "address": example_link(first, example),
-        "figure": shown.title,
+        "figure": figure.title,
         "image": link(image, pairs),
         "dark": link(image, pairs, theme="dark"),
         "calculations": [
-            (each, page_path(each), [(one.title, example_link(each, one)) for one in examples_of(each)[:2]])
-            for each in calculations
+            (
+                calculation,
+                page_path(calculation),
+                [(shown.title, example_link(calculation, shown)) for shown in examples_of(calculation)[:2]],
+            )
+            for calculation in calculations
         ],
-        "studies": [study for each in calculations for study in studies_of(each)[:1]],
+        "studies": [study for calculation in calculations for study in studies_of(calculation)[:1]],
     }
 
 
 def unit_page(root: str, unit: dict[str, Any], name: str = "", sha256: str = "") -> str:
-    """Return the page of the answer of /v1/rexs: the stages of a gear unit, each with links to its calculations.
+    """Return the page of an answer of /v1/rexs: the stages of a gear unit, with links to calculations of each stage.
 
-    The links carry the name of the file and its SHA-256 to the reports.
+    Reports take the name of the file and its SHA-256 from these links.
     """
     file = {"rexs_file": name, "rexs_sha256": sha256}
     stages = [_stage(stage, file | {"rexs_stage": str(stage["id"])}) for stage in unit["stages"]]
@@ -61,7 +69,10 @@ def unit_page(root: str, unit: dict[str, Any], name: str = "", sha256: str = "")
 
 
 def _titled(field: str, asked: Iterable[str]) -> str:
-    """What pages call a field of a request, or an endpoint; `asked` are the endpoints of the requests."""
+    """Return the title of a field of a request, or of an endpoint.
+
+    The title of a field is first looked up in the requests of the endpoints `asked`, then in all other requests.
+    """
     if field in BY_PATH:
         return BY_PATH[field].title
     models = [BY_PATH[path].request for path in dict.fromkeys([*asked, *BY_PATH])]
@@ -73,9 +84,10 @@ def _titled(field: str, asked: Iterable[str]) -> str:
 def _stage(stage: dict[str, Any], file: dict[str, str]) -> dict[str, Any]:
     requests, request = stage["requests"], next(iter(stage["requests"].values()))
     gears, load = request["gears"], request.get("load", {})
-    teeth = [gears.get(role, {}).get("teeth") for role in ("pinion", "wheel")]  # none that no gear has
+    teeth = [gears.get(role, {}).get("teeth") for role in ("pinion", "wheel")]  # None if the file has no number
     ratio = teeth[1] / teeth[0] if all(teeth) else None
     torque, speed = load.get("pinion_torque_n_m"), load.get("pinion_speed_rpm")
+    speeds = (speed, speed / ratio if speed and ratio else None)
     spectrum = study_page("spectrum")
     cases = []
     for case in stage["cases"]:
@@ -84,17 +96,17 @@ def _stage(stage: dict[str, Any], file: dict[str, str]) -> dict[str, Any]:
         address = link(page_path(BY_PATH[SCUFFING]), list(pairs.items()), **file)
         cases.append(case | {"address": address, "row": [overrides.get(name) for name in CASE_COLUMNS]})
     titled = {
-        name: [each | {"field": _titled(each["field"], requests)} for each in stage[name]]
+        name: [entry | {"field": _titled(entry["field"], requests)} for entry in stage[name]]
         for name in ("missing", "assumed")
     }
     return (
         stage
         | titled
         | {
-            "teeth": "/".join(str(each or "–") for each in teeth),
+            "teeth": "/".join(str(number or "–") for number in teeth),
             "ratio": ratio,
             "power_kw": None if torque is None or speed is None else torque * speed * pi / 30e3,
-            "speeds": " / ".join(f"{each:.5g}" for each in (speed, speed / ratio if speed and ratio else None) if each),
+            "speeds": " / ".join(f"{shown:.5g}" for shown in speeds if shown),
             "module_mm": gears.get("module_mm"),
             "face_width_mm": gears.get("face_width_mm"),
             "links": [

@@ -1,4 +1,7 @@
-"""From a query string or a form to a request body and back: dotted names and list indices."""
+"""Conversion of a query string or a form to a request body and back.
+
+The name of a field in a query contains the names of its sections and the indices of lists, separated by dots.
+"""
 
 import re
 from collections.abc import Iterable
@@ -23,7 +26,8 @@ from app.schema.model import Documented
 
 Pairs = list[tuple[str, str]]
 
-# Controls of studies that are not a single number: the values of an uncertain input, and a table of cases.
+# Names of the controls of studies whose value is not a single number. `CORNER` is the start of the names of lists with
+# the values of an uncertain input, and `CASES` is the name of a table of cases.
 CORNER, CASES = "corner.", "cases"
 REPORT_NAMES = {
     "title": 200,
@@ -37,29 +41,29 @@ REPORT_NAMES = {
     "rexs_sha256": 64,
     "notes": 2000,
 }
-"""What a report says of its occasion, and how many characters of it at most."""
+"""The fields that identify a report, with the largest number of characters of each field."""
 VIEW_NAMES = REPORT_NAMES.keys() | {
     *("paper", "ref", "also", "pair", "theme", "sources", "curve", "unlinked", "extent", "rexs_stage")
 }
-"""Names that concern only the view of a case; the names of the controls of studies are added to them."""
+"""Names of fields that only affect the view of a case; `split_views` adds the names of the controls of studies."""
 PICK = "pick:"
-"""Before the name of a choice between fields that exclude each other; its value is the field that counts."""
+"""The start of the name of a choice between fields that exclude each other; its value is the field that is used."""
 WRITTEN = "written"
-"""The name of the hidden field by which a form is known; it holds, as a query, what the server wrote into the form and
-would read otherwise if it were typed."""
-MOST_FIELDS = 1000  # chosen: far beyond the longest form
-DEEPEST = 12  # parts of a name; no field lies as deep
-LONGEST_QUERY = 6000  # characters: common proxies refuse a request line beyond 8 KiB
-LONGEST_NAME = 100  # characters of a name; no field's has as many
+"""The name of a hidden field that only forms send. It contains, as a query, the texts that the server wrote into the
+form and that would be read differently if a user typed them."""
+MOST_FIELDS = 1000  # chosen: many more than the longest form has
+DEEPEST = 12  # parts of a name; the names of all fields have fewer
+LONGEST_QUERY = 6000  # characters; common proxies refuse a request line of more than 8 KiB
+LONGEST_NAME = 100  # characters of a name; the names of all fields are shorter
 MATRIX = 2  # dimensions
-SIDE = 2  # of a matrix: the two directions across a shaft
+SIDE = 2  # rows and columns of a matrix, one for each of the two directions across a shaft
 PRESENT = "on"
 
 _PASTED = re.compile(r"[\s;]+")
 
 
 def pairs_of_query(query: str) -> Pairs:
-    """Names and texts as they were sent."""
+    """Return the names and texts of a query as they were sent. Raises Unreadable if the query has too many fields."""
     try:
         return parse_qsl(query, keep_blank_values=True, max_num_fields=MOST_FIELDS, errors="replace")
     except ValueError:
@@ -67,13 +71,16 @@ def pairs_of_query(query: str) -> Pairs:
 
 
 def split_views(pairs: Pairs) -> tuple[Pairs, dict[str, str]]:
-    """The case, and what only concerns how it is looked at."""
+    """Return the fields of the case, and the fields that only affect its view."""
     views = VIEW_NAMES | control_names()
     return [pair for pair in pairs if pair[0] not in views], {name: text for name, text in pairs if name in views}
 
 
 def from_form(model: type[Documented], pairs: Pairs) -> Pairs:
-    """The fields as a link has them: where a form sent them, typed texts are read; what the server wrote stands."""
+    """Return the fields as a link has them.
+
+    If a form sent the fields, texts that a user typed are converted, and texts that the server wrote are unchanged.
+    """
     written = next((text for name, text in pairs if name == WRITTEN), None)
     if written is None:
         return pairs
@@ -84,25 +91,28 @@ def from_form(model: type[Documented], pairs: Pairs) -> Pairs:
 
 
 def _plain(pairs: Iterable[tuple[str, str]]) -> Pairs:
-    """Texts without the blanks and line ends that a browser adds; tabs part the cells of a table."""
+    """Remove the blanks and line ends that a browser adds; tabs remain, because they separate the cells of a table."""
     return [(name, text.replace("\r\n", "\n").strip(" \n")) for name, text in pairs]
 
 
 def written_of(model: type[Documented], pairs: Pairs) -> str:
-    """What the server says that it has written where it fills a form with these texts of a link."""
+    """Return the value of the field `WRITTEN` in a form that is filled with these texts of a link."""
     all_of = dict(pairs)
     kept = [(name, text) for name, text in pairs if as_typed(text) == text != _in_link(model, name, text, all_of)]
     return urlencode(kept, safe=",:", errors="replace")
 
 
 def _in_link(model: type[Documented], name: str, text: str, others: dict[str, str]) -> str:
-    """The text of a link for what was typed in a field, or in a control of a study beside `others`."""
+    """Convert a typed text to the text of a link; `others` are all fields of the form.
+
+    The text was typed in a field of the case or in a control of a study.
+    """
     if name == CASES:
         return table_in_link(text)
     if name.startswith(CORNER):
         return items_in_link(text)
     if name in control_names():
-        leaf = leaf_at(model, others.get(name.partition(".")[0], ""))  # which is varied, or scatters
+        leaf = leaf_at(model, others.get(name.partition(".")[0], ""))  # the input that is varied or uncertain
         unit = leaf.unit if leaf else None
         if not name.endswith(".by") or difference_unit(unit) == unit:
             return in_link(text, unit)
@@ -115,7 +125,7 @@ def _in_link(model: type[Documented], name: str, text: str, others: dict[str, st
 
 
 def normalised(model: type[Documented], pairs: Pairs) -> Pairs:
-    """Without empty fields and without those that a choice left out: what a link of the case says."""
+    """Return the fields in the link of a case: without empty fields, and without fields that a choice excludes."""
     picked = {text for name, text in pairs if name.startswith(PICK)}
     kept: Pairs = []
     for name, spaced in pairs:
@@ -131,7 +141,10 @@ def normalised(model: type[Documented], pairs: Pairs) -> Pairs:
 
 
 def _renumbered(path: str, pairs: Pairs) -> Pairs:
-    """Items of a list of sections counted from 0 without gaps, whichever rows of the form were left empty."""
+    """Return the fields with the items of a list of sections numbered from 0.
+
+    If a row of the form is empty, the items after this row get smaller numbers, so that no number is left out.
+    """
     items = [re.fullmatch(rf"{re.escape(path)}\.([0-9]{{1,9}})(|\..*)", name, re.DOTALL) for name, _ in pairs]
     indices = sorted({int(item[1]) for item in items if item})
     return [
@@ -141,15 +154,16 @@ def _renumbered(path: str, pairs: Pairs) -> Pairs:
 
 
 def excluded(name: str, leaf: Leaf) -> tuple[str, ...]:
-    """The fields and sections that must be empty where a field is given."""
+    """Return the names of the fields and sections that must be empty if a field is given."""
     section = name.rpartition(".")[0]
     return tuple(f"{section}.{fellow.rpartition('.')[2]}".lstrip(".") for fellow in leaf.exclusive)
 
 
 def body_of(model: type[Documented], pairs: Pairs) -> dict[str, Any]:
-    """The request body that the fields make; what is no number stays text, for the validator to refuse.
+    """Return the request body with these fields.
 
-    Raises Unreadable where names contradict each other.
+    A text that is not a number remains a text, so that the validator refuses it. Raises Unreadable if a name is
+    malformed, or if two names contradict each other.
     """
     body: dict[str, Any] = {}
     for name, text in pairs:
@@ -171,7 +185,7 @@ def body_of(model: type[Documented], pairs: Pairs) -> dict[str, Any]:
 
 
 def pairs_of(content: Any, name: str = "") -> Pairs:
-    """The fields that make a request body; nulls are left out, as a form leaves its fields empty."""
+    """Return the fields of a request body; fields that are null are left out, because they are empty in a form."""
     inner: Iterable[tuple[Any, Any]]
     match content:
         case None | []:
@@ -190,7 +204,7 @@ def pairs_of(content: Any, name: str = "") -> Pairs:
 
 
 def link(path: str, pairs: Pairs, **views: str | None) -> str:
-    """The address of a case under `path`."""
+    """Return `path` with the fields and views as its query."""
     query = urlencode([*pairs, *((name, text) for name, text in views.items() if text)], safe=",:", errors="replace")
     return f"{path}?{query}" if query else path
 
@@ -212,17 +226,21 @@ def _value(model: type[Documented], name: str, text: str) -> Any:
 
 
 def _listed(leaf: Leaf, text: str) -> list[Any]:
-    """A list in a link has commas; a pasted one blanks, lines or semicolons, and perhaps commas before them."""
+    """Read a list.
+
+    In a link, commas separate the items. In a pasted list, blanks, line ends or semicolons separate the items, and a
+    comma may precede each separator.
+    """
     items = _PASTED.split(text.strip(" \t\r\n;"))
     items = text.split(",") if len(items) == 1 else [item.removesuffix(",") for item in items]
     return [item.strip() if leaf.kind == "text" else plain_number_of(item.strip()) for item in items]
 
 
 def _with_lists(model: type[Documented], content: Any, path: str = "") -> Any:
-    """Objects whose names are indices, as lists."""
+    """Convert objects whose names are indices to lists and matrices."""
     if not isinstance(content, dict):
         return content
-    inner = {name: _with_lists(model, each, f"{path}.{name}".lstrip(".")) for name, each in content.items()}
+    inner = {name: _with_lists(model, value, f"{path}.{name}".lstrip(".")) for name, value in content.items()}
     if (leaf := leaf_at(model, path)) is not None and leaf.dimensions == MATRIX:
         return _matrix(content)
     if inner and all(name.isdecimal() and name.isascii() for name in inner):
@@ -231,9 +249,11 @@ def _with_lists(model: type[Documented], content: Any, path: str = "") -> Any:
 
 
 def _matrix(elements: dict[str, Any]) -> Any:
-    """A matrix of its elements by row and column; the first one alone stands for a multiple of the unit matrix.
+    """Return the matrix with these elements, which are given by row and column.
 
-    What is missing is None, for the validator to name.
+    If only the first element is given, return this element; it stands for a multiple of the unit matrix. Missing
+    elements are None, so that the validator reports them. If a name is not an index of the matrix, return the elements
+    unchanged.
     """
     places = [str(place) for place in range(SIDE)]
     rows = [elements.get(place, {}) for place in places]

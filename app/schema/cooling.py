@@ -11,7 +11,7 @@ class CasingOfGears(Section, of=si.Casing):
     """The casing; without an area it does not take part."""
 
     def unused(self) -> dict[str, bool]:
-        """Mark all as unused without an area."""
+        """Mark all other fields as unused if the area of the casing is not given."""
         return dict.fromkeys(type(self).model_fields, self.area_m2 is None) | {"area_m2": False}
 
 
@@ -30,7 +30,7 @@ class GearCooling(Section, of=si.Cooling):
     """How the oil reaches the teeth, what else heats it, and what was measured."""
 
     def unused(self) -> dict[str, bool]:
-        """Mark what a measured temperature or a given flow takes the place of."""
+        """Mark fields as unused that a measured temperature or a given oil flow replaces."""
         measured = self.measured
         return {
             "flow_rise_k": self.gear_flow_l_per_min is not None,
@@ -40,7 +40,7 @@ class GearCooling(Section, of=si.Cooling):
 
     @property
     def is_given(self) -> bool:
-        """Whether anything of it is given."""
+        """Whether any field of the cooling is given."""
         return bool(self.model_fields_set)
 
 

@@ -23,7 +23,7 @@ class CouplingDesign(Section, of=si.Coupling, without=("crowning_ratio",)):
     tooth_stiffness_n_per_um: float | None
 
     def stands_for_null(self, name: str) -> Any:
-        """The stiffness of teeth of this material, which not every answer repeats."""
+        """Return the stiffness of teeth of this material; not every answer contains this stiffness."""
         return self.si(si.Coupling).tooth_stiffness * 1e-6 if name == STIFFNESS else None
 
 
@@ -95,7 +95,10 @@ class CouplingFriction(Section, of=si.Friction):
     """Friction between the teeth."""
 
     def unused(self) -> dict[str, bool]:
-        """A coefficient or a table leaves the curve out, a coefficient also what holds at rest."""
+        """Mark the curve as unused if a coefficient or a table is given.
+
+        Mark the coefficient at rest as unused if a coefficient is given.
+        """
         given = self.coefficient is not None
         return {"static_coefficient": given, "mixed_curve": given or self.mixed_law is not None}
 
@@ -116,7 +119,7 @@ class _CouplingRequest(Request):
     )
 
     def unused(self) -> dict[str, bool]:
-        """What given values replace, and what the arrangement does without."""
+        """Mark inputs as unused that other given values replace, or that do not apply to the arrangement."""
         arrangement, offset = self.operation.arrangement, getattr(self.operation, "parallel_offset_mm", None)
         return {
             "model.inlet": self.model.inlet_length_mm is not None,
@@ -135,7 +138,6 @@ class CouplingRequest(_CouplingRequest):
     operation: Annotated[CouplingOperation, Input("operating point")]
 
     def inputs(self) -> si.CouplingInputs:
-        """The solver's inputs."""
         return self._design(self.operation.operation(self.coupling.si(si.Coupling).hub_distance))
 
 
@@ -146,11 +148,14 @@ class SleeveOrbitRequest(CouplingRequest):
     """
 
     def options(self) -> dict[str, Any]:
-        """The kinematics; the sleeve always floats."""
+        """Return the options in force: the chosen kinematics, and a floating sleeve in every case."""
         return {"kinematics": self.model.kinematics, "sleeve": "floating"}
 
     def unused(self) -> dict[str, bool]:
-        """All that belongs to contact, film, friction and a second mesh; Young's modulus with a stiffness given."""
+        """Mark the inputs of contact, film, friction and the second mesh as unused.
+
+        Mark Young's modulus as unused if the tooth stiffness is given.
+        """
         contact = ("face_width_mm", "tooth_height_mm", "poisson_ratio", "hub_distance_mm")
         unused = dict.fromkeys(("lubricant", "friction", "model", *(f"coupling.{name}" for name in contact)), True)
         return unused | {"coupling.youngs_modulus_gpa": self.coupling.tooth_stiffness_n_per_um is not None}
@@ -163,11 +168,13 @@ class RecommendationRequest(_CouplingRequest):
     operation: Annotated[CouplingOperationRange, Input("operating point", text="with a range of misalignment")]
 
     def unused(self) -> dict[str, bool]:
-        """Also the inputs of what is calculated at a single operating point only: one-pair thrust, friction at rest."""
+        """Mark also inputs as unused that only affect results at a single operating point.
+
+        These results are the thrust with one pair of teeth, and the friction at rest.
+        """
         return super().unused() | {"model.simple_thrust_factor": True, "friction.static_coefficient": True}
 
     def inputs(self) -> si.RecommendationInputs:
-        """The solver's inputs."""
         smallest, largest = map(UNITS["deg"].to_si, self.operation.misalignment_range_deg)
         design = self._design(self.operation.si(si.Operation, misalignment=smallest))
         return si.RecommendationInputs(design, min_misalignment=smallest, max_misalignment=largest)

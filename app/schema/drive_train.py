@@ -53,7 +53,7 @@ class TrainGears(BacklashGears, of=si.Arrangement, only=("hand",)):
     ] = None
 
     def pair(self, rack_tip_radius: float) -> GearPairInputs:
-        """The solver's pair; `rack_tip_radius` counts where none is given."""
+        """Return the solver's pair; `rack_tip_radius` is the tip radius coefficient if the request has none."""
         own = self.rack_tip_radius
         return self.si(GearPairInputs, rack_tip_radius=rack_tip_radius if own is None else own)
 
@@ -77,7 +77,10 @@ class TrainModel(MeshModel, PumpingOptions, of=si.DriveTrainInputs, only=("face_
 
 
 def _isotropic(value: Any) -> Any:
-    """A number stands for a bearing as stiff in every direction."""
+    """Return the matrix of a bearing with the same stiffness in every direction if the value is a number.
+
+    Return any other value unchanged.
+    """
     if isinstance(value, int | float) and not isinstance(value, bool):
         return [[value, 0.0], [0.0, value]]
     return value
@@ -153,14 +156,14 @@ class ShaftBearing(Section):
     ] = None
 
     def unused(self) -> dict[str, bool]:
-        """Clearance and oil belong to plain bearings."""
+        """Mark clearance and viscosity as unused unless the bearing is a plain bearing."""
         return dict.fromkeys(("radial_clearance_um", "viscosity_pa_s"), self.type != "journal")
 
     def bearing(self, scuffing: mesh.ScuffingInputs) -> si.Bearing:
-        """Return the solver's bearing; a plain bearing without a viscosity of its own runs in the gears' oil.
+        """Return the solver's bearing; a plain bearing for which no viscosity is given runs in the gears' oil.
 
-        Raises InvalidInput `no_oil` if a plain bearing has neither a viscosity nor an oil, and `bearing_data` if data
-        of its type are missing.
+        Raises InvalidInput `no_oil` if neither the viscosity of a plain bearing nor the gears' oil is given, and
+        `bearing_data` if data that the type of bearing requires are missing.
         """
         if self.type == "rigid":
             return self.si(si.RigidBearing)
@@ -194,9 +197,10 @@ class UnitShaft(Section, of=si.Shaft, without=("ultimate_thrust",)):
     thrust_bearing: Annotated[ThrustBearing, Input("thrust bearing")] = ThrustBearing()
 
     def shaft(self, name: str, scuffing: mesh.ScuffingInputs, face_start: float) -> si.Shaft:
-        """Return the solver's shaft, named "pinion_shaft" or "wheel_shaft"; the face starts at `face_start` [m].
+        """Return the solver's shaft.
 
-        Raises InvalidInput with the full name of the wrong field.
+        `name` is "pinion_shaft" or "wheel_shaft", and `face_start` [m] is the position at which the face starts. Raises
+        InvalidInput with the full name of the wrong field.
         """
         sections = tuple(self._sections(name, scuffing.distribution.gears, face_start))
         bearings = []
@@ -208,16 +212,16 @@ class UnitShaft(Section, of=si.Shaft, without=("ultimate_thrust",)):
         return self.si(si.Shaft, self.thrust_bearing, bearings=tuple(bearings), sections=sections)
 
     def _sections(self, name: str, gears: GearPairInputs, face_start: float) -> Iterator[si.ShaftSection]:
-        """Yield the solver's sections; a section under the face without a diameter gets the diameter for torsion.
+        """Yield the solver's sections; a section under the teeth without a diameter gets the diameter for torsion.
 
-        Raises InvalidInput `section_diameter` if a section beside the face has no diameter.
+        Raises InvalidInput `section_diameter` if a section that is not under the teeth has no diameter.
         """
         teeth = gears.pinion if name == "pinion_shaft" else gears.wheel
         position = UNITS["mm"].to_si(self.start_mm)
         for k, cylinder in enumerate(self.sections):
             left_out = cylinder.outer_diameter_mm is None
-            known = {"outer_diameter": si.torsion_diameter(gears, teeth)} if left_out else {}
-            section = cylinder.si(si.ShaftSection, **known)
+            default = {"outer_diameter": si.torsion_diameter(gears, teeth)} if left_out else {}
+            section = cylinder.si(si.ShaftSection, **default)
             end = position + section.length
             beside = position > face_start + gears.face_width - si.COINCIDENT or end < face_start + si.COINCIDENT
             if left_out and beside:
@@ -238,7 +242,10 @@ class UnitCoupling(Section, of=si.UnitCoupling):
     lubricant: CouplingLubricant
 
     def unused(self) -> dict[str, bool]:
-        """Friction at rest, for the shaft rotates; with a coefficient of friction the oil."""
+        """Mark friction at rest as unused, because the shaft rotates.
+
+        Mark the oil as unused if a coefficient of friction is given.
+        """
         return {"friction.static_coefficient": True, "lubricant": self.friction.coefficient is not None}
 
 
@@ -310,7 +317,10 @@ class DriveTrainRequest(MeshInOil):
 
     @model_validator(mode="after")
     def bodies_hold_the_pumped_heat(self) -> Self:
-        """With a heat balance tooth temperatures are its bodies, which hold the pumped heat."""
+        """Include the pumped heat in the tooth temperatures if they come from the heat balance.
+
+        The heat balance computes the temperatures of the gear bodies, which take up the pumped heat.
+        """
         if not self.is_balanced:
             return self
         thermal = self.thermal
@@ -318,15 +328,17 @@ class DriveTrainRequest(MeshInOil):
             raise PydanticCustomError(
                 "exclusive", "thermal.bulk_includes_pumping is true with the heat balance, whose bodies hold that heat"
             )
-        known = thermal.model_copy(update={"bulk_includes_pumping": True})
-        return self.model_copy(update={"thermal": known})
+        heat = thermal.model_copy(update={"bulk_includes_pumping": True})
+        return self.model_copy(update={"thermal": heat})
 
     def running(self) -> tuple[GearPairInputs, mesh.Load]:
-        """The pair and its load."""
         return self.gears.pair(RACK_A), self.operation.si(mesh.Load)
 
     def inputs(self) -> si.DriveTrainInputs:
-        """The solver's inputs. Raises InvalidInput no_oil where a plain bearing has neither a viscosity nor an oil."""
+        """Return the solver's inputs.
+
+        Raises InvalidInput `no_oil` if neither the viscosity of a plain bearing nor the gears' oil is given.
+        """
         scuffing, face_start = self.scuffing_inputs(*self.running()), UNITS["mm"].to_si(self.face_start_mm)
         return self.si(
             si.DriveTrainInputs,
@@ -343,7 +355,10 @@ class DriveTrainRequest(MeshInOil):
         )
 
     def _couplings(self) -> Iterator[si.UnitCoupling]:
-        """The solver's couplings; an oil that none can be is that of its own coupling."""
+        """Yield the solver's couplings.
+
+        Raises InvalidInput with the full name of the wrong field if the oil of a coupling is impossible.
+        """
         for k, unit in enumerate(self.couplings):
             try:
                 lubricant = unit.lubricant.at_teeth()
@@ -352,11 +367,11 @@ class DriveTrainRequest(MeshInOil):
             yield unit.si(si.UnitCoupling, lubricant=lubricant)
 
     def options(self) -> dict[str, Any]:
-        """The model section, the number of slices filled in."""
+        """Return the options of the model section with the number of slices that is used."""
         return super().options() | {"slices": self.model.si(pumping.PumpingModel).slice_count}
 
     def unused(self) -> dict[str, bool]:
-        """Also what belongs to effects that are left out."""
+        """Mark also inputs as unused that belong to effects that are switched off or that a heat balance replaces."""
         coupled = self.couplings and self.effects.shafts and self.effects.coupling
         return (
             super().unused()
@@ -384,11 +399,10 @@ class WarmUpRequest(DriveTrainRequest, of=warm_up.WarmUpInputs):
         return self
 
     def unused(self) -> dict[str, bool]:
-        """The mass of a casing counts; other states are not asked for."""
+        """Mark the mass of the casing as used, and the states as unused."""
         return super().unused() | {"cooling.casing.mass_kg": False, "states": True}
 
     def inputs(self) -> warm_up.WarmUpInputs:  # type: ignore[override]
-        """The solver's inputs."""
         return self.si(warm_up.WarmUpInputs, unit=super().inputs())
 
 
@@ -557,5 +571,5 @@ class DriveTrainResponse(Response, of=results.DriveTrainResult):
     """A gear unit whole; sections are missing where there is no solution."""
 
     def remarks(self) -> dict[str, str]:
-        """Say how well the flanks of a heat balance are known that no measured temperature narrows."""
+        """Return the uncertainty of the flank temperatures of a heat balance without measured temperatures."""
         return how_well_known(self, "heat.pinion.flank_c", "heat.wheel.flank_c")

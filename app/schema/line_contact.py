@@ -24,7 +24,7 @@ class FilmModel(Section, of=ehl.Model, without=("thermal",)):
     """Physics and resolution of the film."""
 
     def unused(self) -> dict[str, bool]:
-        """A Newtonian film has no Eyring stress."""
+        """Mark the Eyring stress as unused in a Newtonian film."""
         return super().unused() | {"eyring_stress_mpa": self.rheology == "newtonian"}
 
 
@@ -47,19 +47,22 @@ class LineContactRequest(Request):
     )
 
     def options(self) -> dict[str, Any]:
-        """The model section and the laws of the oil."""
+        """Return the options of the model section and the laws of the oil."""
         laws = self.lubricant.model_dump(include={"pressure_viscosity_law", "compressible"})
         return super().options() | laws
 
     def unused(self) -> dict[str, bool]:
-        """An isothermal film does not know the temperatures of the surfaces, one by its viscosity no kind of oil."""
+        """Mark the temperatures of the surfaces as unused in an isothermal film.
+
+        Mark the kind of oil as unused if the oil is given by its viscosity.
+        """
         isothermal = dict.fromkeys(("temperatures.surface_1_c", "temperatures.surface_2_c"), not self.model.thermal)
         return isothermal | {"lubricant.kind": not self.lubricant.by_sheet}
 
     def inputs(self) -> ehl.LineContactInputs:
-        """The solver's inputs; an oil by its data sheet is what it is at the inlet.
+        """Return the solver's inputs; the properties of an oil by its data sheet are those at the inlet temperature.
 
-        Raises InvalidInput no_oil without one.
+        Raises InvalidInput `no_oil` if no oil is given.
         """
         oil = self.lubricant.resolve()
         if oil is None:

@@ -3,12 +3,15 @@
     class CouplingModel(Section, of=si.ModelOptions):
         \"\"\"Choices where the paper leaves room.\"\"\"
 
-has a field for each declaration on `si.ModelOptions`, named with the suffix of its unit, and without the underscore at
-its end where it would be a word of Python (`from_`). What stands in the class itself is an ordinary field of pydantic:
-under the name of a filled field it changes the type or the default, and with `Input` or `Output` beside the type it
-replaces the declaration; `Input.of(Record, "field", text=...)` changes part of one. Requests give the solver's
-dataclasses in SI (`Section.si`), responses are read from them (`from_si`), by names and units looked up once a model
-(`members`).
+has a field for each declaration of `si.ModelOptions`. If the quantity has a unit, the name of the field ends with the
+unit. A trailing underscore, which keeps a solver's name from being a word of Python (`from_`), is dropped.
+
+The class body may declare ordinary fields of pydantic. A field that has the name of a filled field changes the type or
+the default of the filled field. If its type is annotated with an `Input` or `Output`, this replaces the declaration of
+the solver; `Input.of(Record, "field", text=...)` replaces only a part of the declaration.
+
+`Section.si` converts a request into the solver's dataclasses in SI, and `from_si` reads a response from the solver's
+result. Both use the names and units of `members`, which are looked up once per model.
 """
 
 from abc import abstractmethod
@@ -50,9 +53,9 @@ MODEL_VERSION = version("tribodrive")
 class Documented(BaseModel):
     """A model with fields for the declarations of dataclasses.
 
-    `exclusive` lists groups of fields of which at most one is given. `member_unit` is the unit of the fields whose own
-    names carry none: a group `mass_flow_g_per_s` says it once for its members. `views` are the judgements of outputs,
-    by the solver's names.
+    `exclusive` lists groups of fields; at most one field of each group may be given. `member_unit` is the unit of all
+    fields whose own names do not state a unit: the group `mass_flow_g_per_s` states the unit of its members. `views`
+    maps the solver's names of outputs to the ways in which the outputs are judged.
     """
 
     exclusive: ClassVar[tuple[tuple[str, ...], ...]] = ()
@@ -60,12 +63,12 @@ class Documented(BaseModel):
     views: ClassVar[dict[str, View]] = {}
     _declares: ClassVar[type[Input] | type[Output]] = Input
     _stands: ClassVar[bool] = True  # whether the model is used for its dataclass inside other models
-    _optional: ClassVar[bool] = False  # whether filled fields may be missing: where there is no solution
+    _optional: ClassVar[bool] = False  # whether filled fields may be missing, as they are without a solution
 
     if TYPE_CHECKING:
 
         def __getattr__(self, name: str) -> Any:
-            """Filled fields."""
+            """Let the type checker accept the filled fields, which only exist at run time."""
 
     def __init_subclass__(
         cls,
@@ -78,28 +81,29 @@ class Documented(BaseModel):
     ) -> None:
         """Fill the model from the declarations of dataclasses: all, `only` some, or all `without` some.
 
-        Of several the first is the solver's result; the others are members of it, which may be None. Fields that a base
-        has stay as they are. If a model `stands` for its whole dataclass, it is the model of this dataclass inside
-        other models. Raises TypeError if two models stand for one dataclass.
+        If `of` has several dataclasses, the first is the solver's result, and the others are the types of members of
+        the result, which may be None. Fields that a base class has remain unchanged. If a model `stands` for its whole
+        dataclass, other models use it for this dataclass. Raises TypeError if two models stand for one dataclass, or if
+        `only` or `views` has a name that is not declared.
         """
         super().__init_subclass__(**config)
         records: tuple[Any, ...] = of if isinstance(of, tuple) else (of,)
-        declared = {name: (record, each) for record in records for name, each in quantities(record).items()}
+        declared = {name: (record, quantity) for record in records for name, quantity in quantities(record).items()}
         if unknown := {*only, *vars(cls).get("views", {})} - {*declared}:
             raise TypeError(f"{cls.__name__} names fields that are not declared: {', '.join(sorted(unknown))}")
         names = {  # in the interface
-            name: name.rstrip("_") if each.unit in {None, cls.member_unit} else f"{name}_{each.unit}"
-            for name, (_, each) in declared.items()
+            name: name.rstrip("_") if quantity.unit in {None, cls.member_unit} else f"{name}_{quantity.unit}"
+            for name, (_, quantity) in declared.items()
         }
-        inherited = {each.name for base in cls.__bases__ for each in members(base) if each.record}
-        own = get_annotations(cls)  # change the type of a filled field, or stand beside it
+        inherited = {member.name for base in cls.__bases__ for member in members(base) if member.record}
+        own = get_annotations(cls)  # of fields that replace the type of a filled field, or of further fields
         filled: dict[str, Any] = {}
         for name in only or declared:
-            (record, each), field = declared[name], names[name]
+            (record, quantity), field = declared[name], names[name]
             if name in without or (field in inherited and field not in own):
                 continue
-            kind = own.get(field) or _published(type_of(record, name), each, cls._declares)
-            if meaning_of(getattr(kind, "__metadata__", ())):  # brings its own declaration, and has its place here
+            kind = own.get(field) or _published(type_of(record, name), quantity, cls._declares)
+            if meaning_of(getattr(kind, "__metadata__", ())):  # has its own declaration, but its place is here
                 filled[field] = kind
                 continue
             filled[field], default = cls._filled(kind, record, name, names, nullable=record is not records[0])
@@ -114,22 +118,22 @@ class Documented(BaseModel):
     @classmethod
     @abstractmethod
     def _filled(cls, kind: Any, record: Any, name: str, names: dict[str, str], *, nullable: bool) -> tuple[Any, Any]:
-        """Type and default of a field; `names` are those of the interface by the solver's."""
+        """Return the type and the default of a field; `names` maps the solver's names to those of the interface."""
 
 
 _MODELS: dict[tuple[type, type], type[Documented]] = {}
-"""The model of a dataclass inside other models, of requests and of answers."""
+"""The models that other models use for a dataclass; the keys are `Input` or `Output`, and the dataclass."""
 
 
 def _published(hint: Any, declared: Quantity, declares: type) -> Any:
-    """The type of a field in the interface: models for dataclasses, lists for tuples and arrays."""
+    """Return the type of a field in the interface, with models for dataclasses and lists for tuples and arrays."""
     alias = getattr(get_origin(hint), "__value__", None)  # of NDArray[...] since numpy 2.5
     hint = hint if alias is None else alias[get_args(hint)]
     origin, arguments = get_origin(hint), get_args(hint)
     if isinstance(hint, type) and is_dataclass(hint):
         return _MODELS[declares, hint]
     if origin in {Union, UnionType}:
-        return Union[tuple(_published(each, declared, declares) for each in arguments)]  # noqa: UP007
+        return Union[tuple(_published(argument, declared, declares) for argument in arguments)]  # noqa: UP007
     if origin is np.ndarray:
         number: Any = bool if "bool" in str(arguments[1]) else float
         row = GenericAlias(list, number | None if declared.gaps else number)
@@ -143,7 +147,7 @@ def _published(hint: Any, declared: Quantity, declares: type) -> Any:
 
 
 def kinds(annotation: Any, lists: int = 0) -> Iterator[tuple[Any, int]]:
-    """The types of single values that an annotation allows, each with the number of lists around it."""
+    """Yield each type of a single value that an annotation allows, with the number of lists around the type."""
     origin = get_origin(annotation)
     if origin is Annotated:
         yield from kinds(get_args(annotation)[0], lists)
@@ -156,11 +160,11 @@ def kinds(annotation: Any, lists: int = 0) -> Iterator[tuple[Any, int]]:
 
 @dataclass(frozen=True, slots=True)
 class Member:
-    """A field of a model: what it means and holds, and the field of a solver's dataclass that it fills or is read from.
+    """A field of a model: its meaning, its types, and the corresponding field of a solver's dataclass.
 
-    `record` is that dataclass, None where it may be any; `solver_name` is then the name without its unit. `kinds` are
-    the types of single values, `group` the section or group among them, alone, optional or as the items of a list.
-    `dimensions` is 0 for a scalar, 1 for a list, 2 for a matrix.
+    `record` is the dataclass and `solver_name` its field. If the declaration is not taken from a dataclass, `record` is
+    None and `solver_name` is the name of the field without its unit. `kinds` are the types of single values. `group` is
+    the section or group among these types, or None. `dimensions` is 0 for a scalar, 1 for a list, 2 for a matrix.
     """
 
     name: str
@@ -176,8 +180,8 @@ class Member:
 
 @cache
 def members(model: type[BaseModel]) -> tuple[Member, ...]:
-    """The fields of a model that are declared."""
-    found = []
+    """Return the fields of a model that have an `Input` or `Output`."""
+    declared = []
     for name, info in model.model_fields.items():
         if meaning := meaning_of(info.metadata):
             record, solver_name = meaning.origin or (None, name.removesuffix(f"_{meaning.unit}"))
@@ -185,29 +189,40 @@ def members(model: type[BaseModel]) -> tuple[Member, ...]:
             allowed, lists = zip(*kinds(info.annotation), strict=True)
             groups = (kind for kind in allowed if isinstance(kind, type) and issubclass(kind, Documented))
             group, dimensions = next(groups, None), max(lists)
-            found.append(Member(name, info, meaning, record, solver_name, unit, allowed, group, dimensions))
-    return tuple(found)
+            declared.append(Member(name, info, meaning, record, solver_name, unit, allowed, group, dimensions))
+    return tuple(declared)
 
 
 @cache
 def _fillings(model: type[Documented], record: Any) -> tuple[tuple[str, Member, Any], ...]:
-    """The fields of a dataclass that a section has, and the dataclass inside each, None of plain values."""
-    known = {each.solver_name: each for each in members(model) if not each.record or issubclass(record, each.record)}
+    """Return the fields of a dataclass that a section fills.
+
+    Each item has the name of the field, the member of the section that fills the field, and the dataclass in the type
+    of the field, or None if there is no dataclass in the type.
+    """
+    by_solver_name = {
+        member.solver_name: member
+        for member in members(model)
+        if not member.record or issubclass(record, member.record)
+    }
     hints = get_type_hints(record)
     return tuple(
-        (each.name, known[each.name], _record_in(hints[each.name]))
-        for each in fields(record)
-        if each.init and each.name in known
+        (field.name, by_solver_name[field.name], _record_in(hints[field.name]))
+        for field in fields(record)
+        if field.init and field.name in by_solver_name
     )
 
 
 def _record_in(hint: Any) -> Any:
-    """The dataclass in a type, alone, optional or as the item of a tuple; None where there is none."""
+    """Return the dataclass in a type: the type itself, the type beside None, or the type of the items of a tuple.
+
+    Return None if the type contains no dataclass.
+    """
     return next((kind for kind, _ in kinds(hint) if is_dataclass(kind)), None)
 
 
 def _in_si(value: Any, unit: Unit | None, record: Any) -> Any:
-    """Return a value of a request in SI; a section fills the dataclass `record`."""
+    """Return a value of a request in SI; if the value is a section, it fills the dataclass `record`."""
     inside = None if record is None else lambda section: section.si(record)
     return converted(value, unit.to_si if unit else _unchanged, inside)
 
@@ -217,7 +232,7 @@ def _unchanged(value: Any) -> Any:
 
 
 def from_si(group: type[Documented], result: Any, detail: Detail) -> dict[str, Any]:
-    """The fields of a response group that a solver's result declares, in the units of their names.
+    """Return the fields of a response group that are read from a solver's result, in the units of their names.
 
     Fields above the level of detail are left out.
     """
@@ -232,25 +247,31 @@ def from_si(group: type[Documented], result: Any, detail: Detail) -> dict[str, A
 
 @cache
 def _sources(group: type[Documented], record: Any, detail: Detail) -> tuple[tuple[Member, str | None], ...]:
-    """The filled fields of a group, and the member of the result that holds each; None for the result's own."""
+    """Return the filled fields of a group at a level of detail, each with its holder.
+
+    The holder is the name of the part of the result that has the field, or None if the result itself has the field.
+    """
     held = {name: inner for name, hint in get_type_hints(record).items() if (inner := _record_in(hint))}
-    found = []
-    for each in members(group):
-        if each.record and LEVELS.index(each.meaning.detail) <= LEVELS.index(detail):
-            holders = (name for name, inner in held.items() if issubclass(inner, each.record))
-            found.append((each, None if issubclass(record, each.record) else next(holders, None)))
-    return tuple(found)
+    sources = []
+    for member in members(group):
+        if member.record and LEVELS.index(member.meaning.detail) <= LEVELS.index(detail):
+            holders = (name for name, inner in held.items() if issubclass(inner, member.record))
+            sources.append((member, None if issubclass(record, member.record) else next(holders, None)))
+    return tuple(sources)
 
 
 def _displayed(value: Any, member: Member, detail: Detail) -> Any:
-    """A value in the unit of its field; NaN inside an array marks a point without a value and becomes None."""
+    """Return a value in the unit of its field.
+
+    NaN in an array marks a point without a value and becomes None.
+    """
     group, unit = member.group, member.unit
     inside = None if group is None else lambda part: from_si(group, part, detail)
     return converted(value, lambda number: as_json(unit.from_si(number) if unit else number), inside, list)
 
 
 def _with_choices(document: dict[str, Any], section: type[Any]) -> None:
-    """The schema with `x-exclusive`."""
+    """Add the groups of fields that exclude each other to the JSON schema, as `x-exclusive`."""
     if section.exclusive:
         document["x-exclusive"] = [list(group) for group in section.exclusive]
 
@@ -258,8 +279,8 @@ def _with_choices(document: dict[str, Any], section: type[Any]) -> None:
 class Section(Documented):
     """A part of a request: unknown fields are refused, numbers are numbers, finite and in range.
 
-    `choice_code` is the code of an error where two fields that exclude each other are given, `choice_missing` that
-    where none is, if one is required.
+    `choice_code` is the code of the error if two fields that exclude each other are given. `choice_missing` is the code
+    of the error if no field of such a group is given; if it is None, no field of the group is required.
     """
 
     model_config = ConfigDict(extra="forbid", frozen=True, json_schema_extra=_with_choices)
@@ -278,7 +299,7 @@ class Section(Documented):
 
     @model_validator(mode="after")
     def one_of_each_choice(self) -> Self:
-        """Refuse two fields that exclude each other, and none of them where one is required."""
+        """Refuse two fields that exclude each other, and the lack of all of them if one is required."""
         for group in self.exclusive:
             given = [name for name in group if getattr(self, name) is not None]
             if len(given) > 1:
@@ -289,34 +310,39 @@ class Section(Documented):
                 raise PydanticCustomError(self.choice_missing, "give {names}", {"names": " or ".join(group)})
         return self
 
-    def si(self, kind: type[T], /, *others: "Section", **known: Any) -> T:
-        """The solver's dataclass in SI that these fields fill, then those of other sections.
+    def si(self, kind: type[T], /, *others: "Section", **values: Any) -> T:
+        """Return the solver's dataclass `kind` in SI, filled from this section and from other sections.
 
-        Sections inside these fill the dataclasses inside it; what is `known` stands for fields of its own.
+        If several sections have a field of the dataclass, the value of the first section is taken. Sections inside the
+        sections fill the dataclasses inside the dataclass. `values` are values in SI that are taken unchanged; they
+        take precedence over the sections.
         """
-        return kind(**self.filling(kind, *others, **known))
+        return kind(**self.filling(kind, *others, **values))
 
-    def filling(self, kind: type[Any], /, *others: "Section", **known: Any) -> dict[str, Any]:
+    def filling(self, kind: type[Any], /, *others: "Section", **values: Any) -> dict[str, Any]:
         """Return the values that `si` gives to the dataclass, by the names of its fields."""
         given: dict[str, Any] = {}
         record: Any = kind
         for section in reversed((self, *others)):
             for name, member, inner in _fillings(type(section), record):
-                if name not in known:
+                if name not in values:
                     given[name] = _in_si(getattr(section, member.name), member.unit, inner)
-        return given | known
+        return given | values
 
     def unused(self) -> dict[str, bool]:
-        """Whether the values given leave a field or section out of a result, by names dotted below this section."""
+        """Return which fields and sections do not affect the result, because other values are given.
+
+        The keys are dotted names below this section. True marks a field or section as unused.
+        """
         return {}
 
     def stands_for_null(self, _name: str) -> Any:
-        """What a field that was left null stands for, where the section itself knows it."""
+        """Return the value that is used for a field that is null, or None if the section does not know the value."""
         return None
 
 
 def _in_reading_order(document: dict[str, Any]) -> None:
-    """The schema as the docs page shows it best: what is required first, the level of detail last."""
+    """Sort the fields in the JSON schema for the docs page: required fields first, the level of detail last."""
     required, properties = document.get("required", ()), document["properties"]
     names = sorted(properties, key=lambda name: (name not in required, name == "detail"))
     document["properties"] = {name: properties[name] for name in names}
@@ -335,14 +361,14 @@ class Request(Section):
 
     @abstractmethod
     def inputs(self) -> Any:
-        """The solver's inputs, SI."""
+        """Return the solver's inputs in SI."""
 
     def options(self) -> dict[str, Any]:
-        """The options in force, by their names in the contract."""
+        """Return the options in force by their names in the interface."""
         return self.model.model_dump()  # type: ignore[no-any-return]
 
     def assumed_by_the_model(self) -> dict[str, str]:
-        """What the options in force take for granted whatever else is given: reasons by dotted names of options."""
+        """Return the assumptions that follow from the options in force: reasons by dotted names of options."""
         return {}
 
 
@@ -356,7 +382,7 @@ class Group(Documented):
     def _filled(cls, kind: Any, record: Any, name: str, names: dict[Any, Any], *, nullable: bool) -> tuple[Any, Any]:
         declared = quantities(record)[name]
         unit, axis = declared.unit or getattr(kind, "member_unit", None), declared.axis
-        axis = tuple(names.get(each, each) for each in axis) if isinstance(axis, tuple) else names.get(axis, axis)
+        axis = tuple(names.get(item, item) for item in axis) if isinstance(axis, tuple) else names.get(axis, axis)
         meaning = Output.of(record, name, unit=unit, axis=axis, **vars(cls.views.get(name, View())))
         optional = cls._optional or declared.detail != "summary"
         return Annotated[kind | None if optional or nullable else kind, meaning], None if optional else ...
@@ -428,21 +454,21 @@ class Response(Group):
 
     @property
     def result(self) -> Any:
-        """The solver's result that the response was read from, in SI; None where there is none."""
+        """The solver's result in SI from which the response was read; None without a solution."""
         return self._result
 
     def remarks(self) -> dict[str, str]:
-        """How well results are known, where that is to stand beside them: texts by path."""
+        """Return remarks on the accuracy of results, which pages show beside the results: texts by path."""
         return {}
 
     def read_from(self, result: Any) -> Self:
-        """The response with the solver's result kept beside it, for its figures."""
+        """Keep the solver's result, which the figures need, and return the response."""
         self._result = result
         return self
 
     @classmethod
     def __pydantic_init_subclass__(cls, **_: Any) -> None:
-        """Results stand before what they rest on."""
-        known = cls.__pydantic_fields__
-        cls.__pydantic_fields__ = {name: known[name] for name in sorted(known, key=lambda name: name in GROUNDS)}
+        """Move the fields in `GROUNDS` behind the results."""
+        by_name = cls.__pydantic_fields__
+        cls.__pydantic_fields__ = {name: by_name[name] for name in sorted(by_name, key=lambda name: name in GROUNDS)}
         cls.model_rebuild(force=True)

@@ -17,7 +17,7 @@ _PAPERS = Lubricant()
 
 
 def _names_a_sheet(given: dict[str, Any]) -> bool:
-    """Whether what was sent for an oil names a grade or a data sheet."""
+    """Return whether the fields sent for an oil name a grade or a data sheet."""
     return given.get("iso_vg") is not None or given.get("kinematic_viscosity_40_mm2_per_s") is not None
 
 
@@ -79,7 +79,11 @@ class SheetOil(Section):
 
     @model_validator(mode="after")
     def one_way(self) -> Self:
-        """The viscosity at 40 °C beside that at 100 °C; beside a viscosity index, that or the grade."""
+        """Refuse incomplete data and two data for one property.
+
+        A viscosity at 100 °C requires the viscosity at 40 °C and excludes the grade. A viscosity index requires the
+        viscosity at 40 °C or the grade.
+        """
         thin = self.kinematic_viscosity_100_mm2_per_s
         if self.iso_vg is not None and thin is not None:
             raise PydanticCustomError("exclusive", "iso_vg and kinematic viscosities are both given; keep one")
@@ -96,7 +100,7 @@ class SheetOil(Section):
     def sheet(self) -> OilSheet | None:
         """Return the solver's oil by grade or data sheet, or None if neither is given.
 
-        Raises InvalidInput (`viscosity_order`, `viscosity_index`) for viscosities that no oil has.
+        Raises InvalidInput (`viscosity_order`, `viscosity_index`) if no oil can have the viscosities.
         """
         index, kind, density = self.viscosity_index, self.kind, self.density_15_kg_per_m3
         if self.iso_vg is not None:
@@ -108,14 +112,17 @@ class SheetOil(Section):
         return self.si(OilSheet)
 
     def stands_for_null(self, name: str) -> Any:
-        """The viscosity at 100 °C by index or kind, the density of a kind of oil."""
+        """Return the viscosity at 100 °C by viscosity index or kind of oil, or the density by kind of oil."""
         sheet = self.sheet()
         if sheet and name == "kinematic_viscosity_100_mm2_per_s":
             return sheet.kinematic_viscosity_100 / SQUARE_MILLIMETRE
         return sheet.reference_density if sheet and name == "density_15_kg_per_m3" else None
 
     def unused(self) -> dict[str, bool]:
-        """What only grade and data sheet have; with a viscosity index nothing is assumed of the oil at 100 °C."""
+        """Mark the properties of grades and data sheets as unused if neither is given.
+
+        Mark the viscosity at 100 °C as unused if the viscosity index is given.
+        """
         of_a_sheet = ("kinematic_viscosity_100_mm2_per_s", "viscosity_index", "density_15_kg_per_m3")
         by_index = {"kinematic_viscosity_100_mm2_per_s": self.viscosity_index is not None}
         return by_index if self.by_sheet else dict.fromkeys(of_a_sheet, True)
@@ -171,14 +178,17 @@ class Oil(SheetOil, of=Lubricant):
     @model_validator(mode="before")
     @classmethod
     def properties_follow_the_sheet(cls, given: Any) -> Any:
-        """Properties have defaults of their own only with a viscosity; otherwise they follow from the sheet, if any."""
+        """Keep the defaults of the properties only if the oil is given by its viscosity, and drop them otherwise.
+
+        With a grade or data sheet the properties follow from it.
+        """
         if not isinstance(given, dict) or (given.get("viscosity_pa_s") is not None and not _names_a_sheet(given)):
             return given
         return dict.fromkeys(_WITH_VISCOSITY) | given
 
     @model_validator(mode="after")
     def one_reference(self) -> Self:
-        """The density belongs to a viscosity, with which no property may be null."""
+        """Refuse a density beside a grade or data sheet, and a property that is null beside a viscosity."""
         if self.by_sheet and self.density_kg_per_m3 is not None:
             raise PydanticCustomError(
                 "exclusive", "density_kg_per_m3 and a grade or data sheet are both given; keep one"
@@ -194,7 +204,7 @@ class Oil(SheetOil, of=Lubricant):
         """Return the solver's oil, or None if no viscosity is given. Raises the errors of `sheet`."""
         sheet, properties = self.sheet(), self.filling(Lubricant, kind=self.kind)
         if sheet is not None:
-            beyond = (each.name for each in fields(OilSheet) if each.name in properties)
+            beyond = (field.name for field in fields(OilSheet) if field.name in properties)
             return replace(sheet, **{name: properties[name] for name in beyond})
         return None if self.viscosity_pa_s is None else Lubricant(**properties)
 
@@ -204,7 +214,10 @@ class Oil(SheetOil, of=Lubricant):
         return self.by_sheet or self.viscosity_pa_s is not None
 
     def unused(self) -> dict[str, bool]:
-        """What this way of giving the oil leaves out of a result; whether its kind counts is the request's to say."""
+        """Mark reference temperature and density as unused if the oil is given by grade or data sheet.
+
+        The request decides whether the kind of oil is used.
+        """
         return super().unused() | dict.fromkeys(("reference_temperature_c", "density_kg_per_m3"), self.by_sheet)
 
 
@@ -233,12 +246,12 @@ class CouplingLubricant(SheetOil):
     @model_validator(mode="before")
     @classmethod
     def viscosity_follows_the_sheet(cls, given: Any) -> Any:
-        """With grade or data sheet the default viscosity is left out."""
+        """Drop the default viscosity if a grade or data sheet is given."""
         return {"viscosity_pa_s": None} | given if isinstance(given, dict) and _names_a_sheet(given) else given
 
     @model_validator(mode="after")
     def some_viscosity(self) -> Self:
-        """Refuse an oil of which nothing says how viscous it is."""
+        """Refuse an oil without a viscosity, a grade and a data sheet."""
         if not self.by_sheet and self.viscosity_pa_s is None:
             raise PydanticCustomError("missing_property", "give viscosity_pa_s, or the oil by its grade or data sheet")
         return self
@@ -252,7 +265,7 @@ class CouplingLubricant(SheetOil):
         return self.si(OilAtTeeth, viscosity=viscosity, viscosity_index=sheet.viscosity_index)
 
     def unused(self) -> dict[str, bool]:
-        """What this way of giving the oil leaves out of a result."""
+        """Mark the viscosity as unused with a grade or data sheet, and the fields of data sheets otherwise."""
         of_a_sheet = () if self.by_sheet else (*SheetOil.model_fields, "temperature_c")
         return super().unused() | dict.fromkeys(of_a_sheet, True) | {"viscosity_pa_s": self.by_sheet}
 

@@ -31,7 +31,11 @@ class PumpingOptions(Section, of=si.PumpingModel):
     """Choices where the paper leaves room."""
 
     def unused(self) -> dict[str, bool]:
-        """Closure belongs to the pocket chain, wall transport to gas dynamics with contact gaps, slices to both."""
+        """Mark options as unused that the flow model does not have.
+
+        The pocket chain uses the closure, gas dynamics with contact gaps uses the wall transport, and both flow models
+        use slices.
+        """
         return super().unused() | {
             "closure": self.flow != "pocket_chain",
             "wall_transport": self.flow != "gas_dynamics" or self.gap != "contact",
@@ -45,11 +49,11 @@ class _PumpingSetup(Request, of=si.PumpingSetup, without=("normal_backlash",)):
     gears: PumpingGears
 
     def options(self) -> dict[str, Any]:
-        """The model section, the number of slices filled in."""
+        """Return the options of the model section with the number of slices that is used."""
         return super().options() | {"slices": self.model.si(si.PumpingModel).slice_count}
 
     def assumed_by_the_model(self) -> dict[str, str]:
-        """A flow with temperatures knows one speed only."""
+        """Return the assumption about the speed in the stagnation temperature, except for incompressible flow."""
         return {} if self.model.flow == "incompressible" else {"model.flow": AXIAL_SPEED_ONLY}
 
 
@@ -59,7 +63,6 @@ class PumpingRequest(_PumpingSetup):
     operation: Annotated[PumpingOperation, Input("operating point")]
 
     def inputs(self) -> si.PumpingInputs:
-        """The solver's inputs."""
         return self.operation.si(si.PumpingInputs, setup=self.si(si.PumpingSetup, self.gears))
 
 
@@ -67,7 +70,6 @@ class ChokingSpeedRequest(_PumpingSetup, of=si.ChokingInputs):
     """A gear pair whose choking speeds are sought."""
 
     def inputs(self) -> si.ChokingInputs:
-        """The solver's inputs."""
         return self.si(si.ChokingInputs, setup=self.si(si.PumpingSetup, self.gears))
 
 

@@ -29,7 +29,7 @@ class FlankModifications(Section, of=si.Modifications, without=("lead_curve",)):
     """Gaps along the transverse line of action, positive where material is missing."""
 
     def unused(self) -> dict[str, bool]:
-        """Lengths and exponent of reliefs that are zero."""
+        """Mark the length of each relief of zero height as unused, and the exponent if all reliefs are zero."""
         amplitudes = {relief: getattr(self, f"{relief}_um") for relief in ("tip_relief", "root_relief", "end_relief")}
         lengths = {f"{relief}_length_mm": value == 0.0 for relief, value in amplitudes.items()}
         return lengths | {"relief_exponent": all(lengths.values())}
@@ -61,7 +61,10 @@ class GearPairRequest(Request):
 
 
 def distribution_inputs(request: Request, gears: GearPairInputs, load: si.Load) -> si.LoadDistributionInputs:
-    """The solver's inputs for this pair and load, of a request with modifications, materials and friction."""
+    """Return the solver's inputs for this pair and load.
+
+    The modifications, the materials and the coefficient of friction are those of the request.
+    """
     return request.si(
         si.LoadDistributionInputs,
         gears=gears,
@@ -81,11 +84,10 @@ class LoadDistributionRequest(GearPairRequest):
     ] = LoadDistributionModel()
 
     def inputs(self) -> si.LoadDistributionInputs:
-        """The solver's inputs."""
         return distribution_inputs(self, self.gears.si(GearPairInputs), self.load.si(si.Load))
 
     def unused(self) -> dict[str, bool]:
-        """Roughness, which loads do not depend on."""
+        """Mark the roughness as unused, because the loads do not depend on it."""
         return {"materials.pinion.roughness_um": True, "materials.wheel.roughness_um": True}
 
 
@@ -253,7 +255,7 @@ class ContactTemperatures(Section, of=si.Temperatures):
 
     @model_validator(mode="after")
     def one_bulk(self) -> Self:
-        """One bulk temperature; the heat balance is for jets."""
+        """Refuse a bulk temperature with any other method than `given`, and a heat balance without jets of oil."""
         if self.bulk_method != "given" and self.bulk_c is not None:
             method = "an estimated bulk" if self.bulk_method == "estimated" else "a bulk by heat balance"
             raise PydanticCustomError("exclusive", "bulk_c and {method} are both given; keep one", {"method": method})
@@ -266,7 +268,7 @@ class ContactTemperatures(Section, of=si.Temperatures):
         return self
 
     def unused(self) -> dict[str, bool]:
-        """Mark the bulk temperature as unused unless it is given."""
+        """Mark the bulk temperature as unused if it is estimated or computed by the heat balance."""
         return {"bulk_c": self.bulk_method != "given"}
 
 
@@ -275,7 +277,7 @@ class ScuffingTemperatures(ContactTemperatures):
 
     @model_validator(mode="after")
     def known_bulk(self) -> Self:
-        """The method `given` needs a bulk temperature."""
+        """Refuse the method `given` without a bulk temperature."""
         if self.bulk_method == "given" and self.bulk_c is None:
             raise PydanticCustomError("missing_bulk", "give bulk_c, or bulk_method estimated or heat_balance")
         return self
@@ -291,9 +293,10 @@ class Micropitting(Section, of=si.MicropittingCheck):
     exclusive: ClassVar = (("failure_load_stage", "permissible_ratio"),)
 
     def unused(self) -> dict[str, bool]:
-        """Mark the test and its factors as unused if the permissible ratio is given.
+        """Mark the test of the oil and the material factor as unused if the permissible ratio is given.
 
-        Mark the surfaces as unused if the material factor is given.
+        Mark the surfaces as unused if the permissible ratio or the material factor is given, or if the test is not
+        given.
         """
         given = self.permissible_ratio is not None
         return dict.fromkeys(("failure_load_stage", "material_factor"), given) | {
@@ -337,7 +340,7 @@ SMOOTH_FILM = (
 
 
 def _is_given(sent: Any, path: str) -> bool:
-    """Whether what was sent has a value at a dotted path."""
+    """Return whether the body that was sent has a value other than null at a dotted path."""
     for name in path.split("."):
         sent = sent.get(name) if isinstance(sent, dict) else None
     return sent is not None
@@ -346,10 +349,11 @@ def _is_given(sent: Any, path: str) -> bool:
 class MeshInOil(Request):
     """What requests about scuffing have in common: a loaded pair with an oil, temperatures and a law of friction.
 
-    `methods` are the fields that are "given" where one of these values is, unless the request says otherwise.
+    `methods` maps the field of a method to fields of values: if one of the values is given, and the request does not
+    name the method, the method is "given".
     """
 
-    balance_is_default: ClassVar = False  # at any speed
+    balance_is_default: ClassVar = False  # whether the heat balance is the default at any speed
     methods: ClassVar[dict[str, tuple[str, ...]]] = {
         "model.friction": ("friction_coefficient",),
         "temperatures.bulk_method": ("temperatures.bulk_c",),
@@ -358,7 +362,7 @@ class MeshInOil(Request):
     @model_validator(mode="before")
     @classmethod
     def methods_of_given_values(cls, sent: Any) -> Any:
-        """Set a method that is left out to "given" where its value is given."""
+        """Set a method that the request does not name to "given" if one of its values is given."""
         for method, values in cls.methods.items() if isinstance(sent, dict) else ():
             section, name = method.split(".")
             held = sent.get(section, {})
@@ -368,7 +372,7 @@ class MeshInOil(Request):
 
     @model_validator(mode="after")
     def known_friction(self) -> Self:
-        """A coefficient of friction that is given is a number."""
+        """Refuse the method `given` of friction without a coefficient of friction."""
         if self.model.friction == "given" and self.friction_coefficient is None:
             raise PydanticCustomError(
                 "missing_friction", "give friction_coefficient, or set model.friction to iso_tr_13989"
@@ -377,7 +381,11 @@ class MeshInOil(Request):
 
     @model_validator(mode="after")
     def balance_where_the_estimate_ends(self) -> Self:
-        """Ask for the heat balance of jets where no method is named, if the pair is fast or its cooling is given."""
+        """Set the method of the bulk temperature to the heat balance if the request does not name a method.
+
+        The method is only set for gears under jets of an oil that is given, and only for one of three reasons: the heat
+        balance is the default, the cooling is given, or the pair is too fast for the estimated bulk temperature.
+        """
         temperatures = self.temperatures
         if "bulk_method" in temperatures.model_fields_set or temperatures.oil_supply != "spray":
             return self
@@ -385,7 +393,7 @@ class MeshInOil(Request):
         if not self.lubricant.known or not (asked or self._is_fast()):
             return self
         balanced = temperatures.model_copy(update={"bulk_method": "heat_balance"})
-        balanced.model_fields_set.discard("bulk_method")  # is a default
+        balanced.model_fields_set.discard("bulk_method")  # so that the method counts as a default
         request = self.model_copy(update={"temperatures": balanced})
         if "temperatures" not in self.model_fields_set:
             request.model_fields_set.discard("temperatures")
@@ -393,18 +401,18 @@ class MeshInOil(Request):
 
     @abstractmethod
     def running(self) -> tuple[GearPairInputs, si.Load]:
-        """The pair and its load."""
+        """Return the pair and its load."""
 
     def _is_fast(self) -> bool:
-        """Whether the pitch line runs faster than the estimate of the bulk temperature holds for."""
+        """Return whether the pitch line velocity exceeds the validity of the estimated bulk temperature."""
         try:
             gears, load = self.running()
             return is_beyond_the_estimate(gears, load.pinion_speed)
-        except InvalidInput:  # no pair; the solver says why
+        except InvalidInput:  # the gears are invalid; the solver reports the reason later
             return False
 
     def scuffing_inputs(self, gears: GearPairInputs, load: si.Load) -> si.ScuffingInputs:
-        """The solver's inputs for this pair and load."""
+        """Return the solver's inputs for this pair and load."""
         return self.si(
             si.ScuffingInputs,
             self.model,
@@ -421,7 +429,7 @@ class MeshInOil(Request):
 
     @property
     def _lubricant_factor_asked(self) -> bool:
-        """Whether friction, scuffing temperature or film against micropitting rest on the lubricant factor."""
+        """Whether friction, scuffing temperature or the film against micropitting depend on the lubricant factor."""
         test = self.temperatures.scuffing_test
         by_test = test is not None and test.lubricant_factor is None
         asked = self.model.friction == "iso_tr_13989" or by_test or self.micropitting is not None
@@ -429,7 +437,7 @@ class MeshInOil(Request):
 
     @property
     def _standard_film_asked(self) -> bool:
-        """Whether the check against micropitting has a film by the standard, which holds for plain spur gears."""
+        """Whether micropitting is checked by the film of the standard, which holds for spur gears without relief."""
         relief = self.modifications.tip_relief_um or self.modifications.root_relief_um
         return self.micropitting is not None and not relief and self.gears.helix_angle_deg == 0.0
 
@@ -450,21 +458,21 @@ class MeshInOil(Request):
         }
 
     def assumed_by_the_model(self) -> dict[str, str]:
-        """What friction, oil and bulk temperature take for granted."""
-        found: dict[str, str] = {}
+        """Return the assumptions about friction, oil, bulk temperature and film; without an oil there are none."""
+        reasons: dict[str, str] = {}
         if not self.lubricant.known:
-            return found
+            return reasons
         if self.model.friction == "iso_tr_13989":
-            found["model.friction"] = LAW
+            reasons["model.friction"] = LAW
             if self.friction_coefficient is not None:
-                found["friction_coefficient"] = NOT_USED
+                reasons["friction_coefficient"] = NOT_USED
         if self.lubricant.kind == "ester" and self._lubricant_factor_asked:
-            found["lubricant.kind"] = ESTER_FACTOR if self.micropitting is None else ESTER_FILM
+            reasons["lubricant.kind"] = ESTER_FACTOR if self.micropitting is None else ESTER_FILM
         if self.temperatures.bulk_method == "given":
-            found["temperatures.bulk_method"] = GIVEN_BULK
+            reasons["temperatures.bulk_method"] = GIVEN_BULK
         if self.model.lubrication == "thermal_ehl":
-            found["model.lubrication"] = SMOOTH_FILM
-        return found
+            reasons["model.lubrication"] = SMOOTH_FILM
+        return reasons
 
 
 class ScuffingRequest(MeshInOil, GearPairRequest):
@@ -482,16 +490,14 @@ class ScuffingRequest(MeshInOil, GearPairRequest):
     )
 
     def running(self) -> tuple[GearPairInputs, si.Load]:
-        """The pair and its load."""
         return self.gears.si(GearPairInputs), self.load.si(si.Load)
 
     def unused(self) -> dict[str, bool]:
-        """Also what a pair has no part of."""
+        """Mark also inputs as unused that only a gear unit has: its bearings and the mass of its casing."""
         of_a_unit = ("cooling.bearing_film_share", "cooling.casing.mass_kg")
         return super().unused() | dict.fromkeys(of_a_unit, True)
 
     def inputs(self) -> si.ScuffingInputs:
-        """The solver's inputs."""
         return self.scuffing_inputs(*self.running())
 
 
@@ -500,8 +506,8 @@ class ScuffingOilDerived(ScuffingDerived, of=(safety_results.ScuffingDerived, Oi
 
 
 def how_well_known(response: Response, *paths: str) -> dict[str, str]:
-    """Say beside temperatures of a heat balance how well they are known if no measured one narrows them."""
-    return dict.fromkeys(paths, KNOWN) if NOT_VALIDATED in {each.code for each in response.warnings} else {}
+    """Return the uncertainty of temperatures of a heat balance, if no measured temperature reduces the uncertainty."""
+    return dict.fromkeys(paths, KNOWN) if NOT_VALIDATED in {notice.code for notice in response.warnings} else {}
 
 
 class HeatedFlankFields(Group, of=safety_results.HeatedFlank):
@@ -515,5 +521,5 @@ class ScuffingResponse(LoadDistributionResponse, of=safety_results.Scuffing):
     derived: ScuffingOilDerived
 
     def remarks(self) -> dict[str, str]:
-        """Say how well the bulk temperature of a heat balance is known that no measured temperature narrows."""
+        """Return the uncertainty of the bulk temperature of a heat balance without measured temperatures."""
         return how_well_known(self, "contact_temperature.bulk_c")
