@@ -29,9 +29,9 @@ def thermal_paths(
 ) -> tuple[tuple[ThermalPath, ...], tuple[Notice, ...]]:
     """Solve the thermal EHL contact at the points of the lines that are in contact.
 
-    The solution of a point starts from the solutions of the preceding points on the line. The oil enters the contact at the
-    bulk temperature. If a heat balance gives pinion and wheel different bulk temperatures, each surface has the bulk
-    temperature of its gear. A point outside the range of the solver gets the status "refused". A point without
+    The solution of a point starts from the solutions of the preceding points on the line. The oil enters the contact at
+    the bulk temperature. If a heat balance gives pinion and wheel different bulk temperatures, each surface has the
+    bulk temperature of its gear. A point outside the range of the solver gets the status "refused". A point without
     convergence gets the status "no_solution". The other points are solved nevertheless. The warnings are those of all
     lines together.
 
