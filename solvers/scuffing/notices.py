@@ -1,4 +1,4 @@
-"""Warnings of a load distribution."""
+"""Warnings of a load distribution and of a scuffing check."""
 
 from collections.abc import Iterator
 from math import degrees
@@ -19,11 +19,11 @@ from solvers.scuffing.load_balance import LoadBalance
 from solvers.scuffing.results import LoadDistribution
 from solvers.scuffing.safety_results import Scuffing
 
-LEAST_TEETH = 8  # chosen: gears of fewer teeth are not in use
+LEAST_TEETH = 8  # chosen: gears with fewer teeth are not in use
 PRESSURE_ANGLES = (14.5, 30.0)  # degrees
 LARGEST_HELIX = 45.0  # degrees
 TRANSVERSE_HELIX = 15.0  # degrees
-LEAST_MODIFICATION = 0.5e-6  # m, chosen; less cannot be ground
+LEAST_MODIFICATION = 0.5e-6  # m, chosen; smaller modifications cannot be ground
 LEAST_LENGTH_RATIO = 0.2  # chosen: below it the total length of the lines nearly vanishes once per base pitch
 
 
@@ -112,7 +112,7 @@ def relief_notices(path: PathOfContact, modifications: Modifications) -> list[No
 
 
 def load_notices(balance: LoadBalance) -> list[Notice]:
-    """Return warnings about a missing or light load, contact beyond the half-space, and pressures without a limit."""
+    """Return warnings about a missing or light load, a too wide contact, and pressures without a limit."""
     notices = []
     if balance.force == 0.0:
         message = "without a torque that presses the flanks only the kinematic transmission error is computed"
@@ -166,7 +166,7 @@ def unusual_modifications(modifications: Modifications) -> Iterator[Notice]:
 
 
 def unusual_temperatures(temperatures: Temperatures) -> Iterator[Notice]:
-    """Warn of temperatures of the oil, and of given temperatures of the teeth, that gears in service do not have."""
+    """Warn of oil temperatures that gears in service do not have, and of such bulk temperatures if they are given."""
     yield from oil_temperature(temperatures.oil)
     if temperatures.bulk_method == "given":
         yield from tooth_temperature(temperatures.bulk)

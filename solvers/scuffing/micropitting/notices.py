@@ -24,7 +24,7 @@ ROUNDING = 1e-9
 
 
 def range_notices(given: LoadDistributionInputs, path: PathOfContact) -> Iterator[Notice]:
-    """Warn of the ranges of the method that the pair exceeds."""
+    """Warn if values of the pair lie outside the ranges for which the method is known to hold."""
     pressure, helix = degrees(path.pair.working_pressure_angle), degrees(given.gears.helix_angle)
     highest = f"up to {LARGEST_ANGLE:g}°"
     for value, (low, high), text, allowed, field in (
@@ -41,7 +41,7 @@ def range_notices(given: LoadDistributionInputs, path: PathOfContact) -> Iterato
 def standard_notices(
     given: LoadDistributionInputs, path: PathOfContact, standard: StandardFilm | None
 ) -> Iterator[Notice]:
-    """Say why method B has no film, if it has none."""
+    """Yield a note with the reason if method B gives no film."""
     if standard is not None:
         return
     reasons = {
@@ -55,7 +55,7 @@ def standard_notices(
 
 
 def hot_film_notices(film: FlankFilm, least: Peak) -> Iterator[Notice]:
-    """Warn of a contact that is hotter than the range in which the laws of the oil hold."""
+    """Warn if the contact with the thinnest film is hotter than the range in which the laws of the oil hold."""
     points = contact_at_points(film.inputs.distribution, film.distribution, np.array([least.x]), np.array([least.y]))
     bulk = film.conditions.bulk if film.bulk is None else film.bulk(np.array([least.y]))
     contact = float(np.max(bulk + flash_temperature(film.conditions, contacts_of(points, film.conditions.modulus))))

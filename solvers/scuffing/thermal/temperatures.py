@@ -1,8 +1,9 @@
-"""Values of a scuffing check that are estimated if they are not given: friction, bulk, oil, scuffing temperature.
+"""Values of a scuffing check that are estimated if they are not given.
 
-There is no iteration: friction uses the viscosity at the oil temperature, the film uses the viscosity at the bulk
-temperature. The bulk temperature by heat balance follows from the losses; within the balance their coefficient of
-friction depends on the oil temperature.
+These values are the coefficient of friction, the bulk temperature, the oil at this temperature, and the scuffing
+temperature. No iteration is needed: friction uses the viscosity at the oil temperature, and only the film uses the
+viscosity at the bulk temperature. If the bulk temperature comes from a heat balance, it follows from the losses. In the
+balance the coefficient of friction for the losses depends on the oil temperature.
 """
 
 from collections.abc import Iterator
@@ -35,15 +36,15 @@ from solvers.scuffing.thermal.practice import (
     scuffing_temperature,
 )
 
-COLDEST_OIL, HOTTEST_OIL = 223.15, 573.15  # K, the range of reference temperatures
+COLDEST_OIL, HOTTEST_OIL = 223.15, 573.15  # K, range of the reference temperature of an oil
 STEEL_MODULI = (170e9, 240e9)  # Pa; cast iron and bronze are below, hard metal is above
 MEAN_POINTS = 1001  # for the mean flash temperature along the feature line
 
 
 class InForce(NamedTuple):
-    """Inputs and load distribution of a scuffing check with every estimate as a number.
+    """Inputs and load distribution of a scuffing check, after every estimate has been replaced by a number.
 
-    `flash` is Blok's flash temperature over the flank, `heat` the heat balance if the pair requests one.
+    `flash` is Blok's flash temperature over the flank. `heat` is the heat balance of the pair; None if none was solved.
     """
 
     inputs: ScuffingInputs
@@ -53,10 +54,11 @@ class InForce(NamedTuple):
 
 
 def in_force(inputs: ScuffingInputs, distribution: LoadDistribution) -> InForce:
-    """Return inputs and load distribution with friction, temperatures and oil as numbers.
+    """Return inputs and load distribution with numbers for friction, temperatures and oil.
 
-    The heat balance is solved only if the flank temperatures are not given; a unit has solved its own balance before.
-    Raises the errors of `with_friction`, `pair_heat` and `with_temperatures`.
+    The heat balance is solved only if the flank temperatures are not given. They are given if the pair belongs to a
+    unit, because a unit solves its own heat balance before. Raises the errors of `with_friction`, `pair_heat` and
+    `with_temperatures`.
     """
     inputs, distribution = with_friction(inputs, distribution)
     flash = map_flash(inputs.distribution, distribution)
@@ -69,11 +71,11 @@ def in_force(inputs: ScuffingInputs, distribution: LoadDistribution) -> InForce:
 
 
 def with_friction(inputs: ScuffingInputs, distribution: LoadDistribution) -> tuple[ScuffingInputs, LoadDistribution]:
-    """Return the inputs with the friction of the flash temperature, the load distribution with that of the losses.
+    """Return the inputs with the friction for the flash temperature, and the load distribution with the friction loss.
 
     A given coefficient of friction is used for both. Otherwise the flash temperature uses the coefficient of ISO/TR
-    13989-1, which is on the safe side for scuffing; the losses use Schlenk's coefficient, a mean for the efficiency.
-    Both coefficients are None without an oil, a load or a speed.
+    13989-1, which is on the safe side for scuffing. The losses use Schlenk's coefficient, which is a mean value for the
+    efficiency. Both coefficients are None if the oil, the load or the speed is missing.
     """
     if inputs.friction == "given":
         return inputs, distribution
@@ -91,17 +93,17 @@ def with_friction(inputs: ScuffingInputs, distribution: LoadDistribution) -> tup
 
 
 def with_temperatures(inputs: ScuffingInputs, distribution: LoadDistribution, flash: FlashMap) -> ScuffingInputs:
-    """Return the inputs with bulk and scuffing temperature as numbers and the oil as it enters the contact.
+    """Return the inputs with numbers for bulk and scuffing temperature, and with the oil at the bulk temperature.
 
-    Bulk temperature and lubricant are None without an oil, and if the bulk temperature cannot be estimated because the
-    flash temperature has no mean.
+    Bulk temperature and lubricant are None if there is no oil. They are also None if the bulk temperature cannot be
+    estimated because the flash temperature has no mean.
 
     Raises
     ------
     InvalidInput
         `missing_bulk` if the bulk temperature is neither given nor estimated, `oil_temperature` if an oil given by its
-        data sheet would be too hot or too cold, `scuffing_temperature` if the oil is not cooler than the scuffing
-        temperature.
+        data sheet would be too hot or too cold at the bulk temperature, `scuffing_temperature` if the oil is not cooler
+        than the scuffing temperature.
     """
     temperatures, oil = inputs.temperatures, inputs.known_oil
     if oil is None:
@@ -133,7 +135,7 @@ def with_temperatures(inputs: ScuffingInputs, distribution: LoadDistribution, fl
 
 
 def oil_notices(inputs: ScuffingInputs, path: PathOfContact) -> Iterator[Notice]:
-    """Warn of a missing oil or bulk temperature, of a bulk temperature that is a lower bound, and of unused cooling."""
+    """Warn of a missing oil or bulk temperature, of doubtful estimates, and of unused inputs of the cooling."""
     if inputs.known_oil is None:
         message = (
             "no oil is given (iso_vg, kinematic_viscosity_40 or viscosity_pa_s): film, contact temperature and "
@@ -165,7 +167,7 @@ def oil_notices(inputs: ScuffingInputs, path: PathOfContact) -> Iterator[Notice]
 
 
 def _material_notices(inputs: ScuffingInputs) -> Iterator[Notice]:
-    """Warn of estimates that were made for steel, if a gear is of another material."""
+    """Warn of estimates by formulas that were made for steel gears, if a gear is of another material."""
     estimates = {
         "the coefficient of friction": inputs.friction == "iso_tr_13989",
         "the bulk temperature": inputs.temperatures.bulk_method == "estimated",
@@ -183,7 +185,7 @@ def _material_notices(inputs: ScuffingInputs) -> Iterator[Notice]:
 
 
 def _oil_factor(oil: OilSheet | Lubricant, temperature: float) -> float:
-    """Return X_L of the oil at a temperature [K]."""
+    """Return the lubricant factor X_L of the oil at a temperature [K]."""
     lubricant = lubricant_at(oil, temperature)
     return lubricant_factor(lubricant.viscosity_at(0.0, temperature), lubricant.kind)
 
@@ -191,8 +193,9 @@ def _oil_factor(oil: OilSheet | Lubricant, temperature: float) -> float:
 def estimated_bulk(inputs: ScuffingInputs, distribution: LoadDistribution, flash: FlashMap) -> float | None:
     """Return the bulk temperature [K] from the mean flash temperature; None if the mean is not defined.
 
-    The mean is taken over the checked part, the flank or the feature line. The mean over the flank is the same for a
-    pair and its mirror image, as the bulk temperature of a tooth must be; the mean along the feature line is not.
+    The mean is taken over the part that is checked, which is the flank or the feature line. The bulk temperature must
+    be the same for a pair and its mirror image. The mean over the flank meets this condition; the mean along the
+    feature line does not.
     """
     given = inputs.distribution
     if inputs.line == "flank":
