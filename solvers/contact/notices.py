@@ -1,10 +1,10 @@
-"""Warnings about a dry line contact; they are the same in every model."""
+"""Warnings about the dry line contact, used by all models of line contacts."""
 
 from collections.abc import Iterator
 
 from solvers.notices import Notice, unusual_value
 
-HIGHEST_PRESSURE = 2.5e9  # Pa, chosen; steel flows
+HIGHEST_PRESSURE = 2.5e9  # Pa, chosen; steel deforms plastically at this pressure
 
 
 def high_pressure(pressure: float | None, field: str = "pinion_torque") -> Iterator[Notice]:

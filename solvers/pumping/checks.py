@@ -10,7 +10,7 @@ from solvers.pumping.space.face import Stretch
 
 LEAST_TEETH = 5  # chosen: gears of fewer teeth are not in use
 LEAST_SPEED = 1e-100  # rad/s; at lower speeds the duration of a stroke overflows
-NARROW = 0.5  # of the widest slice; if a slice is narrower, the grooves are the reason for short steps
+NARROW = 0.5  # share of the widest slice; if a slice is narrower, the grooves are the reason for short steps
 
 
 def check_setup(setup: PumpingSetup) -> None:
@@ -67,7 +67,7 @@ def check_speed(pinion_speed: float) -> None:
 
 
 def refuse_cost(pinion_speed: float, parts: list[Stretch], excess: float) -> NoReturn:
-    """Refuse a march that needs `excess` times the permitted steps; the message says what would fit.
+    """Refuse a march that needs `excess` times the permitted number of steps; the message says what would be permitted.
 
     Raises InvalidInput: narrow_land (a stretch between grooves is so short that its slices are the reason) or
     too_many_steps.

@@ -36,13 +36,13 @@ def incompressible(
     Returns
     -------
     SpaceFlow
-        The flow at the middle of each interval of the table. Temperatures are None: the model gives the work, but not
-        the place that it heats.
+        The flow at the middle of each interval of the table. Temperatures are None, because the model gives the work,
+        but not the place at which the work heats the gas.
 
     Raises
     ------
     InvalidInput
-        incompressible_vacuum: the suction would exceed the ambient pressure.
+        incompressible_vacuum, if the suction would exceed the ambient pressure.
 
     Notes
     -----

@@ -11,20 +11,20 @@ from solvers.pumping.inputs import ChokingInputs, Flow, PumpingInputs, PumpingSe
 from solvers.pumping.results import MassFlow, Resolution
 from solvers.pumping.space.stroke import StrokeTable
 
-FEW_TEETH = 12  # chosen: gears of the paper and of all comparisons have more teeth
-TIP_SPEED_SHARE = 0.8  # of the ambient speed of sound
-PITCH_LINE_SPEED = 250.0  # m/s
+FEW_TEETH = 12  # chosen: the gears of the paper and of all comparisons have more teeth
+TIP_SPEED_SHARE = 0.8  # share of the ambient speed of sound at which published checks end
+PITCH_LINE_SPEED = 250.0  # m/s, at which published checks end
 FEW_SLICES = 20  # number of slices in the stroke at one time
-INCOMPRESSIBLE_MACH = 0.3  # usual limit: density changes by 5 %
+INCOMPRESSIBLE_MACH = 0.3  # usual limit, at which the density changes by 5 %
 RESOLVED = 0.06  # largest relative uncertainty of a result without a warning
 NET_UNCERTAINTY = 0.3  # largest uncertainty of a net flow without a warning, relative to the net flow
-NEGLIGIBLE = 1e-3  # of the gross flow; a smaller uncertainty of the net flow is not worth a warning
-LEAST_GAUGE_PRESSURE = 1e-6  # of the ambient pressure
+NEGLIGIBLE = 1e-3  # share of the gross flow; a smaller uncertainty of the net flow is not worth a warning
+LEAST_GAUGE_PRESSURE = 1e-6  # share of the ambient pressure; the pocket chain does not resolve less
 THIN_AIR = 20e3  # Pa, chosen; nearly a vacuum
 
 
 def setup_notices(setup: PumpingSetup, path: PathOfContact, active_slices: float) -> list[Notice]:
-    """Return the warnings about the gear pair, few teeth, a small contact ratio and few slices.
+    """Return the warnings about the gear pair, a small contact ratio, a small number of teeth and too few slices.
 
     `active_slices` is the number of slices in the stroke at one time.
     """
@@ -53,7 +53,7 @@ def setup_notices(setup: PumpingSetup, path: PathOfContact, active_slices: float
 
 
 def jump_notices(tables: Sequence[StrokeTable]) -> list[Notice]:
-    """Return a warning if the area of a space jumps: the gas is then compressed without motion of the teeth."""
+    """Return a warning if the area of a space jumps, because the gas is then compressed without motion of the teeth."""
     share, angle = max(table.jump for table in tables)
     if share == 0.0:
         return []
@@ -66,7 +66,10 @@ def jump_notices(tables: Sequence[StrokeTable]) -> list[Notice]:
 
 
 def flow_notices(flow: Flow, largest_mach: float, largest_gauge_pressure: float) -> list[Notice]:
-    """Return a warning if the model does not resolve the flow; the pressure is relative to the ambient pressure."""
+    """Return a warning if the model does not resolve the flow.
+
+    `largest_gauge_pressure` is relative to the ambient pressure.
+    """
     if flow is Flow.INCOMPRESSIBLE and largest_mach > INCOMPRESSIBLE_MACH:
         message = f"the Mach number is {largest_mach:.2f}: above {INCOMPRESSIBLE_MACH:g} the gas is not incompressible"
         return [Notice("incompressible_mach", message, "flow", rank="invalid")]
@@ -80,7 +83,10 @@ def flow_notices(flow: Flow, largest_mach: float, largest_gauge_pressure: float)
 
 
 def net_flow_notices(model: Flow, flows: list[MassFlow]) -> list[Notice]:
-    """Return a warning about the least certain net flow out of an end, a small difference of outflow and inflow."""
+    """Return a warning about the most uncertain net flow out of an end, if its uncertainty exceeds the limit.
+
+    The net flow is uncertain if it is a small difference between outflow and inflow.
+    """
     shares = [
         (flow.net_uncertainty / abs(net) if net else inf, net, flow)
         for flow in flows
@@ -119,7 +125,7 @@ def resolution_notices(flow: Flow, uncertain: Resolution) -> list[Notice]:
 
 
 def speed_notices(pair: GearPair, gas: Gas, pinion_speed: float) -> list[Notice]:
-    """Return a warning if the speed is beyond every published check."""
+    """Return a warning if the speed is higher than in any published check."""
     tip = max(pair.pinion.tip_radius, pair.wheel.tip_radius * pair.pinion.teeth / pair.wheel.teeth) * pinion_speed
     pitch_line = pair.pinion_working_radius * pinion_speed
     if tip > TIP_SPEED_SHARE * gas.sound_speed or pitch_line > PITCH_LINE_SPEED:

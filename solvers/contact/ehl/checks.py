@@ -10,19 +10,19 @@ from solvers.contact.ehl.problem import expected_gap, groups
 from solvers.errors import InvalidInput
 from solvers.lubricants import HIGHEST_VISCOSITY, ROELANDS_POLE_TEMPERATURE, log_viscosity, pressure_part
 
-LOWEST_SPEED = 1e-9  # m/s, three centimetres a year
-LOWEST_VISCOSITY = 7e-5  # Pa s; Roelands' law ends at 6.31e-5
-HIGHEST_VISCOSITY_UNDER_PRESSURE = 1e100  # Pa s; glass begins at 1e12
-LOWEST_TEMPERATURE = ROELANDS_POLE_TEMPERATURE + 60.0  # K; no oil flows there
+LOWEST_SPEED = 1e-9  # m/s, three centimetres per year
+LOWEST_VISCOSITY = 7e-5  # Pa s; Roelands' law is not defined below 6.31e-5 Pa s
+HIGHEST_VISCOSITY_UNDER_PRESSURE = 1e100  # Pa s; a liquid of 1e12 Pa s or more counts as glass
+LOWEST_TEMPERATURE = ROELANDS_POLE_TEMPERATURE + 60.0  # K; no oil flows at lower temperatures
 HIGHEST_PRESSURE = 4e9  # Pa
 THICKEST_FILM = 1e4  # in b^2/R, the scale of the deformation of the surfaces
-THINNEST_FILM = 1e-9  # m, the length of an oil's molecule
+THINNEST_FILM = 1e-9  # m, the length of an oil molecule
 MIN_NODES = 41  # chosen: the coarsest mesh that is accepted
-MIN_FILM_NODES = 5  # three inside the film: the fewest that show a maximum of temperature between the surfaces
+MIN_FILM_NODES = 5  # three of them inside the film, which is the least number that shows a maximum of temperature
 
 
 def check(inputs: LineContactInputs) -> None:
-    """Refuse a contact that has no solution or lies outside the laws of the lubricant.
+    """Refuse a contact that has no solution or lies outside the range of the lubricant's laws.
 
     Parameters
     ----------
@@ -42,7 +42,7 @@ def check(inputs: LineContactInputs) -> None:
 
 
 def lightest(inputs: LineContactInputs) -> LineContactInputs:
-    """Find the same contact under the least load that `check` accepts.
+    """Raise the load of a contact to the least load that `check` accepts, unless its own load is accepted.
 
     Parameters
     ----------
@@ -52,7 +52,8 @@ def lightest(inputs: LineContactInputs) -> LineContactInputs:
     Returns
     -------
     LineContactInputs
-        The contact with the least line load that is not refused as `load_range`; its own load if that is accepted.
+        The contact with its own line load if this load is accepted, else with the least line load that is not refused
+        as `load_range`.
     """
 
     def excess(logarithm: float) -> float:
@@ -94,7 +95,7 @@ def _check_resolution(inputs: LineContactInputs) -> None:
 
 
 def _check_oil(inputs: LineContactInputs) -> None:
-    """Check viscosity and temperatures; an isothermal film has the inlet temperature only."""
+    """Check viscosity and temperatures; in an isothermal film only the inlet temperature is used."""
     oil, temperatures = inputs.lubricant, inputs.temperatures
     if oil.viscosity < LOWEST_VISCOSITY:
         raise InvalidInput(

@@ -1,4 +1,4 @@
-"""Warnings of the line contact: one per exceeded range."""
+"""Warnings about a lubricated line contact, one for each exceeded range."""
 
 from collections.abc import Iterator
 
@@ -18,11 +18,11 @@ from solvers.lubricants import oil_temperature, thick_oil
 from solvers.notices import Notice
 
 LOWEST_PECLET = 5.0  # usual limit above which conduction along the surface is neglected
-NEWTONIAN_SLIDE_ROLL_RATIO = 0.3  # chosen: above it oils are usually no longer Newtonian
+NEWTONIAN_SLIDE_ROLL_RATIO = 0.3  # chosen; below it too little heat arises to limit the traction of a Newtonian oil
 TRACTION_RATIO = 0.1  # coefficients of friction of oils seldom exceed 0.1
 THIN_FILM = 0.05e-6  # m
-BALANCE_ERROR = 1e-4  # of the heat, chosen
-LARGEST_MESH_ERROR = 0.02  # chosen: the accuracy asked of film, friction and temperature
+BALANCE_ERROR = 1e-4  # relative error of the heat balance, chosen
+LARGEST_MESH_ERROR = 0.02  # chosen: required relative accuracy of film, friction and temperature
 FAILURES: dict[Stage, str] = {
     "isothermal": "the isothermal film did not converge",
     "coupling": "pressures and temperatures did not converge together",
@@ -104,7 +104,7 @@ def failure_notice(convergence: Convergence) -> Notice:
 
 
 def unusual_values(inputs: LineContactInputs, result: LineContactResult) -> Iterator[Notice]:
-    """Unusual values of oil, temperatures and load."""
+    """Yield the warnings about unusual values of oil, inlet temperature and load."""
     yield from oil_temperature(inputs.temperatures.inlet, "temperatures.inlet")
     yield from thick_oil(result.derived.viscosity)
     yield from high_pressure(result.hertz.max_pressure, "line_load")
