@@ -1,7 +1,7 @@
 """The kinds of study: each module of `app.studies.kinds` is one kind and has a `PAGE`.
 
-The modules are imported at the first call, because pages link to studies, and pages of studies consist of parts of
-other pages.
+The modules are imported at the first call. An import at the start would be circular: all pages have links to studies,
+and the pages of studies consist of parts of other pages.
 """
 
 import pkgutil
@@ -39,5 +39,5 @@ def study_page(name: str) -> type[Any]:
 
 @cache
 def control_names() -> frozenset[str]:
-    """Return the names in a query that are controls of any study, not fields of a case."""
+    """Return the names that, in a query, are controls of any study and not fields of a case."""
     return frozenset().union({"show"}, *(page.names for page in study_pages()))

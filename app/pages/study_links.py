@@ -1,4 +1,7 @@
-"""Links to the pages of studies: those of a case, and studies to start from, an example with a field or two varied."""
+"""Links to the pages of studies: the studies of a case, and ready studies, which vary one or two fields of an example.
+
+The ready studies are the entries of `sweep_examples.json`.
+"""
 
 import json
 from collections.abc import Mapping
@@ -14,21 +17,21 @@ from app.pages.templating import page_path
 from app.schema.fields import leaf_at
 from app.studies.fields import value_at
 
-AROUND = (0.5, 1.5)  # times a derived value, where it is varied
+AROUND = (0.5, 1.5)  # ends of the range in which a derived value is varied, as multiples of the value
 
 
 def study_links(calculation: Calculation) -> tuple[StudyLink, ...]:
-    """The studies that cases of a calculation have."""
+    """Return links to the studies that a case of a calculation has."""
     links: tuple[StudyLink, ...] = tuple(page.link for page in study_pages())
-    return tuple(each for each in links if each.endpoint in {None, calculation.path})
+    return tuple(study for study in links if study.endpoint in {None, calculation.path})
 
 
 VARY = "vary"
-"""Name of the page of the studies of examples."""
+"""Name of the page that shows the studies of examples."""
 
 
 class StudyExample(NamedTuple):
-    """A question, the example that it is asked of, and what is varied."""
+    """A question about an example, and the parameters of the study that answers the question."""
 
     title: str
     source: str
@@ -37,12 +40,12 @@ class StudyExample(NamedTuple):
 
     @property
     def calculation(self) -> Calculation:
-        """Whose page it is on."""
+        """The calculation of the example."""
         return BY_PATH[examples()[self.example].endpoint]
 
     @property
     def address(self) -> str:
-        """The page that answers it."""
+        """The address of the page that answers the question."""
         request = examples()[self.example].request
         return link(f"{page_path(self.calculation)}/{VARY}", pairs_of(request), **self.study)
 
@@ -56,13 +59,13 @@ class Starter(NamedTuple):
 
 
 STUDIES = tuple(
-    StudyExample(**each) for each in json.loads(files("app.pages").joinpath("sweep_examples.json").read_text("utf-8"))
+    StudyExample(**entry) for entry in json.loads(files("app.pages").joinpath("sweep_examples.json").read_text("utf-8"))
 )
 
 
 def studies_of(calculation: Calculation) -> list[StudyExample]:
-    """The studies that start from examples of a calculation."""
-    return [each for each in STUDIES if each.calculation is calculation]
+    """Return the ready studies of examples of a calculation."""
+    return [study for study in STUDIES if study.calculation is calculation]
 
 
 def studies_of_case(
@@ -72,25 +75,25 @@ def studies_of_case(
     derived: Mapping[str, Any] = MappingProxyType({}),
     file: Mapping[str, str | None] = MappingProxyType({}),
 ) -> list[Starter]:
-    """The same studies asked of a case, each around the values of the case.
+    """Return links to the same studies of a case, with ranges around the values of the case.
 
-    `derived` are values by path that the case does not state, such as the power of a given torque; `file` names the
-    REXS file from which the case was read. A study of a number that the case does not have at all is left out; options
-    and lengths of zero keep the range of the example.
+    `derived` are values by path that the case does not state, such as the power that follows from a given torque.
+    `file` names the REXS file from which the case was read. A study is left out if it varies a number that the case
+    neither states nor implies. Options and values of zero are varied over the range of the example.
     """
     address, starters = f"{page_path(calculation)}/{VARY}", []
-    for each in studies_of(calculation):
-        study = dict(each.study)
+    for example in studies_of(calculation):
+        study = dict(example.study)
         axes = [axis for axis in "xy" if axis in study]
         for axis in axes:
             path, ends = study[axis], (f"{axis}.from", f"{axis}.to")
-            value, known = value_at(case, path), derived.get(path)
+            value, derived_value = value_at(case, path), derived.get(path)
             if value:
                 study = {name: text for name, text in study.items() if name not in ends}
-            elif value is None and isinstance(known, int | float):
-                study |= {end: f"{times * known:.4g}" for end, times in zip(ends, AROUND, strict=True)}
+            elif value is None and isinstance(derived_value, int | float):
+                study |= {end: f"{times * derived_value:.4g}" for end, times in zip(ends, AROUND, strict=True)}
             elif value is None and not getattr(leaf_at(calculation.request, path), "options", ()):
                 break
         else:
-            starters.append(Starter(each.title, "", link(address, pairs, **study, **file)))
+            starters.append(Starter(example.title, "", link(address, pairs, **study, **file)))
     return starters

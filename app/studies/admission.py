@@ -1,4 +1,4 @@
-"""Admits studies: a few at once, on the service's own workers or on a cluster."""
+"""Admission of studies: a limited number runs at once, on the service's own workers or on a cluster."""
 
 import asyncio
 import logging
@@ -19,19 +19,22 @@ logger = logging.getLogger("tribodrive")
 
 
 class StudyPool:
-    """The service's own workers for one study, which shares them with others like one more client."""
+    """The service's own workers, as one study uses them; the study has the same share of them as any other client."""
 
     def __init__(self, workers: WorkerPool) -> None:
         self._workers = workers
         self.slots = workers.size
 
     def submit(self, function: Callable[..., Any], *arguments: Any) -> asyncio.Future[Any]:
-        """Return the future of the result; it raises WorkerLost, DeadlineExceeded, and what the function raises."""
+        """Return the future of the result.
+
+        The future raises WorkerLost, DeadlineExceeded, and the exceptions of the function.
+        """
         return self._workers.submit(self, function, *arguments, is_single=False)
 
 
 class StudyAdmission:
-    """How many studies run at once, and the pool that solves their points."""
+    """The limit on the number of studies that run at once, and the pool that solves their points."""
 
     def __init__(self, settings: Settings, workers: WorkerPool) -> None:
         self._settings = settings
@@ -45,7 +48,7 @@ class StudyAdmission:
 
     @contextmanager
     def place(self) -> Iterator[None]:
-        """Count a study among the running ones while the context is open; raises StudiesFull."""
+        """Count a study as running while the context is open; raises StudiesFull if the limit is reached."""
         if self._running >= self._settings.studies:
             raise StudiesFull
         self._running += 1
@@ -56,18 +59,21 @@ class StudyAdmission:
             self._running -= 1
 
     def own(self) -> Pool:
-        """The service's own workers for one study; its figures are drawn there, even if a cluster solves its points."""
+        """Return the service's own workers for one study.
+
+        They draw the figures of the study, even if a cluster solves its points.
+        """
         return StudyPool(self._workers)
 
     async def pool(self) -> Pool:
-        """Where points are solved; raises SchedulerUnavailable."""
+        """Return the pool that solves the points of a study; raises SchedulerUnavailable."""
         if self._cluster is None:
             return self.own()
         return await self._cluster.ready()
 
     @asynccontextmanager
     async def open(self) -> AsyncIterator[None]:
-        """Prepare the cluster in the background while the context is open, so that the first study need not wait."""
+        """Prepare the cluster in the background, so that the first study need not wait; disconnect at the end."""
         preparation = asyncio.create_task(self._prepare())
         try:
             yield

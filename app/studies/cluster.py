@@ -1,6 +1,6 @@
-"""Studies on a Dask cluster: the same chunks, sent to its workers instead of the service's own processes.
+"""Studies on a Dask cluster, whose workers solve the chunks instead of the service's own processes.
 
-Only this module knows Dask, which is an extra: `pip install 'tribodrive[dask]'`.
+Only this module imports Dask, which is an extra: `pip install 'tribodrive[dask]'`.
 """
 
 import asyncio
@@ -17,15 +17,15 @@ from app.studies.runner import OtherSources, PoolLost
 from app.workers.stages import STAGES, warm
 
 CONNECT_S = 10.0  # for one call to the scheduler
-ANSWER_S = 15.0  # for both, to connect and to name the workers
-WARM_S = 600.0  # within which workers load their kernels, compiled if need be
-WATCH_S = 0.5  # between two looks at a point that is being solved elsewhere
-PACKAGES = ("tribodrive", "numpy", "scipy", "numba", "pydantic")  # what the numbers depend on
+ANSWER_S = 15.0  # for two calls: to connect and to list the workers
+WARM_S = 600.0  # for the workers to load their kernels, which may include compiling them
+WATCH_S = 0.5  # between two checks whether the cluster still runs while a call is under way
+PACKAGES = ("tribodrive", "numpy", "scipy", "numba", "pydantic")  # whose versions change the results
 LOST = "the Dask scheduler is gone; start the study again"
 
 
 class DaskCluster:
-    """A Dask cluster whose workers run our versions with warm kernels."""
+    """A Dask cluster whose workers have the versions of this service and have loaded their kernels."""
 
     def __init__(self, address: str, deadline_s: float) -> None:
         self._address = address
@@ -37,10 +37,10 @@ class DaskCluster:
         self.slots = 1
 
     async def ready(self) -> "DaskCluster":
-        """The cluster, connected and every worker prepared; raises SchedulerUnavailable.
+        """Return the cluster when it is connected and every worker is prepared; raises SchedulerUnavailable.
 
-        One preparation runs at a time and goes on when a study that waits for it is refused: calls to a scheduler that
-        does not answer cannot be taken back.
+        Only one preparation runs at a time. It continues if a study that waits for it is refused, because a call to a
+        scheduler that does not answer cannot be cancelled.
         """
         if self._preparation is None or self._preparation.done():
             self._answered = False
@@ -63,7 +63,7 @@ class DaskCluster:
             raise SchedulerUnavailable(f"The Dask scheduler cannot be used: {reason}") from error
 
     def _prepare(self) -> None:
-        """Connect; compare versions and warm kernels on every worker that is new. Blocks."""
+        """Connect, then compare the versions and load the kernels on every new worker. Blocks."""
         if self._client is None or self._client.status != "running":
             self.close()
             self._client = Client(self._address, timeout=CONNECT_S, set_as_default=False)
@@ -83,11 +83,11 @@ class DaskCluster:
     def _call_on(self, function: Callable[[], Any], workers: set[str]) -> dict[str, Any]:
         """Call a function on each of the workers, wait, and return the result of each worker."""
         assert self._client is not None
-        calls = {each: self._client.submit(function, workers=[each], pure=False, retries=0) for each in workers}
-        return {worker: call.result(timeout=WARM_S) for worker, call in calls.items()}
+        calls = {name: self._client.submit(function, workers=[name], pure=False, retries=0) for name in workers}
+        return {name: call.result(timeout=WARM_S) for name, call in calls.items()}
 
     def submit(self, function: Callable[..., Any], *arguments: Any) -> asyncio.Future[Any]:
-        """Send a call; cancelling takes it back if it has not begun."""
+        """Send a call to the cluster; cancelling the future also cancels the call if it has not begun."""
         return asyncio.ensure_future(self._result(function, *arguments))
 
     async def _result(self, function: Callable[..., Any], *arguments: Any) -> Any:
@@ -107,7 +107,7 @@ class DaskCluster:
             future.cancel()
 
     def close(self) -> None:
-        """Leave the cluster. Blocks."""
+        """Disconnect from the cluster. Blocks."""
         self._prepared.clear()
         if self._client is not None:
             self._client.close(timeout=1)
@@ -121,9 +121,10 @@ def prepare() -> None:
 
 
 def solved_with(sources: str, function: Callable[..., Any], *arguments: Any) -> Any:
-    """The call's result; runs in a worker, perhaps one that joined during the study.
+    """Return the result of a call; runs in a worker, which may have joined the cluster during the study.
 
-    Raises OtherSources where the worker's solvers are not those whose digest the answers carry.
+    `sources` is the digest of the service's solvers, which the answers carry. Raises OtherSources if the worker has
+    other solvers.
     """
     if sources != SOURCES:
         raise OtherSources(f"a Dask worker has the solvers' sources {SOURCES}, the service {sources}; update it")
@@ -131,7 +132,7 @@ def solved_with(sources: str, function: Callable[..., Any], *arguments: Any) -> 
 
 
 def versions() -> dict[str, str]:
-    """What the numbers depend on."""
+    """Return the versions on which the results depend: Python, the solvers and the packages."""
     return {
         "python": platform.python_version(),
         "sources": SOURCES,

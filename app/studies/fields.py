@@ -1,4 +1,4 @@
-"""The single values of requests and answers that a study names by their dotted paths."""
+"""Single values of requests and answers, which a study names by their dotted paths."""
 
 import operator
 from collections.abc import Iterable
@@ -16,19 +16,20 @@ NUMBERS = frozenset({"number", "integer"})
 
 
 def scalar_at(model: type[Documented], path: str, place: str, unknown: str) -> Leaf:
-    """The leaf of a request or answer that holds one value at this path.
+    """Return the leaf of a request or answer that holds the single value at this path.
 
-    Raises Unprocessable at `place` of the study: `not_scalar` for sections and lists, `unknown` for what there is not.
+    Raises Unprocessable at `place` of the study, with the code `not_scalar` if the path names a section or a list, and
+    with the code `unknown` if the path does not exist.
     """
     leaf = leaf_at(model, path)
     whole, _, item = path.rpartition(".")
     if leaf is None and item.isdecimal() and (listed := leaf_at(model, whole)) and listed.dimensions == 1:
         leaf = replace(listed, dimensions=0, nullable=False)
     if leaf is None:
-        known = [each.path for each in leaves(model)]
-        if any(name.startswith(f"{path}.") for name in known):
+        paths = [other.path for other in leaves(model)]
+        if any(name.startswith(f"{path}.") for name in paths):
             raise Unprocessable("not_scalar", f"{path} is a section, not a single value; name one of its fields", place)
-        raise Unprocessable(unknown, f"there is no {path}{did_you_mean(path, known)}", place)
+        raise Unprocessable(unknown, f"there is no {path}{did_you_mean(path, paths)}", place)
     if leaf.kind == "other":
         raise Unprocessable("not_scalar", f"{path} is not a single value", place)
     if not leaf.is_scalar:
@@ -40,7 +41,7 @@ def scalar_at(model: type[Documented], path: str, place: str, unknown: str) -> L
 
 
 def not_a_number(leaf: Leaf) -> str | None:
-    """Say what a field holds that has no number; None if it has one."""
+    """Return what a field holds instead of a number, or None if the field holds a number."""
     if leaf.options:
         return f"{leaf.path} is an option ({', '.join(map(str, leaf.options))}), not a number"
     if leaf.kind in NUMBERS:
@@ -50,13 +51,13 @@ def not_a_number(leaf: Leaf) -> str | None:
 
 
 def did_you_mean(path: str, known: Iterable[str]) -> str:
-    """The nearest known path as a question, or nothing."""
+    """Return a question that suggests the known path most similar to this path, or an empty text."""
     near = get_close_matches(path, list(known), n=1)
     return f"; did you mean {near[0]}?" if near else ""
 
 
 def fault(leaf: Leaf, value: Scalar) -> tuple[str, str] | None:
-    """Code and message of why the field's schema does not take a value; None where it does."""
+    """Return the code and the message of the reason why a field does not accept a value; None if the field does."""
     code = "out_of_range"
     if value is None:
         wrong, message = not leaf.nullable, "null is not accepted here"
@@ -77,14 +78,14 @@ def fault(leaf: Leaf, value: Scalar) -> tuple[str, str] | None:
 
 
 def check_value(leaf: Leaf, value: Scalar, place: str) -> None:
-    """Raise Unprocessable for a value that the field's schema does not take."""
-    if found := fault(leaf, value):
-        code, message = found
+    """Raise Unprocessable if the field does not accept the value."""
+    if reason := fault(leaf, value):
+        code, message = reason
         raise Unprocessable(code, f"{leaf.path}: {message}", place)
 
 
 def value_at(content: Any, path: str) -> Any:
-    """The value at a dotted path of a request or answer; None where a section or a place on the way is missing."""
+    """Return the value at a dotted path of a request or answer; None if a part of the path does not exist."""
     for part in path.split("."):
         if isinstance(content, list | tuple):
             content = content[int(part)] if part.isdecimal() and int(part) < len(content) else None
@@ -94,15 +95,15 @@ def value_at(content: Any, path: str) -> Any:
 
 
 def is_number(value: Any) -> bool:
-    """Whether a value can be compared; true counts as 1."""
+    """Return whether a value can be compared with numbers; true counts as 1."""
     return isinstance(value, int | float)
 
 
 def set_value(model: type[Documented], body: dict[str, Any], path: str, value: Scalar) -> None:
-    """Set the value at a dotted path of a request; sections and lists left to their defaults are filled in.
+    """Set the value at a dotted path of a request; sections and lists on the path that are missing are inserted.
 
-    Raises IndexError where a list is too short. What is neither section nor list where one belongs is left to the
-    request's own validation.
+    A list is inserted with its default items. Raises IndexError if a list is too short. If something else is at the
+    place of a section or a list, nothing is set, and the validation of the request reports the error.
     """
     parts = path.split(".")
     here: Any = body
@@ -122,7 +123,7 @@ def set_value(model: type[Documented], body: dict[str, Any], path: str, value: S
 
 
 def clear_excluded(model: type[Documented], body: dict[str, Any], path: str) -> None:
-    """Take the fields out of a request that a given value at this path excludes."""
+    """Remove from a request the fields that must not be given together with the field at this path."""
     leaf, own = leaf_at(model, path), path.split(".")
     for excluded in leaf.exclusive if leaf else ():
         *section, name = [own[place] if part == ITEM else part for place, part in enumerate(excluded.split("."))]
@@ -132,7 +133,7 @@ def clear_excluded(model: type[Documented], body: dict[str, Any], path: str) -> 
 
 
 def indexed(path: str, case: dict[str, Any]) -> list[str]:
-    """The path with every index that its lists have."""
+    """Return the path once for each item of the lists on it, with the index of the item."""
     before, star, after = path.partition(f".{ITEM}")
     if not star:
         return [path]

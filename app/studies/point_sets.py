@@ -1,4 +1,4 @@
-"""Which points a study has: a grid, a list of cases or a random sample, checked against the schema."""
+"""The points of a study: a grid, a list of cases or a random sample, checked against the schema."""
 
 from collections.abc import Sequence
 from itertools import pairwise, product
@@ -18,32 +18,33 @@ from solvers.arrays import FloatArray
 from solvers.drive_train.uncertainty import uncertain_inputs
 from solvers.quantity import allowed
 
-CUT = 4.0  # deviations
-LEAST_SHARE = 1e-9  # of a distribution inside its field's range: six digits of what is drawn, as tables show
+CUT = 4.0  # standard deviations from the mean, beyond which a distribution is cut off
+LEAST_SHARE = 1e-9  # of a distribution inside the range of its field; leaves the six digits that tables show
 
 
 def common_unit(leaves: Sequence[Leaf]) -> str | None:
-    """The unit of fields that take one value; None where they differ."""
+    """Return the unit of several fields, or None if their units differ."""
     units = {leaf.unit for leaf in leaves}
     return units.pop() if len(units) == 1 else None
 
 
 class CheckedAxis(NamedTuple):
-    """One axis: its fields, and its values unless they are random."""
+    """An axis with its fields and its values; `values` is None if the values are random."""
 
     path: str | list[str]
     leaves: tuple[Leaf, ...]
     values: list[Scalar | list[Scalar]] | None
 
     def header(self) -> dict[str, Any]:
-        """The axis in the first line of a study."""
+        """Return the description of the axis in the first line of a study."""
         return {"path": self.path, "unit": common_unit(self.leaves), "values": self.values}
 
 
 class PointSet(NamedTuple):
-    """Points in order: each row has the coordinates along `axes`, or without axes the values that the point sets.
+    """Points in order.
 
-    `varied` are the fields that differ between points.
+    Each of the `rows` has the coordinates of a point along the `axes`; if there are no axes, it has the values that the
+    point sets, by path. `varied` are the fields that differ between points.
     """
 
     axes: list[CheckedAxis]
@@ -52,62 +53,62 @@ class PointSet(NamedTuple):
 
     @property
     def total(self) -> int:
-        """How many points there are."""
+        """The number of points."""
         return len(self.rows)
 
     def overrides(self, index: int) -> Overrides:
-        """What a point changes in the base request."""
+        """Return the values that a point changes in the base request, by path."""
         row = self.rows[index]
         if isinstance(row, dict):
             return row
         return {
             leaf.path: own
             for axis, value in zip(self.axes, row, strict=True)
-            for leaf, own in zip(axis.leaves, _each(value, axis.leaves), strict=True)
+            for leaf, own in zip(axis.leaves, _values_of_fields(value, axis.leaves), strict=True)
         }
 
 
-def _each(value: Scalar | list[Scalar], leaves: tuple[Leaf, ...]) -> list[Scalar]:
-    """A value for each of the fields that move together."""
+def _values_of_fields(value: Scalar | list[Scalar], leaves: tuple[Leaf, ...]) -> list[Scalar]:
+    """Return one value per field of an axis from a value of the axis."""
     return value if isinstance(value, list) else [value] * len(leaves)
 
 
 def listed(cases: list[Overrides], base: BaseRequest, most: int, place: str) -> PointSet:
-    """The points of the list of cases at `place` of a study, at most `most`; raises Unprocessable."""
+    """Return the points of the list of cases at `place` of a study; raises Unprocessable if they exceed `most`."""
     check_count(len(cases), most, place)
     return PointSet([], tuple(fields_set(cases, base, place + ".{}").values()), cases)
 
 
 def fields_set(cases: Sequence[Overrides], base: BaseRequest, place: str) -> dict[str, Leaf]:
-    """The fields that cases set, by their paths.
+    """Return the fields that cases set, by their paths.
 
-    Raises Unprocessable for what there is not, or what its field does not take, at `place` of the study, in which `{}`
-    stands for the number of the case.
+    Raises Unprocessable if a path does not exist or if a field does not accept a value. The location of the error is
+    `place`, in which `{}` is replaced by the number of the case.
     """
-    known: dict[str, Leaf] = {}
+    fields: dict[str, Leaf] = {}
     for number, case in enumerate(cases):
         for path, value in case.items():
-            if path not in known:
-                known[path] = base.leaf(path, place.format(number))
-            check_value(known[path], value, place.format(number))
-    return known
+            if path not in fields:
+                fields[path] = base.leaf(path, place.format(number))
+            check_value(fields[path], value, place.format(number))
+    return fields
 
 
 def grid(axes: list[Axis], base: BaseRequest, most: int, place: str) -> PointSet:
-    """The product of the axes at `place` of a study, the first one slowest, at most `most` points.
+    """Return all combinations of the values of the axes at `place` of a study; the first axis varies slowest.
 
-    Raises Unprocessable.
+    Raises Unprocessable if an axis is wrong, or if there are more than `most` points.
     """
     total = prod(_length(axis, f"{place}.{number}") for number, axis in enumerate(axes))
     check_count(total, most, place)
     check_distinct([path for axis in axes for path in axis.paths], place)
-    found = [_checked(axis, base, f"{place}.{number}") for number, axis in enumerate(axes)]
-    rows = [list(row) for row in product(*(axis.values or () for axis in found))]
-    return PointSet(found, tuple(leaf for axis in found for leaf in axis.leaves), rows)
+    checked_axes = [_check_axis(axis, base, f"{place}.{number}") for number, axis in enumerate(axes)]
+    rows = [list(row) for row in product(*(axis.values or () for axis in checked_axes))]
+    return PointSet(checked_axes, tuple(leaf for axis in checked_axes for leaf in axis.leaves), rows)
 
 
 def _length(axis: Axis, place: str) -> int:
-    """How many values an axis has; either they are listed, or they are spread."""
+    """Return the number of values of an axis, which are either listed or spread between its ends."""
     spread = (axis.start, axis.stop, axis.count)
     if axis.values is not None and spread == (None, None, None):
         return len(axis.values)
@@ -116,14 +117,14 @@ def _length(axis: Axis, place: str) -> int:
     raise Unprocessable("values_or_range", "give either values, or start, stop and count", place)
 
 
-def _checked(axis: Axis, base: BaseRequest, place: str) -> CheckedAxis:
+def _check_axis(axis: Axis, base: BaseRequest, place: str) -> CheckedAxis:
     leaves = tuple(base.leaf(path, f"{place}.path") for path in axis.paths)
     values = _spread(axis, leaves, place) if axis.values is None else axis.values
     for number, value in enumerate(values):
         if isinstance(value, list) and (isinstance(axis.path, str) or len(value) != len(leaves)):
             message = "give one value for all fields of the axis, or of a list of fields each its own"
             raise Unprocessable("values_per_field", message, f"{place}.values.{number}")
-        for leaf, own in zip(leaves, _each(value, leaves), strict=True):
+        for leaf, own in zip(leaves, _values_of_fields(value, leaves), strict=True):
             check_value(leaf, own, place)
     if all(leaf.kind == "integer" for leaf in leaves):
         values = [int(value) if isinstance(value, float) else value for value in values]
@@ -131,7 +132,10 @@ def _checked(axis: Axis, base: BaseRequest, place: str) -> CheckedAxis:
 
 
 def _spread(axis: Axis, leaves: tuple[Leaf, ...], place: str) -> list[Any]:
-    """Even steps, or even ratios, from start to stop; an end that is refused is named."""
+    """Return values from start to stop with even steps or even ratios; raises Unprocessable at the end that is wrong.
+
+    A field may reject an end, and a logarithmic axis rejects an end that is not positive.
+    """
     ends: dict[str, Any] = {"start": axis.start, "stop": axis.stop}
     for name, end in ends.items():
         if axis.scale == "log" and end <= 0.0:
@@ -144,29 +148,32 @@ def _spread(axis: Axis, leaves: tuple[Leaf, ...], place: str) -> list[Any]:
 
 
 def scattering(scatters: Sequence[Range | Scatter], base: BaseRequest, place: str) -> tuple[Leaf, ...]:
-    """The fields of the distributions at `place` of a study; raises Unprocessable."""
-    check_distinct([each.path for each in scatters], place)
+    """Return the fields of the distributions at `place` of a study; raises Unprocessable."""
+    check_distinct([scatter.path for scatter in scatters], place)
     leaves = []
-    for number, each in enumerate(scatters):
+    for number, scatter in enumerate(scatters):
         here = f"{place}.{number}"
-        leaf = base.leaf(each.path, f"{here}.path")
+        leaf = base.leaf(scatter.path, f"{here}.path")
         message = not_a_number(leaf)
         if message is not None:
             raise Unprocessable("not_continuous", f"{message}; vary it or list cases", f"{here}.path")
         if leaf.kind == "integer":
-            raise Unprocessable("not_integer", f"{each.path} takes whole numbers; vary it or list cases", here)
-        for name, value in anchors(each).items():
+            raise Unprocessable("not_integer", f"{scatter.path} takes whole numbers; vary it or list cases", here)
+        for name, value in anchors(scatter).items():
             check_value(leaf, value, f"{here}.{name}")
-        for (low, least), (high, greatest) in pairwise(anchors(each).items()):
+        for (low, least), (high, greatest) in pairwise(anchors(scatter).items()):
             if least > greatest:
-                raise Unprocessable("out_of_range", f"{each.path}: {low} is above {high}", here)
-        _check_digits(each, leaf, here)
+                raise Unprocessable("out_of_range", f"{scatter.path}: {low} is above {high}", here)
+        _check_digits(scatter, leaf, here)
         leaves.append(leaf)
     return tuple(leaves)
 
 
 def _check_digits(scatter: Range | Scatter, leaf: Leaf, place: str) -> None:
-    """Refuse a normal distribution so wide that its shares do not tell the values inside the field's range apart."""
+    """Raise Unprocessable if almost all of a normal distribution lies outside the range of its field.
+
+    The values inside the range are computed from cumulative probabilities, which then have too few digits.
+    """
     if isinstance(scatter, Normal) and 1.0 - cut(scatter, leaf).cut_off < LEAST_SHARE:
         message = (
             f"{scatter.path}: a deviation of {scatter.deviation:.6g} leaves no digits of the values inside the field's "
@@ -176,12 +183,12 @@ def _check_digits(scatter: Range | Scatter, leaf: Leaf, place: str) -> None:
 
 
 def anchors(scatter: Range | Scatter) -> dict[str, float]:
-    """The values of a distribution that its field has to take, in rising order."""
+    """Return the parameters of a distribution that its field has to accept as values, in rising order."""
     return {name: getattr(scatter, name) for name in ("min", "mode", "mean", "median", "max") if hasattr(scatter, name)}
 
 
 class Cut(NamedTuple):
-    """A law of scipy between two ends."""
+    """A distribution of scipy, cut off at two ends."""
 
     law: Any
     low: float
@@ -193,19 +200,19 @@ class Cut(NamedTuple):
         return float(self.law.cdf(self.low)), float(self.law.cdf(self.high))
 
     def drawn(self, share: FloatArray) -> FloatArray:
-        """Values at shares of the distribution between its ends."""
+        """Return the values whose cumulative probability within the cut distribution is `share`."""
         low, high = self.shares
         return np.asarray(np.clip(self.law.ppf(low + (high - low) * share), self.low, self.high))
 
     @property
     def cut_off(self) -> float:
-        """The share of the distribution beyond its ends; none of a single value."""
+        """The share of the distribution beyond its ends; 0 if the ends are equal."""
         low, high = self.shares
         return low + 1.0 - high if self.low < self.high else 0.0
 
 
 def cut(scatter: Range | Scatter, leaf: Leaf) -> Cut:
-    """A distribution between its ends: four deviations, and the range of its field."""
+    """Return a distribution that is cut off at four standard deviations and at the ends of the range of its field."""
     from scipy import stats  # noqa: PLC0415  half a second that only random samples need
 
     law: Any
@@ -218,7 +225,7 @@ def cut(scatter: Range | Scatter, leaf: Leaf) -> Cut:
             low, high = scatter.median / scatter.factor**CUT, scatter.median * scatter.factor**CUT
         case _:
             low, high = scatter.min, scatter.max
-            width = high - low or 1.0  # of one value the ends leave that alone
+            width = high - low or 1.0  # if the ends are equal, `Cut` clips all values to them
             law = stats.uniform(low, width)
             if isinstance(scatter, Triangular) and high > low:
                 law = stats.triang((scatter.mode - low) / width, low, width)
@@ -229,15 +236,16 @@ def cut(scatter: Range | Scatter, leaf: Leaf) -> Cut:
 
 
 def drawn(scatters: Sequence[Range | Scatter], leaves: Sequence[Leaf], cube: FloatArray) -> FloatArray:
-    """Values of the fields, a column each, at points of the unit cube."""
+    """Return the values of the fields at points of the unit cube, one row per point and one column per field."""
     columns = zip(scatters, leaves, cube.T, strict=True)
-    return np.column_stack([cut(each, leaf).drawn(share) for each, leaf, share in columns])
+    return np.column_stack([cut(scatter, leaf).drawn(share) for scatter, leaf, share in columns])
 
 
 def unit_cube(method: Method, count: int, dimensions: int, seed: Any, place: str) -> FloatArray:
-    """Points of the unit cube; raises Unprocessable at `place` of the study, where the count is.
+    """Draw random points in the unit cube, one row per point.
 
-    `seed` is a number, or a generator of NumPy.
+    `seed` is a number or a generator of NumPy. A Sobol sample raises Unprocessable at `place`, which is the location of
+    the count in the study, if the count is not a power of two.
     """
     from scipy.stats import qmc  # noqa: PLC0415  half a second that only random samples need
 
@@ -250,19 +258,19 @@ def unit_cube(method: Method, count: int, dimensions: int, seed: Any, place: str
 
 
 def usual_corners(request: Request) -> dict[str, Axis]:
-    """The uncertain inputs of a unit and their values, where the user names none, by what they are."""
+    """Return the uncertain inputs of a gear unit with their usual values, by quantity."""
     axes = {}
-    for each in uncertain_inputs(request.inputs()):
-        paths = [path for name in each.names if (path := field_path(request, name))]
-        rows = [[_shown(path, value) for path, value in zip(paths, row, strict=True)] for row in each.values]
-        alone = len(paths) == 1
-        values = [row[0] for row in rows] if alone else rows
-        axes[each.quantity] = Axis(path=paths[0] if alone else paths, values=values)
+    for uncertain in uncertain_inputs(request.inputs()):
+        paths = [path for name in uncertain.names if (path := field_path(request, name))]
+        rows = [[_in_own_unit(path, value) for path, value in zip(paths, row, strict=True)] for row in uncertain.values]
+        is_single = len(paths) == 1
+        values = [row[0] for row in rows] if is_single else rows
+        axes[uncertain.quantity] = Axis(path=paths[0] if is_single else paths, values=values)
     return axes
 
 
-def _shown(path: str, value: float) -> Scalar:
-    """A value of the solver in the unit of the request, rounded to 12 digits."""
+def _in_own_unit(path: str, value: float) -> Scalar:
+    """Return a value of the solver in the unit of the field at this path, rounded to 12 digits."""
     field = next(part for part in reversed(path.split(".")) if not part.isdecimal())
     unit = split_unit(field)[1]
     return float(f"{value if unit is None else unit.from_si(value):.12g}") + 0.0

@@ -1,6 +1,6 @@
-"""What all studies share: points solved in chunks on a pool of processes and handed on in order, and lines of them.
+"""The common part of all studies: a pool of processes solves the points in chunks, and the study returns lines.
 
-A kind of study declares its endpoint and its body, and has its checks and its lines.
+The points come in order. A kind of study declares its endpoint and its body, and has its own checks and lines.
 """
 
 import asyncio
@@ -29,9 +29,9 @@ from app.studies.points import CHUNK_SECONDS, BaseRequest, Chunk, Point, Questio
 from app.studies.requests import Overrides
 from solvers.arrays import FloatArray
 
-CHUNKS_PER_SLOT = 2  # one at work, one that waits, so that no worker is idle
-MOST_POINTS_IN_A_CHUNK = 1000  # however fast a point is: a chunk's answer stays small
-PROGRESS_S = 2.0  # between lines of progress: proxies and users see that it runs
+CHUNKS_PER_SLOT = 2  # one is solved while one waits, so that no worker is idle
+MOST_POINTS_IN_A_CHUNK = 1000  # however fast a point is, so that the answer of a chunk stays small
+PROGRESS_S = 2.0  # between lines of progress, which show proxies and users that the study runs
 
 Line = dict[str, Any]
 Lines = AsyncGenerator[list[Line], None]
@@ -40,33 +40,34 @@ logger = logging.getLogger("tribodrive")
 
 
 class Pool(Protocol):
-    """Where chunks are solved: the service's own worker processes, or a cluster."""
+    """The processes that solve chunks: the service's own workers, or a cluster."""
 
     @property
     def slots(self) -> int:
-        """How many calls run at once."""
+        """The number of calls that run at once."""
 
     def submit(self, function: Callable[..., Any], *arguments: Any) -> asyncio.Future[Any]:
-        """Begin as soon as a process is free; cancelling takes back what has not begun and lets finish what has.
+        """Call the function in a process as soon as one is free, and return the future of the result.
 
-        The future raises WorkerLost, DeadlineExceeded, PoolLost, and what the function raises.
+        Cancelling the future cancels the call if it has not begun; a call that has begun runs to its end. The future
+        raises WorkerLost, DeadlineExceeded, PoolLost, and the exceptions of the function.
         """
 
 
 class PoolLost(Exception):
-    """The processes that solve points are gone; `code` names the reason in the line that ends the study."""
+    """The processes that solve points are lost; the last line of the study has the `code` of the reason."""
 
     code = "scheduler_lost"
 
 
 class OtherSources(PoolLost):
-    """A worker has other sources of the solvers than the service."""
+    """The sources of the solvers in a worker differ from those in the service."""
 
     code = "other_sources"
 
 
 class Clock:
-    """How long a study has run and how far it has come."""
+    """The running time of a study and the number of its solved points."""
 
     def __init__(self, total: int) -> None:
         self.total = total
@@ -75,22 +76,22 @@ class Clock:
 
     @property
     def elapsed_s(self) -> float:
-        """Seconds since the study began, to the millisecond."""
+        """The time since the study began [s], rounded to milliseconds."""
         return round(time.perf_counter() - self._started, 3)
 
     def line(self) -> Line:
-        """How far the study has come."""
+        """Return a line with the progress of the study."""
         return {"type": "progress", "done": self.done, "total": self.total, "elapsed_s": self.elapsed_s}
 
     def error(self, code: str, message: str) -> Line:
-        """The line that ends a study before its time, which is logged and counted."""
+        """Return the line that ends a study early; log and count this end."""
         STUDIES_UNFINISHED.inc()
         logger.warning("a study ended after %d of %d points: %s", self.done, self.total, message)
         return {"type": "error", "code": code, "message": message, "done": self.done}
 
 
 async def twice_if_lost(pool: Pool, function: Callable[..., Any], *arguments: Any) -> Any:
-    """A single call; once more if its process is lost."""
+    """Return the result of a single call, which is repeated once if its process is lost."""
     try:
         return await pool.submit(function, *arguments)
     except WorkerLost:
@@ -100,13 +101,14 @@ async def twice_if_lost(pool: Pool, function: Callable[..., Any], *arguments: An
 async def in_order(
     pool: Pool, question: Question, overrides: Callable[[int], Overrides], indices: range, clock: Clock
 ) -> AsyncGenerator[tuple[range, list[Point]], None]:
-    """Runs of points with their indices, in order; a chunk that loses its process is solved again point by point.
+    """Yield consecutive points with the range of their indices, in order.
 
-    `overrides` gives what the point of an index changes in the question's request.
-    Leaving the iteration takes back the chunks that have not begun and waits for none.
+    `overrides` returns for an index the values that this point changes in the request of the question. If the process
+    of a chunk is lost, the points of the chunk are solved again one by one. If the caller leaves the iteration, the
+    chunks that have not begun are cancelled, and nothing waits for the others.
     """
 
-    def begun(some: range) -> tuple[range, asyncio.Future[Chunk]]:
+    def submit(some: range) -> tuple[range, asyncio.Future[Chunk]]:
         return some, pool.submit(solve_chunk, question, [overrides(index) for index in some])
 
     pending: deque[tuple[range, asyncio.Future[Chunk]]] = deque()
@@ -116,7 +118,7 @@ async def in_order(
             while left and len(pending) < CHUNKS_PER_SLOT * pool.slots:
                 # Smaller chunks towards the end, so that all processes finish together.
                 fair = max(1, min(size, -(-len(left) // (2 * pool.slots))))
-                pending.append(begun(left[:fair]))
+                pending.append(submit(left[:fair]))
                 left = left[fair:]
             sent, future = pending.popleft()
             try:
@@ -125,8 +127,8 @@ async def in_order(
                 chunk = await _solved_singly(pool, question, [overrides(index) for index in sent], error)
             done, rest = sent[: len(chunk.points)], sent[len(chunk.points) :]
             if rest:
-                pending.appendleft(begun(rest))
-            seconds = max(chunk.seconds / len(done), CHUNK_SECONDS / MOST_POINTS_IN_A_CHUNK)  # of a point
+                pending.appendleft(submit(rest))
+            seconds = max(chunk.seconds / len(done), CHUNK_SECONDS / MOST_POINTS_IN_A_CHUNK)  # per point
             size = max(1, round(CHUNK_SECONDS / seconds))
             clock.done += len(done)
             yield done, chunk.points
@@ -136,15 +138,18 @@ async def in_order(
 
 
 async def _solved_singly(pool: Pool, question: Question, overrides: list[Overrides], error: Exception) -> Chunk:
-    """The points of a lost chunk one by one, each up to twice; a single point that took too long is not repeated."""
+    """Solve the points of a lost chunk one by one, and repeat a point once if its process is lost.
+
+    A chunk of a single point that exceeded its deadline is not repeated.
+    """
     late = question.failed("deadline_exceeded", "the point took longer than one calculation may")
     if len(overrides) == 1 and isinstance(error, DeadlineExceeded):
         return Chunk([late], CHUNK_SECONDS)
     started = time.perf_counter()
     points: list[Point] = []
-    for each in overrides:
+    for point_overrides in overrides:
         try:
-            points += (await twice_if_lost(pool, solve_chunk, question, [each])).points
+            points += (await twice_if_lost(pool, solve_chunk, question, [point_overrides])).points
         except WorkerLost:
             points.append(question.failed("worker_lost", "the worker process died each time it solved the point"))
         except DeadlineExceeded:
@@ -153,18 +158,19 @@ async def _solved_singly(pool: Pool, question: Question, overrides: list[Overrid
 
 
 class Study(ABC):
-    """A study that has passed its checks; the docstring of each kind describes its endpoint.
+    """A study whose request has passed all checks; the docstring of a subclass is the description of its endpoint.
 
-    It is made in a worker, from the body as JSON's objects or validated, the most points and the deadline of each;
-    raises InvalidBody and Unprocessable with locations in the body. `outputs` are the first columns of `Point.out`.
+    A worker makes the study from the content of the body (JSON objects or the validated model), the largest number of
+    points and the deadline of a point [s]. It raises InvalidBody and Unprocessable with locations in the body.
+    `outputs` are the first columns of `Point.out`.
     """
 
     path: ClassVar[str]  # of the endpoint; its last part is the type of the first line
-    summary: ClassVar[str]
-    answer: ClassVar[str]  # which lines there are
+    summary: ClassVar[str]  # of the endpoint
+    answer: ClassVar[str]  # the lines that the answer has
     model: ClassVar[type[Any]]  # of the body
-    most: ClassVar[str] = "most_study_points"  # the setting that bounds the points
-    is_reduced: ClassVar[bool] = True  # whether the film is left out where no output needs it
+    most: ClassVar[str] = "most_study_points"  # the setting that limits the number of points
+    is_reduced: ClassVar[bool] = True  # whether the film is left out if no output needs it
 
     def __init__(self, content: Any, most: int, deadline_s: float) -> None:
         self.body = validated(self.model, content)
@@ -182,48 +188,46 @@ class Study(ABC):
             raise Unprocessable("not_json", message, "request") from None
 
     def _outputs(self, base: BaseRequest) -> tuple[Leaf, ...]:
-        """The outputs asked for, by default the headline numbers."""
+        """Return the requested outputs, or the headline numbers if the request names none."""
         return base.outputs(self.body.outputs)
 
     @abstractmethod
     def _planned(self, base: BaseRequest, most: int) -> int:
-        """How many points there are at most, once everything else of the body has been checked."""
+        """Check the rest of the body, prepare the points and return their largest possible number."""
 
     @abstractmethod
     def lines(self, pool: Pool, clock: Clock) -> Lines:
-        """All lines but those of progress."""
+        """Yield all lines of the study in groups, as soon as they are known; `guarded` adds lines of progress."""
 
     def encoder(self, _: str) -> Callable[[Line], bytes]:
-        """Return the function that writes a line in a format; the only format here is JSON."""
+        """Return the function that writes a line in a format; a study has only JSON unless its kind has more."""
         return json_line
 
     def header(self, **content: Any) -> Line:
-        """A line that identifies the study."""
+        """Return a line with this content and with what identifies the study: its type, endpoint, versions and case."""
         identity = {"model_version": MODEL_VERSION, "sources": SOURCES, "case": self.case}
         return {"type": self.path.rpartition("/")[2], "endpoint": self.question.endpoint, **content, **identity}
 
 
 def output_header(leaf: Leaf) -> Line:
-    """An output in the first line of a study."""
+    """Return the description of an output or input in the lines of a study."""
     return {"path": leaf.path, "unit": leaf.unit, "title": leaf.title}
 
 
 def paths_of(leaves: Iterable[Leaf]) -> list[str]:
-    """The dotted paths of fields."""
     return [leaf.path for leaf in leaves]
 
 
 def point_line(index: int, at: Any, point: Point) -> Line:
-    """The line of a point."""
     line = {"type": "point", "index": index, "at": at, "status": point.status, "out": point.out}
     line |= {"warnings": point.warnings, "ranks": point.ranks}
     return line if point.error is None else {**line, "error": point.error}
 
 
 class Tally:
-    """Counts of the points by status, of their errors and warnings by code; their assumptions; kept numbers.
+    """The number of points per status, the number of errors and warnings per code, assumptions, and outputs.
 
-    Each assumption is there once, by its field; a value that differs between points is null.
+    `assumptions` has one entry per field; the value of this entry is None if the value differs between points.
     """
 
     def __init__(self, outputs: Sequence[str]) -> None:
@@ -235,28 +239,31 @@ class Tally:
         self.outputs = outputs
 
     def add(self, point: Point) -> None:
-        """Take in the next point."""
+        """Count the next point and merge its assumptions."""
         self.counts[point.status] += 1
         if point.error is not None:
             self.errors[point.error["code"]] += 1
         self.warnings.update(point.warnings)
-        for each in point.assumptions:
-            known = self.assumptions.setdefault(each["field"], each)
-            if known["value"] != each["value"]:
-                self.assumptions[each["field"]] = {**known, "value": None}
+        for assumption in point.assumptions:
+            first = self.assumptions.setdefault(assumption["field"], assumption)
+            if first["value"] != assumption["value"]:
+                self.assumptions[assumption["field"]] = {**first, "value": None}
 
     def keep(self, out: Sequence[Any]) -> None:
-        """Keep the numbers of a point."""
+        """Store the outputs of a point."""
         self._numbers.extend(value if is_number(value) else nan for value in out)
 
     @property
     def values(self) -> FloatArray:
-        """The numbers kept, one row per point, NaN where there is none."""
+        """The stored outputs, one row per point; NaN where an output has no number."""
         return np.array(self._numbers).reshape(-1, len(self.outputs))
 
 
 async def guarded(lines: Lines, clock: Clock, seconds: float, progress_s: float = PROGRESS_S) -> Lines:
-    """The lines, with progress where none came for so long; a study that fails or takes too long ends with an error."""
+    """Yield the lines, and a line of progress whenever none has come for `progress_s` seconds.
+
+    If the study fails, or takes longer than `seconds`, the last line is an error.
+    """
     async with aclosing(lines):
         upcoming = asyncio.ensure_future(anext(lines, None))
         try:
@@ -283,7 +290,7 @@ async def guarded(lines: Lines, clock: Clock, seconds: float, progress_s: float 
 
 
 async def encoded(lines: Lines, encode: Callable[[Line], bytes]) -> AsyncGenerator[bytes, None]:
-    """The lines as bytes, those that come together in one piece."""
+    """Yield the lines as bytes; lines that come in one group are one piece."""
     async with aclosing(lines):
         async for group in lines:
             if piece := b"".join(map(encode, group)):
@@ -291,5 +298,5 @@ async def encoded(lines: Lines, encode: Callable[[Line], bytes]) -> AsyncGenerat
 
 
 def json_line(line: Line) -> bytes:
-    """One line of newline-delimited JSON."""
+    """Return a line of newline-delimited JSON."""
     return json.dumps(line, ensure_ascii=False, allow_nan=False, separators=(",", ":")).encode() + b"\n"

@@ -1,10 +1,10 @@
 """Statistics of samples, and probabilities over a load spectrum with tolerances.
 
-A spectrum is a plain array `[replicate, draw, case]`; NaN is unsolved.
+The values of a spectrum are an array `[replicate, draw, case]`; NaN marks a point without solution.
 
-A draw is one machine, which runs every case: the worst case of a draw decides whether it exceeds a limit. A limit that
-is normally distributed is integrated in closed form, so that the noise is that of the tolerances alone. Replicates are
-independent: their scatter gives the error of every mean.
+A draw is one machine, which runs every case. The worst case of the machine decides whether the machine exceeds a limit.
+A normally distributed limit is integrated in closed form, so that only the tolerances cause noise. The replicates are
+independent, and their scatter gives the error of every mean.
 """
 
 from collections.abc import Sequence
@@ -26,7 +26,7 @@ Risk = Literal["low", "moderate", "high"]
 
 
 class Limit(NamedTuple):
-    """What an output must not exceed (`above`) or fall short of (`below`); fixed where the deviation is zero."""
+    """A value that an output must not exceed (`above`) or fall below (`below`); it is fixed if the deviation is 0."""
 
     side: Side
     mean: float
@@ -34,19 +34,22 @@ class Limit(NamedTuple):
     output: str = ""
 
     def exceeded(self, output: FloatArray) -> FloatArray:
-        """The probability that each value is beyond the limit; NaN where there is no value."""
+        """Return the probability that each of the values is beyond the limit; NaN at a missing value."""
         beyond = output - self.mean if self.side == "above" else self.mean - output
         if self.deviation > 0.0:
             return np.asarray(ndtr(beyond / self.deviation))
         return np.where(np.isnan(beyond), np.nan, beyond > 0.0)
 
     def worst(self, outputs: FloatArray) -> FloatArray:
-        """The worst of the cases (the last axis) that have a solution; NaN where none has."""
+        """Return the worst value over the cases (the last axis), without the unsolved ones; NaN if all are unsolved."""
         return np.asarray((np.fmax if self.side == "above" else np.fmin).reduce(outputs, axis=-1))
 
 
 class Mean(NamedTuple):
-    """A mean over replicates, its standard error and its 90 % interval by Student's t; None of a single replicate."""
+    """A mean over replicates, its standard error and its 90 % interval by Student's t.
+
+    A single replicate has neither standard error nor interval.
+    """
 
     mean: float
     standard_error: float | None
@@ -54,9 +57,10 @@ class Mean(NamedTuple):
 
 
 class Estimate(NamedTuple):
-    """A probability; `bounds` take all unsolved draws as good and as bad, and where they differ there is no value.
+    """A probability that a limit is exceeded.
 
-    The risk in words is that of the upper bound.
+    The lower of the `bounds` counts no unsolved draw as beyond the limit, and the upper one counts all of them. If the
+    bounds differ, `probability` is None. `risk` is the class of risk of the upper bound.
     """
 
     probability: float | None
@@ -67,7 +71,7 @@ class Estimate(NamedTuple):
 
 
 def mean_over_replicates(values: FloatArray) -> Mean:
-    """The mean of `[replicate, draw]` without NaN."""
+    """Return the mean of values `[replicate, draw]`, none of which may be NaN."""
     from scipy.stats import t  # noqa: PLC0415  half a second that only studies need
 
     means = values.mean(axis=1)
@@ -80,11 +84,11 @@ def mean_over_replicates(values: FloatArray) -> Mean:
 
 
 def of_spectrum(outputs: FloatArray, limit: Limit) -> Estimate:
-    """The probability that the worst case of a machine is beyond the limit."""
+    """Return the probability that the worst case of a machine is beyond the limit."""
     good = np.nan_to_num(limit.exceeded(limit.worst(outputs)), nan=0.0)
     unsolved = np.isnan(outputs).any(axis=-1)
-    low, high = (_chances(each, limit) for each in (good, np.where(unsolved, 1.0, good)))
-    errors = [each.standard_error for each in (low, high) if each.standard_error is not None]
+    low, high = (_chances(chances, limit) for chances in (good, np.where(unsolved, 1.0, good)))
+    errors = [side.standard_error for side in (low, high) if side.standard_error is not None]
     return Estimate(
         probability=low.mean if low.mean == high.mean else None,
         bounds=(low.mean, high.mean),
@@ -95,81 +99,90 @@ def of_spectrum(outputs: FloatArray, limit: Limit) -> Estimate:
 
 
 def of_case(outputs: FloatArray, limit: Limit) -> Estimate:
-    """The probability of one case as if it were alone; `outputs` are `[replicate, draw]`."""
+    """Return the probability of one case as if it were the only one; `outputs` are `[replicate, draw]`."""
     return of_spectrum(outputs[..., np.newaxis], limit)
 
 
 def _chances(chances: FloatArray, limit: Limit) -> Mean:
-    """The mean with its interval inside 0 to 1.
+    """Return the mean of the probabilities of the draws, with an interval between 0 and 1.
 
-    Draws beyond a fixed limit are counted. Where fewer of them than replicates are beyond it, or within it, or all
-    replicates count the same, the scatter of the replicates says nothing: the interval is Clopper and Pearson's of the
-    count, one-sided where none or all count, 1 - 0.1^(1/draws).
+    If the limit is fixed, each of the probabilities is 0 or 1, and the mean is a share of draws. The scatter of the
+    replicates gives no information in two cases: the draws beyond the limit, or the draws within the limit, are fewer
+    than the replicates; or every replicate has the same number of draws beyond the limit. In both cases the interval is
+    that of Clopper and Pearson for a count. If no draw or every draw is beyond the limit, this interval is one-sided,
+    and its width is 1 - 0.1^(1/draws).
     """
     from scipy.stats import binomtest  # noqa: PLC0415  half a second that only studies need
 
-    found, draws = mean_over_replicates(chances), chances.size
+    probability, draws = mean_over_replicates(chances), chances.size
     if limit.deviation == 0.0 and draws > 1:
-        events = round(found.mean * draws)
-        if min(events, draws - events) < len(chances) or not found.standard_error:
+        events = round(probability.mean * draws)
+        if min(events, draws - events) < len(chances) or not probability.standard_error:
             side: Literal["less", "greater", "two-sided"]
             side = "less" if events == 0 else "greater" if events == draws else "two-sided"
             interval = binomtest(events, draws, alternative=side).proportion_ci(CONFIDENCE)
-            return found._replace(interval=(float(interval.low), float(interval.high)))
-    if found.interval is None:
-        return found
-    low, high = found.interval
-    return found._replace(interval=(max(low, 0.0), min(high, 1.0)))
+            return probability._replace(interval=(float(interval.low), float(interval.high)))
+    if probability.interval is None:
+        return probability
+    low, high = probability.interval
+    return probability._replace(interval=(max(low, 0.0), min(high, 1.0)))
 
 
 def deciding(outputs: FloatArray, limit: Limit) -> list[float] | None:
-    """How often each case is the worst, of draws solved in all cases; ties are shared. None without such draws."""
-    solved = outputs[~np.isnan(outputs).any(axis=-1)]
-    if not solved.size:
+    """Return for each of the cases the share of the draws whose worst case it is; equally bad cases share a draw.
+
+    Only draws that are solved in all cases count; the result is None if there are no such draws.
+    """
+    complete = outputs[~np.isnan(outputs).any(axis=-1)]
+    if not complete.size:
         return None
-    worst = solved == limit.worst(solved)[:, np.newaxis]
-    return [float(share) for share in (worst / worst.sum(axis=1, keepdims=True)).mean(axis=0)]
+    is_worst = complete == limit.worst(complete)[:, np.newaxis]
+    return [float(share) for share in (is_worst / is_worst.sum(axis=1, keepdims=True)).mean(axis=0)]
 
 
 def mean(values: FloatArray) -> float | None:
-    """The mean of all values there are."""
-    known = values[~np.isnan(values)]
-    return float(known.mean()) if known.size else None
+    """Return the mean of the values that are not NaN, or None if there are none."""
+    finite = values[~np.isnan(values)]
+    return float(finite.mean()) if finite.size else None
 
 
 def quantiles(values: FloatArray) -> list[float] | None:
-    """5, 50 and 95 % of all values there are."""
-    known = values[~np.isnan(values)]
-    return [float(each) for each in np.quantile(known, QUANTILES)] if known.size else None
+    """Return the 5, 50 and 95 % quantiles of the values that are not NaN, or None if there are none."""
+    finite = values[~np.isnan(values)]
+    return [float(quantile) for quantile in np.quantile(finite, QUANTILES)] if finite.size else None
 
 
 def weighted_mean(outputs: FloatArray, shares: Sequence[float]) -> Mean | None:
-    """The mean over the cases by their shares, over the draws that are solved in all; None where a replicate has none.
+    """Return the mean over the cases, weighted with their shares.
 
-    Replicates that lost draws are means over those that are left.
+    The mean of a replicate is over its draws that are solved in all cases. If a replicate has no such draw, the result
+    is None.
     """
     per_draw = outputs @ np.asarray(shares)
-    kept = [each[~np.isnan(each)] for each in per_draw]
-    if not all(each.size for each in kept):
+    replicates = [draws[~np.isnan(draws)] for draws in per_draw]
+    if not all(draws.size for draws in replicates):
         return None
-    return mean_over_replicates(np.array([[each.mean()] for each in kept]))
+    return mean_over_replicates(np.array([[draws.mean()] for draws in replicates]))
 
 
 def histogram(values: FloatArray) -> tuple[list[float], list[float]]:
-    """Edges and probability density of all values there are; nothing where they are all the same."""
-    known = values[~np.isnan(values)]
-    if known.size < 2 or not np.ptp(known) > 0.0:
+    """Return the edges of the bins and the probability density in the bins, of the values that are not NaN.
+
+    Both lists are empty if all values are equal.
+    """
+    finite = values[~np.isnan(values)]
+    if finite.size < 2 or not np.ptp(finite) > 0.0:
         return [], []
-    bins = min(MOST_BINS, max(1, round(np.sqrt(known.size))))
+    bins = min(MOST_BINS, max(1, round(np.sqrt(finite.size))))
     try:
-        density, edges = np.histogram(known, bins, density=True)
-    except ValueError:  # values so near to each other that no number lies between two edges
+        density, edges = np.histogram(finite, bins, density=True)
+    except ValueError:  # the values are so close together that no number lies between two edges
         return [], []
     return edges.tolist(), density.tolist()
 
 
 def rank_correlation(x: FloatArray, y: FloatArray) -> float | None:
-    """Spearman's coefficient; none of fewer than three points, or where either does not vary."""
+    """Return Spearman's coefficient; None if there are fewer than three points, or if x or y is constant."""
     from scipy.stats import spearmanr  # noqa: PLC0415  half a second that only studies need
 
     if y.size < 3 or np.ptp(x) == 0.0 or np.ptp(y) == 0.0:
@@ -180,23 +193,23 @@ def rank_correlation(x: FloatArray, y: FloatArray) -> float | None:
 def of_sample(
     inputs: FloatArray, outputs: FloatArray, input_paths: list[str], output_paths: Sequence[str]
 ) -> dict[str, Any]:
-    """Quantiles with their bounds and rank correlation of a random sample, a row a point; runs in a worker.
+    """Return the quantiles with their bounds, and the rank correlations, of a random sample; runs in a worker.
 
-    Bounds are the order statistics that hold a quantile with 90 % confidence, whatever the distribution; null where the
-    sample is too small for one.
+    Each row of `inputs` and `outputs` is a point. The bounds of a quantile are the order statistics between which the
+    quantile lies with 90 % confidence, for any distribution; a bound is None if the sample is too small for it.
     """
     from scipy.stats import quantile_test  # noqa: PLC0415  half a second that only random samples need
 
-    found: dict[str, Any] = {"quantiles": {}, "quantile_bounds": {}, "rank_correlation": {}}
+    content: dict[str, Any] = {"quantiles": {}, "quantile_bounds": {}, "rank_correlation": {}}
     for path, column in zip(output_paths, outputs.T, strict=True):
-        there = ~np.isnan(column)
-        if there.any():
-            values = column[there]
+        has_value = ~np.isnan(column)
+        if has_value.any():
+            values = column[has_value]
             tests: list[Any] = [quantile_test(values, p=share) for share in QUANTILES]
             bounds = [test.confidence_interval(CONFIDENCE) for test in tests]
-            found["quantiles"][path] = np.quantile(values, QUANTILES).tolist()
-            found["quantile_bounds"][path] = [[None if isnan(end) else float(end) for end in ends] for ends in bounds]
-            found["rank_correlation"][path] = {
-                name: rank_correlation(own[there], values) for name, own in zip(input_paths, inputs.T, strict=True)
+            content["quantiles"][path] = np.quantile(values, QUANTILES).tolist()
+            content["quantile_bounds"][path] = [[None if isnan(end) else float(end) for end in ends] for ends in bounds]
+            content["rank_correlation"][path] = {
+                name: rank_correlation(own[has_value], values) for name, own in zip(input_paths, inputs.T, strict=True)
             }
-    return found
+    return content

@@ -1,6 +1,8 @@
 """Drawing of the contents of axes: curves, bars, rows, maps, polygons, limits, spans, marks and names."""
 
+from collections.abc import Iterator
 from dataclasses import replace
+from itertools import product
 from textwrap import fill
 from typing import Any
 
@@ -9,6 +11,7 @@ from matplotlib import rcParams
 from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm, Normalize, to_rgba
 from matplotlib.patches import Rectangle
+from matplotlib.path import Path
 from matplotlib.text import Text
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullLocator
 from matplotlib.transforms import Bbox, BboxBase, ScaledTranslation
@@ -24,8 +27,12 @@ LEGEND_COLUMNS = 2  # columns of a legend above narrow axes
 LINE = 1.3 / 72.0  # inches; height of a line of text per point of letter size
 NAME_BELOW = 36  # characters per line of the name below narrow axes
 ROW = 0.52  # height of a row's bar over the distance between rows
+LEAST_REACH = 7  # typographic points between a text and its point or line
+# Number of steps in which the name of a line moves along the line; heights of a name per step downwards.
+ALONG, DOWN = 8, 0.6
 RING = 5  # pixels, half the side of the box around a mark
-SIDES = {"above": 1, "below": -1}  # side of a point on which its text is tried first; other texts are not moved
+SIDES = {"above": 1, "below": -1}  # side of a point on which its text is tried first
+MOVED = {*SIDES, "row", "column"}  # texts of points, of horizontal and of vertical lines; other texts are not moved
 # Ticks in a decade of ratios; greatest ratio of a map whose ticks are evenly spaced instead.
 RATIO_TICKS, LINEAR_RATIO = (1.0, 1.5, 2.0, 3.0, 5.0, 7.0), 1.5
 FEW_DECADES = 100.0  # a logarithmic axis whose ends have a smaller ratio has ticks between powers of ten
@@ -79,7 +86,7 @@ def draw_panel(axes: Axes, panel: Panel, length: int, *, narrow: bool = False) -
         shade: Style = {"facecolor": rcParams["grid.color"], "edgecolor": "none", "zorder": 2 if panel.map else 0}
         axes.axvspan(span.start, span.stop, **shade)
         top = (span.start + span.stop) / 2, 1.0
-        _name(axes, span.name, top, axes.get_xaxis_transform(), gid="below", color=rcParams["axes.labelcolor"])
+        _name(axes, span.name, top, axes.get_xaxis_transform(), gid="column", color=rcParams["axes.labelcolor"])
     _draw_legend(axes, panel, narrow=narrow)
 
 
@@ -327,9 +334,9 @@ def _draw_levels(axes: Axes, panel: Panel) -> None:
         text = level.name + (below if level.value < low else above if level.value > high else "") * bool(level.name)
         at, color = float(np.clip(level.value, low, high)), _level_style(level.limit)["color"]
         if level.vertical:
-            _name(axes, text, (at, 1.0), axes.get_xaxis_transform(), gid="below", color=color)
+            _name(axes, text, (at, 1.0), axes.get_xaxis_transform(), gid="column", color=color)
         else:
-            _name(axes, text, (1.0, at), axes.get_yaxis_transform(), gid="above", color=color)
+            _name(axes, text, (1.0, at), axes.get_yaxis_transform(), gid="row", color=color)
 
 
 def _level_style(limit: bool) -> Style:
@@ -373,26 +380,56 @@ def place_texts(axes: Axes, panel: Panel) -> None:
         while (box := text.get_window_extent()).width > room.width or box.height > room.height:
             text.set_text(text.get_text().rpartition("\n")[0])
         _keep_clear(axes, text, room, rings)
-    taken: list[BboxBase] = [text.get_window_extent() for text in axes.texts if text.get_gid() not in SIDES]
+    taken: list[BboxBase] = [text.get_window_extent() for text in axes.texts if text.get_gid() not in MOVED]
     taken += [*rings, axes.yaxis.label.get_window_extent(), axes.title.get_window_extent()]
     shapes = [line for line in axes.lines if line.get_linestyle() != "None"]
     shapes += [bar for container in axes.containers for bar in container]
     curves = [shape.get_path().transformed(shape.get_transform()) for shape in shapes]
     point = axes.figure.dpi / 72.0
     for text in axes.texts:
-        if text.get_gid() not in SIDES:
+        if text.get_gid() not in MOVED:
             continue
         text.set(ha="center", va="center")
-        size, side = text.get_window_extent(), SIDES[str(text.get_gid())]
-        # A position costs more with overlapped texts, crossed curves, room outside the axes, and distance.
+        size, room = text.get_window_extent(), axes.bbox
+        # The cost of a position counts overlapped texts, hidden curves, room outside the axes, and distance.
         costs = {}
-        for reach in (7, 12, 20, 32, 48, 64):
-            for across, up in ((0, side), (0, -side), (1, 0), (-1, 0), (1, 0.7), (-1, 0.7), (1, -0.7), (-1, -0.7)):
-                place = across * (reach * point + size.width / 2), up * (reach * point + size.height / 2)
-                box, room = size.translated(*place), axes.bbox
-                outside = max(room.x0 - box.x0, box.x1 - room.x1, 0.0) + max(room.y0 - box.y0, box.y1 - room.y1, 0.0)
-                crossed = sum(curve.intersects_bbox(box, filled=False) for curve in curves)
-                costs[place] = crossed + 10.0 * sum(box.overlaps(other) for other in taken) + outside + reach / 32.0
+        for place, distance in _places(str(text.get_gid()), size, room, point):
+            box = size.translated(*place)
+            outside = max(room.x0 - box.x0, box.x1 - room.x1, 0.0) + max(room.y0 - box.y0, box.y1 - room.y1, 0.0)
+            hidden = sum(_hidden(curve, box) for curve in curves if curve.intersects_bbox(box, filled=False))
+            costs[place] = hidden + 10.0 * sum(box.overlaps(other) for other in taken) + outside + distance
         best = min(costs, key=costs.__getitem__)
         text.set_position((best[0] / point, best[1] / point))
         taken.append(size.translated(*best).padded(2.0 * point))  # leaves space between the patches of two texts
+
+
+def _hidden(curve: Path, box: BboxBase) -> float:
+    """Return the cost of a text whose box lies over a curve. The cost grows with the hidden length of the curve."""
+    x, y = np.asarray(curve.vertices).T
+    inside = x[(x > box.x0) & (x < box.x1) & (y > box.y0) & (y < box.y1)]
+    return 1.0 + 2.0 * float(np.ptp(inside)) / box.width if inside.size else 1.0
+
+
+def _places(kind: str, size: BboxBase, room: BboxBase, point: float) -> Iterator[tuple[tuple[float, float], float]]:
+    """Yield the positions that are tried for a text, each with a cost that grows with its distance from the point.
+
+    Positions are in pixels, relative to the point of the text. The name of a horizontal line (`row`) may stand anywhere
+    along the line, above or below it. The name of a vertical line (`column`) stays at the line or beside it, and may
+    move down. `point` is the size of a typographic point in pixels.
+    """
+    gap = LEAST_REACH * point
+    if kind == "row":
+        free = max(room.width - size.width - 2 * gap, 0.0)
+        for step, side in product(range(ALONG + 1), (1, -1)):
+            left = gap + size.width / 2 + free * step / ALONG
+            yield (-left, side * (gap + size.height / 2)), 0.05 * step + 0.02 * (side < 0)
+    elif kind == "column":
+        for step, side in product(range(ALONG + 1), (0, 1, -1)):
+            below = gap + size.height / 2 + DOWN * step * size.height
+            yield (side * (gap + size.width / 2), -below), 0.2 * step + 0.1 * abs(side)
+    else:
+        side = SIDES[kind]
+        for reach in (LEAST_REACH, 12, 20, 32, 48, 64):
+            for across, up in ((0, side), (0, -side), (1, 0), (-1, 0), (1, 0.7), (-1, 0.7), (1, -0.7), (-1, -0.7)):
+                far = reach * point
+                yield (across * (far + size.width / 2), up * (far + size.height / 2)), reach / 32.0

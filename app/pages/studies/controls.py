@@ -87,7 +87,7 @@ def control_at(controls: Sequence[Control], path: str) -> str:
     parts = path.split(".")
     names = {control.path: control.name for control in controls}
     above = (".".join(parts[:end]) for end in range(len(parts), 0, -1))
-    return next((names[each] for each in above if each in names), path)
+    return next((names[part] for part in above if part in names), path)
 
 
 class Choice(NamedTuple):
@@ -101,8 +101,8 @@ class Choice(NamedTuple):
 class Menu(NamedTuple):
     """A menu with grouped entries.
 
-    `chosen` is the path of the chosen entry, empty where there is no choice, of which `empty` is the label. `shown` is
-    the label of the choice, printed below the menu because a narrow menu cuts it off.
+    `chosen` is the path of the chosen entry, or an empty text if nothing is chosen. `empty` is the label of the entry
+    for no choice. `shown` is the label of the chosen entry, printed below the menu because a narrow menu cuts it off.
     """
 
     name: str
@@ -124,35 +124,38 @@ def menu(name: str, label: str, empty: str, choices: list[Choice], chosen: str, 
 
 
 def field_choices(calculation: Calculation, case: dict[str, Any], *, texts: bool) -> list[Choice]:
-    """Every single field that has numbers, with its value in this case; and those with texts to choose from."""
+    """Return a choice for every single field that takes numbers, labelled with its value in this case.
+
+    If `texts` is true, fields that take one of several texts are also included.
+    """
     titles = {branch.path: branch.title for branch in tree(calculation.request).branches}
-    found = []
+    choices = []
     for leaf in leaves(calculation.request):
         if leaf.is_scalar and leaf.path != "detail" and (has_numbers(leaf) or (texts and choices_of(leaf))):
             group = titles.get(leaf.path.partition(".")[0], "general")
             unit = f" {leaf.unit}" if leaf.unit else ""
             for path in indexed(leaf.path, case):
                 name, value = numbered(leaf.title, path), value_at(case, path)
-                found.append(Choice(path, name if value is None else f"{name} ({shown(value)}{unit})", group))
-    return found
+                choices.append(Choice(path, name if value is None else f"{name} ({shown(value)}{unit})", group))
+    return choices
 
 
 def numbered(title: str, path: str) -> str:
-    """Title of an input; which one it is where there are several."""
+    """Return the title of an input, with its numbers (from 1) in the lists that its path goes through."""
     places = [str(int(part) + 1) for part in path.split(".") if part.isdecimal()]
     return f"{title} {'.'.join(places)}" if places else title
 
 
 def is_number(value: Any) -> bool:
-    """Whether a value is a number and no truth value."""
+    """Return whether a value is a number; true and false are not numbers."""
     return isinstance(value, int | float) and not isinstance(value, bool)
 
 
 def choices_of(leaf: Leaf) -> list[Any]:
-    """All values of a field that takes only some, either texts or numbers."""
+    """Return the values of a field that accepts only a fixed set of values; an empty list for any other field."""
     return [True, False] if leaf.kind == "boolean" else list(leaf.options)
 
 
 def has_numbers(leaf: Leaf) -> bool:
-    """Whether an axis can run along it."""
+    """Return whether a field takes numbers, so that an axis can run along it."""
     return leaf.kind in NUMBERS or any(map(is_number, leaf.options))

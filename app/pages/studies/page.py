@@ -1,4 +1,4 @@
-"""The page of a study before, while and after its lines come, and its figures as files; runs in workers."""
+"""The page of a study before, during and after the calculation, and its figures as files; runs in workers."""
 
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
@@ -31,11 +31,11 @@ from app.studies.runner import Line, Study
 
 FRAMES = "<!-- the figures -->"
 OUTPUT = Control("show", "outputs", sets=False)
-"""The menu of outputs, which is on every page."""
+"""The menu of outputs, which every page has."""
 
 
 class Controls(NamedTuple):
-    """A group of controls in the form of a study; with a text `about`, each control has its own line."""
+    """A group of controls in the form of a study; if there is a text `about`, each of the controls has its own line."""
 
     title: str
     menu: Menu | None = None
@@ -50,7 +50,7 @@ class Number(str):
 
 
 class Link(NamedTuple):
-    """A link in a table or above the result; screen readers read `label` where the text alone says too little."""
+    """A link in a table or above the result; screen readers read the `label`, if there is one, instead of the text."""
 
     text: str
     address: str
@@ -68,7 +68,7 @@ class Table(NamedTuple):
 
     @property
     def right(self) -> list[bool]:
-        """Which columns have numbers."""
+        """For each of the columns, whether it contains numbers."""
         return [isinstance(heading, Number) for heading in self.head]
 
 
@@ -76,8 +76,9 @@ class Table(NamedTuple):
 class Result:
     """The result of a study as its page shows it: the `first` tables, the figures by name, then the other tables.
 
-    `answer` is the answer to the question of the study in a sentence. `leads` are links above the result. `script` is
-    JSON for the script of the page, with which a click into the first figure opens the case at that point.
+    `answer` is a sentence that answers the question of the study. `leads` are links above the result. `script` is JSON
+    for the script of the page; the script opens the case of a point if the user clicks on this point in the first
+    figure.
     """
 
     progress: str
@@ -98,14 +99,14 @@ class StudyPage(ABC):
     link, question, about
         Name in addresses and label of the page, its heading, and the sentence below that.
     names
-        The controls that it may have, beside the menu of outputs.
+        Names of all controls that the page may have, except the menu of outputs.
     figures, files
         Names of all figures that the page can show, and the formats in which the lines can be downloaded.
     template
-        Of the result.
+        Template of the result.
     outputs
-        Outputs in order of preference: the first that the answer has is shown where none is chosen, else the first
-        headline.
+        Preferred outputs. If the user chooses no output, the page shows the first of these that the answer has, or else
+        the first headline.
     grows
         Whether the page shows its result while lines arrive; otherwise it shows only the progress.
     needs, choose
@@ -113,8 +114,8 @@ class StudyPage(ABC):
     plan
         The kind of study, which is made from its body, the largest number of points and the deadline of a point [s].
     case, study, faults
-        The case as far as it is known; the study, None until the query has been accepted; and what the query is refused
-        for, by control.
+        The case as far as the query states it; the study, which is None until the query has been accepted; and the
+        errors of a rejected query, by control.
 
     """
 
@@ -140,18 +141,18 @@ class StudyPage(ABC):
 
     @abstractmethod
     def body(self) -> dict[str, Any]:
-        """The body of the request to the endpoint of the study; raises Unprocessable."""
+        """Return the body of the request to the endpoint of the study; raises Unprocessable."""
 
     @abstractmethod
     def result(self, lines: list[Line]) -> Result:
-        """The result of all lines; on a page that `grows`, also of the lines that have arrived so far."""
+        """Return the result of all lines, or of the lines that have arrived so far if the page `grows`."""
 
     def controls(self) -> tuple[Controls, ...]:
-        """The groups of controls above the menu of outputs."""
+        """Return the groups of controls above the menu of outputs."""
         return ()
 
     def shows(self) -> tuple[FieldView, ...]:
-        """The form fields placed beside the menu of outputs."""
+        """Return the form fields beside the menu of outputs."""
         return ()
 
     def declared(self) -> tuple[Control, ...]:
@@ -166,22 +167,22 @@ class StudyPage(ABC):
         return body_of(self.declared(), self.views)
 
     def starters(self) -> Sequence[Starter | StudyExample]:
-        """Links to ready studies, one for each example; none where the query has a case."""
+        """Return links to ready studies, one per example; no links if the query has a case."""
         examples = () if self.asked.pairs else examples_of(self.calculation)
         path = f"{self.asked.path}/{self.link.name}"
-        return [Starter(each.title, each.source, link(path, pairs_of(each.request))) for each in examples]
+        return [Starter(example.title, example.source, link(path, pairs_of(example.request))) for example in examples]
 
     @property
     def calculation(self) -> Calculation:
-        """The calculation whose case is studied."""
+        """The calculation of the case that is studied."""
         return self.asked.calculation
 
     @property
     def usual_output(self) -> Leaf:
-        """The output that is shown when none is chosen."""
+        """The output that is shown if the user chooses none."""
         response = self.calculation.response
-        known = (leaf for path in self.outputs if (leaf := leaf_at(response, path)))
-        return next(known, headlines(response)[0])
+        preferred = (leaf for path in self.outputs if (leaf := leaf_at(response, path)))
+        return next(preferred, headlines(response)[0])
 
     @cached_property
     def output(self) -> Leaf:
@@ -193,12 +194,15 @@ class StudyPage(ABC):
         return output
 
     def menu(self, name: str, label: str, empty: str, choices: list[Choice]) -> Menu:
-        """A menu of these choices; one that the query names and that is not among them is added."""
+        """Return a menu of these choices; the choice in the query is added if it is not among them."""
         chosen = self.views.get(name, "")
         return menu(name, label, empty, choices, chosen, dict(self.faults).get(name))
 
     def field(self, name: str, label: str, usual: Scalar = None, unit: str = "", options: Options = ()) -> FieldView:
-        """A form field with the text typed and the usual value as placeholder; a menu if there are options."""
+        """Return a form field with the typed text, and with the usual value as placeholder.
+
+        The field is a menu if there are options.
+        """
         return FieldView(
             name=name,
             label=label,
@@ -215,14 +219,14 @@ class StudyPage(ABC):
         return self.field(control.name, control.label, control.default, control.unit, control.options)
 
     def control_at(self, path: str) -> str:
-        """The name of the control for a dotted path in the body; fields of the case are controls themselves."""
+        """Return the name of the control for a dotted path in the body; a field of the case is its own control."""
         head, *rest = path.split(".")
         if head == "request":
             return ".".join(rest)
         return control_at((OUTPUT, *self.declared()), path)
 
     def view(self, below: str) -> str:
-        """The address of this page with `below` appended to its path: a file, a figure, the report."""
+        """Return the address of this page, with `below` appended to its path for a file, a figure or the report."""
         kept = control_names() | {"theme", *FILE_NAMES}
         views = {name: text for name, text in self.views.items() if name in kept}
         return link(f"{self.asked.path}/{self.link.name}{below}", self.asked.pairs, **views, sources=SHORT_SOURCES)
@@ -233,7 +237,7 @@ class StudyPage(ABC):
         return len(self.view("").partition("?")[2]) > LONGEST_QUERY
 
     def image(self, figure: str, image_format: str) -> str:
-        """The address of one figure as a file."""
+        """Return the address of a figure as a file."""
         return self.view(f"/figures/{figure}.{image_format}")
 
     def field_at(self, path: str) -> Leaf | None:
@@ -244,24 +248,24 @@ class StudyPage(ABC):
             return None
 
     def input(self, path: str) -> Leaf:
-        """The field of the request at a path, which has to be a single value."""
+        """Return the field of the request at a path; raises Unprocessable if the path has no single value."""
         return scalar_at(self.calculation.request, path, "", "unknown_path")
 
     def address(self, overrides: Overrides, below: str = "") -> str:
-        """The address of the case at a point: its page, or with `below` a view such as its report."""
+        """Return the address of the case at a point, with `below` added to its path for a view such as the report."""
         body = with_overrides(self.calculation, self.asked.body, overrides)
         del body["detail"]
         return link(f"{self.asked.path}{below}", pairs_of(body), theme=self.asked.theme)
 
     def solved(self, overrides: Overrides) -> Case:
-        """The case at a point with its answer, of which only the parts are calculated that the outputs need."""
+        """Return the case at a point with its answer; only the parts that the outputs need are calculated."""
         body = with_overrides(self.calculation, self.asked.body, overrides)
         outputs = [leaf.path for leaf in self.study.outputs]
         return solved(self.calculation, pairs_of(reduced_request(self.calculation.path, body, outputs)), None)
 
 
 class Opened(NamedTuple):
-    """A study page in two parts; the result of the study, if it runs, is sent between them."""
+    """A study page in two parts; if the study runs, its result is sent between them."""
 
     page: StudyPage
     status: int
@@ -270,21 +274,21 @@ class Opened(NamedTuple):
 
 
 def opened(kind: type[StudyPage], asked: Asked, most: int, deadline_s: float) -> Opened:
-    """The page for a query, with its study if the query asks for one, or with the reasons why that is refused."""
+    """Return the page for a query, with the study that the query asks for, or with the errors of a rejected query."""
     page, status = kind(asked), 200
     try:
         if asked.pairs and (not page.needs or any(asked.views.get(name) for name in page.needs)):
             page = checked(kind, asked, most, deadline_s)
     except REFUSED as error:
         status = 400 if isinstance(error, Unreadable) else 422
-        found = faults_of(error, page.calculation)
-        at_controls = [(page.control_at(each.path), each.message) for each in found]
-        texts = {name: text for name, text in asked.views.items() if name != CASES}  # whose fault names the line
+        at_controls = [(page.control_at(fault.path), fault.message) for fault in faults_of(error, page.calculation)]
+        # A fault of the table of cases is left as it is, because it names the line.
+        texts = {name: text for name, text in asked.views.items() if name != CASES}
         page.faults = [Fault(name, question(texts.get(name, "")) or message) for name, message in at_controls]
     show = page.menu("show", "output", page.usual_output.title, output_choices(page.calculation))
     groups = (*page.controls(), Controls("Show", show, page.shows()))
-    controls = {each.name for group in groups for each in (group.menu, *group.fields) if each}
-    texts = {each.name: each.text for group in groups for each in group.fields} | asked.views
+    controls = {control.name for group in groups for control in (group.menu, *group.fields) if control}
+    texts = {field.name: field.text for group in groups for field in group.fields} | asked.views
     content = rendered(
         "study.html",
         asked.root,
@@ -302,50 +306,50 @@ def opened(kind: type[StudyPage], asked: Asked, most: int, deadline_s: float) ->
 
 
 def checked(kind: type[StudyPage], asked: Asked, most: int, deadline_s: float) -> StudyPage:
-    """The page with the study that the query asks for; raises the errors of REFUSED, whose paths are in the body."""
+    """Return the page with the study that the query asks for; raises the errors of REFUSED, with paths in the body."""
     page = kind(asked)
     page.study = page.plan(page.body(), most, deadline_s)
     return page
 
 
 def output_choices(calculation: Calculation) -> list[Choice]:
-    """The single numbers of the answer, which a study can show, the headlines first."""
+    """Return a choice for each of the single numbers of the answer, which a study can show; headlines come first."""
     response = calculation.response
     first = headlines(response)
     titles = {branch.path: branch.title for branch in tree(response).branches}
     choices = []
     for leaf in (*first, *(leaf for leaf in leaves(response) if leaf not in first)):
         section, *inner = leaf.path.split(".")
-        whole = leaf.is_scalar and leaf.kind in NUMBERS and leaf.detail == "summary" and ITEM not in inner
-        if whole and section not in NOT_RESULTS:
+        is_single = leaf.is_scalar and leaf.kind in NUMBERS and leaf.detail == "summary" and ITEM not in inner
+        if is_single and section not in NOT_RESULTS:
             group = "numbers that decide" if leaf in first else titles.get(section, "result")
             choices.append(Choice(leaf.path, titled(leaf), group))
     return choices
 
 
 def titled(leaf: Leaf) -> str:
-    """The title of a field with its unit."""
+    """Return the title of a field with its unit."""
     return f"{leaf.title}, {leaf.unit}" if leaf.unit else leaf.title
 
 
 def drawn(page: StudyPage, lines: list[Line], done: int | None = None) -> bytes:
-    """The result as HTML: figures, tables and links.
+    """Return the result as HTML with figures, tables and links.
 
-    While the study runs, `done` is the number of solved points. The result of a study that ended early begins with the
+    While the study runs, `done` is the number of solved points. If the study ended early, the result begins with the
     reason.
     """
     *before, last = lines or [{"type": "progress"}]
     ended_early = last["type"] == "error"
-    shows = last["type"] == "end" or (page.grows and (before if ended_early else lines))
-    found = page.result(lines) if shows else Result("")
-    charts = [embedded(name, figure, page.asked.theme) for name, figure in found.figures.items()]
+    has_result = last["type"] == "end" or (page.grows and (before if ended_early else lines))
+    result = page.result(lines) if has_result else Result("")
+    charts = [embedded(name, figure, page.asked.theme) for name, figure in result.figures.items()]
     if charts:
-        charts[0] = replace(charts[0], study=found.script)
+        charts[0] = replace(charts[0], study=result.script)
     return rendered(
         page.template,
         page.asked.root,
         page=page,
-        found=found,
+        found=result,
         problem=last["message"] if ended_early else "",
         done=last["done"] if ended_early else done,
         charts=charts,
@@ -353,26 +357,29 @@ def drawn(page: StudyPage, lines: list[Line], done: int | None = None) -> bytes:
 
 
 def file(page: StudyPage, lines: list[Line], name: str, image_format: Format) -> bytes | str:
-    """One figure as a file, or the reason why the study has no figure of this name."""
-    found = page.result(lines)
-    if name not in found.figures:
-        return "; ".join([f"This study has the figures {', '.join(found.figures) or 'none'}", *found.remarks])
-    return written(found.figures[name], image_format, page.asked.theme or "light")
+    """Return a figure as a file, or the reason why the study has no figure of this name."""
+    result = page.result(lines)
+    if name not in result.figures:
+        return "; ".join([f"This study has the figures {', '.join(result.figures) or 'none'}", *result.remarks])
+    return written(result.figures[name], image_format, page.asked.theme or "light")
 
 
 def report_head(page: StudyPage) -> bytes:
-    """Return the beginning of the document that shows how far the study of a report is, then the report."""
+    """Return the beginning of the document that shows the progress of the study, and after that the report."""
     return rendered("report_progress.html", page.asked.root, page=page).encode()
 
 
 def report_progress(page: StudyPage, done: int, *, has_ended: bool = False, problem: str = "") -> bytes:
-    """Return how many points of the study of a report are calculated, or why the report does not come."""
-    known = {"page": page, "done": done, "has_ended": has_ended, "problem": problem}
-    return rendered("report_points.html", page.asked.root, **known).encode()
+    """Return the part of the document with the number of solved points, or with the reason why there is no report."""
+    content = {"page": page, "done": done, "has_ended": has_ended, "problem": problem}
+    return rendered("report_points.html", page.asked.root, **content).encode()
 
 
 def report(page: StudyPage, lines: list[Line], host: str) -> bytes:
-    """Return style and body of the report of the case with a section about the study, to follow its progress."""
+    """Return the style and the body of the report of the case, with a section about the study.
+
+    They are sent after the parts that show the progress. If the case has no answer, return the reason instead.
+    """
     section = {
         "title": page.link.label,
         "link": "" if page.too_long else page.view(""),

@@ -1,4 +1,4 @@
-"""The page and the report of a study while its lines arrive: parts of a document that replace each other."""
+"""The page and the report of a study while its lines arrive, as parts of a document that replace each other."""
 
 import logging
 from collections.abc import AsyncGenerator, Callable
@@ -10,7 +10,7 @@ from app.pages.studies.page import Opened, StudyPage, drawn, report, report_head
 from app.studies.runner import Clock, Line, Lines, Pool, twice_if_lost
 
 FIRST_FRAME_S = 0.3  # until a page shows its first points
-FRAME_SHARE = 0.3  # of the time a study has run passes until its page is drawn again
+FRAME_SHARE = 0.3  # pause until a page is drawn again, as a share of the time that the study has run
 LONGEST_PAUSE_S = 4.0  # between two drawings of a page, however long the study runs
 NOT_DRAWN = (
     b'<div class="frame"><p class="warning">The figure could not be drawn; the files hold the points.</p>'
@@ -21,7 +21,7 @@ logger = logging.getLogger("tribodrive")
 
 
 async def pieces(pool: Callable[[], Pool], opened: Opened, lines: Lines, clock: Clock) -> AsyncGenerator[bytes, None]:
-    """The page of a study: head, results so far that replace each other, tail."""
+    """Yield the page of a study: its head, then results of which each replaces the one before, then its tail."""
     yield opened.head
     received, due = list[Line](), FIRST_FRAME_S
     async with aclosing(lines):
@@ -38,9 +38,9 @@ async def pieces(pool: Callable[[], Pool], opened: Opened, lines: Lines, clock: 
 async def report_pieces(
     pool: Callable[[], Pool], page: StudyPage, host: str, lines: Lines, clock: Clock
 ) -> AsyncGenerator[bytes, None]:
-    """The report of a study in one document: how many points are calculated, which each replaces the last; the report.
+    """Yield the report of a study as one document: parts with the number of solved points, and then the report.
 
-    `host` is what addresses in the report begin with.
+    Each of the parts replaces the one before. `host` is the beginning of the addresses in the report.
     """
     yield report_head(page) + report_progress(page, 0)
     received, due = list[Line](), FIRST_FRAME_S
@@ -61,11 +61,14 @@ async def report_pieces(
 
 
 async def _part(pool: Pool, view: Callable[..., bytes], *arguments: Any, failed: bytes = NOT_DRAWN) -> bytes:
-    """Return the result of a view in a worker, or `failed`: the page has begun, its status is sent."""
-    made = failed
+    """Return the part of a document that a view makes in a worker, or `failed` if the view fails.
+
+    No error is raised, because the status of the response has already been sent.
+    """
+    part = failed
     try:
         with suppress(WorkerLost, DeadlineExceeded):
-            made = await twice_if_lost(pool, view, *arguments)
+            part = await twice_if_lost(pool, view, *arguments)
     except Exception:
         logger.exception("a part of a study's page failed")
-    return made
+    return part

@@ -1,10 +1,10 @@
-"""One module per kind of study, with its request, its points, its conclusion and its page.
+"""One module per kind of study, with its request, its points, its last lines and its page.
 
-sweep           one field or two varied, a list of cases, or a random sample
-sensitivity     which input moves an output most
+sweep           one or two fields varied, a list of cases, or a random sample
+sensitivity     the inputs that move an output most
 spectrum        a load spectrum with tolerances: probabilities and losses
 corners         the worst combination of uncertain inputs
 design          the flank correction whose worst corner is best
 
-Every module here is a study of the service by its `PAGE`, a `StudyPage` with its `plan`; no list names the modules.
+The service finds a module by its `PAGE`, a `StudyPage` whose `plan` is the study; there is no list of the modules.
 """

@@ -1,6 +1,6 @@
 """Corners: a sweep over every combination of the uncertain inputs of a gear unit.
 
-Its page shows an output at all combinations, and the load at the worst one.
+A corner is one of these combinations. The page shows an output at all corners, and the load at the worst corner.
 """
 
 from dataclasses import replace
@@ -45,9 +45,9 @@ USUAL_RANGES = (
     "thrust of the couplings"
 )
 UNCERTAIN = ("wall response", "pinion clearance", "wheel clearance", "friction", "offset", "thrust fraction")
-"""What may be uncertain of a gear unit."""
+"""The inputs of a gear unit that can be uncertain."""
 DESIGN = "design"
-"""The name of the page of the study that mends the worst corner."""
+"""Name of the page of the study that looks for the flank correction with the best worst corner."""
 
 
 class CornersRequest(DriveTrainStudy):
@@ -83,10 +83,10 @@ class Corners(Sweep):
         return grid(ranges, base, min(most, MOST_CORNERS), "ranges")
 
     def _closing(self, summary: Summary, end: Line) -> list[Line]:
-        """The extremes of every output, and the end with a warning where corners have no solution."""
+        """Return the extremes of every output, and the end with a warning if some corners have no solution."""
         extremes: list[Line] = []
-        for path, found in summary.extremes.items():
-            ends = {name: {"value": value, "at": self.points.overrides(at)} for name, (value, at) in found.items()}
+        for path, extreme in summary.extremes.items():
+            ends = {name: {"value": value, "at": self.points.overrides(at)} for name, (value, at) in extreme.items()}
             extremes.append({"type": "extremes", "output": path, **ends})
         unsolved = self.total - sum(summary.counts[status] for status in SOLVED)
         notice = no_convergence(unsolved)
@@ -95,14 +95,15 @@ class Corners(Sweep):
 
 
 def control_of(quantity: str) -> str:
-    """The control of an uncertain input."""
+    """Return the name of the control of an uncertain input."""
     return f"{CORNER}{quantity.replace(' ', '_')}"
 
 
 class UnitPage(StudyPage):
-    """A study over the corners of a gear unit, which are the member `corners` of its body.
+    """The page of a study over the corners of a gear unit.
 
-    The uncertain inputs in `left_alone` are as in the case where nothing is typed.
+    `corners` is the name of the member of the body that has the corners. The uncertain inputs in `left_alone` keep the
+    values of the case if nothing is typed for them.
     """
 
     names = frozenset(map(control_of, UNCERTAIN))
@@ -112,7 +113,7 @@ class UnitPage(StudyPage):
 
     @cached_property
     def uncertain(self) -> dict[str, Axis]:
-        """The uncertain inputs with their usual values, by quantity; empty where the case is refused."""
+        """The uncertain inputs with their usual values, by quantity; empty if the case is rejected."""
         try:
             return usual_corners(BaseRequest(self.calculation, self.asked.body).checked({}))
         except REFUSED:
@@ -123,16 +124,16 @@ class UnitPage(StudyPage):
 
         Errors of all axes together are shown at the first control. An input that is left alone has no default.
         """
-        found: list[Control] = []
+        controls: list[Control] = []
         for quantity, axis in self.uncertain.items():
             name = control_of(quantity)
             usual = None if quantity in self.left_alone else {"path": axis.path, "values": axis.values}
             if usual or self.views.get(name):
-                found.append(Control(name, f"{self.corners}.{len(found)}", usual, partial(_typed, axis)))
-        return (*(Control(each.name, self.corners, sets=False) for each in found[:1]), *found)
+                controls.append(Control(name, f"{self.corners}.{len(controls)}", usual, partial(_typed, axis)))
+        return (*(Control(first.name, self.corners, sets=False) for first in controls[:1]), *controls)
 
     def controls(self) -> tuple[Controls, ...]:
-        """A field for the values of each uncertain input."""
+        """Return a form field for the values of each of the uncertain inputs."""
         fields = []
         for quantity, axis in self.uncertain.items():
             rows = [row if isinstance(row, list) else [row] for row in axis.values or ()]
@@ -144,7 +145,7 @@ class UnitPage(StudyPage):
         return (Controls("Uncertain inputs", fields=tuple(fields), about=about),)
 
     def corner_table(self, title: str, case: Case, corner: Overrides) -> Table:
-        """What a corner changes in the case."""
+        """Return a table of the inputs that a corner changes, with their values in the case and at the corner."""
         rows = []
         for path, value in corner.items():
             leaf = self.input(path)
@@ -155,24 +156,28 @@ class UnitPage(StudyPage):
 
 def _typed(axis: Axis, text: str) -> dict[str, Any]:
     """Return the axis with the typed values, which are separated by semicolons and contain blanks."""
-    rows = [[number_of(each) for each in row.split()] for row in text.split(";")]
+    rows = [[number_of(part) for part in row.split()] for row in text.split(";")]
     return {"path": axis.path, "values": [row[0] if len(row) == 1 else row for row in rows]}
 
 
 def load_figure(case: Case, reference: Case, name: str, finding: str) -> dict[str, Figure]:
-    """Load along the face at a corner (solid) and for the case as entered (dashed); None where there is no load."""
+    """Return the figure of the load along the face at a corner (solid) and for the case as entered (dashed).
+
+    The result is empty if one of the cases has no load.
+    """
     try:
-        own, given = (LOAD_ALONE.figure(each.request, each.response) for each in (case, reference))
+        own, given = (LOAD_ALONE.figure(drawn_case.request, drawn_case.response) for drawn_case in (case, reference))
     except NoFigure:
         return {}
     (panel,) = compared(own, given, "as described").panels
     line, *dashed = panel.lines
-    panel = replace(panel, lines=(replace(line, title=name), *(replace(each, title="as described") for each in dashed)))
+    others = (replace(dashed_line, title="as described") for dashed_line in dashed)
+    panel = replace(panel, lines=(replace(line, title=name), *others))
     return {LOAD_ALONE.name: replace(own, finding=f"{finding}{own.finding}, dashed {given.finding}", panels=(panel,))}
 
 
 class CornersPage(UnitPage):
-    """The worst corner of a gear unit."""
+    """The page with the worst corner of a gear unit."""
 
     link = StudyLink(
         "corners",
@@ -189,7 +194,10 @@ class CornersPage(UnitPage):
     study: Corners
 
     def body(self) -> dict[str, Any]:
-        """The corners as typed or usual; outputs are the one shown and the headlines that need no thermal film."""
+        """Return the body with the typed or usual corners.
+
+        The outputs are the output that the page shows, and the headlines that need no thermal film.
+        """
         output, paths = self.output.path, [leaf.path for leaf in headlines(self.calculation.response)]
         deciding = [path for path in paths if not (needs_film(DRIVE_TRAIN, path) or path.startswith(COLD))]
         return {
@@ -199,7 +207,7 @@ class CornersPage(UnitPage):
         }
 
     def result(self, lines: list[Line]) -> Result:
-        """The effect of each uncertain input, and the load at the worst corner beside that of the case."""
+        """Return the effect of each of the uncertain inputs, and the load at the worst corner and in the case."""
         end, output = lines[-1], self.output
         extremes = {line["output"]: line for line in lines if line["type"] == "extremes"}
         progress = f"{end['points']} corners in {shown(end['elapsed_s'], 2)} s"
@@ -208,39 +216,42 @@ class CornersPage(UnitPage):
             remarks.append(f"No corner has a {output.title}; choose another output.")
             return Result(progress, remarks=tuple(remarks))
         worst = extremes[output.path]["min" if output.view.greatest_is_best else "max"]["at"]
-        case, other = self.solved({}), self.solved(worst)
-        found = corners(axis_of(output), self._rows(lines, worst), value_at(case.response, output.path))
-        load = load_figure(other, case, "worst corner", "worst corner and, dashed, as described: ")
+        case, worst_case = self.solved({}), self.solved(worst)
+        figure = corners(axis_of(output), self._rows(lines, worst), value_at(case.response, output.path))
+        load = load_figure(worst_case, case, "worst corner", "worst corner and, dashed, as described: ")
         leads = (
             Link("Open the worst corner", self.address(worst)),
             Link("Its report", self.address(worst, "/report")),
             Link("What to grind", self.asked.study(DESIGN)),
         )
         tables = (self._extremes(extremes, case), self.corner_table("The worst corner", case, worst))
-        return Result(progress, {"corners": found, **load}, tables, tuple(remarks), leads)
+        return Result(progress, {"corners": figure, **load}, tables, tuple(remarks), leads)
 
     def _rows(self, lines: list[Line], worst: Overrides) -> list[Row]:
-        """For each value of each uncertain input, the worst output among the corners with that value."""
+        """Return one row per uncertain input, with a dot for each of its values.
+
+        A dot is at the worst output of all corners that have this value.
+        """
         points = [line for line in lines if line["type"] == "point" and line["out"][0] is not None]
         pick = min if self.output.view.greatest_is_best else max
-        found = []
+        rows = []
         for place, axis in enumerate(self.study.points.axes):
             dots = []
             for value in axis.values or ():
-                each = value if isinstance(value, list) else [value] * len(axis.leaves)
-                texts = [number(own) if isinstance(own, int | float) else str(own) for own in each]
-                text = ", ".join(texts[:1] if len(set(each)) == 1 else texts)
+                per_field = value if isinstance(value, list) else [value] * len(axis.leaves)
+                texts = [number(own) if isinstance(own, int | float) else str(own) for own in per_field]
+                text = ", ".join(texts[:1] if len(set(per_field)) == 1 else texts)
                 if unit := axis.header()["unit"]:
                     text = f"{text} {unit}"
-                decides = [worst[leaf.path] for leaf in axis.leaves] == each
-                if known := [line["out"][0] for line in points if line["at"][place] == value]:
-                    dots.append(Row(text, pick(known), Hue.VERMILLION if decides else Hue.BLUE))
+                is_worst = [worst[leaf.path] for leaf in axis.leaves] == per_field
+                if outputs := [line["out"][0] for line in points if line["at"][place] == value]:
+                    dots.append(Row(text, pick(outputs), Hue.VERMILLION if is_worst else Hue.BLUE))
             titles = dict.fromkeys(leaf.title for leaf in axis.leaves)
-            found.append(Row(listed(list(titles)), pick(dot.value for dot in dots), dots=dots))
-        return found
+            rows.append(Row(listed(list(titles)), pick(dot.value for dot in dots), dots=dots))
+        return rows
 
     def _extremes(self, extremes: dict[str, Line], case: Case) -> Table:
-        """The least and the largest value of each output, each a link to the case at its corner."""
+        """Return a table of the least and the largest value of each output, which are links to the cases there."""
         rows = []
         for leaf in self.study.outputs:
             if leaf.path in extremes:

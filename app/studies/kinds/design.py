@@ -1,7 +1,7 @@
-"""Design: values of some inputs whose worst case is best, searched trial by trial.
+"""Design: a search for the values of some inputs with the best worst case.
 
-On its page, the inputs are the flank correction of a gear unit. The page shows the correction as a sheet for the
-grinder, and the course of the search.
+On the page of the study, the inputs are the flank correction of a gear unit. The page shows the correction as a sheet
+for the grinder, and the course of the search.
 """
 
 from collections.abc import Sequence
@@ -48,15 +48,15 @@ from solvers.arrays import FloatArray
 from solvers.drive_train.uncertainty import MOST_CORNERS
 from solvers.errors import NoSolution
 
-FIRST_STEP = 0.15  # of a variable's range
-LAST_STEP = 2e-3  # of a variable's range, chosen
-LEAST_GAIN = 1e-3  # of the objective at the start; a restart that gained less is the last
-VALUE_SCALE = 0.2  # of the objective at the start: a change that counts as much as a variable's whole range
-PENALTY = 5.0  # scaled, above the worst known objective: that of a point without solution
-MOST_STEPS = 100  # of COBYQA for each evaluation; steps that change the level alone need no evaluation
+FIRST_STEP = 0.15  # as a share of the range of a variable
+LAST_STEP = 2e-3  # as a share of the range of a variable, chosen
+LEAST_GAIN = 1e-3  # as a share of the objective at the start; the search ends after a restart that gains less
+VALUE_SCALE = 0.2  # change of the objective, as a share of that at the start, that counts like the range of a variable
+PENALTY = 5.0  # by which a point without solution is worse than the worst known point, in scaled objectives
+MOST_STEPS = 100  # of COBYQA per evaluation; a step that changes only the level needs no evaluation
 
-EVALUATIONS = 40  # offered on the page at first, chosen
-STEP_UM = 0.5  # to which a correction is rounded
+EVALUATIONS = 40  # default on the page, chosen
+STEP_UM = 0.5  # a correction is rounded to multiples of this step
 SLOPE, CROWNING = "modifications.helix_slope_um", "modifications.lead_crowning_um"
 TIP, ROOT = "modifications.tip_relief_um", "modifications.root_relief_um"
 
@@ -109,7 +109,7 @@ class Design(Study):
     body: DesignRequest
 
     def _outputs(self, base: BaseRequest) -> tuple[Leaf, ...]:
-        """The objective."""
+        """Return the objective as the only output."""
         objective = base.output(self.body.objective, "objective")
         if objective.kind not in NUMBERS:
             raise Unprocessable("unknown_output", f"{objective.path} is no number", "objective")
@@ -117,7 +117,7 @@ class Design(Study):
 
     def _planned(self, base: BaseRequest, most: int) -> int:
         body, (objective,) = self.body, self.outputs
-        self.units = [_unit(each, base, f"variables.{place}") for place, each in enumerate(body.variables)]
+        self.units = [_unit(variable, base, f"variables.{place}") for place, variable in enumerate(body.variables)]
         self.cases = _cases(body, base)
         case = base.checked(self.cases[0]).model_dump()
         if body.direction is None and objective.view.bound is None:
@@ -131,11 +131,14 @@ class Design(Study):
         return total
 
     async def lines(self, pool: Pool, clock: Clock) -> Lines:
-        """The header, a line for each trial, the end."""
+        """Yield the header, a line for each trial, and the end."""
         variables = zip(self.body.variables, self.units, strict=True)
         yield [
             self.header(
-                variables=[{"path": of.paths, "unit": unit, "min": of.min, "max": of.max} for of, unit in variables],
+                variables=[
+                    {"path": variable.paths, "unit": unit, "min": variable.min, "max": variable.max}
+                    for variable, unit in variables
+                ],
                 objective=output_header(self.outputs[0]),
                 direction=self.direction,
                 corners=len(self.cases),
@@ -143,24 +146,24 @@ class Design(Study):
             )
         ]
         trials: list[Line] = []
-        figures: list[list[float] | None] = []
+        objectives: list[list[float] | None] = []
         place: list[float] | None = self.start
         while place is not None:
             shares = zip(self.body.variables, place, strict=True)
-            values = [each.min + share * (each.max - each.min) for each, share in shares]
-            trial, found = await self._trial(pool, clock, values)
+            values = [variable.min + share * (variable.max - variable.min) for variable, share in shares]
+            trial, signed = await self._trial(pool, clock, values)
             yield [{"type": "trial", "index": len(trials), **trial}]
             trials.append(trial)
-            figures.append(found)
-            if figures[0] is None:
+            objectives.append(signed)
+            if objectives[0] is None:
                 message = "the unit that the search starts from has no answer at its worst corner"
                 yield [clock.error("no_start", message)]
                 return
-            place = await runner.twice_if_lost(pool, next_place, self.start, figures, self.body.evaluations)
-        best, _ = min(zip(trials, figures, strict=True), key=lambda each: max(each[1] or [inf]))
+            place = await runner.twice_if_lost(pool, next_place, self.start, objectives, self.body.evaluations)
+        best, _ = min(zip(trials, objectives, strict=True), key=lambda pair: max(pair[1] or [inf]))
         rounded: Line = {}
         if self.is_rounded:
-            values = [_rounded(each, best["at"][each.paths[0]]) for each in self.body.variables]
+            values = [_rounded(variable, best["at"][variable.paths[0]]) for variable in self.body.variables]
             rounded["rounded"], _ = await self._trial(pool, clock, values)
         yield [
             {
@@ -172,17 +175,18 @@ class Design(Study):
                 "worst_corner": best["worst_corner"],
                 "evaluations": len(trials),
                 **rounded,
-                "unsolved": figures.count(None),
-                "history": [{"at": each["at"], "objective": each["objective"]} for each in trials],
+                "unsolved": objectives.count(None),
+                "history": [{"at": trial["at"], "objective": trial["objective"]} for trial in trials],
                 "elapsed_s": clock.elapsed_s,
             }
         ]
 
     async def _trial(self, pool: Pool, clock: Clock, values: list[float]) -> tuple[Line, list[float] | None]:
-        """The values of the variables, the objective at their worst case, and that case; null without a solution.
+        """Return the content of the line of a trial, and the objectives of all cases.
 
-        Behind them the objectives of all cases with the sign that the search minimises; None where the first case
-        without solution ended the trial.
+        The line has the values of the variables, the objective at the worst case, and this case. The objectives of all
+        cases have the sign with which the search minimises them. The trial ends at the first case without solution;
+        then the objective in the line, and the objectives of all cases, are None.
         """
         pairs = zip(self.body.variables, values, strict=True)
         at: Overrides = {path: value for variable, value in pairs for path in variable.paths}
@@ -190,20 +194,20 @@ class Design(Study):
         indices = range(len(self.cases))
         runs = runner.in_order(pool, self.question, lambda index: {**at, **self.cases[index]}, indices, clock)
         async with aclosing(runs):
-            async for solved, points in runs:
-                for index, point in zip(solved, points, strict=True):
+            async for chunk, points in runs:
+                for index, point in zip(chunk, points, strict=True):
                     (objective,) = point.out
                     if objective is None:
                         return {"at": at, "objective": None, "worst_corner": self.cases[index]}, None
                     objectives.append(objective)
         sign = 1.0 if self.direction == "minimise" else -1.0
-        figures = [sign * objective for objective in objectives]
-        worst = figures.index(max(figures))
-        return {"at": at, "objective": objectives[worst], "worst_corner": self.cases[worst]}, figures
+        signed = [sign * objective for objective in objectives]
+        worst = signed.index(max(signed))
+        return {"at": at, "objective": objectives[worst], "worst_corner": self.cases[worst]}, signed
 
 
 def _unit(variable: Variable, base: BaseRequest, place: str) -> str | None:
-    """The common unit of the fields of a variable, whose range they take."""
+    """Return the common unit of the fields of a variable; raises Unprocessable if a field does not accept the range."""
     leaves = [base.leaf(path, f"{place}.path") for path in variable.paths]
     for leaf in leaves:
         if leaf.kind != "number":
@@ -219,7 +223,7 @@ def _unit(variable: Variable, base: BaseRequest, place: str) -> str | None:
 
 
 def _cases(request: DesignRequest, base: BaseRequest) -> list[Overrides]:
-    """Every operating point at every corner."""
+    """Return the values that each of the cases changes; the cases are all operating points at all corners."""
     corners: list[Overrides] = [{}]
     if request.corners is not None:
         combined = grid(request.corners, base, MOST_CORNERS, "corners")
@@ -227,21 +231,21 @@ def _cases(request: DesignRequest, base: BaseRequest) -> list[Overrides]:
     points = [{}] if request.collective is None else request.collective
     set_by_points = paths_of(listed(points, base, MOST_CORNERS, "collective").varied)
     check_count(len(points) * len(corners), MOST_CORNERS, "corners")
-    known = [path for variable in request.variables for path in variable.paths]
+    changed = [path for variable in request.variables for path in variable.paths]
     for place, paths in {"variables": [], "corners": list(corners[0]), "collective": set_by_points}.items():
-        known += paths
-        check_distinct(known, place)
+        changed += paths
+        check_distinct(changed, place)
     return [{**point, **corner} for point in points for corner in corners]
 
 
 def _share(variable: Variable, case: dict[str, Any]) -> float:
-    """The case's own value as a share of the range; 0 where it has none."""
+    """Return the position of the case's own value in the range of a variable, from 0 to 1; 0 if it has no value."""
     own = value_at(case, variable.paths[0])
     return 0.0 if own is None else min(max((own - variable.min) / (variable.max - variable.min), 0.0), 1.0)
 
 
 def _rounded(variable: Variable, value: float) -> float:
-    """The nearest multiple of the variable's step inside its range, or the value itself where there is no step."""
+    """Return the nearest multiple of the variable's step inside its range, or the value itself if there is no step."""
     step, low, high = variable.step, variable.min, variable.max
     if step is None:
         return value
@@ -250,36 +254,41 @@ def _rounded(variable: Variable, value: float) -> float:
 
 
 class _Unknown(Exception):
-    """The search needs the objectives at a point, the argument."""
+    """The search needs the objectives at a new point; the point is the argument of the exception."""
 
 
 def next_place(start: Sequence[float], told: Sequence[list[float] | None], most: int) -> list[float] | None:
-    """The point of the unit cube that the search evaluates next, or None at its end; runs in a worker.
+    """Return the point of the unit cube that the search evaluates next, or None if the search has ended.
 
-    The search minimises the largest objective with at most so many evaluations. `told` are the objectives at the points
-    before, from the start on, None where there is no solution: the search is repeated up to there, which takes some
-    milliseconds a point and needs no thread that waits.
-    COBYQA, which needs no derivatives, minimises a level under the constraints that no objective exceeds it: each
-    objective has a smooth model of its own, also along a ridge where two are equally large. It is restarted at the best
-    point as long as that gains anything. Raises NoSolution design where the start has no solution.
+    Runs in a worker. The search minimises the largest objective with at most `most` evaluations. `told` are the
+    objectives at all points evaluated so far, in order from the start; they are None at a point without solution. Each
+    call repeats the search up to the first new point. This takes some milliseconds per point, and no thread has to wait
+    for the objectives.
+
+    The method is COBYQA, which needs no derivatives. It minimises a level under the constraint that no objective
+    exceeds the level. COBYQA therefore has one smooth model per objective, even along a ridge where two objectives are
+    equally large. It is restarted at the best point as long as a restart brings a gain. Raises NoSolution with the code
+    `design` if the start has no solution.
     """
     if len(told) == most:
         return None
     if (first := told[0]) is None:
         raise NoSolution("design", "the point where the search starts has no solution")
     scale = VALUE_SCALE * abs(max(first)) or 1.0
-    known = {_name(np.array(start)): np.array(first) / scale}
+    evaluated = {_name(np.array(start)): np.array(first) / scale}
 
     def scaled(place: FloatArray) -> FloatArray:
-        """The objectives at a place, whose last component is the level."""
+        """Return the scaled objectives at a place, whose last component is the level."""
         name = _name(place[:-1])
-        if name not in known:
-            if len(known) == len(told):
+        if name not in evaluated:
+            if len(evaluated) == len(told):
                 raise _Unknown(np.clip(place[:-1], 0.0, 1.0).tolist())
-            found = told[len(known)]
-            worst = max(float(each.max()) for each in known.values())
-            known[name] = np.full(len(first), worst + PENALTY) if found is None else np.array(found) / scale
-        return known[name]
+            objectives = told[len(evaluated)]
+            worst = max(float(others.max()) for others in evaluated.values())
+            evaluated[name] = (
+                np.full(len(first), worst + PENALTY) if objectives is None else np.array(objectives) / scale
+            )
+        return evaluated[name]
 
     def level(place: FloatArray) -> float:
         scaled(place)
@@ -290,8 +299,8 @@ def next_place(start: Sequence[float], told: Sequence[list[float] | None], most:
     options: Any = {"maxfev": MOST_STEPS * most, "initial_tr_radius": FIRST_STEP, "final_tr_radius": LAST_STEP}
     before = np.inf
     while True:
-        best = min(known, key=lambda place: float(known[place].max()))
-        lowest = float(known[best].max())
+        best = min(evaluated, key=lambda place: float(evaluated[place].max()))
+        lowest = float(evaluated[best].max())
         if before - lowest < LEAST_GAIN / VALUE_SCALE:
             return None
         before = lowest
@@ -303,12 +312,12 @@ def next_place(start: Sequence[float], told: Sequence[list[float] | None], most:
 
 
 def _name(place: FloatArray) -> bytes:
-    """A place in the unit cube, the same for those that only rounding tells apart."""
+    """Return a key for a place in the unit cube; places that differ only by rounding errors have the same key."""
     return np.clip(place, 0.0, 1.0).round(12).tobytes()
 
 
-# What may be ground: label, fields of one value, and the range searched when none is given [um]. The ranges are chosen:
-# wider than what is ground of teeth of a few millimetres of module, and the user may change them.
+# The corrections that may be ground: label, fields that take the same value, and the default range of the search [um].
+# The ranges are chosen: they are wider than usual for modules of a few millimetres, and the user may change them.
 GROUND = (
     ("helix slope", (SLOPE,), -100.0, 100.0),
     ("crowning", (CROWNING,), 0.0, 20.0),
@@ -323,11 +332,11 @@ ENDS = tuple(
         Control(f"high.{place}", f"variables.{place}.max", high, label=f"{label}, to", unit="µm"),
     )
 )
-"""Between which values each of them is searched."""
+"""The controls for the ends of the range in which each of the corrections is searched."""
 
 
 class DesignPage(UnitPage):
-    """The flank correction whose worst corner is best."""
+    """The page with the flank correction whose worst corner is best."""
 
     link = StudyLink(
         corners.DESIGN,
@@ -344,11 +353,14 @@ class DesignPage(UnitPage):
     names = UnitPage.names | {control.name for control in (TRIALS, *ENDS)}
     figures = ("lead", LOAD_ALONE.name, GAP.name, "search")
     grows = True
-    left_alone = ("pinion clearance", "wheel clearance", "thrust fraction")  # they change the result least
+    left_alone = ("pinion clearance", "wheel clearance", "thrust fraction")  # which change the result least
     plan = Design
 
     def body(self) -> dict[str, Any]:
-        """The ranges as typed or usual, at the corners as typed or the usual ones of heat and couplings."""
+        """Return the body with the typed or usual ranges, and with the corners.
+
+        If no corners are typed, they are the usual ones without the inputs in `left_alone`.
+        """
         output, given = self.output, self.given()
         for (_, paths, *_), variable in zip(GROUND, given["variables"], strict=True):
             variable |= {"path": list(paths), "step": STEP_UM}
@@ -366,23 +378,23 @@ class DesignPage(UnitPage):
         return (TRIALS, *ENDS, *whole, objective, *super().declared())
 
     def controls(self) -> tuple[Controls, ...]:
-        """Ranges of what may be ground, how many corrections are tried, and the uncertain inputs."""
+        """Return the controls of the number of trials and of the ranges, and those of the uncertain inputs."""
         fields = tuple(map(self.field_of, (TRIALS, *ENDS)))
         return Controls("Search", fields=fields), *super().controls()
 
     def result(self, lines: list[Line]) -> Result:
-        """The grinding sheet, its effect, the numbers before and after; figures of lead, load, gap and search."""
+        """Return the grinding sheet, tables of its effect, and the figures of lead, load, gap and search."""
         trials = [line for line in lines if line["type"] == "trial"]
-        solved = [line for line in trials if line["objective"] is not None]
-        if not solved:
+        solved_trials = [line for line in trials if line["objective"] is not None]
+        if not solved_trials:
             return Result("")
         end, greatest = lines[-1], self.output.view.greatest_is_best
         objectives = [line["objective"] for line in trials]
         figure = {"search": search(axis_of(self.output), objectives, greatest=greatest)}
         if end["type"] != "end":
-            best = (max if greatest else min)(solved, key=lambda line: line["objective"])
+            best = (max if greatest else min)(solved_trials, key=lambda line: line["objective"])
             lead = Link("Open the unit ground so", self.address(best["at"]))
-            return Result("", figure, first=(self._so_far(solved[0], best),), leads=(lead,))
+            return Result("", figure, first=(self._so_far(solved_trials[0], best),), leads=(lead,))
         wanted = end["rounded"]
         if wanted["objective"] is None:
             wanted = {"at": end["best"], "objective": end["objective_best"], "worst_corner": end["worst_corner"]}
@@ -411,7 +423,7 @@ class DesignPage(UnitPage):
         )
 
     def _so_far(self, start: Line, best: Line) -> Table:
-        """The best correction found, before the search has ended."""
+        """Return a table of the best correction so far, for the page while the search runs."""
         rows = []
         for path, value in best["at"].items():
             leaf = self.input(path)
@@ -421,7 +433,7 @@ class DesignPage(UnitPage):
         return Table("Best so far", ("correction", Number("as described"), Number("best so far"), "unit"), rows)
 
     def _sheet(self, case: Case, at: Overrides) -> Table:
-        """What to grind: gear, place, amount and tolerance."""
+        """Return the sheet for the grinder: gear, place, amount and tolerance of each correction."""
         inputs = case.response.inputs
         slope = float(at[SLOPE] or 0.0)
         deep, high = _ends(case) if slope < 0.0 else reversed(_ends(case))
@@ -438,7 +450,7 @@ class DesignPage(UnitPage):
         rows = []
         for path, gear, feature, place in entries:
             leaf, described, amount = self.input(path), float(value_at(inputs, path) or 0.0), at[path]
-            if path == SLOPE:  # `where` says the sign
+            if path == SLOPE:  # the column `where` shows the sign
                 described, amount = -described if slope < 0.0 else described, abs(slope)
             numbers = (shown(described), shown(amount, 4), f"± {shown(leaf.declared.tolerance)}")
             rows.append((gear, feature, place, *numbers, leaf.unit or ""))
@@ -451,9 +463,12 @@ class DesignPage(UnitPage):
         return Table("What to grind", ("gear", "correction", "where", *numbered, "unit"), rows, note)
 
     def _before_and_after(self, end: Line, wanted: Line, case: Case, ground: Case) -> Table:
-        """The output before and after grinding, at the worst corner and as described; a note where it gets worse."""
+        """Return a table of the output before and after grinding, at the worst corner and with the inputs as described.
+
+        The table has a note if the output with the inputs as described gets worse.
+        """
         output = self.output
-        before, after = (value_at(each.response, output.path) for each in (case, ground))
+        before, after = (value_at(unit_case.response, output.path) for unit_case in (case, ground))
         unit, note = output.unit or "", ""
         rows = (
             ("at the worst corner of each", shown(end["objective_start"]), shown(wanted["objective"]), unit),
@@ -467,7 +482,7 @@ class DesignPage(UnitPage):
         return Table("What it brings", (output.title, Number("as described"), Number("ground so"), "unit"), rows, note)
 
     def _lead_chart(self, case: Case, at: Overrides) -> Figure:
-        """The trace of helix slope and crowning with its tolerances, dashed as described."""
+        """Return the figure of the lead from helix slope and crowning, with tolerances; dashed for the case."""
         curves, inputs = case.response.misalignment.curves, case.response.inputs
         position = values(curves.position_mm)
         wanted = Lead(*(float(at[path] or 0.0) for path in (SLOPE, CROWNING)))
@@ -477,7 +492,7 @@ class DesignPage(UnitPage):
 
 
 def _ends(case: Case) -> tuple[str, str]:
-    """What the end of the face that meshes first and the one that leaves the mesh last are called."""
+    """Return the names of both ends of the face: the end that meshes first, and the end that leaves the mesh last."""
     first, *_, last = case.response.misalignment.curves.z_mm
     drive = case.request.pinion_shaft.torque_position_mm
     if drive is None:
@@ -487,12 +502,12 @@ def _ends(case: Case) -> tuple[str, str]:
 
 
 def _numbers(case: Case, end: Line, at: Overrides) -> Table:
-    """Which helix slope and crowning stand on the pages of this unit, and what each is."""
-    found, inputs = case.response.misalignment, case.response.inputs
+    """Return a table that explains the different values of helix slope and crowning on the pages of this unit."""
+    misalignment, inputs = case.response.misalignment, case.response.inputs
     estimate = "first estimate: inputs as described, load spread evenly over the face"
     entries = (
         ("as described", value_at(inputs, SLOPE), value_at(inputs, CROWNING)),
-        (estimate, found.recommended_helix_slope_um, found.recommended_lead_crowning_um),
+        (estimate, misalignment.recommended_helix_slope_um, misalignment.recommended_lead_crowning_um),
         ("best at the worst corner, as the search found it", end["best"][SLOPE], end["best"][CROWNING]),
         (f"to grind: the best in multiples of {STEP_UM:g} µm", at[SLOPE], at[CROWNING]),
     )
@@ -505,9 +520,12 @@ def _numbers(case: Case, end: Line, at: Overrides) -> Table:
 
 
 def _gap(ground: Case, case: Case) -> dict[str, Figure]:
-    """The gap over the face as ground, dashed as described, both without the corner's changes."""
+    """Return the figure of the gap over the face after grinding, and dashed for the case as described.
+
+    Both are without the changes of the worst corner. The result is empty if one of the cases has no gap to draw.
+    """
     try:
-        own, given = (GAP.figure(each.request, each.response) for each in (ground, case))
+        own, given = (GAP.figure(unit_case.request, unit_case.response) for unit_case in (ground, case))
     except NoFigure:
         return {}
     return {GAP.name: compared(own, given, "as described")}

@@ -1,7 +1,8 @@
-"""Sensitivity: derivatives of each output with respect to each number of a case, by differences.
+"""Sensitivity: derivatives of each output with respect to each number of a case, from finite differences.
 
-An input is moved by its tolerance, else by 1 % (1 K for a temperature, 1 for a count); a step of a tolerance is checked
-at half of it. Its page shows the inputs, sorted by the change that they cause, as a figure and a table.
+A count is moved by 1, and any other input by its tolerance. An input without a tolerance is moved by 1 K if it is a
+temperature, or else by 1 %. The slope over a tolerance is compared with the slope over half of it. The page shows the
+inputs, sorted by the change that they cause, as a figure and a table.
 """
 
 from collections import Counter
@@ -30,11 +31,11 @@ from app.studies.points import BaseRequest, Point, check_count, check_distinct
 from app.studies.requests import FieldPath, Overrides, StudyRequest
 from app.studies.runner import Clock, Line, Lines, Pool, Study, output_header
 
-RELATIVE_STEP = 0.01  # of a value: small against its range, large against the solver's tolerance
-KELVIN_STEP = 1.0  # of a temperature, whose zero means nothing
-DISAGREEMENT = 0.1  # relative difference of two slopes
-NOISE = 1e-7  # relative change of an output that an iteration may leave
-MOST_ROWS = 40  # of a table that can be read; the file has all
+RELATIVE_STEP = 0.01  # of a value; small compared with its range, large compared with the solver's tolerance
+KELVIN_STEP = 1.0  # for temperatures, because zero degrees Celsius has no physical meaning
+DISAGREEMENT = 0.1  # relative difference above which two slopes differ
+NOISE = 1e-7  # relative change of an output that the tolerance of an iteration can cause
+MOST_ROWS = 40  # of a table that can be read; the file has all rows
 
 
 class SensitivityRequest(StudyRequest):
@@ -49,10 +50,10 @@ class SensitivityRequest(StudyRequest):
 
 @dataclass(frozen=True, slots=True)
 class Perturbation:
-    """An input, its value and the step by which it is moved.
+    """An input, its value and the step by which the value is moved.
 
-    The step is the tolerance where the field has one; as that need not be small, the slope is compared with that over
-    `half` of it, which is None for other steps.
+    If the step is a tolerance, it need not be small. The slope over this step is therefore compared with the slope over
+    `half` of the step. For other steps `half` is None.
     """
 
     leaf: Leaf
@@ -62,7 +63,10 @@ class Perturbation:
 
     @property
     def places(self) -> list[float]:
-        """The values it is moved to: below, above, the same by half the step; those that its range allows."""
+        """The values to which the input is moved, by a step and by half a step, if the range of the input allows them.
+
+        The order is: a step down, a step up, half a step down, half a step up.
+        """
         steps = [self.step] if self.half is None else [self.step, self.half]
         number = int if self.leaf.kind == "integer" else float
         moved = [number(self.value + sign * step) for step in steps for sign in (-1, 1)]
@@ -70,7 +74,7 @@ class Perturbation:
 
 
 def perturbation(leaf: Leaf, value: float) -> Perturbation:
-    """An input moved by its tolerance, else by 1 %, 1 K for a temperature, 1 for a count."""
+    """Return the perturbation of an input: by 1 for a count, by its tolerance, by 1 K for a temperature, or by 1 %."""
     if leaf.kind == "integer":
         return Perturbation(leaf, value, 1.0)
     if leaf.declared.tolerance is not None:
@@ -80,23 +84,28 @@ def perturbation(leaf: Leaf, value: float) -> Perturbation:
 
 
 def differences(moved: Perturbation, outputs: dict[float, float | None]) -> Line:
-    """The change and the derivative of an output by one input; `outputs` by value of the input, None without answer.
+    """Compute the derivative of an output with respect to an input, and the change of the output by one step.
 
-    The derivative [output per input] is central where both sides have answers, else one-sided; `elasticity` is per cent
-    of the output for a per cent of the input, none at zero and for a temperature in degrees; `change` is by one step
-    upwards, from the side where it is larger; `kink`: the slopes of both sides differ by more than a tenth, None where
-    one is missing; `curved`: half the step gives a derivative that differs by more than a tenth, None where it is not
-    checked.
+    `outputs` are the outputs by value of the input; an output is None if the point has no answer. The items of the
+    result are:
+
+    `derivative`: the central difference quotient [output per input], or a one-sided one if one side has no answer.
+    `elasticity`: the change of the output in per cent per 1 % of the input. It is None if the input or the output is
+    zero, and for temperatures in degrees Celsius.
+    `step`: the step of the input.
+    `change`: the change of the output by one step upwards, with the steeper of the slopes of both sides.
+    `kink`: whether the slopes of both sides differ by more than a tenth; None if one of them is missing.
+    `curved`: whether half the step gives a derivative that differs by more than a tenth; None if there is no half step.
     """
     base, step, half = outputs[moved.value], moved.step, moved.half
 
     def slope(below: float, above: float) -> float | None:
-        """Difference quotient between two steps; from the base to the other side where one has no answer."""
-        places = [moved.value + each for each in (below, 0, above)]
-        known = [(place, value) for place in places if (value := outputs.get(place)) is not None]
-        if base is None or known[0][0] == known[-1][0]:
+        """Return the difference quotient between two offsets; an offset without an answer is replaced by 0."""
+        places = [moved.value + offset for offset in (below, 0, above)]
+        pairs = [(place, value) for place in places if (value := outputs.get(place)) is not None]
+        if base is None or pairs[0][0] == pairs[-1][0]:
             return None
-        return (known[-1][1] - known[0][1]) / (known[-1][0] - known[0][0])
+        return (pairs[-1][1] - pairs[0][1]) / (pairs[-1][0] - pairs[0][0])
 
     def disagree(one: float | None, other: float | None) -> bool | None:
         if one is None or other is None or base is None:
@@ -111,7 +120,7 @@ def differences(moved: Perturbation, outputs: dict[float, float | None]) -> Line
         "derivative": derivative,
         "elasticity": elasticity,
         "step": step,
-        "change": max((each * step for each in sides if each is not None), key=abs, default=None),
+        "change": max((side * step for side in sides if side is not None), key=abs, default=None),
         "kink": disagree(*sides),
         "curved": None if half is None else disagree(derivative, slope(-half, half)),
     }
@@ -136,25 +145,23 @@ class Sensitivity(Study):
     def _planned(self, base: BaseRequest, most: int) -> int:
         paths, case = self.body.inputs, base.checked({}).model_dump()
         inputs = _every_number(base, case) if paths is None else _named(base, case, paths)
-        moved = [perturbation(leaf, value_at(case, leaf.path)) for leaf in inputs]
-        self.perturbations = [each for each in moved if each.places]
-        total = 1 + sum(len(each.places) for each in self.perturbations)
+        perturbations = [perturbation(leaf, value_at(case, leaf.path)) for leaf in inputs]
+        self.perturbations = [moved for moved in perturbations if moved.places]
+        total = 1 + sum(len(moved.places) for moved in self.perturbations)
         check_count(total, most, "inputs")
         return total
 
     async def lines(self, pool: Pool, clock: Clock) -> Lines:
-        """A line for each output and input, the most influential input of an output first; then the end.
-
-        The first point is the case itself.
-        """
-        moved: list[Overrides] = [{each.leaf.path: place} for each in self.perturbations for place in each.places]
-        overrides, points = [{}, *moved], list[Point]()
-        async for _, found in runner.in_order(pool, self.question, overrides.__getitem__, range(self.total), clock):
-            points += found
+        """Yield a line for each output and input, with the most influential input of an output first, and the end."""
+        overrides: list[Overrides] = [{}]  # the case itself
+        overrides += [{moved.leaf.path: place} for moved in self.perturbations for place in moved.places]
+        points: list[Point] = []
+        async for _, chunk in runner.in_order(pool, self.question, overrides.__getitem__, range(self.total), clock):
+            points += chunk
         yield [line for column in range(len(self.outputs)) for line in self._ranked(column, points)]
         base = points[0]
         end = self.header(
-            inputs=[{**output_header(each.leaf), "value": each.value} for each in self.perturbations],
+            inputs=[{**output_header(moved.leaf), "value": moved.value} for moved in self.perturbations],
             outputs=[
                 {**output_header(leaf), "value": value} for leaf, value in zip(self.outputs, base.out, strict=True)
             ],
@@ -168,15 +175,16 @@ class Sensitivity(Study):
         yield [{**end, "type": "end", "elapsed_s": clock.elapsed_s}]
 
     def _ranked(self, column: int, points: list[Point]) -> list[Line]:
-        """The lines of one output."""
-        base, *moved = (_number(point.out[column]) for point in points)
-        rest = iter(moved)
-        found: list[Line] = []
-        for each in self.perturbations:
-            outputs = {each.value: base, **{place: next(rest) for place in each.places}}
-            known = differences(each, outputs)
-            found.append({"type": "sensitivity", "output": self.outputs[column].path, "path": each.leaf.path, **known})
-        return sorted(found, key=lambda line: -abs(line["change"] or 0.0))
+        """Return the lines of the output in a column, with the most influential input first."""
+        base, *others = (_number(point.out[column]) for point in points)
+        rest = iter(others)
+        lines: list[Line] = []
+        output = self.outputs[column].path
+        for moved in self.perturbations:
+            outputs = {moved.value: base, **{place: next(rest) for place in moved.places}}
+            line: Line = {"type": "sensitivity", "output": output, "path": moved.leaf.path}
+            lines.append(line | differences(moved, outputs))
+        return sorted(lines, key=lambda line: -abs(line["change"] or 0.0))
 
 
 def _number(value: Any) -> float | None:
@@ -184,7 +192,7 @@ def _number(value: Any) -> float | None:
 
 
 def _every_number(base: BaseRequest, case: dict[str, Any]) -> list[Leaf]:
-    """Every number that the case has, assumed ones included, options of model and resolution not."""
+    """Return all inputs with a number in this case, also assumed ones, except the options of model and resolution."""
     return [
         replace(leaf, path=path, dimensions=0)
         for leaf in leaves(base.calculation.request)
@@ -195,7 +203,7 @@ def _every_number(base: BaseRequest, case: dict[str, Any]) -> list[Leaf]:
 
 
 def _named(base: BaseRequest, case: dict[str, Any], paths: list[str]) -> list[Leaf]:
-    """The numbers at these paths; raises Unprocessable."""
+    """Return the inputs at these paths; raises Unprocessable if one of them has no number in this case."""
     check_distinct(paths, "inputs", numbered=True)
     model = base.calculation.request
     named = [scalar_at(model, path, f"inputs.{place}", "unknown_path") for place, path in enumerate(paths)]
@@ -209,7 +217,7 @@ def _named(base: BaseRequest, case: dict[str, Any], paths: list[str]) -> list[Le
 
 
 class SensitivityPage(StudyPage):
-    """Which inputs change an output most."""
+    """The page with the inputs that change an output most."""
 
     link = StudyLink(
         "influence", "What matters", "every input moved by its tolerance: which moves the result most", place=2
@@ -220,24 +228,24 @@ class SensitivityPage(StudyPage):
     plan = Sensitivity
 
     def body(self) -> dict[str, Any]:
-        """The request of the case, and the output that is shown."""
+        """Return the body with the request of the case and the output that the page shows."""
         outputs = [self.output.path]
         return {"endpoint": self.calculation.path, "request": self.asked.body, "outputs": outputs}
 
     def result(self, lines: list[Line]) -> Result:
-        """The change of the output by one step of each input, largest first, as a bar chart and a table."""
+        """Return a bar chart and a table of the change of the output by one step of each input, largest first."""
         end, output = lines[-1], self.output
-        inputs = {each["path"]: each for each in end["inputs"]}
+        inputs = {moved["path"]: moved for moved in end["inputs"]}
         steps, rows = list[Influence](), []
         for line in lines:
             if line["type"] == "sensitivity" and line["change"] is not None:
-                path, known = line["path"], inputs[line["path"]]
-                name, unit = numbered(known["title"], path), known["unit"] or ""
+                path, moved = line["path"], inputs[line["path"]]
+                name, unit = numbered(moved["title"], path), moved["unit"] or ""
                 step = f"+{shown(line['step'], 3)} {difference_unit(unit)}".rstrip()
                 varied = {"x": path, "show": output.path, "theme": self.asked.theme}
                 row = (
                     Link(name, link(f"{self.asked.path}/{VARY}", self.asked.pairs, **varied)),
-                    shown(float(known["value"])),
+                    shown(float(moved["value"])),
                     unit,
                     step,
                     shown(line["change"], 4),
@@ -253,7 +261,7 @@ class SensitivityPage(StudyPage):
             figures["influence"] = figure
         else:
             remarks.append(f"No input moves the {output.title} of this case.")
-        if GIVEN_BULK in {each["reason"] for each in end["assumptions"]}:
+        if GIVEN_BULK in {assumption["reason"] for assumption in end["assumptions"]}:
             remarks.append(f"Oil temperature: {GIVEN_BULK}.")
         changes = f"changes the {output.title} by{f', {difference_unit(output.unit)}' if output.unit else ''}"
         head = ("input", Number("value"), "unit", Number("one step"), Number(changes), Number("% for 1 %"), "remark")

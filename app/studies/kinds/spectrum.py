@@ -1,6 +1,7 @@
 """Load spectra: a machine with its tolerances over its cases, and the probability that it exceeds its limits.
 
-On its page, the cases are a table to paste, and the tolerances are beside the fields that scatter.
+On the page of the study, the user pastes the cases as a table, and chooses the fields that scatter with a tolerance for
+each of them.
 """
 
 import csv
@@ -54,29 +55,29 @@ from app.studies.runner import Clock, Line, Lines, Pool, Study, output_header, p
 from app.studies.statistics import Limit
 from solvers.arrays import FloatArray
 
-PROGRESS_S = 0.5  # between two lines that say how far a spectrum has come
+PROGRESS_S = 0.5  # between two lines of progress
 KILOWATTS = {"W": 1e-3, "kW": 1.0}  # per unit
-RELATIVE_DEVIATION = 0.15  # AGMA 925-A03, quoted, not verified against the standard
-LIMIT_VARIES = 1e-9  # relative
-SHARES_OFF = 0.01  # how far the sum of the shares may be from 1
+RELATIVE_DEVIATION = 0.15  # AGMA 925-A03, quoted from a secondary source, not verified against the standard
+LIMIT_VARIES = 1e-9  # relative range of the scuffing temperature above which a note says that it varies
+SHARES_OFF = 0.01  # largest permissible difference between the sum of the shares and 1
 ASSUMED_DEVIATION = (
     "the scuffing temperature is normally distributed with 0.15 of itself as deviation (AGMA 925-A03, secondary source)"
 )
 
-RARE = 0.005  # below this the intervals of a probability cover less than they say
+RARE = 0.005  # a probability below which the intervals contain the true value less often than stated
 RARE_NOTE = (
     "a probability below 0.5 %: the means of the replicates are skewed, and a 90 % interval covers less, about 80 % at "
     "0.1 % with 128 machines in each of 8 replicates; draw more machines"
 )
-NOT_USED = "not used"  # how the reason of an assumption begins whose value changes nothing
+NOT_USED = "not used"  # the first words of the reason of an assumption, if its value changes nothing
 
 NAME, SHARE = "name", "share"
-REPLICATES = 8  # samples from which the page tells how certain a mean is
+REPLICATES = 8  # independent samples on the page, whose scatter gives the error of a mean
 MACHINES = (("", "256"), ("64", "64"), ("1024", "1024"), ("4096", "4096"))
 LAWS = (("", "normal"), ("uniform", "uniform"), ("triangular", "triangular"), ("lognormal", "lognormal"))
 SIDES = (("", "by the output"), ("above", "above is bad"), ("below", "below is bad"))
-AROUND_UNIT = " ,;[]()"  # and between a label and its unit
-# Fields that a case of the spectrum usually changes, for the table to start from.
+AROUND_UNIT = " ,;[]()"  # characters before and after the unit in the heading of a column
+# Fields that a case of the spectrum usually changes, for the first table on the page.
 USUAL = (
     *("load.power_kw", "load.pinion_torque_n_m", "load.pinion_speed_rpm"),
     *("operation.power_kw", "operation.pinion_torque_n_m", "operation.torque_n_m"),
@@ -89,7 +90,7 @@ LOSSES = {
     "/v1/scuffing": ("friction_loss.power_w",),
     DRIVE_TRAIN: ("losses.coupling_w", "losses.pumping_w", "losses.mesh_w", "losses.bearings_w"),
 }
-MOST_BARS = 40  # that fit a page side by side
+MOST_BARS = 40  # number of bars that fit side by side on a page
 TOLERANCES = tuple(f"t{place}" for place in range(12))  # fields that may scatter on the page
 
 
@@ -195,34 +196,34 @@ class Spectrum(Study):
     body: SpectrumRequest
 
     def _outputs(self, base: BaseRequest) -> tuple[Leaf, ...]:
-        """The outputs asked for, by default the headline numbers, and those that are limited."""
+        """Return the requested outputs, by default the headline numbers, and the outputs that have a limit."""
         body = self.body
-        found = {f"outputs.{place}": leaf for place, leaf in enumerate(base.outputs(body.outputs))}
+        outputs = {f"outputs.{place}": leaf for place, leaf in enumerate(base.outputs(body.outputs))}
         if body.outputs is None:
-            found = {place: leaf for place, leaf in found.items() if leaf.kind in NUMBERS}
-        for index, each in enumerate(body.limits or ()):
+            outputs = {place: leaf for place, leaf in outputs.items() if leaf.kind in NUMBERS}
+        for index, limit in enumerate(body.limits or ()):
             place = f"limits.{index}.output"
-            found[place] = base.output(each.output, place)
-        for place, leaf in found.items():
+            outputs[place] = base.output(limit.output, place)
+        for place, leaf in outputs.items():
             if leaf.kind not in NUMBERS:
                 raise Unprocessable("unknown_output", f"{leaf.path} is no number", place)
         if body.limits is None and body.endpoint in SCUFFING:
-            found["limits"] = base.output(SCUFFING[body.endpoint].contact, "limits")
-        return tuple({leaf.path: leaf for leaf in found.values()}.values())
+            outputs["limits"] = base.output(SCUFFING[body.endpoint].contact, "limits")
+        return tuple({leaf.path: leaf for leaf in outputs.values()}.values())
 
     def _planned(self, base: BaseRequest, most: int) -> int:
         body, tolerances = self.body, self.body.tolerances
-        known = fields_set([case.set for case in body.cases], base, "cases.{}.set")
+        set_by_cases = fields_set([case.set for case in body.cases], base, "cases.{}.set")
         inputs = tolerances.inputs if tolerances else []
         self.scattering = scattering(inputs, base, "tolerances.inputs")
         for place, leaf in enumerate(self.scattering):
-            if leaf.path in known:
+            if leaf.path in set_by_cases:
                 message = f"{leaf.path} has a value in a case; a field either scatters or is set"
                 raise Unprocessable("duplicate_path", message, f"tolerances.inputs.{place}.path")
-        if body.limits is None and body.endpoint in SCUFFING:  # columns behind those of the outputs
+        if body.limits is None and body.endpoint in SCUFFING:  # columns after those of the outputs
             columns = dict.fromkeys([*self.question.outputs, *SCUFFING[body.endpoint]])
             self.question = self.question._replace(outputs=list(columns))
-        typical = {each.path: next(iter(anchors(each).values())) for each in inputs}
+        typical = {scatter.path: next(iter(anchors(scatter).values())) for scatter in inputs}
         for case in body.cases:
             base.checked({**typical, **case.set})
         total = len(body.cases) * (tolerances.count * tolerances.replicates if tolerances else 1)
@@ -230,18 +231,21 @@ class Spectrum(Study):
             message = _too_many(self.question, {**typical, **body.cases[0].set}, total, most)
             raise Unprocessable("too_many_points", message, "tolerances.count" if tolerances else "cases")
         self.cases = _with_shares(body.cases)
-        # The values that scatter, a row a machine, replicate after replicate; the nominal machine alone has none.
+        # One row per machine with the values that scatter, replicate after replicate; no columns if nothing scatters.
         self.machines = _machines(tolerances, self.scattering) if tolerances else np.empty((1, 0))
         return total
 
     def overrides(self, index: int) -> Overrides:
-        """What a point changes in the base request; points are the cases of the first machine, then of the next."""
+        """Return the values that a point changes in the base request, by path.
+
+        The first points are the cases of the first machine, then follow the cases of the next machine.
+        """
         draw, case = divmod(index, len(self.cases))
         machine = dict(zip(paths_of(self.scattering), self.machines[draw].tolist(), strict=True))
         return machine | self.cases[case].set
 
     async def lines(self, pool: Pool, clock: Clock) -> Lines:
-        """The header, the points if they are asked for, how far it has come, the end."""
+        """Yield the header, the points if they are requested, lines of progress, and the end."""
         yield [
             self.header(
                 cases=[case.model_dump() for case in self.cases],
@@ -283,27 +287,32 @@ class Spectrum(Study):
         ]
 
     def _tolerances_header(self) -> Line | None:
-        """How the machines are drawn, and what share of each distribution is cut off."""
+        """Return the tolerances for the first line, with the share of each distribution that is cut off."""
         if self.body.tolerances is None:
             return None
         inputs = [
-            {**each.model_dump(), "unit": leaf.unit, "title": leaf.title, "cut_off": cut(each, leaf).cut_off}
-            for each, leaf in zip(self.body.tolerances.inputs, self.scattering, strict=True)
+            {**scatter.model_dump(), "unit": leaf.unit, "title": leaf.title, "cut_off": cut(scatter, leaf).cut_off}
+            for scatter, leaf in zip(self.body.tolerances.inputs, self.scattering, strict=True)
         ]
         return {**self.body.tolerances.model_dump(), "inputs": inputs}
 
     def _ignored(self, assumptions: Sequence[Line]) -> list[str]:
-        """What is to be said of tolerances that the model does not use as the request stands."""
-        found = {each["field"]: each["reason"] for each in assumptions if each["reason"].startswith(NOT_USED)}
-        return [f"{path} scatters without effect; {found[path]}" for path in paths_of(self.scattering) if path in found]
+        """Return notes about fields that scatter, but that the model does not use in this request."""
+        reasons = {
+            assumption["field"]: assumption["reason"]
+            for assumption in assumptions
+            if assumption["reason"].startswith(NOT_USED)
+        }
+        unused = [path for path in paths_of(self.scattering) if path in reasons]
+        return [f"{path} scatters without effect; {reasons[path]}" for path in unused]
 
 
 def evaluated(study: Spectrum, values: FloatArray) -> Line:
-    """The content of the last line, from the outputs `[replicate, draw, case, output]`; runs in a worker."""
+    """Return the content of the last line, from the outputs `[replicate, draw, case, output]`; runs in a worker."""
     columns = {path: values[..., place] for place, path in enumerate(study.question.outputs)}
     limits, assumptions, notes = _limits(study, columns)
-    limited = [_of_limit(study, each, columns[each.output]) for each in limits]
-    if any(each["interval"] and each["deviation"] and each["bounds"][1] < RARE for each in limited):
+    limited = [_of_limit(study, limit, columns[limit.output]) for limit in limits]
+    if any(content["interval"] and content["deviation"] and content["bounds"][1] < RARE for content in limited):
         notes = [*notes, RARE_NOTE]
     shown = {leaf.path: columns[leaf.path] for leaf in study.outputs}
     return {
@@ -314,7 +323,7 @@ def evaluated(study: Spectrum, values: FloatArray) -> Line:
                 "unsolved": float(np.isnan(values[:, :, place]).all(axis=-1).mean()),
                 "means": {path: statistics.mean(column[..., place]) for path, column in shown.items()},
                 "quantiles": {path: statistics.quantiles(column[..., place]) for path, column in shown.items()},
-                "limits": [statistics.of_case(columns[each.output][..., place], each)._asdict() for each in limits],
+                "limits": [statistics.of_case(columns[limit.output][..., place], limit)._asdict() for limit in limits],
             }
             for place, case in enumerate(study.cases)
         ],
@@ -326,18 +335,18 @@ def evaluated(study: Spectrum, values: FloatArray) -> Line:
 
 
 def _limits(study: Spectrum, columns: dict[str, FloatArray]) -> tuple[list[Limit], list[Line], list[str]]:
-    """The limits used, the assumption where the default limit is used, and notes."""
+    """Return the limits, the assumption if the default limit is used, and notes."""
     paths = SCUFFING.get(study.question.endpoint)
     if study.body.limits is not None or paths is None:
-        return [_limit(each) for each in study.body.limits or ()], [], []
-    known = columns[paths.limit][~np.isnan(columns[paths.limit])]
-    if not known.size:
+        return [_limit(given) for given in study.body.limits or ()], [], []
+    temperatures = columns[paths.limit][~np.isnan(columns[paths.limit])]
+    if not temperatures.size:
         return [], [], ["no limit is given, and the request has no scuffing temperature: give one of them"]
     first = columns[paths.limit][..., 0]
-    mean = float(np.nanmedian(known if np.isnan(first).all() else first))  # no single machine of a sample sets it
+    mean = float(np.nanmedian(temperatures if np.isnan(first).all() else first))  # not of a single machine
     limit = Limit("above", mean, RELATIVE_DEVIATION * abs(mean), paths.contact)
     assumption = {"field": "limits", "value": limit.deviation, "reason": ASSUMED_DEVIATION}
-    varies = np.ptp(known) > LIMIT_VARIES * abs(mean)
+    varies = np.ptp(temperatures) > LIMIT_VARIES * abs(mean)
     note = (
         "the scuffing temperature differs between the cases or the machines; the limit is its median in the first "
         f"case, {mean:.4g}; give limits"
@@ -346,12 +355,16 @@ def _limits(study: Spectrum, columns: dict[str, FloatArray]) -> tuple[list[Limit
 
 
 def _of_limit(study: Spectrum, limit: Limit, outputs: FloatArray) -> Line:
-    """The probability over the spectrum, how often each case is the worst, the correlation with each tolerance."""
+    """Return the content of the last line for a limit.
+
+    This is the probability over the spectrum, the share of machines for which each of the cases is the worst, and the
+    rank correlation with each of the fields that scatter.
+    """
     worst = limit.worst(outputs)
     edges, density = statistics.histogram(worst)
-    solved = ~np.isnan(outputs).any(axis=-1).ravel()
+    is_solved = ~np.isnan(outputs).any(axis=-1).ravel()
     correlation = {
-        leaf.path: statistics.rank_correlation(column[solved], worst.ravel()[solved])
+        leaf.path: statistics.rank_correlation(column[is_solved], worst.ravel()[is_solved])
         for leaf, column in zip(study.scattering, study.machines.T, strict=True)
     }
     return {
@@ -360,7 +373,7 @@ def _of_limit(study: Spectrum, limit: Limit, outputs: FloatArray) -> Line:
         "mean": limit.mean,
         "deviation": limit.deviation or None,
         **statistics.of_spectrum(outputs, limit)._asdict(),
-        "unsolved": 1.0 - float(solved.mean()),
+        "unsolved": 1.0 - float(is_solved.mean()),
         "decides": statistics.deciding(outputs.reshape(-1, outputs.shape[-1]), limit),
         "rank_correlation": correlation or None,
         "quantiles": statistics.quantiles(worst),
@@ -369,7 +382,7 @@ def _of_limit(study: Spectrum, limit: Limit, outputs: FloatArray) -> Line:
 
 
 def _of_output(study: Spectrum, leaf: Leaf, column: FloatArray) -> Line:
-    """Mean of an output over the spectrum, the energy per year of a power, and the extremes."""
+    """Return the mean of an output over the spectrum, the energy per year if it is a power, and the extremes."""
     mean = statistics.weighted_mean(column, [case.share or 0.0 for case in study.cases])
     content: Line = mean._asdict() if mean else {"mean": None, "standard_error": None, "interval": None}
     scale = KILOWATTS.get(leaf.unit or "")
@@ -384,7 +397,6 @@ def _of_output(study: Spectrum, leaf: Leaf, column: FloatArray) -> Line:
 
 
 def _limit(given: SpectrumLimit) -> Limit:
-    """A limit of the request."""
     threshold = given.above or given.below
     assert threshold is not None
     mean = threshold.mean if threshold.value is None else threshold.value
@@ -393,8 +405,8 @@ def _limit(given: SpectrumLimit) -> Limit:
 
 
 def _with_shares(cases: Sequence[LoadCase]) -> list[LoadCase]:
-    """The cases with their names and their shares of the operating time, whose sum is 1; raises Unprocessable."""
-    given = [each.share for each in cases if each.share is not None]
+    """Return the cases with their names and with shares of the operating time whose sum is 1; raises Unprocessable."""
+    given = [case.share for case in cases if case.share is not None]
     if given and len(given) < len(cases):
         raise Unprocessable("shares", "give every case its share, or none", "cases")
     shares = given or [1.0] * len(cases)
@@ -403,13 +415,13 @@ def _with_shares(cases: Sequence[LoadCase]) -> list[LoadCase]:
         message = f"the shares add up to {whole:.6g}; give fractions of the time that add up to 1"
         raise Unprocessable("shares", message, "cases")
     return [
-        each.model_copy(update={"name": each.name or f"case {place}", "share": share / whole})
-        for place, (each, share) in enumerate(zip(cases, shares, strict=True), start=1)
+        case.model_copy(update={"name": case.name or f"case {place}", "share": share / whole})
+        for place, (case, share) in enumerate(zip(cases, shares, strict=True), start=1)
     ]
 
 
 def _machines(tolerances: Tolerances, leaves: Sequence[Leaf]) -> FloatArray:
-    """The values that scatter, a row a machine; each replicate is a random sample of its own."""
+    """Draw the values that scatter, one row per machine; each of the replicates is an independent random sample."""
     seeds = np.random.SeedSequence(tolerances.seed).spawn(tolerances.replicates)
     cubes = [
         unit_cube(tolerances.method, tolerances.count, len(leaves), np.random.default_rng(seed), "tolerances.count")
@@ -419,7 +431,7 @@ def _machines(tolerances: Tolerances, leaves: Sequence[Leaf]) -> FloatArray:
 
 
 def _too_many(question: Question, overrides: Overrides, total: int, most: int) -> str:
-    """The refusal of a study with too many points, with an estimate of its time from one of them."""
+    """Return the message about a study with too many points, with its estimated time from the time of one point."""
     solve_point(question, overrides)  # the first one may load kernels
     started = perf_counter()
     solve_point(question, overrides)
@@ -431,17 +443,21 @@ def _too_many(question: Question, overrides: Overrides, total: int, most: int) -
 
 
 class Column(NamedTuple):
-    """A column of the table: name, share, or the path of a field; its numbers are multiplied by ten to the `power`."""
+    """A column of the table of cases, which contains names, shares, or the values of the field at `path`.
+
+    The numbers in the column are multiplied by ten to the `power`.
+    """
 
     path: str
     power: int = 0
 
 
 def cases_of(calculation: Calculation, text: str) -> list[dict[str, Any]]:
-    """The cases of a table whose first line names the columns: name, share, and fields by their labels or paths.
+    """Return the cases of a table; raises Unprocessable.
 
-    Columns are parted by tabs, as a spreadsheet copies them, or by semicolons; an empty cell changes nothing. Raises
-    Unprocessable.
+    The first line of the table names the columns: name, share, and fields by their labels or paths. The columns are
+    separated by tabs, as a spreadsheet copies them, or by semicolons. An empty cell leaves the value of the case as it
+    is.
     """
     lines = [line for line in text.splitlines() if line.strip()] or [""]
     try:
@@ -453,16 +469,18 @@ def cases_of(calculation: Calculation, text: str) -> list[dict[str, Any]]:
 
 
 def _column(calculation: Calculation, heading: str) -> Column:
-    """The column of a heading, which may be a path, a name or a label of the form, with or without a unit.
+    """Return the column of a heading, which may be a path, a name or a label of the form, with or without a unit.
 
-    Raises Unprocessable where the heading means several fields; one that means none stays, for the study to refuse.
+    Raises Unprocessable if the heading fits several fields. A heading that fits no field is kept as the path, so that
+    the study reports it.
     """
     plain = heading.lower()
     if leaf_at(calculation.request, heading) or plain in {NAME, SHARE}:
         return Column(heading if plain not in {NAME, SHARE} else plain)
     if plain.startswith(SHARE) and plain.removeprefix(SHARE).strip(AROUND_UNIT) == "%":
         return Column(SHARE, -2)
-    alike: dict[tuple[int, bool], dict[str, Column]] = {}  # by length; what the form shows counts before names
+    # Columns by the length of the label that fits; at equal length, a label shown in the form comes before other names.
+    alike: dict[tuple[int, bool], dict[str, Column]] = {}
     for leaf in (leaf for leaf in leaves(calculation.request) if leaf.is_scalar and ITEM not in leaf.path):
         name = leaf.path.rpartition(".")[2]
         labels = {leaf.title, leaf.declared.title, name, words(split_unit(name)[0])}
@@ -478,7 +496,10 @@ def _column(calculation: Calculation, heading: str) -> Column:
 
 
 def _case(calculation: Calculation, columns: list[Column], row: list[str], line: int) -> dict[str, Any]:
-    """A line of the table; a cell that its field does not take stays text, for the study to refuse."""
+    """Return the case in a row of the table; raises Unprocessable.
+
+    A cell that its field does not accept is kept as text, so that the study reports it.
+    """
     if any(cell.strip() for cell in row[len(columns) :]):
         raise Unprocessable("table", f"line {line} has more columns than the first line names", "cases")
     case: dict[str, Any] = {"set": {}}
@@ -503,7 +524,7 @@ def _case(calculation: Calculation, columns: list[Column], row: list[str], line:
 
 
 def table_of(calculation: Calculation, cases: list[dict[str, Any]]) -> str:
-    """The table of cases as `cases_of` reads it, with the labels of the form in its first line."""
+    """Return the table of these cases, which `cases_of` reads, with the labels of the form in its first line."""
     paths = list(dict.fromkeys(path for case in cases for path in case.get("set", {})))
     rows = [[NAME, SHARE, *(_heading(calculation, path) for path in paths)]]
     for place, case in enumerate(cases, start=1):
@@ -514,7 +535,7 @@ def table_of(calculation: Calculation, cases: list[dict[str, Any]]) -> str:
 
 
 def _heading(calculation: Calculation, path: str) -> str:
-    """The label and unit of a field, or its path where a column of that name would be another one."""
+    """Return the label of a field with its unit, or the path of the field if a heading with this label is ambiguous."""
     leaf = leaf_at(calculation.request, path)
     if leaf is None:
         return path
@@ -539,21 +560,21 @@ TOLERANCE = (
     Control(".about", "mean"),
     Control(".by", "deviation"),
 )
-"""The controls of a tolerance, with the ends of their names; they set mean and width of any distribution."""
+"""The controls of a tolerance, with the last part of their names; any distribution is set by its mean and width."""
 STATED = {"normal": ("mean", "deviation"), "lognormal": ("median", "factor")}
-"""Parameters of these distributions that are mean and width; the others have `min` and `max`."""
+"""The parameters of these distributions that are their mean and width; other distributions have `min` and `max`."""
 
 
 def _tolerance(place: int, name: str, about: Any = None, by: Any = None) -> list[Control]:
     """Return the controls of a tolerance, with a value and its usual deviation as defaults."""
     usual = {"mean": about, "deviation": by}
     return [
-        each._replace(
-            name=f"{name}{each.name}",
-            path=f"tolerances.inputs.{place}.{each.path}",
-            default=usual.get(each.path, each.default),
+        part._replace(
+            name=f"{name}{part.name}",
+            path=f"tolerances.inputs.{place}.{part.path}",
+            default=usual.get(part.path, part.default),
         )
-        for each in TOLERANCE
+        for part in TOLERANCE
     ]
 
 
@@ -578,24 +599,28 @@ def _typed(scatter: dict[str, Any]) -> dict[str, Any]:
 def address_of(
     endpoint: Calculation, request: Pairs, body: dict[str, Any], file: Mapping[str, str] = MappingProxyType({})
 ) -> str:
-    """Return the page of a study of the API, with the first of its limits, and the file that it was read from."""
-    inputs, views = [_typed(each) for each in (body.get("tolerances") or {"inputs": []})["inputs"]], dict(file)
+    """Return the address of the page for the body of a study, with the first of its limits.
+
+    `file` names the file from which the study was read.
+    """
+    inputs, views = [_typed(scatter) for scatter in (body.get("tolerances") or {"inputs": []})["inputs"]], dict(file)
     given = {
         "cases": table_of(endpoint, body["cases"]),
         "tolerances": {"inputs": inputs},
         "hours_per_year": body.get("hours_per_year"),
     }
-    for each in (body.get("limits") or ())[:1]:
-        (side,) = {"above", "below"} & set(each)
-        known = each[side]
-        views["show"] = each["output"]
-        given["limit"] = {"value": known.get("mean"), **known, "side": side}
-    controls = [*CONTROLS, *(each for place in range(len(inputs)) for each in _tolerance(place, TOLERANCES[place]))]
+    for limit in (body.get("limits") or ())[:1]:
+        (side,) = {"above", "below"} & set(limit)
+        threshold = limit[side]
+        views["show"] = limit["output"]
+        given["limit"] = {"value": threshold.get("mean"), **threshold, "side": side}
+    of_tolerances = (part for place in range(len(inputs)) for part in _tolerance(place, TOLERANCES[place]))
+    controls = [*CONTROLS, *of_tolerances]
     return link(f"{page_path(endpoint)}/{SpectrumPage.link.name}", request, **views, **texts_of(controls, given))
 
 
 class SpectrumPage(StudyPage):
-    """A machine with its tolerances over its load spectrum."""
+    """The page with a machine with its tolerances over its load spectrum."""
 
     link = StudyLink(
         "spectrum",
@@ -606,7 +631,7 @@ class SpectrumPage(StudyPage):
     question = "its load spectrum"
     about = "Machines are drawn from the tolerances; each runs every case, and its worst case meets the limit."
     names = frozenset(
-        {each.name for each in CONTROLS} | {f"{name}{each.name}" for name in TOLERANCES for each in TOLERANCE}
+        {control.name for control in CONTROLS} | {f"{name}{part.name}" for name in TOLERANCES for part in TOLERANCE}
     )
     figures = ("limit", "probability", "decides", "losses")
     outputs = tuple(paths.contact for paths in SCUFFING.values())
@@ -617,11 +642,11 @@ class SpectrumPage(StudyPage):
     study: Spectrum
 
     def body(self) -> dict[str, Any]:
-        """The cases and tolerances as typed, the output shown with its limit, and the losses."""
+        """Return the body with the typed cases and tolerances, the output with its limit, and the losses as outputs."""
         calculation, output, given = self.calculation, self.output.path, self.given()
         tolerances = given["tolerances"]
-        drawn = tolerances.get("inputs", [])
-        inputs = [self._scatter(each, f"tolerances.inputs.{place}") for place, each in enumerate(drawn)]
+        typed = tolerances.get("inputs", [])
+        inputs = [self._scatter(scatter, f"tolerances.inputs.{place}") for place, scatter in enumerate(typed)]
         machines = tolerances["count"]
         if not isinstance(machines, int):
             raise Unprocessable("int_type", "give a whole number", "tolerances.count")
@@ -637,12 +662,15 @@ class SpectrumPage(StudyPage):
         }
 
     def _given(self) -> list[str]:
-        """The controls of the tolerances that are filled in; others between them may be empty."""
+        """Return the names of the tolerances that are filled in; empty ones may be between them."""
         return [name for name in TOLERANCES if self.views.get(name)]
 
     def declared(self) -> tuple[Control, ...]:
-        """Return the controls of cases, machines, hours and tolerances; the mean of a tolerance is the case's value."""
-        found = [
+        """Return the controls of cases, machines, hours and tolerances.
+
+        The default mean of a tolerance is the value of the case.
+        """
+        controls = [
             *CONTROLS,
             Control("machines", "tolerances", sets=False),
             Control("limit", "limits", sets=False),
@@ -650,15 +678,15 @@ class SpectrumPage(StudyPage):
         for place, name in enumerate(self._given()):
             path = self.views[name]
             leaf, where = self.field_at(path), f"tolerances.inputs.{place}"
-            found += _tolerance(place, name, value_at(self.case, path), leaf.declared.tolerance if leaf else None)
-            found += (
+            controls += _tolerance(place, name, value_at(self.case, path), leaf.declared.tolerance if leaf else None)
+            controls += (
                 Control(f"{name}.about", f"{where}.median", sets=False),
                 Control(f"{name}.by", where, sets=False),
             )
-        return (*found, *(Control(name, "tolerances.inputs", sets=False) for name in self._given()[:1]))
+        return (*controls, *(Control(name, "tolerances.inputs", sets=False) for name in self._given()[:1]))
 
     def _scatter(self, given: dict[str, Any], where: str) -> dict[str, Any]:
-        """Return the distribution of one field by its law, from its mean and deviation."""
+        """Return the distribution of a field as the body states it, from its law, mean and deviation."""
         leaf = scalar_at(self.calculation.request, given["path"], f"{where}.path", "unknown_path")
         about: Any = given.get("mean")
         by: Any = given.get("deviation")
@@ -670,12 +698,15 @@ class SpectrumPage(StudyPage):
 
     @property
     def _assumes_limit(self) -> bool:
-        """Whether the output is compared with the scuffing temperature where no limit is given."""
+        """Whether the output is compared with the scuffing temperature if no limit is given."""
         scuffing = SCUFFING.get(self.calculation.path)
         return scuffing is not None and (self.views.get("show") or self.usual_output.path) == scuffing.contact
 
     def _limits(self, given: dict[str, Any]) -> list[dict[str, Any]] | None:
-        """The limit typed, or else the usual limit of the output; None if the scuffing temperature is the limit."""
+        """Return the typed limit, or else the usual limit of the output.
+
+        The result is None if the scuffing temperature is the limit, and empty if there is no limit.
+        """
         view, scatter, value = self.output.view, given.get("deviation"), given.get("value")
         if value is None and view.bound and isinstance(view.limit, int | float) and not self._assumes_limit:
             value = view.limit
@@ -688,7 +719,7 @@ class SpectrumPage(StudyPage):
         return [{"output": self.output.path, side: threshold}]
 
     def controls(self) -> tuple[Controls, ...]:
-        """The table of cases, and the tolerances: those given and two more."""
+        """Return the controls of the table of cases, of the tolerances that are filled in, and of two more."""
         case = self.case
         text = as_typed(self.views.get("cases", "")) or _suggested(self.calculation, case)
         about = (
@@ -713,7 +744,7 @@ class SpectrumPage(StudyPage):
         return tuple(groups)
 
     def shows(self) -> tuple[FieldView, ...]:
-        """The limit of the output, how many machines are drawn, and the hours of operation."""
+        """Return the fields of the limit of the output, the number of machines, and the hours of operation."""
         assumed = self._assumes_limit and not self.views.get("limit")
         deviation = f"{percent(RELATIVE_DEVIATION)} of it" if assumed else "none"
         return (
@@ -725,27 +756,27 @@ class SpectrumPage(StudyPage):
         )
 
     def starters(self) -> Sequence[Starter]:
-        """Links to the ready studies of /v1/spectrum; none where the query has a case."""
+        """Return links to the ready studies of /v1/spectrum; no links if the query has a case."""
         starters = []
-        for each in EXAMPLES["/v1/spectrum"].values():
-            body = each["value"]
+        for example in EXAMPLES["/v1/spectrum"].values():
+            body = example["value"]
             if body["endpoint"] == self.calculation.path and not self.asked.pairs:
                 address = address_of(self.calculation, pairs_of(body["request"]), body)
-                starters.append(Starter(each["summary"], "example", address))
+                starters.append(Starter(example["summary"], "example", address))
         return starters
 
     def result(self, lines: list[Line]) -> Result:
-        """The probability of failure with the limit, the deciding cases, the influences and the losses."""
+        """Return the probability of exceeding the limit, the deciding cases, the influences and the losses."""
         header, end, output = lines[0], lines[-1], self.output
         cases = len(self.study.cases)
         machines = end["points"] // cases
         counted = [f"{count} {noun}{'s' * (count > 1)}" for count, noun in ((machines, "machine"), (cases, "case"))]
         progress = f"{' in '.join(counted)}, {shown(end['elapsed_s'], 2)} s"
         figures, notes = dict[str, Figure](), [*end["notes"]]
-        found = next((each for each in end["limits"] if each["output"] == output.path), None)
-        if found is not None:
-            limited, said = self._limited(end, found), sentence(found)
-            progress = f"{said[0].upper()}{said[1:]}; {progress}"
+        limit = next((content for content in end["limits"] if content["output"] == output.path), None)
+        if limit is not None:
+            limited, conclusion = self._limited(end, limit), sentence(limit)
+            progress = f"{conclusion[0].upper()}{conclusion[1:]}; {progress}"
             for name, draw in (("limit", overlap), ("probability", chances), ("decides", deciding)):
                 try:
                     figures[name] = draw(limited)
@@ -760,84 +791,85 @@ class SpectrumPage(StudyPage):
                 "good and as bad"
             )
         tables = (
-            *((self._limit_table(end, found),) if found else ()),
-            self._cases_table(end, found),
+            *((self._limit_table(end, limit),) if limit else ()),
+            self._cases_table(end, limit),
             self._outputs_table(end),
-            *((_tolerances_table(header, found),) if header["tolerances"] else ()),
+            *((_tolerances_table(header, limit),) if header["tolerances"] else ()),
         )
         remarks = tuple(f"{note[0].upper()}{note[1:]}." for note in notes)
         leads = (Link("Report with this spectrum", self.view("/report")),)
         return Result(progress, figures | self._losses(end), tables, remarks, leads)
 
-    def _limited(self, end: Line, found: Line) -> Limited:
-        """The limit shown, with its most probable cases where there are many."""
-        place = end["limits"].index(found)
-        decides = found["decides"] or [None] * len(end["cases"])
+    def _limited(self, end: Line, limit: Line) -> Limited:
+        """Return the data of the figures of a limit; if there are many cases, only those that exceed it most often."""
+        place = end["limits"].index(limit)
+        decides = limit["decides"] or [None] * len(end["cases"])
         cases = [
-            SpectrumCase(each["name"], each["quantiles"][self.output.path], each["limits"][place], share)
-            for each, share in zip(end["cases"], decides, strict=True)
+            SpectrumCase(case["name"], case["quantiles"][self.output.path], case["limits"][place], share)
+            for case, share in zip(end["cases"], decides, strict=True)
         ]
         worst = sorted(cases, key=lambda case: -case.chance["bounds"][1])[:MOST_BARS]
         titles = {leaf.path: leaf.title for leaf in self.study.scattering}
-        ranks = found["rank_correlation"] or {}
+        ranks = limit["rank_correlation"] or {}
         influences = {titles[path]: value for path, value in ranks.items() if value is not None}
-        return Limited(axis_of(self.output), found, [case for case in cases if case in worst], influences)
+        return Limited(axis_of(self.output), limit, [case for case in cases if case in worst], influences)
 
     def _losses(self, end: Line) -> dict[str, Figure]:
-        """Mean losses of the cases [kW]; nothing where none of them is known."""
+        """Return the figure of the mean losses of the cases [kW]; nothing if no loss has a mean."""
         wanted, outputs = LOSSES.get(self.calculation.path, ()), end["outputs"]
         titles = {leaf.path: leaf.title for leaf in self.study.outputs}
-        known = {path: titles[path] for path in wanted if outputs[path]["mean"] is not None}
-        if not known:
+        drawn_losses = {path: titles[path] for path in wanted if outputs[path]["mean"] is not None}
+        if not drawn_losses:
             return {}
         cases = {
-            each["name"]: {title: (each["means"][path] or 0.0) / 1e3 for path, title in known.items()}
-            for each in end["cases"][:MOST_BARS]
+            case["name"]: {title: (case["means"][path] or 0.0) / 1e3 for path, title in drawn_losses.items()}
+            for case in end["cases"][:MOST_BARS]
         }
-        mean = {title: outputs[path]["mean"] / 1e3 for path, title in known.items()}
-        years = [outputs[path].get("energy_kwh_per_year") for path in known]
+        mean = {title: outputs[path]["mean"] / 1e3 for path, title in drawn_losses.items()}
+        years = [outputs[path].get("energy_kwh_per_year") for path in drawn_losses]
         return {"losses": losses(cases, mean, None if None in years else sum(years) / 1e3)}
 
-    def _limit_table(self, end: Line, found: Line) -> Table:
-        """The limit with its deviation, and where it comes from."""
-        assumed = next((each["reason"] for each in end["assumptions"] if each["field"] == "limits"), None)
+    def _limit_table(self, end: Line, limit: Line) -> Table:
+        """Return a table of the limit with its deviation and its source."""
+        reasons = (assumption["reason"] for assumption in end["assumptions"] if assumption["field"] == "limits")
+        reason = next(reasons, None)
         row = (
             self.output.title,
-            f"not {found['side']}",
-            shown(found["mean"], 4),
-            "exact" if found["deviation"] is None else _deviation(found["deviation"], self.output.unit, 4),
+            f"not {limit['side']}",
+            shown(limit["mean"], 4),
+            "exact" if limit["deviation"] is None else _deviation(limit["deviation"], self.output.unit, 4),
             self.output.unit or "",
-            "given" if assumed is None else f"assumed: {cited(assumed)}",
+            "given" if reason is None else f"assumed: {cited(reason)}",
         )
         return Table("Limit", ("output", "side", Number("limit"), Number("deviation"), "unit", "source"), (row,))
 
-    def _cases_table(self, end: Line, found: Line | None) -> Table:
-        """Every case with its share, its probability, how often it decides, and its output."""
+    def _cases_table(self, end: Line, limit: Line | None) -> Table:
+        """Return a table of the cases with their share, their probability, how often they decide, and the output."""
         output, rows = self.output, list[tuple[str | Link, ...]]()
-        for index, (case, each) in enumerate(zip(self.study.cases, end["cases"], strict=True)):
-            row: list[str | Link] = [Link(each["name"], self.address(case.set)), percent(each["share"])]
-            if found:
-                row.append(chance_text(each["limits"][end["limits"].index(found)]))
-                row.append(percent(found["decides"][index]) if found["decides"] else "–")
-            row += [shown(value, 4) for value in each["quantiles"][output.path] or [None] * 3]
-            rows.append((*row, percent(each["unsolved"])))
+        for index, (case, content) in enumerate(zip(self.study.cases, end["cases"], strict=True)):
+            row: list[str | Link] = [Link(content["name"], self.address(case.set)), percent(content["share"])]
+            if limit:
+                row.append(chance_text(content["limits"][end["limits"].index(limit)]))
+                row.append(percent(limit["decides"][index]) if limit["decides"] else "–")
+            row += [shown(value, 4) for value in content["quantiles"][output.path] or [None] * 3]
+            rows.append((*row, percent(content["unsolved"])))
         unit = f", {output.unit}" if output.unit else ""
-        judged = ("probability alone", "decides") if found else ()
+        judged = ("probability alone", "decides") if limit else ()
         heads = ("share", *judged, f"5 %{unit}", "50 %", "95 %", "unsolved")
         note = f"Of each case 5, 50 and 95 % of the machines have a lower {output.title}."
         return Table("Cases", ("case", *map(Number, heads)), rows, f"{note} A name leads to the nominal case.")
 
     def _outputs_table(self, end: Line) -> Table:
-        """Means over the operating time, and the extremes with the machine and case where they are."""
+        """Return a table of the means over the operating time, and of the extremes with links to their cases."""
         rows = []
         for leaf in self.study.outputs:
-            found = end["outputs"][leaf.path]
+            content = end["outputs"][leaf.path]
             ends = (
                 Link(shown(extreme["value"], 4), self.address(extreme["at"])) if extreme else "–"
-                for extreme in (found["min"], found["max"])
+                for extreme in (content["min"], content["max"])
             )
-            mean, error = shown(found["mean"], 4), _deviation(found["standard_error"], leaf.unit, 2)
-            energy = shown(found.get("energy_kwh_per_year"), 4)
+            mean, error = shown(content["mean"], 4), _deviation(content["standard_error"], leaf.unit, 2)
+            energy = shown(content.get("energy_kwh_per_year"), 4)
             rows.append((leaf.title, mean, error, *ends, leaf.unit or "", energy))
         heads = map(Number, ("mean", "standard error", "least", "largest"))
         head = ("output", *heads, "unit", Number("kWh a year"))
@@ -845,32 +877,32 @@ class SpectrumPage(StudyPage):
 
 
 def _deviation(value: float | None, unit: str | None, digits: int) -> str:
-    """A difference of values in this unit, with a unit of its own where that is another one."""
+    """Return a difference of values in this unit, followed by the unit of the difference if that is another one."""
     own = difference_unit(unit)
     return shown(value, digits) if own == unit or value is None else number(value, own, digits)
 
 
 def _suggested(calculation: Calculation, case: dict[str, Any]) -> str:
-    """A table to start from: the case itself for most of the time, and half its load."""
-    known = {path: value for path in USUAL if isinstance(value := value_at(case, path), int | float)}
-    half = {path: value / 2 if "power" in path or "torque" in path else value for path, value in known.items()}
+    """Return a first table, which the user may change, with the case for most of the time and with half its load."""
+    full = {path: value for path in USUAL if isinstance(value := value_at(case, path), int | float)}
+    half = {path: value / 2 if "power" in path or "torque" in path else value for path, value in full.items()}
     return table_of(
-        calculation, [{NAME: "full load", SHARE: 0.8, "set": known}, {NAME: "half load", SHARE: 0.2, "set": half}]
+        calculation, [{NAME: "full load", SHARE: 0.8, "set": full}, {NAME: "half load", SHARE: 0.2, "set": half}]
     )
 
 
-def _tolerances_table(header: Line, found: Line | None) -> Table:
-    """How the fields scatter, what is cut off, and how the worst case goes with them."""
+def _tolerances_table(header: Line, limit: Line | None) -> Table:
+    """Return a table of the fields that scatter, with the shares cut off and the correlations with the worst case."""
     numbers = ("mean", "deviation", "median", "factor", "min", "mode", "max")
-    ranks = (found and found["rank_correlation"]) or {}
+    ranks = (limit and limit["rank_correlation"]) or {}
     rows = []
-    for each in header["tolerances"]["inputs"]:
-        stated = {name: shown(each[name], 4) for name in numbers if each.get(name) is not None}
+    for scatter in header["tolerances"]["inputs"]:
+        stated = {name: shown(scatter[name], 4) for name in numbers if scatter.get(name) is not None}
         if "deviation" in stated:
-            stated["deviation"] = _deviation(each["deviation"], each["unit"], 4)
+            stated["deviation"] = _deviation(scatter["deviation"], scatter["unit"], 4)
         law = ", ".join(f"{name} {value}" for name, value in stated.items())
-        drawn = (each["title"], f"{each['distribution']}: {law}", each["unit"] or "")
-        rows.append((*drawn, percent(each["cut_off"]), shown(ranks.get(each["path"]), 3)))
+        described = (scatter["title"], f"{scatter['distribution']}: {law}", scatter["unit"] or "")
+        rows.append((*described, percent(scatter["cut_off"]), shown(ranks.get(scatter["path"]), 3)))
     head = ("field", "distribution", "unit", Number("cut off"), Number("rank"))
     note = "Cut off is the share beyond four deviations or the field's range"
     return Table("Tolerances", head, rows, f"{note}; rank is the correlation with the worst case.")

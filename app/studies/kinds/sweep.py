@@ -1,6 +1,7 @@
-"""Sweeps: one request at many points, each the endpoint's own answer; a line a point, then extremes and statistics.
+"""Sweeps: one request at many points, with the endpoint's own answer at each of the points.
 
-On its page, one or two fields of a case are varied; a curve, curves or a map are drawn while the points arrive.
+There is one line per point, and at the end extremes and statistics. On the page of the study, one or two fields of a
+case are varied. The page draws a curve, several curves or a map while the points arrive.
 """
 
 import json
@@ -49,14 +50,14 @@ from app.studies.requests import (
 from app.studies.runner import Clock, Line, Lines, Pool, Study, output_header, paths_of
 from app.studies.statistics import of_sample
 
-AROUND = 0.5  # of a value, to both sides
-TOLERANCES = 4.0  # to both sides of zero
-INSIDE = 1e-3  # of a range, away from an end that is not allowed
-COUNTS = {"x": 21, "y": 5}  # points offered at first: a curve that looks smooth, few curves
-MOST_WHOLE = 10_000  # whole numbers that an axis is spread over
+AROUND = 0.5  # half the usual range of a field, as a share of the value of the case
+TOLERANCES = 4.0  # half the usual range of a field whose value is zero, in tolerances
+INSIDE = 1e-3  # distance from an end that is not allowed, as a share of the range
+COUNTS = {"x": 21, "y": 5}  # default numbers of points: enough for a smooth curve, and only a few curves
+MOST_WHOLE = 10_000  # whole numbers on an axis
 FIRST = "vary.0"  # the axis along which a curve runs
-MOST_ROWS = 200  # of a table on a page; the file has all
-MOST_REASONS = 6  # why points are missing, the most frequent
+MOST_ROWS = 200  # of a table on a page; the file has all rows
+MOST_REASONS = 6  # remarks on points, the most frequent ones
 
 
 class Sample(Part):
@@ -92,7 +93,7 @@ class Best(Part):
 
     @property
     def output(self) -> str:
-        """The output that decides."""
+        """The path of the output that decides."""
         return str(self.minimise or self.maximise)
 
 
@@ -108,10 +109,10 @@ class SweepRequest(StudyRequest):
 
 
 class Summary(runner.Tally):
-    """What the end of a sweep says of its points.
+    """A summary of the points for the last line of a sweep.
 
-    `extremes` are the least and the largest value of every output that has any, as `min` and `max`, each with the
-    index of its point; `best_point` is the index of the best one, with its outputs.
+    `extremes` are the least value (`min`) and the largest value (`max`) of every output that has values, with the
+    indices of their points. `best_point` is the index of the best point, with the outputs there.
     """
 
     def __init__(self, outputs: Sequence[str], best: Best | None = None, first: int = 0) -> None:
@@ -123,30 +124,30 @@ class Summary(runner.Tally):
         self._least = inf
 
     def add(self, point: Point) -> None:
-        """Take in the next point, in order; of equal values the first counts."""
+        """Include the next point, in order; if values are equal, the first of their points counts."""
         index = self._first + self.counts.total()
         super().add(point)
         for path, value in zip(self.outputs, point.out, strict=True):
             if is_number(value):
-                known = self.extremes.setdefault(path, {"min": (value, index), "max": (value, index)})
-                if value < known["min"][0]:
-                    known["min"] = (value, index)
-                if value > known["max"][0]:
-                    known["max"] = (value, index)
+                extreme = self.extremes.setdefault(path, {"min": (value, index), "max": (value, index)})
+                if value < extreme["min"][0]:
+                    extreme["min"] = (value, index)
+                if value > extreme["max"][0]:
+                    extreme["max"] = (value, index)
         if self._best is not None:
             self._compare(self._best, index, point.out)
 
     def _compare(self, best: Best, index: int, out: list[Any]) -> None:
-        """Keep the point if it is the best so far inside all limits."""
+        """Store the point if it is inside all limits and better than all points before."""
         values = dict(zip(self.outputs, out, strict=True))
-        inside = all(
+        is_inside = all(
             is_number(values[bound.output])
             and (bound.min is None or values[bound.output] >= bound.min)
             and (bound.max is None or values[bound.output] <= bound.max)
             for bound in best.where
         )
         value = values[best.output]
-        if inside and is_number(value) and (least := value if best.minimise else -value) < self._least:
+        if is_inside and is_number(value) and (least := value if best.minimise else -value) < self._least:
             self.best_point, self._least = (index, out), least
 
 
@@ -176,7 +177,7 @@ class Sweep(Study):
         return self.points.total - first
 
     def _points(self, base: BaseRequest, most: int) -> PointSet:
-        """The points that the body asks for."""
+        """Return the points that the body requests; raises Unprocessable."""
         body: SweepRequest = self.body
         if body.best is not None:
             _check_best(body.best, self.outputs)
@@ -187,7 +188,7 @@ class Sweep(Study):
         return grid(body.vary or [], base, most, "vary")
 
     async def lines(self, pool: Pool, clock: Clock) -> Lines:
-        """The header, each point, the closing lines."""
+        """Yield the header, a line for each point, and the closing lines."""
         points, first, outputs = self.points, self.body.from_index, self.question.outputs
         yield [
             self.header(
@@ -198,25 +199,25 @@ class Sweep(Study):
             )
         ]
         summary, indices = Summary(outputs, self.body.best, first), range(first, points.total)
-        async for solved, found in runner.in_order(pool, self.question, points.overrides, indices, clock):
+        async for chunk, chunk_points in runner.in_order(pool, self.question, points.overrides, indices, clock):
             lines = []
-            for index, point in zip(solved, found, strict=True):
+            for index, point in zip(chunk, chunk_points, strict=True):
                 summary.add(point)
                 if self.body.sample:
                     summary.keep(point.out)
                 lines.append(runner.point_line(index, points.rows[index], point))
             yield lines
-        sampled: Line = {"quantiles": None, "quantile_bounds": None, "rank_correlation": None}
+        statistics: Line = {"quantiles": None, "quantile_bounds": None, "rank_correlation": None}
         if self.body.sample:
             inputs, varied = np.array(points.rows[first:]), paths_of(points.varied)
-            sampled = await runner.twice_if_lost(pool, of_sample, inputs, summary.values, varied, outputs)
+            statistics = await runner.twice_if_lost(pool, of_sample, inputs, summary.values, varied, outputs)
         best = summary.best_point
         end = {
             "type": "end",
             "points": self.total,
             "counts": dict(sorted(summary.counts.items())),
             "ranges": summary.extremes,
-            **sampled,
+            **statistics,
             "best": best and {"index": best[0], "at": points.rows[best[0]], "out": best[1]},
             "assumptions": list(summary.assumptions.values()),
             "elapsed_s": clock.elapsed_s,
@@ -224,7 +225,7 @@ class Sweep(Study):
         yield self._closing(summary, end)
 
     def _closing(self, _: Summary, end: Line) -> list[Line]:
-        """The lines behind those of the points, of which `end` is the last."""
+        """Return the lines after the points; `end` is the last of them."""
         return [end]
 
     def encoder(self, written_as: str) -> Callable[[Line], bytes]:
@@ -235,9 +236,10 @@ class Sweep(Study):
 
 
 def table_row(points: PointSet, outputs: tuple[Leaf, ...], line: Line) -> bytes:
-    """A line of a sweep as comma-separated values, the first one as a header with units.
+    """Return a line of a sweep as a row of comma-separated values.
 
-    Nothing for progress and end; an error has a row with its message.
+    The first line becomes the heading with units, and an error becomes a row with its message. Lines of progress and
+    the end have no row.
     """
     error = line if line["type"] == "error" else line.get("error")
     message = f"{error['code']}: {error['message']}" if error else None
@@ -261,7 +263,7 @@ def table_row(points: PointSet, outputs: tuple[Leaf, ...], line: Line) -> bytes:
 
 
 def _sampled(sample: Sample, base: BaseRequest, most: int) -> PointSet:
-    """Random points, the same for the same seed."""
+    """Return the points of a random sample, which are the same for the same seed."""
     check_count(sample.count, most, "sample.count")
     scatters: Sequence[Range | Scatter] = sample.ranges or sample.inputs or ()
     leaves = scattering(scatters, base, "sample.ranges" if sample.ranges else "sample.inputs")
@@ -271,15 +273,15 @@ def _sampled(sample: Sample, base: BaseRequest, most: int) -> PointSet:
 
 
 def _check_best(best: Best, outputs: tuple[Leaf, ...]) -> None:
-    """Refuse a best point by what is no output of the sweep, or no number."""
-    known = {leaf.path: leaf for leaf in outputs}
+    """Raise Unprocessable if the best point is judged by something that is not a numeric output of the sweep."""
+    leaf_by_path = {leaf.path: leaf for leaf in outputs}
     judged = {"best.minimise" if best.minimise else "best.maximise": best.output}
     judged |= {f"best.where.{place}.output": bound.output for place, bound in enumerate(best.where)}
     for place, path in judged.items():
-        if path not in known:
-            message = f"{path} is not among the outputs of the sweep{did_you_mean(path, known)}"
+        if path not in leaf_by_path:
+            message = f"{path} is not among the outputs of the sweep{did_you_mean(path, leaf_by_path)}"
             raise Unprocessable("unknown_output", message, place)
-        if known[path].kind == "text":
+        if leaf_by_path[path].kind == "text":
             raise Unprocessable("unknown_output", f"{path} is no number", place)
 
 
@@ -291,11 +293,11 @@ AXIS = (
     Control(".count", "count", label="points"),
     Control(".scale", "scale", "linear", str, label="steps", options=(("", "even steps"), ("log", "even ratios"))),
 )
-"""The controls of an axis, named behind it, and its fields that they set."""
+"""The controls of an axis; their names follow the name of the axis, and their paths are the parts of the axis."""
 
 
 class SweepPage(StudyPage):
-    """A sweep of a case over one or two fields."""
+    """The page with a sweep of a case over one or two fields."""
 
     link = StudyLink(VARY, "Vary", "one input or two over a range: a curve or a map", place=1)
     question = "vary an input"
@@ -313,17 +315,18 @@ class SweepPage(StudyPage):
     study: Sweep
 
     def _own(self, leaf: Leaf) -> float | None:
-        """The number in the case at the path of a field."""
+        """Return the number of the case in a field; None if the field has no number."""
         value = value_at(self.case, leaf.path)
         return float(value) if is_plain_number(value) else None
 
     def _usual_ends(self, leaf: Leaf) -> tuple[float, float] | tuple[None, None]:
-        """The ends between which a field is varied if none are typed; (None, None) where none can be chosen.
+        """Return the ends between which a field is varied if none are typed.
 
-        They lie around the value of the case, inside the range of the field; without a value they are the range itself,
-        if it has two finite ends. Integers, or numbers of four significant digits.
+        The ends lie around the value of the case, inside the range of the field. If the case has no value, the ends are
+        those of the range, or (None, None) if the range is not finite. The ends of an integer are integers; other ends
+        are rounded to four significant digits.
         """
-        if numbers := [each for each in leaf.options if is_plain_number(each)]:
+        if numbers := [option for option in leaf.options if is_plain_number(option)]:
             return min(numbers), max(numbers)
         value, bounds, tolerance = self._own(leaf), leaf.declared.bounds, leaf.declared.tolerance
         low, high = bounds.get("ge", bounds.get("gt", -inf)), bounds.get("le", bounds.get("lt", inf))
@@ -341,25 +344,28 @@ class SweepPage(StudyPage):
         return (ceil(low), floor(high)) if leaf.kind == "integer" else (float(f"{low:.4g}"), float(f"{high:.4g}"))
 
     def declared(self) -> tuple[Control, ...]:
-        """Return the controls of the axes; errors of an axis are at its first end, errors of all axes at `x.count`."""
-        found = [Control("x.count", "vary", sets=False)]
+        """Return the controls of the axes.
+
+        The errors of an axis are shown at its first end, and the errors of all axes together at `x.count`.
+        """
+        controls = [Control("x.count", "vary", sets=False)]
         for place, name in enumerate(AXES):
             path = self.views.get(name, "")
             usual: dict[str, Any] = {"count": COUNTS[name]}
             if leaf := self.field_at(path):
                 usual |= zip(("start", "stop"), self._usual_ends(leaf), strict=True)
-            for each in AXIS:
-                own = each._replace(name=f"{name}{each.name}", path=f"vary.{place}.{each.path}", sets=bool(path))
-                found.append(own._replace(default=usual.get(each.path, each.default)))
-            found.append(Control(f"{name}.from", f"vary.{place}", sets=False))
-        return tuple(found)
+            for part in AXIS:
+                own = part._replace(name=f"{name}{part.name}", path=f"vary.{place}.{part.path}", sets=bool(path))
+                controls.append(own._replace(default=usual.get(part.path, part.default)))
+            controls.append(Control(f"{name}.from", f"vary.{place}", sets=False))
+        return tuple(controls)
 
     def _axis(self, given: dict[str, Any], where: str) -> dict[str, Any]:
-        """The axis of a field with the ends, number and steps given.
+        """Return the axis of a field from its ends, its number of points and its scale.
 
-        A field that takes only certain values gets these, numbers only those between the ends; integers are spread as
-        evenly as possible, each once. Other faults are left to the validator of the body. Raises Unprocessable at
-        `where`.
+        If the field accepts only a fixed set of values, the axis has these values, or if they are numbers, those
+        between the ends. Integers are spread as evenly as possible, and no integer occurs twice. Raises Unprocessable
+        at `where`; other errors are left to the validation of the body.
         """
         leaf = scalar_at(self.calculation.request, given["path"], f"{where}.path", "unknown_path")
         axis, choices = {"path": leaf.path}, choices_of(leaf)
@@ -374,23 +380,23 @@ class SweepPage(StudyPage):
         if start == stop:
             raise Unprocessable("values_or_range", "from and to are the same", where)
         if choices and is_plain_number(start) and is_plain_number(stop):
-            return {**axis, "values": [each for each in choices if min(start, stop) <= each <= max(start, stop)]}
-        whole = leaf.kind == "integer" and all(isinstance(each, int) for each in (start, stop, count))
-        if not whole or not 2 <= count <= MOST_WHOLE:
+            return {**axis, "values": [choice for choice in choices if min(start, stop) <= choice <= max(start, stop)]}
+        is_whole = leaf.kind == "integer" and all(isinstance(number, int) for number in (start, stop, count))
+        if not is_whole or not 2 <= count <= MOST_WHOLE:
             return {**axis, "start": start, "stop": stop, "count": count, "scale": scale}
         spread = np.geomspace if scale == "log" and min(start, stop) > 0 else np.linspace
         return {**axis, "values": np.unique(spread(start, stop, count).round()).astype(int).tolist(), "scale": scale}
 
     @property
     def is_greatest_best(self) -> bool:
-        """Whether the greatest value is sought; raises Unprocessable."""
+        """Whether the greatest value of the output is the best one; raises Unprocessable."""
         best = self.views.get("best", "greatest" if self.output.view.greatest_is_best else "least")
         if best not in {"least", "greatest"}:
             raise Unprocessable("literal_error", "best: must be one of least, greatest", "best")
         return best == "greatest"
 
     def body(self) -> dict[str, Any]:
-        """The axes as typed or usual, the output, and whether its least or greatest value is sought."""
+        """Return the body with the typed or usual axes, the output, and whether its least or greatest value is best."""
         goal = "maximise" if self.is_greatest_best else "minimise"
         x, y = map(self.views.get, AXES)
         if y and not x:
@@ -406,7 +412,7 @@ class SweepPage(StudyPage):
         }
 
     def controls(self) -> tuple[Controls, ...]:
-        """For each axis a menu of fields and the controls of its range, whose placeholders are the usual ends."""
+        """Return for each axis a menu of fields and the controls of its range, with the usual ends as placeholders."""
         fields = dict(zip(AXES, self.study.points.varied, strict=False)) if self.study else {}
         groups = []
         for name, title, empty in (("x", "Vary", "choose …"), ("y", "and, as curves or a map", "nothing else")):
@@ -415,26 +421,26 @@ class SweepPage(StudyPage):
             start, stop = self._usual_ends(leaf) if leaf else (None, None)
             shows = {"start": (start, unit), "stop": (stop, unit), "count": (COUNTS[name], "")}
             ends = []
-            for each in AXIS[1:]:
-                usual, own = shows.get(each.path, (None, ""))
-                ends.append(self.field_of(each._replace(name=f"{name}{each.name}", default=usual, unit=own)))
+            for part in AXIS[1:]:
+                usual, own_unit = shows.get(part.path, (None, ""))
+                ends.append(self.field_of(part._replace(name=f"{name}{part.name}", default=usual, unit=own_unit)))
             choices = field_choices(self.calculation, self.case, texts=name == "y")
             groups.append(Controls(title, self.menu(name, "field", empty, choices), tuple(ends)))
         return tuple(groups)
 
     def shows(self) -> tuple[FieldView, ...]:
-        """The menu of whether the least or the greatest value of the output is sought."""
+        """Return the menu that chooses whether the least or the greatest value of the output is the best one."""
         ends = (("", "by the output"), ("least", "least"), ("greatest", "greatest"))
         return (self.field("best", "the best is", options=ends),)
 
     def starters(self) -> Sequence[Starter | StudyExample]:
-        """Links to ready studies of examples; where the query has a case, of this case and around its values."""
+        """Return links to ready studies of examples, or if the query has a case, of this case around its values."""
         if not self.asked.pairs:
             return studies_of(self.calculation)
         return studies_of_case(self.calculation, self.asked.pairs, self.case)
 
     def result(self, lines: list[Line]) -> Result:
-        """The figures, once the study has ended also a table of the points with links to their cases."""
+        """Return the figures, and after the end of the study also a table of the points with links to their cases."""
         received = [line for line in lines if line["type"] == "point"]
         grid = self._grid(received)
         figures = figures_of(grid)
@@ -453,23 +459,23 @@ class SweepPage(StudyPage):
         )
 
     def _grid(self, received: list[Line]) -> Grid:
-        """The data of the figures; points without solution, and those that have not arrived, are NaN."""
+        """Return the data of the figures; points without solution, and points that have not arrived, are NaN."""
         points = self.study.points
-        found = np.full(points.total, nan)
-        found[: len(received)] = [nan if line["out"][0] is None else float(line["out"][0]) for line in received]
+        outputs = np.full(points.total, nan)
+        outputs[: len(received)] = [nan if line["out"][0] is None else float(line["out"][0]) for line in received]
         coordinates, orders = zip(*map(self._coordinate, AXES, points.varied, points.axes), strict=True)
         is_whole_curve = len(coordinates) == 1 and len(received) == points.total
         sorted_points = [received[place] for place in orders[0]] if is_whole_curve else []
         invalid = tuple(_invalid(line) for line in sorted_points)
         doubtful = tuple("doubtful" in line["ranks"] for line in sorted_points)
         limit = self.output.view.limit if self.output.view.bound else None
-        if isinstance(limit, str):  # a field of the case
+        if isinstance(limit, str):  # the path of a field of the case
             limit = value_at(self.case, limit)
         return Grid(
             x=coordinates[0],
             y=coordinates[1] if len(coordinates) > 1 else None,
             output=axis_of(self.output),
-            values=values(found.reshape([len(each) for each in orders])[np.ix_(*orders)]),
+            values=values(outputs.reshape([len(order) for order in orders])[np.ix_(*orders)]),
             greatest=self.is_greatest_best,
             limit=float(limit) if isinstance(limit, int | float) else None,
             invalid=invalid if len(set(invalid)) > 1 else (),
@@ -477,14 +483,16 @@ class SweepPage(StudyPage):
             unsolved=sum(line["status"] not in SOLVED for line in received),
         )
 
-    def _coordinate(self, name: str, leaf: Leaf, checked: CheckedAxis) -> tuple[Coordinate, list[int]]:
-        """The values of a field in rising order, and the places where they stand in the sweep."""
-        listed = checked.values or []
-        if not all(map(is_plain_number, listed)):
-            order = list(range(len(listed)))
-            texts = tuple(("yes" if each else "no") if isinstance(each, bool) else words(str(each)) for each in listed)
+    def _coordinate(self, name: str, leaf: Leaf, axis_in_sweep: CheckedAxis) -> tuple[Coordinate, list[int]]:
+        """Return the values of a field in rising order, and the places of these values in the sweep."""
+        in_sweep = axis_in_sweep.values or []
+        if not all(map(is_plain_number, in_sweep)):
+            order = list(range(len(in_sweep)))
+            texts = tuple(
+                ("yes" if value else "no") if isinstance(value, bool) else words(str(value)) for value in in_sweep
+            )
             return Coordinate(axis_of(leaf), values(order), texts), order
-        numbers = np.array(listed, dtype=np.float64)
+        numbers = np.array(in_sweep, dtype=np.float64)
         order = np.argsort(numbers, kind="stable").tolist()
         rising = values(numbers[order])
         log = self.views.get(f"{name}.scale") == "log" and not leaf.options
@@ -495,23 +503,26 @@ class SweepPage(StudyPage):
     def _table(self, received: list[Line]) -> Table:
         rows = []
         for line in received[:MOST_ROWS]:
-            at = [shown(each, 6) for each in line["at"]]
+            at = [shown(coordinate, 6) for coordinate in line["at"]]
             status, remarks = line["status"].replace("_", " "), ", ".join(_remarks(line))
-            opened = Link("open", self.point_address(line["index"]), f"open the case at {', '.join(at)}")
-            rows.append((*at, shown(line["out"][0]), f"{status}: {remarks}" if remarks else status, opened))
+            link = Link("open", self.point_address(line["index"]), f"open the case at {', '.join(at)}")
+            rows.append((*at, shown(line["out"][0]), f"{status}: {remarks}" if remarks else status, link))
         titles = [Number(titled(leaf)) for leaf in (*self.study.points.varied, self.output)]
         more = len(received) - MOST_ROWS
         note = f"and {more} points more in the CSV file" if more > 0 else ""
         return Table("Points", (*titles, "status", "case"), rows, note, folded=True)
 
     def point_address(self, index: int) -> str:
-        """The address of the page of the case at a point."""
+        """Return the address of the page of the case at a point."""
         return self.address(self.study.points.overrides(index))
 
     def _script(self, received: list[Line], figure: Figure) -> str:
-        """What the script of the page needs to find the point under the pointer and to open its case."""
+        """Return the data with which the script of the page finds the point under the pointer and opens its case.
+
+        The result is empty if the form has no field for one of the axes.
+        """
         points = self.study.points
-        if None in [leaf_at(self.calculation.request, leaf.path) for leaf in points.varied]:  # no field of the form
+        if None in [leaf_at(self.calculation.request, leaf.path) for leaf in points.varied]:
             return ""
         from app.figures.drawing.image import places as places_of  # noqa: PLC0415  only workers draw
 
@@ -533,14 +544,14 @@ class SweepPage(StudyPage):
 
 
 def _remarks(point: Line) -> list[str]:
-    """Why a point has no solution, or its warnings."""
+    """Return the reason why a point has no solution, or the warnings of a point with a solution."""
     return [point["error"]["message"]] if "error" in point else [words(code) for code in point["warnings"]]
 
 
 def _invalid(point: Line) -> str | None:
-    """The warnings that leave a value without meaning."""
-    found = [words(code) for code, rank in zip(point["warnings"], point["ranks"], strict=True) if rank == "invalid"]
-    return ", ".join(found) or None
+    """Return the warnings that make the values of a point invalid, or None if there are none."""
+    codes = [words(code) for code, rank in zip(point["warnings"], point["ranks"], strict=True) if rank == "invalid"]
+    return ", ".join(codes) or None
 
 
 PAGE = SweepPage
