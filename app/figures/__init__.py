@@ -1,7 +1,8 @@
-"""Figures: a declaration turns a request and its answer into data, and one package draws the data.
+"""Figures. The declaration of a figure turns a request and its answer into data; the package `drawing` draws the data.
 
-Order: data, wording, units -> declaration, parts, sketches -> models of the endpoints, studies, spectrum. `drawing` and
-`tables` turn the data of any figure into bytes, `comparison` puts two cases into one figure.
+The modules build on one another in this order: data, wording and units; then declaration, parts and sketches; then
+models (of the endpoints), studies and spectrum. `drawing` turns the data of any figure into an image, and `tables`
+writes the data as CSV. `comparison` puts the figures of two cases into one figure.
 """
 
 from typing import Literal
@@ -19,14 +20,14 @@ MEDIA_TYPES: dict[Format, str] = {
 
 
 def written(figure: Figure, image_format: Format, theme: ThemeName) -> bytes:
-    """Draw a figure as an image, or write its numbers as a table.
+    """Draw a figure as an image, or write the numbers of the figure as a table.
 
     Parameters
     ----------
     figure : Figure
         The data of the figure.
     image_format : {"svg", "png", "pdf", "csv"}
-        Format of the image, or CSV for the table.
+        Format of the image; CSV writes the table.
     theme : {"light", "dark"}
         Colours of the image.
 

@@ -1,4 +1,4 @@
-"""Two cases in one figure: the curves of the second case are dashed, in the hues of the first."""
+"""Two cases in one figure. Curves of the second case are dashed and have the hues of the first case's curves."""
 
 from collections.abc import Iterator
 from dataclasses import replace
@@ -12,7 +12,11 @@ OWN = "this case"
 
 
 def compared(figure: Figure, variant: Figure, name: str) -> Figure:
-    """Return the figure with the curves of the same figure of another case; maps of both cases stand side by side."""
+    """Return the figure of a case with the curves of the same figure of another case.
+
+    `variant` is the figure of the other case, and `name` is the name of that case. If the figures are maps, two maps
+    stand side by side, and more maps stand below one another.
+    """
     unsolved = figure.unsolved + variant.unsolved
     if any(panel.map is not None for panel in figure.panels):
         maps = _maps({OWN: figure, name: variant})
@@ -31,7 +35,10 @@ def _key(panel: Panel) -> tuple[str, str | None]:
 
 
 def _overlaid(panel: Panel, other: Panel, name: str) -> Panel:
-    """Return the panel with the parts of the other panel that differ: curves, edges of fills, limits, points."""
+    """Return the panel together with those parts of the other panel that differ from its own parts.
+
+    The parts are curves, edges of filled shapes, bars, rows, limits and, in panels with areas, marks.
+    """
     own = {(level.name, level.value) for level in panel.levels}
     levels = (level for level in other.levels if (level.name, level.value) not in own)
     added: dict[str, list[Any]] = {
@@ -50,7 +57,8 @@ def _overlaid(panel: Panel, other: Panel, name: str) -> Panel:
 def _lines(panel: Panel, other: Panel, name: str) -> list[Line]:
     """Return the curves and edges of the other panel that this panel lacks.
 
-    A curve has the hue of the curve with the same title in this panel. Without such a curve it gets a name of its own.
+    If this panel has a curve of the same title, the returned curve has the hue of that curve. Otherwise the title of
+    the returned curve names the other case.
     """
     own = [*panel.lines, *_edges(panel)]
     hues = {line.title: line.hue for line in own}
@@ -65,7 +73,7 @@ def _lines(panel: Panel, other: Panel, name: str) -> list[Line]:
 
 
 def _edges(panel: Panel) -> Iterator[Line]:
-    """Yield the outlines of polygons and bands."""
+    """Yield the outlines of polygons and the edges of bands as lines."""
     for shape in panel.shapes:
         yield replace(shape, x=np.append(shape.x, shape.x[:1]), y=np.append(shape.y, shape.y[:1]))
     for ribbon in panel.ribbons:
@@ -73,7 +81,10 @@ def _edges(panel: Panel) -> Iterator[Line]:
 
 
 def _bars(panel: Panel, other: Panel) -> list[Line]:
-    """Return all bars of the other panel if some of them differ, because widths depend on the number of bars."""
+    """Return all bars of the other panel if some of them differ from the bars of this panel.
+
+    Bars of the other panel that do not differ are needed too, because the width of a bar depends on the number of bars.
+    """
     if [bars.y.tobytes() for bars in panel.bars] == [bars.y.tobytes() for bars in other.bars]:
         return []
     hues = {bars.title: bars.hue for bars in panel.bars}
@@ -81,7 +92,10 @@ def _bars(panel: Panel, other: Panel) -> list[Line]:
 
 
 def _rows(panel: Panel, other: Panel, name: str) -> list[Row]:
-    """Return the rows that differ. They lie over the row of the same name; without one they are new rows."""
+    """Return the rows of the other panel that differ from the rows of this panel.
+
+    If this panel has a row of the same name, the returned row is drawn over that row. Otherwise it is a new row.
+    """
     own_rows, rows = {row.name: row for row in panel.rows}, []
     for row in other.rows:
         own = own_rows.get(row.name)
@@ -93,7 +107,7 @@ def _rows(panel: Panel, other: Panel, name: str) -> list[Row]:
 
 
 def _maps(figures: dict[str, Figure]) -> tuple[Panel, ...]:
-    """Return the maps of all cases on one scale of colours."""
+    """Return the panels with the maps of all cases. All maps have the same scale of colours."""
     panels = [(name, panel) for name, figure in figures.items() for panel in figure.panels]
     ends = [panel.map.ends for _, panel in panels if panel.map is not None]
     common = min(low for low, _ in ends), max(high for _, high in ends)

@@ -1,7 +1,7 @@
-"""The content of a figure without its style: panels of lines, bars, rows and maps with their limits and marks.
+"""The content of a figure without its style: panels of lines, bars, rows and maps, with limits and marks.
 
-Numbers are in the unit of their axis and equal those of the answer. NaN is a point without a value and leaves a gap.
-Sequences are not changed after they have become part of a figure.
+Each number is in the unit of its axis and equals the number in the answer. NaN stands for a point without a value,
+where a curve has a gap. Sequences are not changed after they have become part of a figure.
 """
 
 import re
@@ -21,7 +21,10 @@ ThemeName = Literal["light", "dark"]
 
 
 class Hue(StrEnum):
-    """Colours of Okabe and Ito in the order of the curves, with matplotlib's names for the colours of a style."""
+    """The colours of Okabe and Ito, in the order in which curves take them.
+
+    The values are matplotlib's names for the colours in the colour cycle of a style sheet.
+    """
 
     BLUE = "C0"
     VERMILLION = "C1"
@@ -44,7 +47,7 @@ class Role(StrEnum):
 
 
 def values(items: Sequence[float | None] | Values) -> Values:
-    """Return a read-only copy as an array; None becomes NaN, a point without a value."""
+    """Return a read-only array of the items. None becomes NaN, which stands for a point without a value."""
     array = np.array([np.nan if item is None else item for item in items], dtype=np.float64)
     array.flags.writeable = False
     return array
@@ -52,7 +55,10 @@ def values(items: Sequence[float | None] | Values) -> Values:
 
 @dataclass(frozen=True, slots=True)
 class Axis:
-    """A quantity along an axis; the axis of a magnitude starts at zero if its values allow it."""
+    """A quantity along an axis.
+
+    If `magnitude` is set, a linear ordinate without `limits` includes zero.
+    """
 
     title: str
     unit: str | None = None
@@ -64,14 +70,17 @@ class Axis:
 
     @property
     def label(self) -> str:
-        """Text at the axis: title, symbol and unit; the symbol stands before a comma or parenthesis in the title."""
+        """Text at the axis: title, symbol and unit.
+
+        The symbol stands before the first comma or opening parenthesis of the title, or else at the end of the title.
+        """
         title = re.sub(r"(?=,| \(|$)", f" {self.symbol}", self.title, count=1) if self.symbol else self.title
         return f"{title},{NO_BREAK}{self.unit}" if self.unit else title
 
 
 @dataclass(frozen=True, slots=True)
 class Mark:
-    """A point with a text, usually an extreme with its value."""
+    """A point with a text. The point is usually an extreme, and the text its value."""
 
     x: float
     y: float
@@ -81,9 +90,10 @@ class Mark:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Line:
-    """Points over an abscissa: a curve, bars or the outline of a polygon.
+    """Points over an abscissa, drawn as a curve, as bars or as the outline of a polygon.
 
-    A line is not `named` in the legend if its axis names it. Polygons with the same title are named once.
+    A line that is not `named` is left out of the legend, because the title of its axis already names the line. The
+    legend lists polygons with the same title once.
     """
 
     title: str
@@ -94,7 +104,7 @@ class Line:
     named: bool = True
 
     def mark(self, index: int, text: str) -> Mark:
-        """Return a mark at one of the points, in the hue of the line."""
+        """Return a mark at the point with this index, in the hue of the line."""
         return Mark(float(self.x[index]), float(self.y[index]), text, self.hue)
 
 
@@ -111,9 +121,11 @@ class Ribbon:
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """A named value drawn as a horizontal bar, or as the sum of its `parts`; an indeterminate value has bounds.
+    """A named value, drawn as a horizontal bar.
 
-    The text of the value NaN is "not calculated". If the row has `dots`, named points on a line replace the bar.
+    If the row has `parts`, the bar consists of these parts, end to end. If the row has `dots`, a line with named points
+    replaces the bar. `bounds` are the ends of the range of an uncertain value. If the value is NaN, "not calculated" is
+    written instead of a number.
     """
 
     name: str
@@ -126,7 +138,11 @@ class Row:
 
 
 class Scale(StrEnum):
-    """Scale of colours of a map: upwards from its least value, by ratio around 1, or around 0."""
+    """Scale of colours of a map.
+
+    MAGNITUDE begins at zero, or at the least value if this value is negative. RATIO is logarithmic and symmetrical
+    about 1. SIGNED is linear and symmetrical about 0.
+    """
 
     MAGNITUDE = "magnitude"
     RATIO = "ratio"
@@ -135,7 +151,10 @@ class Scale(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Level:
-    """A straight line across the panel: a limit or a reference; a `vertical` level is a value of the abscissa."""
+    """A straight line across the panel: a limit if `limit` is set, else a reference.
+
+    The value of a `vertical` level is an abscissa; the value of any other level is an ordinate.
+    """
 
     value: float
     name: str
@@ -147,7 +166,8 @@ class Level:
 class Map:
     """Values over two coordinates, `[y][x]`, with contours at the `critical` values.
 
-    Maps of a comparison share the `range` of the colours; only the last of them shows the colour `bar`.
+    Maps of a comparison have the same `range` of colours, and only the last of these maps shows the colour `bar`. If
+    `range` is None, the range follows from the values.
     """
 
     title: str
@@ -162,7 +182,7 @@ class Map:
 
     @property
     def ends(self) -> tuple[float, float]:
-        """Values at both ends of the scale of colours: those of the range if there is one."""
+        """Values at the two ends of the scale of colours: `range` if it is given, else ends that suit the values."""
         if self.range is not None:
             return self.range
         finite = self.values[np.isfinite(self.values)]
@@ -181,7 +201,7 @@ class Map:
 
 @dataclass(frozen=True, slots=True)
 class Span:
-    """A range of the abscissa that is shaded, with its reason."""
+    """A shaded range of the abscissa. `name` says why the range is shaded."""
 
     start: float
     stop: float
@@ -202,7 +222,10 @@ class Area:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Panel:
-    """A pair of axes with its contents; `shapes` are polygons; `equal` axes have the same scale."""
+    """A pair of axes with its contents.
+
+    `shapes` are polygons. If `equal` is set, both axes have the same scale.
+    """
 
     x: Axis
     y: Axis
@@ -222,10 +245,11 @@ class Panel:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Figure:
-    """Panels under a title, which names the figure, and a finding, which states its result.
+    """Panels under a title, which names the figure, and a finding, which states the result of the figure.
 
-    `beside` puts the panels in a row. Title and source come from the declaration, but a case may have a title of its
-    own. A `narrow` figure fits into a column of a report.
+    `beside` puts the panels in a row. If the title is empty, the title of the declaration is used. The source always
+    comes from the declaration. `unsolved` is the number of points without a solution. A `narrow` figure fits into a
+    column of a report.
     """
 
     finding: str
@@ -238,10 +262,13 @@ class Figure:
 
     @property
     def subtitle(self) -> str:
-        """Finding, number of points without solution, and source."""
+        """Number of points without solution, finding, and source."""
         gaps = f"{self.unsolved} point{'s' * (self.unsolved > 1)} without solution" if self.unsolved else ""
         return " · ".join(part for part in (gaps, self.finding, self.source.replace(" ", NO_BREAK)) if part)
 
 
 class NoFigure(Unprocessable):
-    """The case does not have the content of the figure; `path` is the dotted field of the request that decides it."""
+    """The case has no data for the figure.
+
+    `path` is the dotted field of the request on which the presence of these data depends.
+    """

@@ -1,4 +1,4 @@
-"""Declaration of a figure without a case: its name, and the function that makes its data."""
+"""Declarations of figures. A declaration names a figure and holds the function that makes its data for a case."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -17,13 +17,14 @@ Build = Callable[..., Figure]
 class Declaration:
     """One figure of an endpoint.
 
-    `build` makes the data from the solver's inputs, in SI, and from its result with all quantities in the units in
-    which they are shown. If the figure needs more than the result, `compute` calculates it from both, and `build` takes
-    it as a third argument.
+    `build` returns the figure. Its arguments are the solver's inputs, in SI, and the solver's result, with all
+    quantities in the units in which they are shown. If the figure needs more data than the result holds, `compute`
+    calculates these data from the inputs and the result, and `build` takes them as a third argument.
 
-    A page leaves out a figure that is `shown_at` the page of another calculation, given by its path. It also leaves out
-    a figure whose section or value `asked_by` is absent from the request, or differs from `asked_value` if that is
-    given.
+    If `shown_at` is the path of another calculation, the figure appears on the page of that calculation and not on the
+    page of its own calculation. `asked_by` is a section or value of the request. A page leaves out the figure if this
+    section or value is absent. If `asked_value` is given, a page also leaves out the figure if the value differs from
+    `asked_value`.
     """
 
     name: str
@@ -43,7 +44,7 @@ class Declaration:
         return value == self.asked_value if self.asked_value else value is not None
 
     def figure(self, request: Request, response: Response) -> Figure:
-        """Return the figure of a case. Raises NoFigure if there is nothing to show."""
+        """Return the figure of a case; raise NoFigure if there is nothing to show."""
         if response.status == "no_solution":
             raise NoFigure("no_solution", "The calculation has no solution, so there is nothing to draw")
         if not self.is_asked(request):
@@ -60,7 +61,7 @@ class Declaration:
 
 
 def present(part: T | None) -> T:
-    """Return a part of a result. Raises NoFigure if it is None, that is, if the case has no solution."""
+    """Return a part of a result. Raise NoFigure if the part is None, that is, if the case has no solution."""
     if part is None:
         raise NoFigure("no_solution", "The answer lacks what this figure shows, so there is nothing to draw")
     return part

@@ -1,4 +1,4 @@
-"""Parts that figures of several models share: curves and orders of a result, extremes of curves and maps."""
+"""Parts that figures of several models share: panels of curves and of orders, and marks at extremes."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
@@ -15,19 +15,22 @@ Named = TypeVar("Named", Level, Span)
 def curve(
     x: Axis, y: Axis, along: Values, data: Values, hue: Hue = Hue.BLUE, *, marked: bool = False, **panel: Any
 ) -> Panel:
-    """Return a panel of one curve, which its ordinate names. If `marked`, mark its greatest value above zero."""
+    """Return a panel with one curve. The title of the ordinate names the curve.
+
+    If `marked` is set and the greatest value of the curve is above zero, there is a mark at this value.
+    """
     line = Line(y.title, along, data, hue, named=False)
     marks = extreme([line], y.unit) if marked and np.nanmax(line.y, initial=0.0) > 0.0 else []
     return Panel(x=x, y=y, lines=[line], marks=marks, **panel)
 
 
 def lines(along: Values, series: Mapping[str, Sequence[float] | Values]) -> list[Line]:
-    """Return lines over one abscissa from data by title, in the order of the hues."""
+    """Return a line for each title and its data. The lines share one abscissa and take the hues in their order."""
     return [Line(title, along, values(data), hue) for (title, data), hue in zip(series.items(), ORDER, strict=False)]
 
 
 def orders(title: str, y: Axis, first: int, series: Mapping[str, Sequence[float] | Values], symbol: str = "") -> Panel:
-    """Return a panel with bars of amplitudes over their orders, which begin at `first`."""
+    """Return a panel with amplitudes as bars over their orders. The first amplitude has the order `first`."""
     count = max(len(data) for data in series.values())
     order = np.arange(first, first + count, dtype=np.float64)
     x = Axis(title, magnitude=False, ticks=order.tolist(), symbol=symbol)
@@ -35,7 +38,10 @@ def orders(title: str, y: Axis, first: int, series: Mapping[str, Sequence[float]
 
 
 def extreme(curves: Sequence[Line], unit: str | None = None, *, least: bool = False) -> list[Mark]:
-    """Return a mark at the greatest or least value of the lines, with this value; none if no point has a value."""
+    """Return one mark at the greatest value of all lines, or at the least value if `least` is set.
+
+    The text of the mark is this value. The list is empty if no point has a value.
+    """
     pick, at = (min, np.nanargmin) if least else (max, np.nanargmax)
     extremes = [(line, int(at(line.y))) for line in curves if np.isfinite(line.y).any()]
     if not extremes:
@@ -45,7 +51,10 @@ def extreme(curves: Sequence[Line], unit: str | None = None, *, least: bool = Fa
 
 
 def extreme_of_map(chart: Map, wording: Callable[..., str] = number, *, least: bool = False) -> Mark:
-    """Return a mark at the greatest or least value of a map, with this value."""
+    """Return a mark at the greatest value of a map, or at the least value if `least` is set.
+
+    The text of the mark is this value.
+    """
     at = int(np.nanargmin(chart.values) if least else np.nanargmax(chart.values))
     row, column = np.unravel_index(at, chart.values.shape)
     text = wording(float(chart.values[row, column]), chart.unit)
@@ -53,5 +62,5 @@ def extreme_of_map(chart: Map, wording: Callable[..., str] = number, *, least: b
 
 
 def unnamed(items: Iterable[Named]) -> list[Named]:
-    """Return the same levels or spans without names, for panels below the one that names them."""
+    """Return the levels or spans without their names, for panels below the panel that shows the names."""
     return [replace(item, name="") for item in items]

@@ -1,4 +1,4 @@
-"""Sketches of machine parts to scale: the transverse section of a gear pair, the shafts of a unit."""
+"""Sketches of machine parts to scale: the transverse section of a gear pair, and the shafts of a unit."""
 
 from itertools import pairwise
 from math import cos, pi, sin
@@ -18,10 +18,10 @@ POINTS = 25  # per fillet or flank
 
 
 def transverse_section(inputs: GearPairInputs) -> Figure:
-    """Draw teeth in contact at the pitch point, the path of contact with its points, and the usable flanks.
+    """Draw the teeth in contact, the path of contact with its points, and the usable flanks.
 
-    The pitch point is the origin. The pinion lies below it and drives towards positive abscissae. If the pitch point is
-    not on the path, the teeth are in contact at the middle of the path.
+    The pitch point is the origin. The pinion lies below the pitch point and drives towards positive abscissae. The
+    teeth are in contact at the pitch point, or at the middle of the path if the pitch point is not on the path.
     """
     path = meshing_path(inputs)
     pair, angle = path.pair, path.pair.working_pressure_angle
@@ -65,11 +65,11 @@ def transverse_section(inputs: GearPairInputs) -> Figure:
 
 
 def points_of_contact(path: PathOfContact) -> dict[str, float]:
-    """Return the roll lengths of the points A to E of the path on the pinion [m].
+    """Return the roll lengths [m] of the points A to E of the path of contact, measured on the pinion.
 
-    A and E are the ends of the path. B lies one transverse base pitch before E, and D one behind A; with a contact
-    ratio up to 2, a single pair of teeth meshes between B and D in a transverse section. C is the pitch point. Points
-    that are not on the path are left out.
+    A and E are the ends of the path. B lies one transverse base pitch before E, and D one transverse base pitch behind
+    A. C is the pitch point. If the contact ratio is at most 2, a single pair of teeth meshes between B and D in a
+    transverse section. Points that are not on the path are left out.
     """
     pitch = path.pair.transverse_base_pitch
     points = {"A": path.start, "B": path.end - pitch, "C": path.pitch_point, "D": path.start + pitch, "E": path.end}
@@ -77,7 +77,11 @@ def points_of_contact(path: PathOfContact) -> dict[str, float]:
 
 
 def _outline(inputs: GearPairInputs, teeth: GearTeeth, gear: Gear, tooth: float, width: float) -> tuple[Values, Values]:
-    """Return radius [m] and polar angle [rad] of the tooth at the angle `tooth` and its neighbours in the window."""
+    """Return the outline of a tooth and its neighbours as radii [m] and polar angles [rad].
+
+    `tooth` is the polar angle of the middle of the tooth [rad]. There are enough neighbours to fill `width` [m] on
+    either side.
+    """
     root = root_profile(inputs, teeth, gear)
     fillet = np.array([fillet_point(root.fillet, t) for t in np.linspace(0.0, root.fillet.end, POINTS)])
     flank = np.hypot(gear.base_radius, np.linspace(root.involute_roll, gear.tip_roll_length, POINTS))
@@ -93,7 +97,7 @@ def _outline(inputs: GearPairInputs, teeth: GearTeeth, gear: Gear, tooth: float,
 
 
 def _placed(radius: Values, angle: Values, centre: float) -> tuple[Values, Values]:
-    """Convert polar coordinates [m] about a centre on the ordinate to x and y [mm]."""
+    """Convert polar coordinates [m, rad] about a centre on the ordinate into x and y [mm]."""
     return radius * np.cos(angle) / MM, (centre + radius * np.sin(angle)) / MM
 
 
@@ -136,13 +140,13 @@ def shafts(inputs: DriveTrainInputs, _: object) -> Figure:
 
 
 def _box(title: str, start: float, end: float, height: float, radius: float, hue: Hue) -> Line:
-    """Return the outline of a cylinder seen from the side; lengths [m]."""
+    """Return the outline [mm] of a cylinder seen from the side. Arguments that are lengths are in m."""
     x, y = np.array([start, end, end, start]) / MM, (height + radius * np.array([-1.0, -1.0, 1.0, 1.0])) / MM
     return Line(title, x, y, hue)
 
 
 def _bearing(bearing: Bearing, shaft: Shaft, height: float) -> Line:
-    """Return the outline of a plain bearing, or a triangle under the shaft for another bearing."""
+    """Return the outline of a bearing: a box for a plain bearing, else a triangle under the shaft."""
     place = bearing.position
     if isinstance(bearing, JournalBearing):
         start, end = place - bearing.width / 2.0, place + bearing.width / 2.0

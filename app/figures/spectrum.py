@@ -1,7 +1,7 @@
 """Figures of a load spectrum: the output of every case against its limit, probabilities, deciding cases, mean losses.
 
-A probability is a dictionary from the lines of the study. Its `bounds` are equal if all draws are solved; `interval` is
-its confidence interval.
+A probability is a dictionary of the study's result. Its `bounds` enclose the probability; they are equal if all draws
+are solved. Its `interval` is the confidence interval of the probability.
 """
 
 from dataclasses import replace
@@ -12,19 +12,20 @@ import numpy as np
 from app.figures.data import ORDER, Axis, Figure, Hue, Level, Line, NoFigure, Panel, Ribbon, Row, Span, Values
 from app.figures.wording import number, percent
 
-BAND = 1.6448536  # deviations from 5 to 50 %
-REACH = 3.5  # deviations drawn on both sides of a limit
-CURVE_POINTS = 141  # of a bell curve, chosen: it looks smooth
+BAND = 1.6448536  # standard deviations between the quantiles at 5 % and 50 %
+REACH = 3.5  # standard deviations of a limit that are drawn on either side of it
+CURVE_POINTS = 141  # points of a bell curve; chosen so that the curve looks smooth
 SPECTRUM = "whole spectrum"
-NAMED = 8  # tolerances in a figure
+NAMED = 8  # largest number of tolerances in a figure
 LEAST = 1e-5  # smaller probabilities are not stated, because the tails of the distributions are not known so far out
 
 
 class SpectrumCase(NamedTuple):
     """A case of the spectrum.
 
-    `quantiles` of the limited output are at 5, 50 and 95 %, None if no draw is solved. `chance` is the probability of
-    the case as if it were alone, `decides` the share of machines whose worst case it is.
+    `quantiles` holds the quantiles of the limited output at 5, 50 and 95 %, or is None if no draw is solved. `chance`
+    is the probability of violating the limit if this case were the only one. `decides` is the share of machines for
+    which this case is the worst case.
     """
 
     name: str
@@ -36,9 +37,10 @@ class SpectrumCase(NamedTuple):
 class Limited(NamedTuple):
     """A limited output over the spectrum.
 
-    `found` is the study's result for the limit: side, mean and deviation of the limit, the probability, and the
-    histogram of the worst case, empty if the worst case does not vary. `influences` are the rank correlations of the
-    worst case with the fields that scatter, by title.
+    `found` is the study's result for the limit. It holds the side, the mean and the deviation of the limit, the
+    probability of violating the limit, and the histogram of the output in the worst case. The histogram is empty if
+    this output does not vary. `influences` holds, by the title of each field that scatters, the rank correlation of the
+    field with the output in the worst case.
     """
 
     output: Axis
@@ -48,13 +50,13 @@ class Limited(NamedTuple):
 
 
 def is_tiny(chance: dict[str, Any]) -> bool:
-    """Return True if a probability is too small to be distinguished from zero, but not exactly zero."""
+    """Return True if a probability is not exactly zero, but too small to be distinguished from zero."""
     most: float = max(*chance["bounds"], *(chance["interval"] or ()))
     return 0.0 < most < LEAST
 
 
 def chance_text(chance: dict[str, Any]) -> str:
-    """Return a probability in per cent, or its bounds if they differ."""
+    """Return a probability in per cent as text, or its two bounds if they differ."""
     if is_tiny(chance):
         return f"below {percent(LEAST)}"
     low, high = chance["bounds"]
@@ -69,7 +71,7 @@ def sentence(limit: dict[str, Any]) -> str:
 
 
 def overlap(limited: Limited) -> Figure:
-    """Draw the densities of the worst case and of the limit, and below them the bands of all cases."""
+    """Draw the probability densities of the worst case and of the limit, and below them the range of each case."""
     limit, axis, rows = limited.found, replace(limited.output, magnitude=False), []
     for case in limited.cases:
         if case.quantiles is not None:
@@ -87,7 +89,10 @@ def overlap(limited: Limited) -> Figure:
 
 
 def _densities(limit: dict[str, Any], axis: Axis) -> Panel:
-    """Return the densities of the worst case and of the limit, scaled to the same height."""
+    """Return a panel with the probability densities of the worst case and of the limit, scaled to the same height.
+
+    If the limit does not scatter, a straight line shows the limit.
+    """
     curves, levels = list[tuple[str, Values, Values, Hue]](), list[Level]()
     mean, deviation, histogram = limit["mean"], limit["deviation"], limit["histogram"]
     if edges := histogram["edges"]:
@@ -108,7 +113,7 @@ def _densities(limit: dict[str, Any], axis: Axis) -> Panel:
 
 
 def chances(limited: Limited) -> Figure:
-    """Draw the probability of each case as if it were alone, and that of the spectrum."""
+    """Draw the probability that each case has if it is the only case, and the probability of the spectrum."""
     limit = limited.found
     if is_tiny(limit):
         raise NoFigure("tiny", f"the probability is {chance_text(limit)} in every case")
@@ -123,7 +128,10 @@ def chances(limited: Limited) -> Figure:
 
 
 def deciding(limited: Limited) -> Figure:
-    """Draw the shares of machines by their worst case, and the rank correlations of the tolerances with it."""
+    """Draw, for each case, the share of machines for which this case is the worst.
+
+    Also draw the rank correlation of each tolerance with the output in the worst case.
+    """
     rows = [Row(case.name, 100.0 * case.decides) for case in limited.cases if case.decides is not None]
     if not rows:
         raise NoFigure("no_solution", "no machine is solved in every case")
@@ -139,7 +147,10 @@ def deciding(limited: Limited) -> Figure:
 
 
 def losses(cases: dict[str, dict[str, float]], mean: dict[str, float], energy: float | None) -> Figure:
-    """Draw the mean losses by kind [kW], of every case and over the operating time; `energy` is per year [MWh]."""
+    """Draw the mean losses of each kind [kW], for every case and for the whole operating time.
+
+    `energy` is the energy lost per year [MWh].
+    """
     hues = {kind: ORDER[place % len(ORDER)] for place, kind in enumerate(mean)}
     rows = []
     for name, own in (*cases.items(), (SPECTRUM, mean)):

@@ -28,19 +28,19 @@ from app.figures.data import (
 )
 from app.figures.wording import NO_BREAK, difference_unit, listed, number, to_digits
 
-MOST_CURVES = 6  # with more curves, two fields make a map
-FLAT = 0.5  # share of the largest value: the axis of an output that stays above it does not start at zero
-MOST_ROWS = 12  # bars in a figure
-NAMED = 3  # inputs in the finding
+MOST_CURVES = 6  # if a sweep of two fields needs more curves, a map is drawn instead
+FLAT = 0.5  # an axis does not start at zero if all values are above this share of the largest value
+MOST_ROWS = 12  # largest number of bars in a figure
+NAMED = 3  # largest number of inputs in the finding
 STAR = f"{NO_BREAK}*"
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Coordinate:
-    """A varied field with its values in rising order, or its words; `own` is the value of the case itself.
+    """A varied field with its values in rising order, or with its words if the values are words.
 
-    A field `scatters` if manufacture or measurement leaves its value open, so that a design has to tolerate the
-    scatter.
+    `own` is the value of the field in the case itself. A field `scatters` if manufacture or measurement leaves its
+    value open, so that a design has to tolerate the scatter.
     """
 
     axis: Axis
@@ -50,16 +50,18 @@ class Coordinate:
     scatters: bool = False
 
     def named(self, index: int) -> str:
-        """Return a value as text."""
+        """Return the value with this index as text."""
         return self.words[index] if self.words else number(float(self.values[index]), self.axis.unit)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Grid:
-    """An output over one or two fields, `[x]` or `[x][y]`; NaN is a point without a value, or without one so far.
+    """Values of an output over one field, `[x]`, or over two fields, `[x][y]`.
 
-    If `greatest`, greater values are better. `limit` bounds the output. For each value of a single field, `invalid` is
-    the reason why the output is not valid there, or None; `doubtful` is True if it is outside a limit of validity.
+    NaN stands for a point that has no value, or that is not calculated yet. If `greatest` is set, greater values are
+    better. `limit` is the limit of the output. `invalid` and `doubtful` have an item for each value of a single field.
+    An item of `invalid` is the reason why the output is not valid there, or None. An item of `doubtful` is True if the
+    point is outside a limit of validity.
     """
 
     x: Coordinate
@@ -74,7 +76,7 @@ class Grid:
 
     @property
     def best(self) -> tuple[int, ...] | None:
-        """Index of the best value, or of the first of several equal ones; None if no value is finite."""
+        """Index of the best value, or of the first of several equally good values; None if no value is finite."""
         if not np.isfinite(self.values).any():
             return None
         flat = np.nanargmax(self.values) if self.greatest else np.nanargmin(self.values)
@@ -82,7 +84,7 @@ class Grid:
 
 
 def figures_of(grid: Grid) -> dict[str, Figure]:
-    """Return the figures of a sweep by name."""
+    """Return the figures of a sweep by their names."""
     if grid.y is None:
         return {"curve": curve(grid)}
     if grid.y.words or grid.y.values.size <= MOST_CURVES:
@@ -92,7 +94,7 @@ def figures_of(grid: Grid) -> dict[str, Figure]:
 
 
 def curve(grid: Grid) -> Figure:
-    """Draw the output over the field, with shades where it is not valid and rings where it is doubtful."""
+    """Draw the output over the field. Ranges without a valid output are shaded, and doubtful points have rings."""
     x, own = grid.x, grid.x.own
     line = Line(grid.output.title, x.values, grid.values, named=False)
     levels, spans, start = _limit(grid), list[Span](), 0
@@ -129,7 +131,7 @@ def family(grid: Grid, y: Coordinate) -> Figure:
 
 
 def chart(grid: Grid, y: Coordinate) -> Figure:
-    """Draw the output over both fields as a map with its best point."""
+    """Draw the output over both fields as a map, with a mark at the best point."""
     x, output = grid.x, grid.output
     finite = grid.values[np.isfinite(grid.values)]
     low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
@@ -144,7 +146,10 @@ def chart(grid: Grid, y: Coordinate) -> Figure:
 
 
 def worst(grid: Grid, y: Coordinate) -> Figure:
-    """Draw the worst output along the first field over the second; it is unknown if one of its points is unknown."""
+    """Draw, over the second field, the worst output over all values of the first field.
+
+    The worst output is unknown if the output at one of these values is unknown.
+    """
     x, finding = grid.x, ""
     reached = grid.values.min(axis=0) if grid.greatest else grid.values.max(axis=0)
     lines = [Line("worst", y.values, reached, ORDER[1])]
@@ -175,7 +180,7 @@ def _finding(grid: Grid) -> str:
 
 
 def _ordinate(grid: Grid) -> Axis:
-    """Return the axis of the output; it starts at zero unless the output changes little."""
+    """Return the axis of the output. The axis starts at zero unless the output changes little."""
     finite = np.abs(grid.values[np.isfinite(grid.values)])
     flat = finite.size > 0 and finite.min() > FLAT * finite.max()
     return replace(grid.output, magnitude=not flat)
@@ -188,7 +193,7 @@ def _limit(grid: Grid) -> list[Level]:
 
 
 class Crossing(NamedTuple):
-    """Crossing of a curve and its limit: the abscissa and the error of this abscissa."""
+    """A crossing of a curve and its limit: the abscissa of the crossing, and the error of this abscissa."""
 
     place: float
     error: float
@@ -200,10 +205,10 @@ class Crossing(NamedTuple):
 
 
 def _crossings(grid: Grid) -> list[Crossing]:
-    """Return the crossings of a curve and its limit by linear interpolation between points.
+    """Return the crossings of a curve and its limit, interpolated linearly between points.
 
     The error is that of linear interpolation, estimated with the second divided difference of three points. If there
-    are only two points, the error is their distance.
+    are only two points, the error is the distance between them.
     """
     if grid.limit is None or grid.x.words:
         return []
@@ -227,7 +232,10 @@ def _second_difference(x: Values, y: Values) -> float:
 
 
 def answer(grid: Grid) -> str:
-    """Return the answer to the question of a sweep: the output against its limit, or its range."""
+    """Return the answer to the question of a sweep as a sentence.
+
+    The sentence compares the output with its limit. If there is no limit, it states the range of the output.
+    """
     finite = np.isfinite(grid.values)
     if grid.best is None:
         return ""
@@ -257,7 +265,10 @@ class Lead(NamedTuple):
 
 
 class Influence(NamedTuple):
-    """The change of an output by one step of an input; `kink` if the slopes below and above the value differ."""
+    """The change of an output if an input is changed by one step.
+
+    `kink` is True if the slopes of the output below and above the value of the input differ.
+    """
 
     name: str
     step: str
@@ -266,7 +277,10 @@ class Influence(NamedTuple):
 
 
 def influence(output: Axis, value: float, influences: list[Influence]) -> Figure:
-    """Draw horizontal bars in the hue of their sign, the most influential input first; a star marks a kink."""
+    """Draw the changes as horizontal bars, the most influential input first.
+
+    The hue of a bar shows the sign of its change, and a star marks a kink.
+    """
     moving = [item for item in influences if item.change][:MOST_ROWS]
     title = f"What moves the {output.title} most"
     if not moving:
@@ -282,10 +296,10 @@ def influence(output: Axis, value: float, influences: list[Influence]) -> Figure
 
 
 def corners(output: Axis, rows: list[Row], nominal: float | None) -> Figure:
-    """Draw a row for each uncertain input, with a dot for each of its values at the worst output with this value.
+    """Draw a row for each uncertain input, with a dot for each value of the input.
 
-    The value of a row is the output at the worst corner, whose dot is red. `nominal` is the output of the case as
-    described.
+    The dot of a value lies at the worst output that is possible with this value. The `value` of a row is the output at
+    the worst corner, where the dot is red. `nominal` is the output of the case as described.
     """
     levels = []
     if nominal is not None:
@@ -298,14 +312,15 @@ def corners(output: Axis, rows: list[Row], nominal: float | None) -> Figure:
 def lead_chart(
     position: Values, face_fraction: Values, wanted: Lead, before: Lead, tolerance: Lead, ends: tuple[str, str]
 ) -> Figure:
-    """Draw the helix trace to grind with its tolerances as a lead chart; removed material points downwards.
+    """Draw the helix trace to grind, with its tolerances, as a lead chart. Removed material points downwards.
 
-    `position` is on the axis of the unit [mm], `before` the lead as described, `ends` the names of the face's ends.
+    `position` is the position on the axis of the unit [mm]. `before` is the lead as described. `ends` holds the names
+    of the two ends of the face.
     """
     eta = face_fraction - 0.5
 
     def depth(slope: float, crowning: float) -> Values:
-        """Return the material to remove, measured from the unmodified helix [um]."""
+        """Return the depth of the material to remove [um], measured from the unmodified helix."""
         return slope * eta + 4.0 * crowning * eta**2
 
     ground = -depth(*wanted)
@@ -325,7 +340,10 @@ def lead_chart(
 
 
 def search(output: Axis, objectives: Sequence[float | None], *, greatest: bool) -> Figure:
-    """Draw the objective at the worst corner of all corrections tried; None is a correction without a solution."""
+    """Draw the objective at the worst corner for every correction tried.
+
+    None stands for a correction without a solution.
+    """
     reached = values(objectives)
     so_far = np.fmax.accumulate(reached) if greatest else np.fmin.accumulate(reached)
     order = np.arange(1, reached.size + 1, dtype=np.float64)

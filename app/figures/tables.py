@@ -14,7 +14,7 @@ Item = float | str | None
 
 
 class Column(NamedTuple):
-    """A header with names or numbers below it; None is a missing value."""
+    """A header and the names or numbers below the header. None stands for a missing value."""
 
     header: str
     content: tuple[Item, ...]
@@ -49,7 +49,11 @@ def columns_of(figure: Figure) -> list[Column]:
 
 
 def _columns(panel: Panel) -> Iterator[tuple[str, Iterable[Item]]]:
-    """Yield abscissa and ordinate of all lines, bars and polygons, the rows, the points of a map, and the limits."""
+    """Yield the headers and the contents of all columns of a panel.
+
+    Lines, bars, polygons and bands have columns for the abscissa and the ordinates. Rows, the points of a map and the
+    limits have columns too.
+    """
     abscissa = _header(panel.x.title, panel.x)
     for line in (*panel.bars, *panel.lines, *panel.shapes):
         name = line.title if line.title == panel.y.title else f"{line.title}: {panel.y.title}"

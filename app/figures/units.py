@@ -1,4 +1,4 @@
-"""Results of the solvers with their quantities in the units in which they are shown."""
+"""Conversion of the solvers' results into the units in which their quantities are shown."""
 
 from dataclasses import fields, is_dataclass
 from functools import cache, partial
@@ -10,21 +10,26 @@ from solvers.quantity import UNITS, Quantity, converted, quantities
 
 T = TypeVar("T")
 MM, UM, RPM = (UNITS[name].scale for name in ("mm", "um", "rpm"))
-"""These units in SI."""
+"""One millimetre, one micrometre and one revolution per minute in SI units."""
 
 
 def shown(data: T) -> T:
-    """Return a copy of a solver's dataclass, and of dataclasses inside it, with quantities in the units shown.
+    """Return a copy of a solver's dataclass with all quantities in the units in which they are shown.
 
-    Declared computed values are converted as well. Other methods of the copy must not be used, because they would
-    compute from values that are not in SI. Undeclared values and None are copied as they are.
+    Dataclasses inside the dataclass are copied in the same way. Declared computed values are converted as well. Other
+    methods of the copy must not be used, because they would compute from values that are not in SI. Undeclared values
+    and None are copied unchanged.
     """
     copy: T = _converted(data, None)
     return copy
 
 
 def axis(data: Any, name: str, title: str = "", **options: Any) -> Axis:
-    """Return the axis of a quantity that a dataclass declares, with its unit, symbol and title, or another title."""
+    """Return the axis of a quantity that a dataclass declares.
+
+    The axis has the unit and the symbol of the quantity. Its title is `title`, or the title of the quantity if `title`
+    is empty.
+    """
     declared = quantities(data if isinstance(data, type) else type(data))[name]
     unit = UNITS[declared.unit].symbol if declared.unit else None
     return Axis(title or declared.title, unit, **{"symbol": declared.symbol or "", **options})
@@ -36,13 +41,17 @@ def axis_of(leaf: Leaf, **options: Any) -> Axis:
 
 
 def _converted(value: Any, declared: Quantity | None) -> Any:
-    """Return a value in its unit; `declared` belongs to the outer field and holds for inner fields without a unit."""
+    """Return a value converted from SI into its declared unit.
+
+    `declared` is the declaration of the field that holds the value. If the value is a dataclass, this declaration also
+    applies to the inner fields that declare no unit.
+    """
     number = declared.from_si if declared else lambda number: number
     return converted(value, number, partial(_copied, declared=declared))
 
 
 def _copied(value: Any, declared: Quantity | None) -> Any:
-    """Return a copy of a dataclass with its values in their units, or any other value that has no number as it is."""
+    """Return a copy of a dataclass with its values in the units shown. Return any other value unchanged."""
     if not is_dataclass(value) or isinstance(value, type):
         return value
     kind: Any = type(value)
@@ -57,6 +66,6 @@ def _copied(value: Any, declared: Quantity | None) -> Any:
 
 @cache
 def _plain(kind: Any) -> Any:
-    """Return a subclass with slots for the computed values of the dataclass."""
+    """Return a subclass of the dataclass with a slot for each computed value."""
     computed = quantities(kind).keys() - {item.name for item in fields(kind)}
     return type(kind.__name__, (kind,), {"__slots__": tuple(computed), "__doc__": kind.__doc__})

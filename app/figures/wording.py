@@ -4,26 +4,29 @@ import re
 from collections.abc import Callable
 from math import floor, log10
 
-NO_BREAK = "\u00a0"  # a space
+NO_BREAK = "\u00a0"  # a space at which lines do not break
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 PLAIN = (1e-3, 1e6)  # magnitudes written without a power of ten
 NOISE = 1e-9  # share of a whole; a smaller part is a rounding error
-UNCERTAIN = 0.2  # chosen: a number whose relative error by resolution is larger has no firm verdict
+UNCERTAIN = 0.2  # chosen; verdicts on a number with a larger relative error by resolution are doubtful
 DIFFERENCES = {"°C": "K", "K": "K", "°": "°", "%": "percentage points"}
-"""Units of quantities whose changes are stated as differences, not ratios, and the units of these differences."""
-# A letter or two, an underscore, letters and digits with commas between them.
+"""Units of quantities whose changes are stated as differences, not as ratios, each with the unit of the difference."""
+# One or two letters, an underscore, then letters and digits, which commas may separate into groups.
 _SUBSCRIPT = re.compile(r"(?<!\w)([^\W\d_²³]{1,2})_([^\W_²³]+(?:,[^\W_²³]+)*)")
 
 
 def subscripts(text: str, typeset: Callable[[str, str], str]) -> str:
-    """Replace every symbol such as `h_a` in a text by the result of `typeset` for its letter and its subscript."""
+    """Replace every symbol such as `h_a` in a text.
+
+    `typeset` takes the letter and the subscript of a symbol and returns the replacement.
+    """
     return _SUBSCRIPT.sub(lambda match: typeset(*match.groups()), text)
 
 
 def number(value: float, unit: str | None = None, digits: int = 3) -> str:
-    """Return a value as text with a number of significant digits, a true minus sign and its unit.
+    """Return a value with its unit as text, with `digits` significant digits and a true minus sign.
 
-    Integer digits are never dropped.
+    Digits before the decimal point are never dropped.
     """
     value += 0.0  # no negative zero
     if value != 0.0 and not PLAIN[0] <= abs(value) < PLAIN[1]:
@@ -40,12 +43,12 @@ def number(value: float, unit: str | None = None, digits: int = 3) -> str:
 
 
 def without_rounding(value: float, whole: float) -> float:
-    """Return a value for display: zero if it is below 1e-9 of the whole."""
+    """Return the value, or zero if the value is a rounding error, below 1e-9 of `whole`."""
     return 0.0 if abs(value) < NOISE * abs(whole) else value
 
 
 def percent(fraction: float) -> str:
-    """Return a fraction in per cent; zero if it is a rounding error."""
+    """Return a fraction as text in per cent. A rounding error becomes zero."""
     return number(100.0 * without_rounding(fraction, 1.0), "%")
 
 
@@ -55,18 +58,18 @@ def ratio(value: float, unit: str | None = None) -> str:
 
 
 def difference_unit(unit: str | None) -> str | None:
-    """Return the unit of a difference of two values: kelvins for temperatures."""
+    """Return the unit of the difference of two values with this unit, for example K for °C."""
     return DIFFERENCES.get(unit or "", unit)
 
 
 def signed(value: float, unit: str | None = None, digits: int = 3) -> str:
-    """Return a value as text with its sign, even if it is a plus."""
+    """Return a value as text that begins with a sign, even if the value is positive."""
     text = number(value, unit, digits)
     return text if text.startswith("−") else f"+{text}"
 
 
 def to_digits(value: float, error: float, most: int = 3) -> str:
-    """Round a value to the leading digit of its error, and to at most `most` significant digits."""
+    """Return a value as text, rounded to the leading digit of its error and to at most `most` significant digits."""
     if value == 0.0:
         return number(value)
     size = floor(log10(abs(value)))
@@ -76,5 +79,5 @@ def to_digits(value: float, error: float, most: int = 3) -> str:
 
 
 def listed(names: list[str]) -> str:
-    """Return names as an enumeration in a sentence."""
+    """Join names with commas and a final "and", for use in a sentence."""
     return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"

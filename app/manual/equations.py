@@ -1,9 +1,9 @@
 r"""The numbered equations of the manual and the functions of `solvers` that implement them.
 
 An equation is a block between `$$` with a `\tag`. The tag of a paper's equation begins with the paper's name
-(`Xue 25`), the tag of our own equations with a letter (`C4`). The paragraph below an equation names the functions that
-implement the equation. Their docstrings cite its number: `Eq. 25` in a package that implements Xue's paper, `Eq. C4`
-in any package.
+(`Xue 25`); the tag of an equation of our own begins with a letter (`C4`). The paragraph below an equation names the
+functions that implement the equation. The docstrings of these functions cite the number of the equation: `Eq. 25` in a
+package that implements Xue's paper, `Eq. C4` in any package.
 """
 
 import ast
@@ -20,7 +20,7 @@ _FUNCTION = re.compile(r"\[`(solvers[\w.]+)`\]\(")
 
 @dataclass(frozen=True, slots=True)
 class Equation:
-    """A numbered equation, its chapter and the functions named below it."""
+    """A numbered equation, its chapter, and the functions named below the equation."""
 
     number: str
     chapter: str
@@ -35,7 +35,7 @@ class Equation:
 
 @dataclass(frozen=True, slots=True)
 class Function:
-    """A function or class that implements equations, with its head and docstring as in the source."""
+    """A function or class that implements equations, with its head and its docstring as in the source."""
 
     name: str
     head: str
@@ -44,7 +44,7 @@ class Function:
 
 
 def anchor(number: str) -> str:
-    """Return the anchor of the equation of this number."""
+    """Return the anchor of the equation with this number."""
     return f"eq-{number.lower().replace(' ', '-')}"
 
 
@@ -69,7 +69,7 @@ def functions() -> tuple[Function, ...]:
 
 
 def module_of(name: str) -> str:
-    """Return the module that defines the function, method or class of this dotted name."""
+    """Return the module that defines the function, method or class with this dotted name."""
     parts = name.split(".")
     while not files(parts[0]).joinpath(*parts[1:-1], f"{parts[-1]}.py").is_file():
         parts.pop()

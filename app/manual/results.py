@@ -1,7 +1,7 @@
 """The places in the manual that say how the results are computed.
 
-A place is a numbered equation. If no equation defines the number, such as a count, a setting in force or a measure of
-convergence, the place is a section.
+A place is a numbered equation. The place is a section instead if no equation defines the result, as for counts,
+settings in force and measures of convergence.
 """
 
 from functools import cache
@@ -156,9 +156,10 @@ PLACES = {
     "heat_balance.warm_up.WarmUp": "H24",
     "drive_train.warm_up.UnitWarmUp": "D15; largest_face_load_factor: L17; least_backlash: H22",
 }
-"""Places by the dataclass of the solvers that declares the results.
+"""Places in the manual, by the solvers' dataclass that declares the results.
 
-The first target is the place of all fields; the targets after it are the places of the fields that they name.
+The first target is the place of all fields of the dataclass. A further target names some fields and is the place of
+only these fields.
 """
 
 
@@ -172,7 +173,7 @@ class Place(NamedTuple):
 
 @cache
 def place_of(declared: Quantity) -> Place | None:
-    """Return the place that says how a declared result is computed, or None if it is not a result of a solver."""
+    """Return the place that says how a declared result is computed; None if it is not a result of a solver."""
     origin = getattr(declared, "origin", None)
     if origin is None:
         return None
@@ -185,7 +186,7 @@ def place_of(declared: Quantity) -> Place | None:
 
 
 def _target(targets: str, name: str) -> str:
-    """Return the target of a field among the targets of its dataclass."""
+    """Return the target of the field `name` among the targets of its dataclass."""
     target, *others = targets.split("; ")
     for other in others:
         names, _, own = other.partition(": ")
@@ -195,7 +196,7 @@ def _target(targets: str, name: str) -> str:
 
 
 def _place(target: str) -> Place:
-    """Return the place of a target: the number of an equation, or a chapter and the anchor of its section."""
+    """Return the place of a target. A target is the number of an equation, or a chapter and the anchor of a section."""
     chapter, _, section = target.partition("#")
     if section:
         return Place(f"section {section.replace('-', ' ')}", f"/manual/{target}", chapter)

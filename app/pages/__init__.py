@@ -1,17 +1,17 @@
-"""The pages of the service: every page is a view of a case, generated from the schema.
+"""The pages of the service. Most pages are views of a case and are generated from the schema.
 
 typed        numbers as people type them, and their texts in links
 query        the query string that holds a case
 form         the fields of a form with the typed text, the meaning and the fault of each field
 asked        the case that a query or a form asks for
-cases        a requested case with the addresses of its views, and its answer, which is kept
+cases        a requested case, the addresses of its views, and its answer, which is kept for other views
 results      headline numbers with verdicts, and tables of results
 verdicts     verdicts that compare several numbers, and the conclusion of a calculation in one sentence
 csv          an answer as a table for spreadsheets
 carried      links that carry the gears or the coupling of a case to other calculations
 charts       figures as images at addresses of their own, and their values
 manual       chapters of the manual as pages, and the parts of chapters that reports show
-report       the parts of a report beside the result, and the case as code
+report       the parts of a report other than the result, and the case as program code
 variants     three or more variants of a case in a small table
 views        one view of a case, made in a worker
 overview     pages that belong to no case

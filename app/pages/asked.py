@@ -12,9 +12,10 @@ from app.pages.templating import example_link, page_path
 
 
 def asked_in(calculation: Calculation, text: str, root: str, answers: Mapping[str, bytes]) -> tuple[Asked, bool]:
-    """Return the case, and whether its text was already a link in the shortest form, without empty fields.
+    """Return the case that a text asks for, and True if the text is already the shortest link to this case.
 
-    `root` is the prefix of a proxy. `answers` holds the answers that were calculated lately.
+    The text is a query or the content of a form. The shortest link has no empty fields. `root` is the prefix of a
+    proxy. `answers` holds recently calculated answers by their keys.
     """
     fields = pairs_of_query(text)
     pressed = WRITTEN in dict(fields)

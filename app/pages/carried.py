@@ -1,7 +1,7 @@
 """Links to other calculations of the same gears or coupling.
 
 The view `pair` of a link holds the values for which the other page has no field. A link from that page to a third page,
-or back, therefore loses no value. A link also keeps the REXS file from which the case was read.
+or back, therefore loses no value. If the case was read from a REXS file, the link also names this file.
 """
 
 from collections.abc import Iterable, Iterator
@@ -22,7 +22,10 @@ LOAD, OPERATION = "load.", "operation."
 
 
 class Use(NamedTuple):
-    """A link to the same subject on the page of another calculation, and the fields that are missing there."""
+    """A link to the same gears or coupling on the page of another calculation.
+
+    `missing` holds the titles of the fields that the other calculation requires and the link does not fill.
+    """
 
     title: str
     address: str
@@ -57,7 +60,7 @@ def _use(asked: Asked, other: Calculation) -> Use:
 
 
 def _common(calculation: Calculation, name: str) -> str:
-    """Return the name under which calculations of gears share a field: its name in the request of scuffing."""
+    """Return the shared name of a field. Calculations of gears share the name in the request of scuffing."""
     if subject_of(calculation) != "pair" or not name.startswith(OPERATION):
         return name
     renamed = f"{LOAD}{name.removeprefix(OPERATION)}"
@@ -65,7 +68,7 @@ def _common(calculation: Calculation, name: str) -> str:
 
 
 def _there(calculation: Calculation, name: str) -> str:
-    """Return the name in the request of a calculation of the field with this shared name."""
+    """Return the name that the field with this shared name has in the request of a calculation."""
     if name.startswith(LOAD) and not _has(calculation.request, name):
         return f"{OPERATION}{name.removeprefix(LOAD)}"
     return name
@@ -79,7 +82,7 @@ def _has(model: type[Documented], name: str) -> bool:
 
 
 def _missing(branch: Branch, names: set[str]) -> Iterator[str]:
-    """Yield the titles of the fields that a request requires and that are not among the names."""
+    """Yield the titles of the fields that a request requires and that are missing from `names`."""
     for group in _choices(branch.model):
         paths = [f"{branch.path}.{name}" for name in group]
         if names.isdisjoint(paths):
@@ -100,7 +103,7 @@ def _missing(branch: Branch, names: set[str]) -> Iterator[str]:
 
 
 def _choices(model: type[Documented]) -> Iterable[tuple[str, ...]]:
-    """Return the groups of fields of which one must be given."""
+    """Return the groups of fields from which one field must be given."""
     groups: Any = model.exclusive if getattr(model, "choice_missing", None) else ()
     return [group for group in groups[:1] if all(model.model_fields[name].default is None for name in group)]
 
@@ -110,5 +113,5 @@ def _leaf(branch: Branch, path: str) -> Leaf | None:
 
 
 def _is_given(path: str, names: set[str]) -> bool:
-    """Return whether the names hold the path or a field below it."""
+    """Return whether the names contain the path or the path of a field below it."""
     return any(name == path or name.startswith(f"{path}.") for name in names)

@@ -1,6 +1,6 @@
 """A case from its query to its answer.
 
-The answer is kept, so that the figures, the report and the downloads of the case do not solve it again.
+The answer is kept, so that the figures, the report and the downloads of the case need not solve the case again.
 """
 
 import pickle
@@ -31,7 +31,7 @@ from app.schema.reading import validated
 from app.sources import SHORT_SOURCES, changes_since
 from solvers.quantity import Detail
 
-NAME = r"[a-z]\w*(?:[._]\w+)+"  # of a field: words joined by points and underscores
+NAME = r"[a-z]\w*(?:[._]\w+)+"  # name of a field: words joined by points and underscores
 FILE_NAMES = ("rexs_file", "rexs_sha256", "rexs_stage")  # views that say where a case was read from
 COMPRESSION = 1  # the fastest level of zlib
 REFUSED = (Unreadable, InvalidBody, Unprocessable)
@@ -41,11 +41,13 @@ REFUSED = (Unreadable, InvalidBody, Unprocessable)
 class Asked:
     """A requested case, and the addresses of its views.
 
-    Addresses that people keep name the sources of the solvers, so that a page can tell a later reader whether numbers
-    may differ. `kept` and `kept_ref` are the answers of the case and of its variant if they are still kept. `root` is
-    the prefix that a proxy puts before the addresses of the service. A case that is too long for a link is posted. The
-    addresses of its figures then hold `answered`, the hashes in the answers of the case and of the variant, and work
-    as long as both answers are kept. `pressed` says that the form was sent, even if no field was filled in.
+    Addresses that people may keep identify the sources of the solvers, so that the page can later tell its reader
+    whether the numbers may have changed. `kept` and `kept_ref` are the answers of the case and of its variant, or None
+    if they are not kept. `root` is the prefix that a proxy puts before the addresses of the service. `pressed` is True
+    if the form was sent, even if no field was filled in.
+
+    A case that is too long for a link is posted. The addresses of its figures then contain `answered`: the hashes of
+    the case and of the variant, taken from their answers. These addresses work as long as both answers are kept.
     """
 
     path: str
@@ -64,12 +66,12 @@ class Asked:
 
     @property
     def body(self) -> dict[str, Any]:
-        """The request body made of the fields; raises Unreadable if names contradict each other."""
+        """The request body made from the fields. Raises Unreadable if the names of fields contradict each other."""
         return body_of(self.calculation.request, self.pairs)
 
     @property
     def case(self) -> dict[str, Any]:
-        """The request with its defaults; the body alone if the request is refused, empty if it is unreadable."""
+        """The request with its defaults; only the body if the request is refused; empty if the body is unreadable."""
         try:
             return validated(self.calculation.request, self.body).model_dump()
         except InvalidBody:
@@ -99,7 +101,7 @@ class Asked:
 
     @property
     def outdated(self) -> list[str]:
-        """The changes since the link was made; empty if the link does not name the sources of the solvers."""
+        """The changes to the solvers since the link was made; empty if the link does not name their sources."""
         return changes_since(self.views.get("sources", ""))
 
     @property
@@ -109,7 +111,7 @@ class Asked:
 
     @property
     def written(self) -> str:
-        """The texts that the service writes into a form of the case but would read differently if they were typed."""
+        """The texts that the service writes into the form but would read in another way if a person typed them."""
         return written_of(self.calculation.request, self.pairs)
 
     @property
@@ -119,11 +121,14 @@ class Asked:
 
     @property
     def page(self) -> str:
-        """The address of the page of the case, with the variant that the case is compared with."""
+        """The address of the page of the case. The page also shows the variant to compare with, if there is one."""
         return self.beside(self.ref)
 
     def beside(self, ref: str) -> str:
-        """Return the address of the page that compares the case with that of the query `ref`, unless `ref` is empty."""
+        """Return the address of the page that compares the case with the case of the query `ref`.
+
+        If `ref` is empty, the page shows no comparison.
+        """
         also = self.views.get("also") if ref else None
         views = {"ref": ref, "also": also, "pair": self.views.get("pair"), "theme": self.theme, "title": self.title}
         return link(self.path, self.pairs, **views, **self.file, sources=SHORT_SOURCES)
@@ -156,7 +161,7 @@ class Asked:
 
 
 def opened(content: bytes, root: str) -> Asked:
-    """Return the case that a file holds; raise Unreadable if the file holds none."""
+    """Return the case that a file contains; raise Unreadable if the file does not contain a case."""
     try:
         case = content_of(content)
         endpoint, title = str(case["endpoint"]), str(case.get("title", ""))
@@ -169,10 +174,10 @@ def opened(content: bytes, root: str) -> Asked:
 
 
 def key_of(path: str, pairs: Pairs) -> str:
-    """Return the key of an answer: a hash of the page and the fields of its case.
+    """Return the key of an answer: a hash of the page and the fields of the case.
 
-    The order of the fields does not matter. If the case is too long for a link, its only field is `case`, the hash of
-    the case in the answer.
+    The order of the fields does not matter. If the case is too long for a link, the only field is `case`, whose value
+    is the hash of the case in the answer.
     """
     return sha256(repr((path, sorted(pairs))).encode()).hexdigest()
 
@@ -195,10 +200,10 @@ class Case:
 
 
 def solved(calculation: Calculation, pairs: Pairs, kept: bytes | None, detail: Detail = "fields") -> Case:
-    """Return the case with its answer, by default with all fields that its figures need.
+    """Return the case with its answer. By default the answer has all fields that the figures of the case need.
 
-    If an answer is kept, its request and result are taken and `pairs` is ignored. Raises Unreadable, InvalidBody and
-    Unprocessable.
+    If `kept` is given, request and result are taken from this kept answer, and `pairs` is ignored. Raises Unreadable,
+    InvalidBody and Unprocessable.
     """
     if kept is None:
         body = body_of(calculation.request, pairs)
@@ -213,7 +218,7 @@ def solved(calculation: Calculation, pairs: Pairs, kept: bytes | None, detail: D
 
 
 def faults_of(error: Exception, calculation: Calculation) -> list[Fault]:
-    """Return the faults for which a case was refused. Their messages name fields by their titles."""
+    """Return the faults for which a case was refused. The messages name each field by its title."""
     match error:
         case InvalidBody():
             dotted = ((fault.pointer.removeprefix("/").replace("/", "."), fault.message) for fault in error.faults)
@@ -226,7 +231,10 @@ def faults_of(error: Exception, calculation: Calculation) -> list[Fault]:
 
 
 def _titled(message: str, path: str, calculation: Calculation) -> str:
-    """Replace the names of fields in a message by their titles; prefer a field in the section of `path`."""
+    """Replace the names of fields in a message by the titles of these fields.
+
+    If several fields have the same name, the field in the section of `path` is preferred.
+    """
     section, _, own = path.rpartition(".")
     models = (calculation.request, calculation.response)
 
@@ -240,9 +248,9 @@ def _titled(message: str, path: str, calculation: Calculation) -> str:
 
 
 def _fill(branch: Branch, body: dict[str, Any]) -> None:
-    """Add empty sections to the body if required sections are missing.
+    """Add the required sections that are missing from the body, as empty sections.
 
-    The validator then names the missing fields, which people see, instead of the section.
+    The validator then names the missing fields, which people see on the page, instead of the missing section.
     """
     for inner in branch.branches:
         name = inner.path.rpartition(".")[2]

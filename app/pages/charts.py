@@ -17,8 +17,8 @@ from app.figures.tables import Item, columns_of
 from app.pages.cases import Asked, Case
 
 VARIANT = "variant A"
-MOST_LINES = 200  # of a table on a page; the file has all
-DIGITS = 6  # more than any solver's tolerance leaves
+MOST_LINES = 200  # lines of a table on a page; the file has all lines
+DIGITS = 6  # significant digits; more than the tolerance of any solver leaves
 PIXELS = 100  # per inch
 
 
@@ -26,10 +26,10 @@ PIXELS = 100  # per inch
 class Chart:
     """A figure on a page.
 
-    `image` is the address of the image, and `dark` the address of a second image for dark pages if there is one. The
-    values of the figure are either at the address `values`, or in `content` (as JSON) and `table`. `study` is JSON too:
-    the points of a sweep with links to their cases. `size` is width and height in pixels, or None if they are not known
-    before the figure is drawn.
+    `image` is the address of the image. `dark` is the address of a second image for dark pages, or empty. The values of
+    the figure are either at the address `values`, or in `content` (as JSON) and `table`. `study` holds the points of a
+    sweep and the links to their cases, also as JSON. `size` is width and height in pixels, or None if they are unknown
+    until the figure is drawn.
     """
 
     name: str
@@ -45,7 +45,10 @@ class Chart:
 
 
 def figure_of(declaration: Declaration, case: Case, variant: Case | None) -> Figure:
-    """Return a figure of the case, compared with that of the variant if the variant has it; raise NoFigure."""
+    """Return a figure of the case; raise NoFigure if the case does not have this figure.
+
+    If the variant has the figure too, its curves are added for comparison.
+    """
     figure = declaration.figure(case.request, case.response)
     if variant is None:
         return figure
@@ -59,9 +62,9 @@ def figure_of(declaration: Declaration, case: Case, variant: Case | None) -> Fig
 def figures_of(
     case: Case, variant: Case | None, *, compute: bool = False
 ) -> tuple[list[tuple[Declaration, Figure | None]], list[tuple[str, NoFigure]]]:
-    """Return the figures that the page of a case shows, and the titles of the missing figures with the reasons.
+    """Return the figures that the page of a case shows, and the titles of missing figures with the reasons.
 
-    If a figure needs more than the answer, its data are None unless `compute` is set.
+    If a figure needs more data than the answer holds, None stands for the figure, unless `compute` is set.
     """
     figures, missing = [], []
     for declaration in case.calculation.figures:
@@ -122,8 +125,8 @@ def data_address(figure: Figure, theme: ThemeName = "light") -> str:
 def in_columns(figures: Iterable[Figure]) -> list[Figure]:
     """Return the figures in the order in which they stand in a report with two columns.
 
-    A figure that fits into a column is followed by the remaining figure of the nearest height. Figures that need the
-    whole width come last and keep their shape.
+    A figure that fits into a column is followed by the remaining figure of the most similar height. Figures that need
+    the whole width come last and keep their shape.
     """
     from app.figures.drawing.image import narrowed, size  # noqa: PLC0415  only workers draw
 
@@ -137,7 +140,7 @@ def in_columns(figures: Iterable[Figure]) -> list[Figure]:
 
 
 def values_of(figure: Figure) -> bytes:
-    """Return the places of the panels in the image, their curves and the table of values as JSON."""
+    """Return as JSON the places of the panels in the image, the curves of the panels, and the table of values."""
     return json.dumps({"panels": _panels(figure), **_table(figure)}).encode()
 
 

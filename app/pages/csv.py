@@ -15,11 +15,11 @@ from app.schema.model import Response
 from app.spreadsheet import csv_of
 from app.studies.fields import value_at
 
-DIGITS = 6  # more than any solver's tolerance leaves
+DIGITS = 6  # significant digits; more than the tolerance of any solver leaves
 
 
 def values(case: Case, title: str) -> bytes:
-    """Return a table of the identity of the case, of all inputs with their defaults, and of all scalar results."""
+    """Return a table with the identity of the case, all inputs with their defaults, and all scalar results."""
     response = case.response
     identity = {
         "title": title,
@@ -43,7 +43,7 @@ def values(case: Case, title: str) -> bytes:
 
 
 def curves(response: Response) -> dict[str, str]:
-    """Return the titles of the groups that hold curves, and of the curves outside groups, by path."""
+    """Return the titles of groups that hold curves, and the titles of curves outside groups, by their paths."""
     listed = (
         entry
         for entry in entries(response)
@@ -53,9 +53,10 @@ def curves(response: Response) -> dict[str, str]:
 
 
 def curve(response: Response, path: str) -> bytes:
-    """Return a table of a curve, of a map or of all curves of a group, with their axes.
+    """Return a table of a curve, of a map, or of all curves of a group, each with its axes.
 
-    Curves stand in columns; a map has one line per point. Raises Unprocessable if nothing has this path.
+    Curves stand in columns. The table of a map has one line per point. Raises Unprocessable if there is no curve or map
+    at this path.
     """
     model = type(response)
     wanted = [leaf for leaf in leaves(model) if leaf.dimensions and f"{leaf.path}.".startswith(f"{path}.")]

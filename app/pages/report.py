@@ -1,4 +1,4 @@
-"""The parts of a report beside the result: names, date, all inputs with their origins, and code to repeat the case."""
+"""The parts of a report other than the result: names, date, inputs with their origins, and code to repeat the case."""
 
 import json
 import re
@@ -18,7 +18,7 @@ from app.pages.results import flattened, resolved, texts_of
 from app.pages.typesetting import cited
 from app.schema.fields import Leaf, leaf_at
 
-SECTION_CHAPTERS = {"heat": "heat-balance"}  # chapters about sections, if their names differ
+SECTION_CHAPTERS = {"heat": "heat-balance"}  # chapters about sections of another name
 LOCAL = "http://localhost:8000"
 LABELS = {name: name for name in REPORT_NAMES} | {
     "checker": "checked by",
@@ -27,20 +27,20 @@ LABELS = {name: name for name in REPORT_NAMES} | {
     "rexs_sha256": "SHA-256 of the REXS file",
 }
 """The labels of the form's fields."""
-MOST_SHORT = 4  # figures of the short form, two beside each other
-LONGEST_LINK = 160  # characters of its printed text; the address behind the text is complete
-_element = re.compile(r"(\.\d+){1,2}$")  # of a list or a matrix of numbers
+MOST_SHORT = 4  # largest number of figures in the short form, where two stand beside each other
+LONGEST_LINK = 160  # characters of the printed text of a link; the address behind the text is complete
+_element = re.compile(r"(\.\d+){1,2}$")  # indices of an element of a list or a matrix of numbers
 
 
 class Cell(NamedTuple):
-    """The value of an input; `origin` is given, assumed, derived, default or not given."""
+    """The value of an input, and its origin: given, assumed, derived, default or not given."""
 
     value: str
     origin: str
 
 
 class Row(NamedTuple):
-    """An input of a section, or the same input of each item of a section by the item's index."""
+    """An input of a section. `cells` holds its value for each item of the section, by the index of the item."""
 
     leaf: Leaf
     cells: dict[int, Cell]
@@ -56,13 +56,13 @@ class Section(NamedTuple):
 
 GIVEN = frozenset({"given"})
 STATED = GIVEN | {"assumed", "derived"}
-"""Origins of the inputs that tables show; the others follow as text."""
+"""Origins of the inputs that the tables show. Inputs of other origins follow the tables as text."""
 
 
 def context(asked: Asked, case: Case, host: str) -> dict[str, Any]:
-    """Return the variables of the template beside the result.
+    """Return the variables that the template needs in addition to those of the result.
 
-    The link is relative if `host` is empty. Raises Unprocessable if a name or note is too long.
+    The link to the case is relative if `host` is empty. Raises Unprocessable if a name or note is too long.
     """
     inputs = _inputs(case, asked.pairs)
     views, link = asked.views, "" if asked.too_long else host + asked.root + asked.page
@@ -87,7 +87,7 @@ def context(asked: Asked, case: Case, host: str) -> dict[str, Any]:
 
 
 def _with_origin(sections: list[Section], origins: frozenset[str]) -> list[Section]:
-    """Return the sections that have inputs with one of these origins; they keep only these inputs."""
+    """Return the sections with only those inputs that have one of these origins. Leave out empty sections."""
     chosen = (
         section._replace(rows=[row for row in section.rows if not origins.isdisjoint(_origins(row.cells))])
         for section in sections
@@ -98,8 +98,8 @@ def _with_origin(sections: list[Section], origins: frozenset[str]) -> list[Secti
 def _left(sections: list[Section]) -> list[tuple[str, list[tuple[Leaf, str, bool]]]]:
     """Return the inputs left to their defaults, by the title of their section.
 
-    Each input has a text, and whether the text is a value. If an empty input has no value, the text says what stands
-    for the input, for example what it is estimated from.
+    Each input comes with a text, and with True if this text is a value. If an input is empty and has no value, the text
+    says what replaces the value, for example from what it is estimated.
     """
     left = []
     for title, _, rows in sections:
@@ -133,7 +133,7 @@ def _said(name: str, text: str, longest: int) -> str:
 
 
 def for_shell(address: str, case: Case) -> str:
-    """Return a command for curl that repeats a case; `address` is that of the service."""
+    """Return a command for curl that repeats a case; `address` is the address of the service."""
     sent = shlex.quote(json.dumps(_given(case)))
     return f"curl -s {address}{case.calculation.path} -H 'Content-Type: application/json' -d {sent}"
 
@@ -160,7 +160,7 @@ def _given(case: Case) -> dict[str, Any]:
 
 
 def _inputs(case: Case, pairs: Pairs) -> list[Section]:
-    """Return the inputs by section, each with the value used and its origin."""
+    """Return the inputs by section. Each input has the value that was used, and the origin of this value."""
     typed = {_element.sub("", name) for name, _ in pairs}
     assumed = {assumption.field: assumption.value for assumption in case.response.assumptions}
     used = resolved(case.response) | assumed

@@ -14,13 +14,13 @@ from app.schema.model import Documented, Response
 NOT_RESULTS = frozenset(
     {"status", "warnings", "residuals", "assumptions", "model_version", "sources", "model", "derived", "inputs", "case"}
 )
-DIGITS = 3  # of a headline
+DIGITS = 3  # significant digits of a headline number
 SHAFTS = ("pinion shaft", "wheel shaft")
-"""Titles in the order of the list of shafts."""
-NEAR = 0.8  # of an upper limit
+"""Titles of the shafts, in the order of the list of shafts."""
+NEAR = 0.8  # share of an upper limit above which a value is close to the limit
 LEVELS = ("plain", "good", "near", "bad")
-WELL_ABOVE = 2.0  # times a lower limit
-UNCHANGED = 5e-6  # of a value: a smaller change is not shown
+WELL_ABOVE = 2.0  # multiple of a lower limit from which on a value is well above the limit
+UNCHANGED = 5e-6  # share of a value; a smaller change is not shown
 
 
 class Entry(NamedTuple):
@@ -34,11 +34,11 @@ class Entry(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """A line of a table: a value, or the items of a list.
+    """A line of a table: a single value, or the items of a list.
 
     `before` holds the items of the variant, and `change` the change from the variant to the case. `remark` is the
-    reason of an assumption, the uncertainty of a result, or the verdict on a headline number. `level` is the level of
-    the verdict: good, near, bad or plain.
+    reason for an assumption, the uncertainty of a result, or the verdict on a headline number. `level` is the level of
+    this verdict: good, near, bad or plain.
     """
 
     leaf: Leaf
@@ -80,7 +80,7 @@ def _entries(member: Leaf | Branch, value: Any, path: str, around: str) -> Itera
 
 
 def _title_of_item(member: Branch, index: int) -> str:
-    """Return the title of a section of a list: that of a shaft names its gear, other titles have a number."""
+    """Return the title of a section in a list. The title of a shaft names its gear; other titles have a number."""
     if member.path.rpartition(".")[2] == "shafts" and index < len(SHAFTS):
         return SHAFTS[index]
     return f"{member.title} {index + 1}"
@@ -92,7 +92,10 @@ def values_by_path(response: Documented | None) -> dict[str, Any]:
 
 
 def groups(response: Documented, before: Documented | None = None) -> dict[str, list[Row]]:
-    """Return the scalars and short lists of the answer by the title of their group, beside those of a variant."""
+    """Return the scalars and short lists of the answer, by the title of their group.
+
+    If `before` is given, each line also has the value from this answer of the variant.
+    """
     old, remarks = values_by_path(before), response.remarks() if isinstance(response, Response) else {}
     tables: dict[str, list[Row]] = {}
     for group, leaf, path, value in entries(response):
@@ -105,7 +108,10 @@ def groups(response: Documented, before: Documented | None = None) -> dict[str, 
 
 
 def differences(request: type[Documented], response: Response, before: Response) -> list[Row]:
-    """Return the inputs that differ from those of a variant. An empty input shows the value that it stands for."""
+    """Return the inputs that differ from those of a variant.
+
+    If an input is empty, the value that was used for this input is shown.
+    """
     here, there = flattened(response.inputs), flattened(before.inputs)
     now, old = resolved(response), resolved(before)
     return [
@@ -116,7 +122,7 @@ def differences(request: type[Documented], response: Response, before: Response)
 
 
 def assumptions(request: type[Documented], response: Response) -> list[Row]:
-    """Return our own defaults that the answer used, with their reasons."""
+    """Return the defaults of our own that the answer used, with the reasons for these defaults."""
     return [
         replace(_row(leaf, assumption.field, assumption.value, label=leaf.title), remark=assumption.reason)
         for assumption in response.assumptions
@@ -134,18 +140,21 @@ def _row(leaf: Leaf, path: str, now: Any, before: Any = None, *, label: str, dig
 
 
 def _named(leaf: Leaf, items: tuple[str, ...]) -> tuple[str, ...]:
-    """Add the names of the items, such as components or ends of a band, if the declaration has them."""
+    """Add a name to each item, such as a component or an end of a band, if the declaration has such names."""
     names = (leaf.declared.index or "").split(", ")
     return tuple(map(" ".join, zip(names, items, strict=True))) if len(names) == len(items) > 1 else items
 
 
 def row_of(leaf: Leaf, path: str, value: Any = None, digits: int = DIGITS) -> Row:
-    """Return the line of one value."""
+    """Return the line of a table for a single value."""
     return _row(leaf, path, value, label=leaf.title, digits=digits)
 
 
 def texts_of(value: Any, digits: int, of_items: int = 4) -> tuple[str, ...]:
-    """Return the texts of a value with `digits` digits, or of the items of a list, or of the rows of a matrix."""
+    """Return the text of a value, the texts of the items of a list, or the texts of the rows of a matrix.
+
+    A single value has `digits` digits, and items have `of_items` digits.
+    """
     if not isinstance(value, list):
         return (shown(value, digits),)
     if value and isinstance(value[0], list):
@@ -154,7 +163,10 @@ def texts_of(value: Any, digits: int, of_items: int = 4) -> tuple[str, ...]:
 
 
 def _change(now: Any, before: Any, unit: str) -> str:
-    """Return the change from `before` to `now` in words: per cent, or a difference if ratios mean nothing."""
+    """Return the change from `before` to `now` as text.
+
+    The change is in per cent. It is a difference if the ratio of two such values has no meaning, as for temperatures.
+    """
     if isinstance(now, bool) or not isinstance(now, int | float) or not isinstance(before, int | float):
         return "no change" if now == before else "changed"
     if abs(now - before) <= UNCHANGED * abs(before):
@@ -191,8 +203,8 @@ def resolved(response: Response) -> dict[str, Any]:
 def cards(response: Documented, inputs: dict[str, Any], before: Documented | None = None) -> list[Row]:
     """Return the headline numbers in the order of their ranks.
 
-    Of several numbers of one rank, the one with the worst verdict is shown; if verdicts are equal, the largest one. If
-    a warning makes the answer doubtful, no verdict is good.
+    If several numbers have the same rank, the number with the worst verdict is returned. If their verdicts are equal,
+    the largest number is returned. If a warning makes the answer doubtful, no verdict is good.
     """
     values, old = values_by_path(response), values_by_path(before)
     judged = verdicts(response) if isinstance(response, Response) else {}
@@ -211,7 +223,7 @@ def cards(response: Documented, inputs: dict[str, Any], before: Documented | Non
 
 
 def _with_band(items: tuple[str, ...], leaf: Leaf, values: dict[str, Any]) -> tuple[str, ...]:
-    """Add the ends of its band to a headline number if it has a band: 2.28 (1.95 to 2.58)."""
+    """Add the ends of the band to a headline number that has a band, as in 2.28 (1.95 to 2.58)."""
     ends = values.get(leaf.view.band) if leaf.view.band else None
     if not ends:
         return items
@@ -220,7 +232,7 @@ def _with_band(items: tuple[str, ...], leaf: Leaf, values: dict[str, Any]) -> tu
 
 
 def _badness(verdict: Verdict | None) -> int:
-    """Return the place of a verdict's level among the levels; 0 if there is no verdict."""
+    """Return the place of the verdict's level in the list of levels; 0 if there is no verdict."""
     return LEVELS.index(verdict.level) if verdict else 0
 
 
@@ -229,13 +241,14 @@ def _size(value: Any) -> float:
 
 
 def _verdict(response: Documented, leaf: Leaf, values: dict[str, Any]) -> tuple[str, str]:
-    """Return level and words of the verdict: the answer's own words if it has them, else the comparison with the limit.
+    """Return the level and the words of the verdict on a headline number.
 
+    The words come from the answer if the answer judges the number. Otherwise they compare the number with its limit.
     `values` holds inputs and results by their paths.
     """
     view, value = leaf.view, values.get(leaf.path)
     if value is None:
-        reason = leaf.description.partition("null ")[2]  # as the schema says it
+        reason = leaf.description.partition("null ")[2]  # the reason as the schema states it
         why = f"no value {reason}" if reason else "no value; the warnings say why"
         return "plain", "" if view.needs else why
     path = view.verdict or ""
@@ -255,7 +268,7 @@ def _verdict(response: Documented, leaf: Leaf, values: dict[str, Any]) -> tuple[
 
 
 def _standing(value: float, limit: float, *, greatest_is_best: bool) -> tuple[str, str]:
-    """Return the level of a value and the words that compare it with its limit; braces stand for the limit."""
+    """Return the level of a value, and words that compare the value with its limit; `{}` stands for the limit."""
     if greatest_is_best:
         if value < limit:
             return "bad", "below the limit {}"

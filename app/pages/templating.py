@@ -1,4 +1,4 @@
-"""The templates with their common variables: calculations and examples, with the addresses of their pages."""
+"""The templates and the variables that they share: calculations and examples, with the addresses of their pages."""
 
 from functools import cache, lru_cache
 from hashlib import sha256
@@ -22,7 +22,7 @@ ASSETS = {file.name: file.read_bytes() for file in files("app.pages").joinpath("
 
 
 def rendered(template: str, root: str, **context: Any) -> str:
-    """Return the page of a template; `root` is the prefix that a proxy puts before the addresses of the service."""
+    """Return the page made from a template; `root` is the prefix that a proxy puts before the service's addresses."""
     return _environment(root).get_template(template).render(**context)
 
 
@@ -57,7 +57,10 @@ def by_model() -> dict[str, list[Calculation]]:
 
 @lru_cache(maxsize=4)
 def _environment(root: str) -> Environment:
-    """Return the templates; their filter `url` puts the prefix of the proxy before an address of the service."""
+    """Return the environment of the templates.
+
+    Its filter `url` puts the prefix of the proxy before an address of the service.
+    """
 
     def url(address: str) -> str:
         return root + address if address.startswith("/") else address

@@ -1,8 +1,9 @@
-"""Numbers as people type them into a form, and the texts that stand for them in links.
+"""Numbers as people type them into a form, and the texts that stand for these numbers in links.
 
 A typed number may have thousands in groups, a decimal point or comma, a power of ten, the minus sign that pages print,
-and the unit of its field with any prefix. A text with two readings is not read. In a link it ends with a question mark,
-so that it is not a number, and `question` returns the question to the user.
+and the unit of its field with any prefix. A text that can be read in two ways is not read as a number. In a link, such
+a text ends with a question mark so that it is not a number, and `question` returns the question that asks the user
+which reading is meant.
 """
 
 import re
@@ -11,7 +12,7 @@ from typing import Any
 
 DOUBT = "?"
 LONGEST = 60  # characters of a number with its unit, chosen
-MOST_ITEMS = 2000  # more than a list may have
+MOST_ITEMS = 2000  # items of a list; more than any list of a request may have
 
 _TIDY = str.maketrans({"−": "-", "’": "'", "\u00a0": " ", "\u2007": " ", "\u2009": " ", "\u202f": " "})
 _SUPERSCRIPTS = str.maketrans("⁻⁺⁰¹²³⁴⁵⁶⁷⁸⁹", "-+0123456789")
@@ -36,7 +37,10 @@ _ALIASES = {"rpm": "1/min", "RPM": "1/min", "U/min": "1/min", "deg": "°", "C": 
 
 
 def text_of(value: Any) -> str:
-    """Return a value as it is typed: whole numbers without a point, others in the fewest digits that restore them."""
+    """Return a value as people type it.
+
+    Whole numbers have no decimal point. Other numbers have the fewest digits from which the value can be restored.
+    """
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, float) and value.is_integer() and abs(value) < 1e15:
@@ -45,7 +49,7 @@ def text_of(value: Any) -> str:
 
 
 def number_of(text: str) -> Any:
-    """Read the number in a single field of a link, with a decimal point or comma. Other text stays text.
+    """Read the number in a single field of a link, with a decimal point or comma. Return other text unchanged.
 
     Digits may stand in groups of three if it is clear which mark is the decimal mark.
     """
@@ -55,14 +59,14 @@ def number_of(text: str) -> Any:
 
 
 def plain_number_of(text: str) -> Any:
-    """Read a number with a decimal point. Other text stays text."""
+    """Read a number with a decimal point. Return other text unchanged."""
     if _INTEGER.fullmatch(text):
         return int(text)
     return float(text) if _NUMBER.fullmatch(text) and "," not in text else text
 
 
 def in_link(text: str, unit: str | None = None) -> str:
-    """Return the text of a link for a number typed in a field with this unit. Other text is unchanged."""
+    """Convert a number typed in a field with this unit into its text in a link. Return other text unchanged."""
     if _PLAIN.fullmatch(text) and not _DOUBTFUL.fullmatch(text):
         return text
     parts = _parts(text)
@@ -79,7 +83,7 @@ def in_link(text: str, unit: str | None = None) -> str:
 
 
 def list_in_link(text: str, unit: str | None = None) -> str:
-    """Return the text of a link for a typed or pasted list. The text is unchanged if an item is not a number."""
+    """Convert a typed or pasted list into its text in a link. Return it unchanged if an item is not a number."""
     items = _items(text.translate(_TIDY), unit)
     if items is None:
         return text + DOUBT
@@ -93,12 +97,12 @@ def list_in_link(text: str, unit: str | None = None) -> str:
 
 
 def items_in_link(text: str) -> str:
-    """Return the text of a link for rows of typed numbers. Blanks and semicolons separate the numbers."""
+    """Convert rows of typed numbers into their text in a link. Blanks and semicolons separate the numbers."""
     return re.sub(r"[^;\s]+", lambda item: in_link(item[0]), text)
 
 
 def table_in_link(text: str) -> str:
-    """Return the text of a link for a table whose first line names the columns. The column `name` stays text."""
+    """Convert a table, whose first line names the columns, into its text in a link. Leave a column `name` as it is."""
     separator = separator_of(text)
     heading, *rows = text.split("\n")
     named = [cell.strip().lower() == "name" for cell in heading.split(separator)]
@@ -111,13 +115,13 @@ def table_in_link(text: str) -> str:
 
 
 def separator_of(text: str) -> str:
-    """Return the separator of a table's columns: a tab, as spreadsheets copy them, or a semicolon."""
+    """Return the separator of a table's columns: a tab, as in copies from spreadsheets, or a semicolon."""
     first = next((line for line in text.splitlines() if line.strip()), "")
     return next((separator for separator in "\t;" if separator in first), "\t")
 
 
 def scaled(value: Any, power: int) -> Any:
-    """Return a number times a power of ten, rounded once. Other values are unchanged."""
+    """Multiply a number by ten to the power `power`, with a single rounding. Return other values unchanged."""
     return float(Decimal(str(value)).scaleb(power)) if power and isinstance(value, int | float) else value
 
 
@@ -131,7 +135,7 @@ def as_typed(text: str) -> str:
 
 
 def power_between(typed: str | None, own: str | None) -> int | None:
-    """Return the power of ten that converts a typed unit to the field's own unit; None for another quantity."""
+    """Return the power of ten that converts a typed unit to the unit of the field; None for another quantity."""
     if not typed or _packed(typed) == _packed(own or ""):
         return 0
     here, there = _factors(typed), _factors(own or "")
@@ -139,7 +143,7 @@ def power_between(typed: str | None, own: str | None) -> int | None:
 
 
 def question(text: str) -> str:
-    """Return the question about a text of a link with two readings; empty if the text has one reading."""
+    """Return the question which reading of a link's text is meant; empty if the text has only one reading."""
     asked = text.removesuffix(DOUBT)
     if asked == text and not _AMBIGUOUS.fullmatch(text):
         return ""
@@ -164,7 +168,7 @@ def _parts(text: str) -> re.Match[str] | None:
 
 
 def _unit_in_doubt(parts: re.Match[str]) -> bool:
-    """Return whether the last digit may belong to the unit: 19101/min."""
+    """Return whether the last digit may belong to the unit: 19101/min may be 1910 1/min."""
     return parts[1].endswith("1") and (parts[3] or "").startswith("/")
 
 
@@ -185,16 +189,17 @@ def _exponent(power: re.Match[str]) -> str:
 def _items(text: str, unit: str | None) -> list[str] | None:
     """Return the items of a list; None if the text has two readings.
 
-    Semicolons, line breaks and tabs separate items; within these parts blanks, and then commas.
+    The text is split at semicolons, line breaks and tabs. The parts are split at blanks, and then at commas that
+    separate numbers.
     """
     cells = [cell.strip() for cell in re.split(r"[;\t\r\n]+", text.strip("; \t\r\n"))]
     items = list[str]()
     for cell in cells:
-        if len(cells) > 1 and _SPACED.fullmatch(cell):  # groups of one number, or several numbers
+        if len(cells) > 1 and _SPACED.fullmatch(cell):  # either groups of one number or several numbers
             return None
         whole = " " not in cell or (not _SPACED.fullmatch(cell) and _NUMBER.fullmatch(in_link(cell, unit)))
         items += [cell] if whole else cell.split()
-    if any(re.match(r"0\d", item) for item in items[1:]):  # "1 050": may be the second group of a number
+    if any(re.match(r"0\d", item) for item in items[1:]):  # "050" in "1 050" may be the second group of a number
         return None
     if len(items) > 1:
         items = [item.removesuffix(",") for item in items]
@@ -204,24 +209,31 @@ def _items(text: str, unit: str | None) -> list[str] | None:
 
 
 def _has_several(item: str) -> bool:
-    """Return whether commas separate numbers: the numbers have decimal points, or there are more than two."""
+    """Return whether the commas separate numbers and are not decimal commas.
+
+    They do if the numbers have decimal points, or if there are more than two numbers.
+    """
     grouped = _ENGLISH.fullmatch(item) or _GERMAN.fullmatch(item)
     return not grouped and (item.count(",") > 1 or ("," in item and "." in item))
 
 
 def _settled(item: str, decimal: set[str]) -> str:
-    """Add a fourth decimal to a doubtful number if other numbers of its list use its mark as the decimal mark."""
+    """Add a zero as fourth decimal to a doubtful number if its list shows that its mark is the decimal mark.
+
+    The list shows this if other numbers in the list use the mark as the decimal mark. A number with four decimals is
+    not doubtful.
+    """
     doubtful = _DOUBTFUL.match(item)
     return f"{item[: doubtful.end()]}0{item[doubtful.end() :]}" if doubtful and doubtful[2] in decimal else item
 
 
 def _packed(unit: str) -> str:
-    """Return a unit without blanks, brackets and dots: W/mK means W/(m K), not per millikelvin."""
+    """Return a unit without blanks, brackets and dots. W/mK thus means W/(m K), not watts per millikelvin."""
     return re.sub(r"[\s()·*]", "", unit).replace("μ", "µ")
 
 
 def _factors(unit: str) -> tuple[frozenset[tuple[str, int]], int] | None:
-    """Return the base units of a unit with their exponents, and its power of ten; None if it is not a unit."""
+    """Return the base units of a unit with their exponents, and its power of ten; None if the text is not a unit."""
     text = _ALIASES.get(unit.strip(), unit).translate(_SUPERSCRIPTS).replace("μ", "µ")
     exponents: dict[str, int] = {}
     power = 0

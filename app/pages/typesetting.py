@@ -9,7 +9,7 @@ from app.figures.wording import number, subscripts
 _LETTER = re.compile(r"[^\W\d_]{1,2}\*?")
 _SECOND_HAND = "as read in a public implementation"
 REPORT, STANDARD = "ISO/TR 13989-1", "ISO/TS 6336-20 (ISO/TR 13989-1)"
-"""The report that the sources name, and the specification that replaced it."""
+"""The technical report that the sources name, and the technical specification that replaced this report."""
 NO_VALUE = "–"
 _WORDS = {
     "allowable_misalignment": "permissible misalignment",
@@ -62,7 +62,11 @@ def shown(value: object, digits: int = 5) -> str:
 
 
 def cited(text: str) -> str:
-    """Return a source or reason as pages print it: with today's standard, and with "secondary source" if not read."""
+    """Return a source or a reason as pages print it.
+
+    The specification that replaced a report is named with the report. A source that we know only at second hand is
+    called "secondary source".
+    """
     return text.replace(_SECOND_HAND, "secondary source").replace(REPORT, STANDARD)
 
 

@@ -11,14 +11,17 @@ from app.pages.results import DIGITS, Row, resolved, row_of, values_by_path
 from app.schema.fields import headlines, leaf_at
 
 SEPARATOR = "|"
-"""Separates the queries of the variants in the view `also`."""
-MOST = 5  # further variants, more than fit beside each other
+"""Separator of the queries of the variants in the view `also`."""
+MOST = 5  # largest number of further variants
 NAMES = "BCDEFG"
 KEPT = 64  # number of variants whose inputs and results a worker keeps
 
 
 class Column(NamedTuple):
-    """A variant: its name, its address, and its values by path; `trouble` says why it has no values."""
+    """A variant: its name, its address, and its values by path.
+
+    If the variant has no values, `trouble` says why.
+    """
 
     name: str
     address: str
@@ -50,14 +53,17 @@ def queries_of(asked: Asked) -> list[str]:
 def with_this(asked: Asked) -> str:
     """Return the view `also` with the case as a further variant.
 
-    It is empty if there is no room for a further variant, or if the case is already one of the variants.
+    The view is empty if there is no room for a further variant, or if the case is already one of the variants.
     """
     queries = queries_of(asked)
     return SEPARATOR.join([*queries, asked.query]) if len(queries) < MOST and asked.query not in queries else ""
 
 
 def variants_of(asked: Asked, case: Case, first: Case | None) -> Variants | None:
-    """Return the table of the first variant, the further variants and the case; None if there is no further variant."""
+    """Return one table with the first variant, the further variants and the case.
+
+    Return None if there is no further variant.
+    """
     queries = queries_of(asked)
     if first is None or not queries:
         return None
@@ -80,7 +86,7 @@ def _of_query(name: str, asked: Asked, query: str) -> Column:
 def _numbers(path: str, query: str) -> tuple[dict[str, Any], dict[str, Any]]:
     """Return the inputs and the results of a variant; raise what `solved` raises.
 
-    They are cached because the page asks for them again after every edit of the case.
+    Inputs and results are cached because the page needs them again after every edit of the case.
     """
     calculation = BY_PATH[f"/v1{path}"]
     pairs: Pairs = split_views(normalised(calculation.request, pairs_of_query(query)))[0]

@@ -8,18 +8,18 @@ from app.schema.coupling import CouplingResponse
 from app.schema.model import Response
 from app.schema.pumping import ChokingSpeedResponse, PumpingResponse
 
-NEAR_LIMIT = 0.8  # of an upper limit
+NEAR_LIMIT = 0.8  # share of an upper limit above which a value is close to the limit
 
 
 class Verdict(NamedTuple):
-    """The level of a number, good, near, bad or plain, and its reason in words."""
+    """The level of a number (good, near, bad or plain), and the reason for this level in words."""
 
     level: str
     text: str
 
 
 def verdicts(response: Response) -> dict[str, Verdict]:
-    """Return the verdicts on headline numbers that need more than a single limit, by the path of the number."""
+    """Return the verdicts that need more than a single limit, by the path of the headline number."""
     if response.status == "no_solution":
         return {}
     if isinstance(response, CouplingResponse):
@@ -31,13 +31,13 @@ def verdicts(response: Response) -> dict[str, Verdict]:
 
 
 def conclusion(response: Response) -> str:
-    """Return the answer to the question of a calculation in words; empty if it has no such answer."""
+    """Return the answer to the question of a calculation in words; empty if the calculation has no such answer."""
     conclude = _CONCLUSIONS.get(type(response))
     return conclude(response) if conclude and response.status != "no_solution" else ""
 
 
 def _of_pumping(response: PumpingResponse) -> dict[str, Verdict]:
-    """Judge choking, and mark power, temperature rise, pressure and Mach number as doubtful if they are uncertain."""
+    """Judge choking. Mark power, temperature rise, pressure and Mach number as doubtful if they are uncertain."""
     judged = {
         f"{gear}_spaces.{name}": judge(gear, space, response)
         for gear, space in _spaces(response).items()
@@ -69,7 +69,7 @@ def _thrust(response: CouplingResponse) -> Verdict:
 
 
 def _misalignment(response: CouplingResponse) -> Verdict:
-    """Judge the permissible misalignment by the ratio of the sliding velocity of the case to its limit."""
+    """Judge the permissible misalignment by the sliding velocity of the case over the limit of this velocity."""
     most, sliding = response.limits.allowable_misalignment_deg, response.kinematics.max_sliding_velocity_m_per_s
     share = sliding / response.limits.sliding_velocity_limit_m_per_s
     if most is None:
@@ -100,7 +100,7 @@ def _spaces(response: PumpingResponse) -> dict[str, Any]:
 
 
 def _axial(gear: str, space: Any, response: PumpingResponse) -> Verdict:
-    """Say whether an end is choked, and whether the Mach number is too uncertain to tell."""
+    """Say whether an end is choked. Mark the verdict as doubtful if the Mach number is too uncertain."""
     supersonic = space.peak_axial_mach > 1.0 and not space.axial_choked
     inside = "; inside the spaces the gas is faster than sound" if supersonic else ""
     level = "bad" if space.axial_choked else "near" if supersonic else "good"
@@ -109,7 +109,7 @@ def _axial(gear: str, space: Any, response: PumpingResponse) -> Verdict:
 
 
 def _radial(gear: str, space: Any, response: PumpingResponse) -> Verdict:
-    """Say whether radial clearances are choked, and whether the pressure is too uncertain to tell."""
+    """Say whether radial clearances are choked. Mark the verdict as doubtful if the pressure is too uncertain."""
     text = f"radial choking, {gear} spaces: {'yes' if space.radial_choked else 'no'}"
     verdict = Verdict("bad" if space.radial_choked else "good", text)
     return _as_known(verdict, response.resolution.peak_pressure, "the pressure above ambient")
@@ -143,7 +143,7 @@ def _pumping(response: PumpingResponse) -> str:
 
 
 def _choking(response: ChokingSpeedResponse) -> str:
-    """Say at which pinion speed the mesh becomes choked."""
+    """Say from which pinion speeds on the mesh is choked."""
     speeds = {"ends": response.axial_choking_speed_rpm, "radial clearances": response.radial_choking_speed_rpm}
     sonic = [f"at the {place} from {number(speed, '1/min')}" for place, speed in speeds.items() if speed is not None]
     never = [

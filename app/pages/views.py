@@ -27,7 +27,7 @@ from app.schema.fields import headlines, leaf_at
 
 @dataclass(frozen=True, slots=True)
 class Shown:
-    """A view as bytes; `keep` holds the answers to be kept, by their keys."""
+    """A view as bytes. `keep` holds the answers that are to be kept, by their keys."""
 
     content: bytes
     status: int = 200
@@ -76,7 +76,7 @@ def _deciding(calculation: Calculation) -> frozenset[str]:
 
 
 def result(asked: Asked, media: Literal["json", "csv"]) -> Shown:
-    """Return the answer of the API, or its values as a table, or one of its curves."""
+    """Return the answer as the API gives it, or as CSV a table of its values or of one of its curves."""
     case = solved(asked.calculation, asked.pairs, asked.kept, "curves" if media == "json" else "fields")
     if media == "json":
         content = json_written(case.response)
@@ -88,7 +88,7 @@ def result(asked: Asked, media: Literal["json", "csv"]) -> Shown:
 
 
 def figure(asked: Asked, name: str, image_format: Format | Literal["json"]) -> Shown:
-    """Return the file of a figure; as JSON, the values that the script of the pages needs."""
+    """Return the file of a figure. The JSON file holds the values that the script of the pages needs."""
     case, variant, _ = _both(asked)
     declaration = next(declaration for declaration in asked.calculation.figures if declaration.name == name)
     data = figure_of(declaration, case, variant)
@@ -99,9 +99,9 @@ def figure(asked: Asked, name: str, image_format: Format | Literal["json"]) -> S
 def report(asked: Asked, host: str, study: dict[str, Any] | None = None) -> Shown:
     """Return the report of a case, with a section about a study if there is one.
 
-    `study` holds the `title` of the study, the `link` to its page and its result as `found`. Addresses on the report
-    begin with `host`; if it is empty, the link is relative, and the command asks the service on the reader's own
-    machine. If the case cannot be computed, its page is returned instead.
+    `study` holds the `title` of the study, the `link` to its page, and its result as `found`. Addresses on the report
+    begin with `host`. If `host` is empty, the link is relative, and the command asks the service on the reader's own
+    machine. If the case cannot be computed, the page of the case is returned instead.
     """
     try:
         case, variant, trouble = _both(asked)
@@ -120,7 +120,7 @@ def report(asked: Asked, host: str, study: dict[str, Any] | None = None) -> Show
 
 
 def _asked_back(pairs: Pairs, faults: list[Fault]) -> list[Fault]:
-    """Replace the faults of a text that has two readings by the question which reading is meant."""
+    """Replace the faults of a text that has two readings by the question which of the two readings is meant."""
     asked = {name: question(text) for name, text in pairs if question(text)}
     named = ((next((name for name in asked if f"{fault.path}.".startswith(f"{name}.")), ""), fault) for fault in faults)
     return [*dict.fromkeys(Fault(name, asked[name]) if name else fault for name, fault in named)]
@@ -129,7 +129,7 @@ def _asked_back(pairs: Pairs, faults: list[Fault]) -> list[Fault]:
 def _keep(asked: Asked, case: Case, variant: Case | None = None) -> dict[str, bytes]:
     """Return the answers that are not kept yet, by the keys of their fields.
 
-    The answers of a case that is too long for a link are also returned by the keys of their hashes.
+    If the case is too long for a link, its answers are also returned by the keys of their hashes.
     """
     keep = {}
     for pairs, kept, answered in (asked.pairs, asked.kept, case), (asked.ref_pairs, asked.kept_ref, variant):
@@ -161,7 +161,7 @@ def _page(asked: Asked, state: State, status: int = 200, keep: dict[str, bytes] 
 
 
 def _answered(asked: Asked, case: Case, variant: Case | None, trouble: str, *, compute: bool = False) -> dict[str, Any]:
-    """Return the variables with which page and report show an answer and compare it with that of the variant.
+    """Return the variables with which page and report show an answer and compare it with the variant's answer.
 
     `trouble` says why the variant cannot be computed.
     """
@@ -189,7 +189,7 @@ def _answered(asked: Asked, case: Case, variant: Case | None, trouble: str, *, c
 def _elsewhere(asked: Asked) -> list[tuple[str, str, list[str]]]:
     """Return the calculations whose pages show other figures of the case.
 
-    Each of them has its title, the address of the case on its page, and the titles of the figures.
+    An item has the title of the calculation, the address of the case on its page, and the titles of the figures.
     """
     pages, declarations = [], asked.calculation.figures
     for path in dict.fromkeys(declaration.shown_at for declaration in declarations if declaration.shown_at):
@@ -202,7 +202,10 @@ def _elsewhere(asked: Asked) -> list[tuple[str, str, list[str]]]:
 
 
 def _both(asked: Asked) -> tuple[Case, Case | None, str]:
-    """Return the case, the variant to compare it with if there is one, and why the variant cannot be computed."""
+    """Return the case, the variant to compare the case with, and the reason if the variant cannot be computed.
+
+    The variant is None if there is none, or if it cannot be computed. The reason is empty if there is none.
+    """
     case = solved(asked.calculation, asked.pairs, asked.kept)
     if not asked.ref and asked.kept_ref is None:
         return case, None, ""

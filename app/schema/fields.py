@@ -1,6 +1,6 @@
 """The fields of a request or response in their sections, for forms, tables, files, studies and tests.
 
-`field_path` returns the field that a solver means if it names one of its own inputs.
+If a solver names one of its own inputs, `field_path` returns the field of the request that the solver means.
 """
 
 from collections import defaultdict
@@ -18,17 +18,17 @@ from solvers.quantity import Detail, Quantity
 Kind = Literal["number", "integer", "boolean", "text", "other"]
 _KINDS: dict[Any, Kind] = {float: "number", int: "integer", bool: "boolean", str: "text"}
 ITEM = "*"
-"""Stands for the index of a list item in a path: `grooves.*.position_mm`."""
+"""Placeholder for the index of a list item in a path: `grooves.*.position_mm`."""
 
 
 @dataclass(frozen=True, slots=True)
 class Leaf:
-    """A field that holds values, not fields.
+    """A field that holds values and is not a section of further fields.
 
     `declared` says what the field means, and `view` how a result is judged. `title` is unique within its request or
-    answer: if several sections have a field of this title, the name of the section follows the title. `dimensions` is
-    0 for a scalar, 1 for a list and 2 for a matrix. `axes` holds the full paths of the axes, one per dimension, or is
-    empty.
+    answer: if fields of several sections have the same title, the name of the section is added to the title.
+    `dimensions` is 0 for a scalar, 1 for a list and 2 for a matrix. `axes` holds the full paths of the axes, one for
+    each dimension, or is empty.
     """
 
     path: str
@@ -58,8 +58,8 @@ class Leaf:
 class Branch:
     """A section of fields.
 
-    A `repeated` section is a list of sections; an `optional` section may be null. `path` has `*` in the place of the
-    indices of lists.
+    A `repeated` section is a list of sections; an `optional` section may be null. In `path`, `*` stands for the index
+    of a list item.
     """
 
     path: str
@@ -73,12 +73,12 @@ class Branch:
 
     @property
     def leaves(self) -> tuple[Leaf, ...]:
-        """The section's own fields."""
+        """The fields that are directly in this section."""
         return tuple(member for member in self.members if isinstance(member, Leaf))
 
     @property
     def branches(self) -> tuple["Branch", ...]:
-        """The section's own sections."""
+        """The sections that are directly in this section."""
         return tuple(member for member in self.members if isinstance(member, Branch))
 
     @property
@@ -93,8 +93,8 @@ class Branch:
 def tree(model: type[Documented]) -> Branch:
     """Return the whole request or response as one section without a name.
 
-    If several leaves have the same title, the name of the nearest section that contains only one of them follows the
-    title.
+    If several leaves have the same title, the name of a section is added to the title of each. This is the nearest
+    section around the leaf that contains none of the other leaves with this title.
     """
     namesakes: dict[str, dict[str, list[str]]] = defaultdict(dict)
     for way in _ways(model):
@@ -132,7 +132,7 @@ def leaf_at(model: type[Documented], path: str) -> Leaf | None:
 def headlines(response: type[Documented]) -> tuple[Leaf, ...]:
     """Return the headline numbers of an answer, the most important first.
 
-    If an answer extends another one, only headline numbers among the added fields count.
+    If the class of the answer extends another one, only headline numbers among the added fields are returned.
     """
     added = response.__annotations__
     own = [leaf for leaf in leaves(response) if leaf.view.headline and leaf.path.split(".")[0] in added]
@@ -140,7 +140,7 @@ def headlines(response: type[Documented]) -> tuple[Leaf, ...]:
 
 
 def _all(member: Leaf | Branch) -> Iterator[Leaf | Branch]:
-    """Yield a section and all members below it."""
+    """Yield a member and, if the member is a section, all members below it."""
     yield member
     if isinstance(member, Branch):
         for inner in member.members:
@@ -152,7 +152,10 @@ _Names = tuple[str, ...]
 
 
 def _ways(model: type[Documented], above: _Way = ()) -> Iterator[_Way]:
-    """Yield the ways to all fields of a model: the sections around a field from the outermost on, then the field."""
+    """Yield the way to every field and section of a model.
+
+    A way lists the sections around the field, the outermost first, and then the field itself.
+    """
     for member in members(model):
         yield (*above, member)
         if member.group:
@@ -160,7 +163,10 @@ def _ways(model: type[Documented], above: _Way = ()) -> Iterator[_Way]:
 
 
 def _names(way: _Way, *, solvers: bool = False) -> _Names:
-    """Return the names along a way, in the interface or in the solver, with `*` after the name of a list."""
+    """Return the names along a way, with `*` after the name of a list.
+
+    If `solvers` is set, these are the names in the solver, else the names in the interface.
+    """
     names = ((member.solver_name if solvers else member.name, member.dimensions) for member in way)
     return tuple(part for name, dimensions in names for part in ((name, ITEM) if dimensions else (name,)))
 
@@ -170,7 +176,7 @@ def _path(way: _Way) -> str:
 
 
 def _below(model: type[Documented], above: _Way, titles: dict[str, str]) -> tuple[Leaf | Branch, ...]:
-    """Return the fields and sections of a model."""
+    """Return the fields and sections of a model; `above` is the way to the model."""
     below: list[Leaf | Branch] = []
     for member in members(model):
         way = (*above, member)
@@ -193,7 +199,11 @@ def _below(model: type[Documented], above: _Way, titles: dict[str, str]) -> tupl
 
 
 def _leaf(model: type[Documented], way: _Way, titles: dict[str, str]) -> Leaf:
-    """Return the leaf at the end of a way. Its level of detail is its own, or that of the nearest section with one."""
+    """Return the leaf at the end of a way.
+
+    If the field itself declares no level of detail other than `summary`, the leaf has the level of the nearest section
+    that declares another level.
+    """
     member, path = way[-1], _path(way)
     info, meaning, prefix = member.info, member.meaning, path.rpartition(".")[0]
     options = _options(member.kinds)
@@ -220,7 +230,7 @@ def _leaf(model: type[Documented], way: _Way, titles: dict[str, str]) -> Leaf:
 
 
 def _absolute(name: str, prefix: str) -> str:
-    """Return the full path of a sibling; a dotted name is a full path already."""
+    """Return the full path of a field in the section `prefix`. A name with a dot is already a full path."""
     return name if "." in name or not prefix else f"{prefix}.{name}"
 
 
@@ -235,10 +245,11 @@ def _options(allowed: tuple[Any, ...]) -> tuple[Any, ...]:
 
 
 def field_path(request: Documented, name: str) -> str | None:
-    """Return the dotted request field that the solver's dotted `name` (its end suffices) means, or None.
+    """Return the dotted path of the request field that a solver means by the dotted `name`, or None.
 
-    If several fields match, return the outermost one. If fields exclude one another, return the one that was sent. If a
-    list item does not have the field that the solver names, return the item.
+    The end of the solver's dotted name suffices. If several fields match, return the outermost field. If fields exclude
+    one another, return the field that was sent. If a list item lacks the field that the solver names, return the list
+    item.
     """
     indices = [part for part in name.split(".") if part.isdecimal()]
     wanted = tuple(ITEM if part.isdecimal() else part for part in name.split("."))
@@ -254,8 +265,8 @@ def field_path(request: Documented, name: str) -> str | None:
 def _meant(model: type[Documented], wanted: _Names) -> _Names | None:
     """Return the names on the way to the outermost field or list item that a solver means by these names.
 
-    The solver may leave out sections, but not lists. Before a name at the root, the solver may name parts of its inputs
-    that the request does not have.
+    The solver may leave out sections, but not lists. It may first name parts of its own inputs that the request does
+    not have; the next name must then be at the root of the request.
     """
     request_names: dict[_Names, _Names] = {}
     for way in _ways(model):
@@ -277,7 +288,7 @@ def _meant(model: type[Documented], wanted: _Names) -> _Names | None:
 def _sent(request: Documented, path: _Names, indices: Iterator[str]) -> str | None:
     """Return the path in this request; None if a section or an item is missing.
 
-    Of fields that exclude each other, the path has the one that was sent.
+    If fields exclude each other, the path contains the field that was sent.
     """
     here: Any = request
     taken: list[str] = []

@@ -21,8 +21,8 @@ Bound = Literal["upper", "lower"]
 class _Declaration(Quantity):
     """A declaration that documents its field in the JSON schema.
 
-    `origin` is the solver's dataclass and its field from which the declaration was taken, or None. `in_schema` lists
-    the attributes that the JSON schema states: `default_text` as `x-default-text`.
+    `origin` is the solver's dataclass from which the declaration was taken, and the name of its field, or None.
+    `in_schema` lists the attributes that the JSON schema states, for example `default_text` as `x-default-text`.
     """
 
     origin: tuple[type, str] | None = None
@@ -56,7 +56,10 @@ class Input(_Declaration):
     in_schema = ("symbol", "source", "assumed", "default_text", "advanced", "folded", "tolerance", "relative_tolerance")
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
-        """Add the checks: numbers are finite, in range, and neither text nor booleans; lists have their length."""
+        """Add the checks of the field.
+
+        Numbers must be finite and in range, and must not be text or booleans. Lists must have a permissible length.
+        """
         return self._strict(handler(source))
 
     def _strict(self, schema: CoreSchema) -> CoreSchema:
@@ -65,15 +68,15 @@ class Input(_Declaration):
             case "float":  # strict: text and booleans are not numbers
                 return core_schema.float_schema(strict=True, allow_inf_nan=False, **bounds)
             case "int":
-                # A strict int would refuse 3.0. The value is therefore checked in three steps: it is a number; it is
-                # at most 2^53, up to which floats hold whole numbers exactly; it is a whole number in its range.
+                # A strict int would refuse 3.0. The value is therefore checked in three steps: it is a number; its
+                # magnitude is at most 2^53, up to which floats are exact; it is a whole number in its range.
                 number = core_schema.custom_error_schema(core_schema.float_schema(strict=True), "int_type")
                 exact = core_schema.float_schema(allow_inf_nan=False, ge=-(2.0**53), le=2.0**53)
                 whole = core_schema.chain_schema([number, exact, core_schema.int_schema(**bounds)])
                 return core_schema.json_or_python_schema(core_schema.int_schema(strict=True, **bounds), whole)
             case "bool":
                 return core_schema.bool_schema(strict=True)
-            case "union":  # of schemas, each alone or before its name
+            case "union":  # its choices are schemas, alone or paired with a name
                 kinds = (choice[0] if isinstance(choice, tuple) else choice for choice in schema["choices"])
                 return core_schema.union_schema([self._strict(kind) for kind in kinds])
             case "list" if self.length:
@@ -88,14 +91,15 @@ class Input(_Declaration):
 
 @dataclass(frozen=True)
 class View:
-    """The way in which a result is judged: its rank among the headline numbers, 1 to 4, and its limit.
+    """The way in which a result is judged.
 
-    `limit` is the number that bounds the value, or the dotted field of the request or answer that holds this number.
-    `bound` says on which side the value is safe: below an upper limit, or above a lower limit. `needs` is the request
-    field without which there is no value. `verdict` is the field of the answer that judges the value in words, or as a
-    boolean that is true if the value is bad; a name that begins with a dot is a field beside the value. `band` is the
-    field of the answer that holds the ends of the value's range of uncertainty; the worse end is judged. If `percent`
-    is set, the value is a share that pages show in per cent.
+    `headline` is the rank of the result among the headline numbers, from 1 to 4. `limit` is the number that bounds the
+    value, or the dotted field of the request or answer that holds this number. `bound` says on which side the value is
+    safe: below an upper limit, or above a lower limit. `needs` is the request field without which there is no value.
+    `verdict` is the field of the answer that judges the value in words, or as a boolean that is true if the value is
+    bad; a name that begins with a dot is a field in the same section as the value. `band` is the field of the answer
+    that holds the two ends of the value's range of uncertainty; the worse end is judged. If `percent` is set, the value
+    is a share that pages show in per cent.
     """
 
     headline: int | None = None
@@ -108,7 +112,7 @@ class View:
 
     @property
     def greatest_is_best(self) -> bool:
-        """Whether the limit is a lower one, so that the least of several values is the worst."""
+        """Whether the limit is a lower limit, so that the least of several values is the worst."""
         return self.bound == "lower"
 
 
@@ -131,7 +135,10 @@ def meaning_of(metadata: Iterable[Any]) -> Input | Output | None:
 
 @cache
 def split_unit(name: str) -> tuple[str, Unit | None]:
-    """Split a field name into the name without unit and the unit, which is the longest suffix that names a unit."""
+    """Split a field name into the name without unit and the unit.
+
+    The unit is the longest suffix that names a unit.
+    """
     words = name.split("_")
     for start in range(1, len(words)):
         unit = UNITS.get("_".join(words[start:]))

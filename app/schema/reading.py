@@ -1,6 +1,7 @@
-"""Validated requests from the content of bodies, or the faults of the fields in plain words.
+"""Validation of the content of bodies: the request, or the faults of the fields in plain words.
 
-Messages repeat numbers, text of digits only and field names of at most 40 characters, but nothing else of the input.
+Messages repeat numbers, texts that consist of a number, and field names of at most 40 characters, but nothing else of
+the input.
 """
 
 import re
@@ -18,7 +19,7 @@ from solvers.quantity import UNITS, Quantity, advice, allowed
 
 M = TypeVar("M", bound=BaseModel)
 Models = tuple[type[BaseModel], ...]
-MOST_FAULTS = 100  # in one answer; chosen: nobody corrects more at once
+MOST_FAULTS = 100  # faults in one answer; chosen, because nobody corrects more at once
 _NAME = re.compile(r"[A-Za-z0-9_]{1,40}")
 _NUMBER = re.compile(r"[+-]?\d{1,20}([.,]\d{1,20})?")
 _RANGE_TYPES = {"greater_than", "greater_than_equal", "less_than", "less_than_equal"}
@@ -36,9 +37,9 @@ def validated(model: type[M], content: Any) -> M:
 
 
 def faults(model: type[BaseModel], items: Iterable[dict[str, Any]]) -> list[Fault]:
-    """Return at most a hundred faults of a validation of `model`.
+    """Return at most a hundred faults that the validation of `model` reported.
 
-    `items` are the errors of pydantic, with locations that begin at the model.
+    `items` are the errors of pydantic. Their locations begin at the model.
     """
     field_faults = []
     for item in islice(items, MOST_FAULTS):
@@ -50,7 +51,10 @@ def faults(model: type[BaseModel], items: Iterable[dict[str, Any]]) -> list[Faul
 
 
 def _located(model: type[BaseModel], location: tuple[str | int, ...]) -> tuple[list[str | int], Models]:
-    """Return the location without the names of alternative types of a value, and the sections that hold the field."""
+    """Return the location of a fault, and the sections that may hold the field at this location.
+
+    The location lacks the names that pydantic adds for the alternative types of a value.
+    """
     kept: list[str | int] = []
     here: Models = (model,)
     for place, part in enumerate(location):
@@ -113,7 +117,7 @@ def _no_number(value: Any) -> str:
         return "give a number, or leave the field out instead of null"
     if isinstance(value, bool):
         return "give a number, not true or false"
-    if isinstance(value, int):  # beyond every float
+    if isinstance(value, int):  # larger than any float
         return f"the number is {_figure(value)}"
     if isinstance(value, str) and _NUMBER.fullmatch(value):
         return f'give a number, not text: {value.replace(",", ".")} instead of "{value}"'
@@ -143,6 +147,6 @@ def _allowed(sections: Models, name: str) -> str:
 
 
 def _advice(sections: Models, name: str, value: Any) -> str:
-    """Return the advice what to give instead of the value, or an empty text."""
+    """Return advice on what to give instead of the value, or an empty text."""
     given = _declared(sections, name)
     return advice(given, value) if given else ""

@@ -1,6 +1,6 @@
-"""The request that a study varies, and the solution of its points in worker processes.
+"""The request that a study varies, and the solution of the points of the study in worker processes.
 
-A point has the same results as the endpoint's answer to the request of this point.
+The results at a point are the same as those in the endpoint's answer to the request of this point.
 """
 
 import copy
@@ -21,22 +21,23 @@ from solvers.notices import Rank
 
 Status = Literal["ok", "ok_with_warnings", "no_solution", "refused", "failed"]
 SOLVED = ("ok", "ok_with_warnings")  # statuses of points with an answer
-CHUNK_SECONDS = 0.25  # of work handed out at once: a study gives way to other work after this time
+CHUNK_SECONDS = 0.25  # of work that is handed out at once; after this time a study gives way to other work
 COLD = "states.cold."
 BY_FILM = {
     DRIVE_TRAIN: {"safety.minimum"},
     "/v1/scuffing": {"film.min_at_psi", "film.thickness_ratio", "unsolved_points"},
 }
-"""Outputs of an endpoint that need the thermal film, beside those with `thermal_ehl` in their names."""
+"""Outputs of an endpoint that need the thermal film, in addition to outputs with `thermal_ehl` in their names."""
 
 logger = logging.getLogger("tribodrive")
 
 
 class Point(NamedTuple):
-    """An answer, reduced to the requested outputs; `error` is set if the point was refused or failed.
+    """The answer at a point, reduced to the requested outputs.
 
-    `warnings` holds the codes of the warnings, the gravest first, and `ranks` their ranks. `assumptions` is empty if
-    the assumptions are those of the preceding point of the chunk.
+    `error` is set if the point was refused or failed. `warnings` holds the codes of the warnings, the gravest first,
+    and `ranks` their ranks in the same order. `assumptions` is empty if the assumptions are the same as at the
+    preceding point of the chunk.
     """
 
     status: Status
@@ -61,7 +62,10 @@ class Question(NamedTuple):
 
 
 class BaseRequest(NamedTuple):
-    """An endpoint and the request to it; the methods raise Unprocessable at `place` of the study."""
+    """An endpoint, and the request to it that a study varies.
+
+    The methods raise Unprocessable if a path cannot be used. `place` is the field of the study that holds the path.
+    """
 
     calculation: Calculation
     body: dict[str, Any]
@@ -69,7 +73,7 @@ class BaseRequest(NamedTuple):
     def leaf(self, path: str, place: str) -> Leaf:
         """Return the leaf of a single value at a path of the request.
 
-        Refuse the path if the value cannot be set because a list on the way to it is too short.
+        Raises Unprocessable also if the value cannot be set because a list on the way to the value is too short.
         """
         leaf = scalar_at(self.calculation.request, path, place, "unknown_path")
         try:
@@ -87,16 +91,17 @@ class BaseRequest(NamedTuple):
         return leaf
 
     def outputs(self, wanted: list[str] | None) -> tuple[Leaf, ...]:
-        """Return the outputs at these paths, by default the headline numbers."""
+        """Return the leaves of the outputs at the paths `wanted`; if it is None, those of the headline numbers."""
         if wanted is None:
             return headlines(self.calculation.response)
         check_distinct(wanted, "outputs", numbered=True)
         return tuple(self.output(path, f"outputs.{number}") for number, path in enumerate(wanted))
 
     def checked(self, first: Overrides) -> Request:
-        """Return the request of the first point; raise InvalidBody with pointers into the study if it is not valid.
+        """Return the request of the first point.
 
-        If the schema allows a request but the solver refuses it, the study goes on with a refused point.
+        Raises InvalidBody, with pointers into the study, if the schema does not allow the request. If the schema allows
+        the request but the solver refuses it, the study goes on, and the point is refused.
         """
         try:
             return validated(self.calculation.request, with_overrides(self.calculation, self.body, first))
@@ -112,7 +117,7 @@ def check_count(count: int, most: int, place: str) -> None:
 
 
 def check_distinct(paths: Sequence[str], place: str, *, numbered: bool = False) -> None:
-    """Refuse a path that is given twice; if `numbered`, the refusal names the place of the path in the list."""
+    """Refuse a path that is given twice. If `numbered` is set, the refusal names the index of the path in the list."""
     for number, path in enumerate(paths):
         if path in paths[:number]:
             raise Unprocessable("duplicate_path", f"{path} is given twice", f"{place}.{number}" if numbered else place)
@@ -124,9 +129,9 @@ def needs_film(endpoint: str, output: str) -> bool:
 
 
 def reduced_request(endpoint: str, request: dict[str, Any], outputs: Sequence[str]) -> dict[str, Any]:
-    """Return the request without the thermal film and without other states if no output needs them.
+    """Return the request without the parts of the solution that no output needs.
 
-    The outputs are unchanged.
+    These parts are the thermal film and the unit in the cold state. The values of the outputs do not change.
     """
     if endpoint not in BY_FILM:
         return request
@@ -139,7 +144,10 @@ def reduced_request(endpoint: str, request: dict[str, Any], outputs: Sequence[st
 
 
 def with_overrides(calculation: Calculation, base: dict[str, Any], overrides: Overrides) -> dict[str, Any]:
-    """Return the base request with the values of a point. A value removes the fields that its field excludes."""
+    """Return the base request with the values of a point.
+
+    If a value is given for a field, the fields that this field excludes are removed.
+    """
     body = copy.deepcopy(base)
     for path, value in overrides.items():
         if value is not None:
@@ -151,14 +159,14 @@ def with_overrides(calculation: Calculation, base: dict[str, Any], overrides: Ov
 
 
 class Chunk(NamedTuple):
-    """The answers of the first of the requested points, and the time that they took [s]."""
+    """The answers at the first of the requested points, and the time that their solution took [s]."""
 
     points: list[Point]
     seconds: float
 
 
 def solve_chunk(question: Question, overrides: Sequence[Overrides]) -> Chunk:
-    """Solve consecutive points until the time of a chunk is used up, at least one point."""
+    """Solve consecutive points, at least one, until the time of a chunk is used up."""
     started = time.perf_counter()
     points: list[Point] = []
     preceding: tuple[dict[str, Any], ...] = ()

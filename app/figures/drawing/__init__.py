@@ -1,6 +1,7 @@
 """Drawing of figures with matplotlib.
 
-`style` and its sheets have colours and fonts, `panels` fills axes, `image` lays out and writes the image.
+`style` and the style sheets hold colours and fonts, `panels` draws the contents of axes, and `image` lays out a figure
+and writes the image.
 """
 
 import os
@@ -10,7 +11,7 @@ from tempfile import gettempdir
 
 try:
     gettempdir()
-except FileNotFoundError:  # no folder can be written, but matplotlib needs one: it gets that of its data
+except FileNotFoundError:  # no folder is writable; matplotlib, which needs one, gets its own data folder
     specification = find_spec("matplotlib")
     assert specification is not None
     os.environ["MATPLOTLIBRC"] = str(Path(specification.origin or "").with_name("mpl-data"))

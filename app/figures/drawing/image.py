@@ -1,4 +1,4 @@
-"""Images from the data of figures: sheet, layout and formats. Equal figures give equal bytes."""
+"""Images of figures: the layout on a sheet, and the formats. Equal figures give equal bytes."""
 
 from dataclasses import replace
 from io import BytesIO
@@ -20,19 +20,19 @@ from app.figures.drawing.panels import LINE, draw_panel, legend_lines, place_tex
 from app.figures.drawing.style import DPI, NARROW, TEXT, TITLE, WIDTH, themed
 from app.figures.wording import subscripts
 
-EDGE = 0.1  # inches around everything
-TITLE_LENGTH, LENGTH, BESIDE_LENGTH = 58, 84, 30  # characters per line: of the title, of others, of axes side by side
-HEIGHTS = {1: 2.6, 2: 1.6, 3: 1.25}  # inches, of panels above one another, by their number
-PLANE, PLANE_BESIDE = 3.3, 1.8  # inches, height of a plane, and of planes side by side
-TOUCH = 0.025  # inches by which the boxes of two texts may overlap: the space above and below their letters
+EDGE = 0.1  # inches; margin around the whole image
+TITLE_LENGTH, LENGTH, BESIDE_LENGTH = 58, 84, 30  # characters per line of titles, other texts, axes side by side
+HEIGHTS = {1: 2.6, 2: 1.6, 3: 1.25}  # inches; height of a panel, by the number of panels above one another
+PLANE, PLANE_BESIDE = 3.3, 1.8  # inches; height of a plane alone, and of planes side by side
+TOUCH = 0.025  # inches by which the boxes of two texts may overlap, as boxes include space around letters
 NARROW_HEIGHT = 0.66  # height of axes in narrow figures over the usual height
-ROW_HEIGHT = 0.3  # inches, of a bar with a name of up to two lines
-APART, FEWEST_TICKS = 0.05, 3  # inches between neighbouring tick labels; number of ticks that is always kept
-ABSCISSA = 0.45  # inches, height of ticks and name below axes
-TICKS = 0.35  # inches, least width of the tick labels left of axes
-LEGEND, BAR, END = 1.5, 1.1, 0.15  # inches right of axes: with a legend, with a colour bar, with neither
+ROW_HEIGHT = 0.3  # inches; height of a bar whose name has up to two lines
+APART, FEWEST_TICKS = 0.05, 3  # inches between neighbouring tick labels; number of ticks that are always kept
+ABSCISSA = 0.45  # inches; height of the tick labels and the name below axes
+TICKS = 0.35  # inches; least width of the tick labels to the left of axes
+LEGEND, BAR, END = 1.5, 1.1, 0.15  # inches to the right of axes with a legend, a colour bar, neither
 CANVASES = {"svg": FigureCanvasSVG, "png": FigureCanvasAgg, "pdf": FigureCanvasPdf}
-# There is neither date nor version, so that equal figures give equal bytes.
+# The metadata contain neither date nor version, so that equal figures give equal bytes.
 METADATA: dict[str, dict[str, str | None]] = {
     "svg": {"Date": None, "Creator": None},
     "png": {"Software": None},
@@ -54,8 +54,8 @@ def draw(figure: Figure, image_format: str, theme: ThemeName = "light") -> bytes
 class Place(NamedTuple):
     """Position of the axes of a panel in the image.
 
-    `box` is left, top, width and height as fractions of the image. `x` and `y` are the two ends of an axis, and True if
-    it is logarithmic.
+    `box` is left, top, width and height as fractions of the image. `x` and `y` belong to the two axes. Each holds the
+    two ends of its axis, and True if the axis is logarithmic.
     """
 
     panel: Panel
@@ -89,12 +89,16 @@ def _width(figure: Figure) -> float:
 
 
 def _letters(figure: Figure, length: int) -> int:
-    """Return the number of characters per line, from the number in a figure of the usual width."""
+    """Return the number of characters per line; `length` is this number in a figure of the usual width."""
     return int(length * _width(figure) / WIDTH)
 
 
 def _head(figure: Figure) -> tuple[str, str, float, float]:
-    """Return title and finding in lines, and the distances of the finding and the panels from the top in inches."""
+    """Return the title and the finding of a figure, and their places.
+
+    Both texts are broken into lines. They are followed by the distances of the finding and of the panels from the top
+    [in].
+    """
     title, finding = fill(figure.title, _letters(figure, TITLE_LENGTH)), fill(figure.subtitle, _letters(figure, LENGTH))
     below = EDGE + LINE * TITLE * (1 + title.count("\n"))
     return title, finding, below, below + LINE * TEXT * (1 + finding.count("\n")) + EDGE
@@ -115,7 +119,7 @@ def _usual_height(panel: Panel, figure: Figure) -> float:
 
 
 def _heading(figure: Figure) -> float:
-    """Return the height of the titles and names of ordinates above axes, in inches."""
+    """Return the height [in] of the titles, the names of ordinates and, if narrow, the legends above axes."""
     names = 0 if all(panel.rows for panel in figure.panels) else 2 if figure.beside else 1
     names += max(map(legend_lines, figure.panels), default=0) if figure.narrow else 0
     return LINE * TEXT * (names + any(panel.title for panel in figure.panels)) + EDGE / 2
@@ -127,20 +131,20 @@ def _shares_abscissa(figure: Figure) -> bool:
 
 
 def _abscissa(figure: Figure) -> float:
-    """Return the height of ticks and name below axes in inches; in a narrow figure the name may have two lines."""
+    """Return the height [in] of tick labels and name below axes. In a narrow figure the name may have two lines."""
     return ABSCISSA + LINE * TEXT * figure.narrow
 
 
 def _gap(figure: Figure) -> float:
-    """Return the distance between axes above one another in inches."""
+    """Return the vertical distance [in] between two axes, one above the other."""
     return _heading(figure) + (EDGE / 2 if _shares_abscissa(figure) else _abscissa(figure))
 
 
 def laid_out(figure: Figure) -> tuple[Sheet, list[Axes]]:
-    """Lay out a figure under the settings of a theme. Return the sheet and the axes of the panels."""
+    """Lay out a figure with the settings of the current theme. Return the sheet and the axes of the panels."""
     (title, finding, below, _), (width, height) = _head(figure), size(figure)
     sheet = Sheet(figsize=(width, height), dpi=DPI["svg"])
-    FigureCanvasAgg(sheet)  # measures texts
+    FigureCanvasAgg(sheet)  # with this canvas, texts can be measured
     style: dict[str, Any] = {"va": "top", "linespacing": 1.2}
     sheet.text(EDGE / width, 1.0 - EDGE / height, title, fontsize=TITLE, fontweight="bold", **style)
     sheet.text(EDGE / width, 1.0 - below / height, finding, fontsize=TEXT, color=rcParams["axes.labelcolor"], **style)
@@ -157,14 +161,14 @@ def laid_out(figure: Figure) -> tuple[Sheet, list[Axes]]:
 def narrowed(figure: Figure) -> Figure:
     """Return the figure in the width of a report's column.
 
-    A figure whose panels stand side by side, or whose texts would then collide, is returned unchanged.
+    The figure is returned unchanged if its panels stand side by side, or if its texts would collide in this width.
     """
     narrow = replace(figure, narrow=True)
     return figure if figure.beside or _collides(narrow) else narrow
 
 
 def _collides(figure: Figure) -> bool:
-    """Return True if a text of the figure is cut or overlaps another text."""
+    """Return True if a text of the figure is cut off or overlaps another text."""
     with themed("light"):
         sheet, axes = laid_out(figure)
         sheet.draw_without_rendering()  # places the names of axes and the legends
@@ -184,12 +188,12 @@ def _collides(figure: Figure) -> bool:
 
 
 def _symbol(letter: str, subscript: str) -> str:
-    """Return a symbol in matplotlib's mathematical text."""
+    """Return a symbol in the notation of matplotlib's mathematical text."""
     return rf"${letter}_\mathrm{{{subscript.replace(',', '{,}')}}}$"
 
 
 def _axes(sheet: Sheet, figure: Figure) -> list[Axes]:
-    """Draw the axes of all panels, with room around them for tick labels, legends and colour bars."""
+    """Draw the axes of all panels. Leave room around the axes for tick labels, legends and colour bars."""
     heights, (width, height) = [_height(panel, figure) for panel in figure.panels], size(figure)
     rows, columns = (1, len(heights)) if figure.beside else (len(heights), 1)
     ratios, share = None if figure.beside else heights, _shares_abscissa(figure)
@@ -218,14 +222,14 @@ def _axes(sheet: Sheet, figure: Figure) -> list[Axes]:
 
 
 def _room_right(axes: Axes, *, narrow: bool) -> float:
-    """Return the room right of axes in inches, for a colour bar, a legend or texts."""
+    """Return the room [in] that a colour bar, a legend or texts need to the right of axes."""
     if axes.child_axes:
         return BAR
     return LEGEND if axes.get_legend() and not narrow else END + _overhang(axes)
 
 
 def _thin_ticks(axes: Axes) -> None:
-    """Keep every second tick of a linear abscissa while the labels of two neighbours are too close to read."""
+    """Remove every second tick of a linear abscissa, as often as neighbouring labels are too close to read."""
     low, high = sorted(axes.get_xlim())
     ticks = [tick for tick in axes.get_xticks() if low <= tick <= high]
     while axes.get_xscale() == "linear" and len(ticks) > FEWEST_TICKS:
@@ -237,9 +241,9 @@ def _thin_ticks(axes: Axes) -> None:
 
 
 def _overhang(axes: Axes) -> float:
-    """Return the overhang of texts beyond the right end of axes in inches.
+    """Return the length [in] by which texts extend beyond the right end of axes.
 
-    Only the values of rows and half of the last tick label extend beyond the end.
+    Only the values of rows and half of the last tick label extend beyond this end.
     """
     rows = dict[float, float]()
     for text in (text for text in axes.texts if text.get_gid() is None):

@@ -20,35 +20,36 @@ from app.figures.data import Line, Map, Panel, Role, Row, Scale, Values
 from app.figures.drawing.style import DASHES, LIMIT, TEXT, patch, written
 from app.figures.wording import NOISE, number, without_rounding
 
-FARTHEST_LEVEL = 4.0  # times the range of the values; a limit farther away is named at the edge of the axes
+FARTHEST_LEVEL = 4.0  # ranges of the values; a limit farther away is only named at the edge of the axes
 NAME_LENGTH, ROW_NAME_LENGTH = 17, 36  # characters per line of a legend, and of the name of a row
-BAR_SHARE, TINT = 0.8, 0.2  # share of bars in their spacing; opacity of fills
-LEGEND_COLUMNS = 2  # in a legend above narrow axes
-LINE = 1.3 / 72.0  # inches: height of a line of letters of one point
-NAME_BELOW = 36  # characters per line below narrow axes
-ROW = 0.52  # height of a row's bar
-LEAST_REACH = 7  # points between a text and its point or line
-ALONG, DOWN = 8, 0.6  # number of steps in which the name of a line moves along it; heights of a name per step down
+BAR_SHARE, TINT = 0.8, 0.2  # share of the spacing that bars fill; opacity of fills
+LEGEND_COLUMNS = 2  # columns of a legend above narrow axes
+LINE = 1.3 / 72.0  # inches; height of a line of text per point of letter size
+NAME_BELOW = 36  # characters per line of the name below narrow axes
+ROW = 0.52  # height of a row's bar over the distance between rows
+LEAST_REACH = 7  # typographic points between a text and its point or line
+# Number of steps in which the name of a line moves along the line; heights of a name per step downwards.
+ALONG, DOWN = 8, 0.6
 RING = 5  # pixels, half the side of the box around a mark
 SIDES = {"above": 1, "below": -1}  # side of a point on which its text is tried first
 MOVED = {*SIDES, "row", "column"}  # texts of points, of horizontal and of vertical lines; other texts are not moved
-# Ticks in a decade of ratios, and the greatest ratio up to which ticks are evenly spaced instead.
+# Ticks in a decade of ratios; greatest ratio of a map whose ticks are evenly spaced instead.
 RATIO_TICKS, LINEAR_RATIO = (1.0, 1.5, 2.0, 3.0, 5.0, 7.0), 1.5
-FEW_DECADES = 100.0  # ratio of its ends up to which a logarithmic axis has ticks between the powers of ten
-CROWDED = 0.08  # of the colour bar; a tick nearer to a critical value is left out
-BESIDE_ROWS = 0.4  # of the range of rows; room for texts at their ends
-WIDE = 0.15  # of the longest bar; if bounds are farther apart, their values are written
-STEPS = (1, 2, 2.5, 5, 10)  # of ticks, times powers of ten
+FEW_DECADES = 100.0  # a logarithmic axis whose ends have a smaller ratio has ticks between powers of ten
+CROWDED = 0.08  # share of the colour bar; a tick closer than this to a critical value is left out
+BESIDE_ROWS = 0.4  # share of the range of rows; room for the texts at the ends of rows
+WIDE = 0.15  # share of the longest bar; if bounds are farther apart than this, their values are written
+STEPS = (1, 2, 2.5, 5, 10)  # distances between ticks, times powers of ten
 NUMBERS = FuncFormatter(lambda value, _: number(value, digits=6))
 
-Style = dict[str, Any]  # of matplotlib's artists
+Style = dict[str, Any]  # keyword arguments of matplotlib's artists
 
 
 def draw_panel(axes: Axes, panel: Panel, length: int, *, narrow: bool = False) -> None:
-    """Draw a panel, with at most `length` characters per line in the names of axes.
+    """Draw a panel. The names of its axes have at most `length` characters per line.
 
-    The legend of a `narrow` panel is above it. The name of the ordinate is a horizontal text above the axes.
-    `place_texts` draws the texts of areas and moves those of points.
+    The name of the ordinate is a horizontal text above the axes. The legend of a `narrow` panel stands above the axes
+    too. `place_texts` later draws the texts of areas and moves the texts of points.
     """
     name = "" if panel.rows else fill(panel.y.label, length)
     axes.set(xscale="log" if panel.x.log else "linear", yscale="log" if panel.y.log else "linear")
@@ -62,7 +63,7 @@ def draw_panel(axes: Axes, panel: Panel, length: int, *, narrow: bool = False) -
         if quantity.ticks is not None:
             axis.set_ticks(quantity.ticks)
         axis.set_major_formatter(NUMBERS)
-    # The name may be wider than the axes of rows.
+    # The name of the abscissa may be wider than axes with rows; both then have the same right end.
     axes.set_xlabel(fill(panel.x.label, NAME_BELOW if narrow else length), loc="right" if panel.rows else "center")
     _draw_rows(axes, panel)
     _draw_fills(axes, panel)
@@ -90,9 +91,9 @@ def draw_panel(axes: Axes, panel: Panel, length: int, *, narrow: bool = False) -
 
 
 def _draw_legend(axes: Axes, panel: Panel, *, narrow: bool) -> None:
-    """Draw the legend beside the axes, or above them if a colour bar stands there or the figure is narrow."""
+    """Draw the legend beside the axes, or above the axes if the figure is narrow or has a colour bar there."""
     handles = {str(handle.get_label()): handle for handle in axes.get_legend_handles_labels()[0]}  # names may repeat
-    if handles and narrow:  # above the name of the ordinate, because there is no room beside it
+    if handles and narrow:  # above the name of the ordinate, because there is no room beside the axes
         above = axes.transAxes + ScaledTranslation(
             0.0, LINE * TEXT * (1 + bool(panel.title)), axes.figure.dpi_scale_trans
         )
@@ -103,7 +104,7 @@ def _draw_legend(axes: Axes, panel: Panel, *, narrow: bool) -> None:
             "ncols": LEGEND_COLUMNS,
         }
         axes.legend(handles.values(), handles, **style)
-    elif handles and panel.map is not None:  # above, because the colour bar stands at the side
+    elif handles and panel.map is not None:  # above the axes, because the colour bar stands beside the axes
         axes.legend(handles.values(), handles, loc="lower right", bbox_to_anchor=(1.0, 1.01), ncols=len(handles))
     elif handles:
         axes.legend(handles.values(), handles, bbox_to_anchor=(1.02, 1.0))
@@ -119,7 +120,10 @@ def legend_lines(panel: Panel) -> int:
 
 
 def _end(axes: Axes, panel: Panel) -> None:
-    """Set the ends of the axes: as given, else with room around the data. No axis shows rounding errors."""
+    """Set the ends of the axes as the panel gives them, or else with room around the data.
+
+    If the values of the ordinate differ only by rounding errors, the axis is widened so that these errors do not show.
+    """
     if panel.equal:
         axes.set_aspect("equal", adjustable="box" if panel.x.limits else "datalim")
         axes.margins(0.08)
@@ -156,7 +160,7 @@ def _draw_fills(axes: Axes, panel: Panel) -> None:
 
 
 def _draw_line(axes: Axes, line: Line) -> None:
-    """Draw a curve. A point whose neighbours have no value is a dot, because a line would not show it."""
+    """Draw a curve. A point whose neighbours have no value is drawn as a dot, because no line leads to this point."""
     finite = np.isfinite(line.y)
     alone = finite & ~np.append(False, finite[:-1]) & ~np.append(finite[1:], False)
     style: Style = {"color": line.hue, "linestyle": DASHES[line.role]}
@@ -168,14 +172,14 @@ def _draw_line(axes: Axes, line: Line) -> None:
 
 
 def _bar_style(role: Role, color: str) -> Style:
-    """Return the style of a bar: filled, or the dashed outline of a variant."""
+    """Return the style of a bar: filled, or a dashed outline if the bar belongs to a variant."""
     if role is Role.VARIANT:
         return {"facecolor": "none", "edgecolor": color, "linestyle": DASHES[role]}
     return {"facecolor": color}
 
 
 def _draw_bars(axes: Axes, bars: Line, beside: list[Line]) -> None:
-    """Draw the bars of one of the series that stand beside one another."""
+    """Draw the bars of one series. `beside` holds all series, including this one, that stand beside one another."""
     pitch = float(np.diff(bars.x).min()) if len(bars.x) > 1 else 1.0
     width = BAR_SHARE * pitch / len(beside)
     left = bars.x - BAR_SHARE * pitch / 2 + beside.index(bars) * width
@@ -186,7 +190,7 @@ def _draw_bars(axes: Axes, bars: Line, beside: list[Line]) -> None:
 
 
 def _draw_rows(axes: Axes, panel: Panel) -> None:
-    """Draw the rows as bars with their values, or as dots on a line; bars of a variant lie over those of the case."""
+    """Draw the rows as bars with their values, or as dots on lines. Bars of a variant lie over the bars of the case."""
     own = [row for row in panel.rows if row.role is not Role.VARIANT]
     if not own:
         return
@@ -207,7 +211,7 @@ def _draw_rows(axes: Axes, panel: Panel) -> None:
 
 
 def _draw_dots(axes: Axes, place: int, row: Row) -> None:
-    """Draw the values of a row as dots on a line with names at its ends."""
+    """Draw the values of a row as dots on a line. The first and the last dot have their names beside them."""
     dots = sorted(row.dots, key=lambda dot: dot.value)
     axes.plot([dot.value for dot in dots], [place] * len(dots), color=rcParams["axes.edgecolor"], lw=3.0, zorder=1)
     for dot in dots:
@@ -217,7 +221,7 @@ def _draw_dots(axes: Axes, place: int, row: Row) -> None:
 
 
 def _draw_row(axes: Axes, place: int, row: Row) -> None:
-    """Draw the bar of a row, or its parts end to end, and a line between its bounds."""
+    """Draw a row as one bar, or as its parts end to end. Also draw a line between the bounds of its value."""
     left = 0.0
     for part in row.parts or [replace(row, name="", value=float(np.nan_to_num(row.value)))]:
         label = fill(part.name, NAME_LENGTH)
@@ -230,7 +234,10 @@ def _draw_row(axes: Axes, place: int, row: Row) -> None:
 
 
 def _write_value(axes: Axes, place: int, row: Row, panel: Panel) -> None:
-    """Write the value of a row at its right, and its bounds if they are far apart; rounding errors become zero."""
+    """Write the value of a row to the right of its bar. A rounding error is written as zero.
+
+    The bounds of the value are written too if they are far apart.
+    """
     scale = max((abs(other.value) for other in panel.rows if np.isfinite(other.value)), default=0.0)
     value, unit = without_rounding(row.value, scale), panel.x.unit
     text = number(value, unit) if np.isfinite(value) else "not calculated"
@@ -243,18 +250,24 @@ def _write_value(axes: Axes, place: int, row: Row, panel: Panel) -> None:
 
 
 def _write(axes: Axes, text: str, xy: tuple[float, float], offset: float, **style: Any) -> Text:
-    """Write a text at the height of a point, `offset` typographic points to its right, or to its left if negative."""
+    """Write a text at the height of the point `xy`.
+
+    The text stands `offset` typographic points to the right of the point, or to the left if `offset` is negative.
+    """
     style |= {"textcoords": "offset points", "va": "center_baseline", "ha": "left" if offset > 0.0 else "right"}
     return axes.annotate(text, xy, (offset, 0), bbox=patch(), **style)
 
 
 def _draw_map(axes: Axes, panel: Panel, chart: Map) -> None:
-    """Draw a map: colours with their bar, thin contours at the ticks of the bar, dashed contours at critical values."""
+    """Draw a map in colours, with a colour bar and contours.
+
+    Thin contours are drawn at the ticks of the colour bar, dashed contours at the critical values.
+    """
     low, high = chart.ends
     norm = LogNorm(low, high) if chart.scale is Scale.RATIO else Normalize(low, high)
     still = {Scale.RATIO: 1.0, Scale.SIGNED: 0.0}.get(chart.scale)  # a contour at this value would show only noise
     cmap = "cividis" if still is None else "RdBu_r"
-    # A single value of a coordinate applies to the whole axis.
+    # If a coordinate has a single value, the map does not change along the axis of this coordinate.
     x, y = (
         along if along.size > 1 else np.array(axis.limits or along[0] + (-0.5, 0.5))
         for along, axis in ((chart.x, panel.x), (chart.y, panel.y))
@@ -287,16 +300,20 @@ def _draw_map(axes: Axes, panel: Panel, chart: Map) -> None:
 
 
 def _edges(along: Values, log: bool) -> Values:
-    """Return the edges of cells around points: midway on the scale of the axis, the outer edges at the end points."""
+    """Return the edges of the cells around points.
+
+    Inner edges lie midway between neighbouring points, on the scale of the axis. Outer edges lie at the end points.
+    """
     scaled = np.log(along) if log else along
     edges = np.concatenate([scaled[:1], (scaled[1:] + scaled[:-1]) / 2, scaled[-1:]])
     return np.exp(edges) if log else edges
 
 
 def _draw_levels(axes: Axes, panel: Panel) -> None:
-    """Draw limits dashed in red, references dotted in grey, and a line at zero if the values have both signs.
+    """Draw limits as dashed red lines, references as dotted grey lines, and zero as a grey line.
 
-    The name of a level outside the axes has an arrow.
+    The line at zero is drawn if the ordinate is a magnitude, or if the values have both signs. The name of a level
+    outside the axes has an arrow that points towards the level.
     """
     if panel.map is None and not panel.rows and not panel.y.log and panel.y.limits is None:
         low, high = axes.dataLim.intervaly
@@ -310,7 +327,7 @@ def _draw_levels(axes: Axes, panel: Panel) -> None:
         if quantity.log or quantity.limits or low - reach <= level.value <= high + reach:
             (axes.axvline if level.vertical else axes.axhline)(level.value, **_level_style(level.limit))
     _end(axes, panel)
-    # Names are placed from the top down, so that the name of the lower of two close levels lies below it.
+    # Names are placed from the top down. If two levels are close, the name of the lower level is then below it.
     for level in sorted(panel.levels, key=lambda level: (not level.vertical, -level.value)):
         low, high = sorted(axes.get_xlim() if level.vertical else axes.get_ylim())
         below, above = (" ←", " →") if level.vertical else (" ↓", " ↑")
@@ -330,14 +347,14 @@ def _level_style(limit: bool) -> Style:
 
 
 def _name(axes: Axes, text: str, xy: tuple[float, float], xycoords: Any = "data", **style: Any) -> None:
-    """Write a text for a point on a patch of background; `place_texts` moves it to its place."""
+    """Write a text for a point, on a patch in the background colour. `place_texts` later moves the text."""
     style = {"textcoords": "offset points", "in_layout": False, "zorder": 6, "annotation_clip": False, **style}
     if text:
         axes.annotate(text, xy, (0, 0), xycoords, bbox=patch(), **style)
 
 
 def _keep_clear(axes: Axes, text: Text, room: Bbox, rings: list[Bbox]) -> None:
-    """Move the text of an area to another place in the area if the ring of a point lies over its middle."""
+    """Move the text of an area to another place in the area if the ring of a point covers the text."""
     box = text.get_window_extent()
     free_x, free_y = (room.width - box.width) / 2, (room.height - box.height) / 2
     for across, up in ((0, 0), (0, 1), (0, -1), (1, 0), (-1, 0), (1, 1), (-1, 1), (1, -1), (-1, -1)):
@@ -350,7 +367,10 @@ def _keep_clear(axes: Axes, text: Text, room: Bbox, rings: list[Bbox]) -> None:
 
 
 def place_texts(axes: Axes, panel: Panel) -> None:
-    """Write the texts of areas, as many lines as fit, and move texts of points to places clear of other texts."""
+    """Write the texts of areas, and move the texts of points to places clear of other texts.
+
+    The text of an area loses its last lines if they do not fit into the area.
+    """
     points = (axes.transData.transform((mark.x, mark.y)) for mark in panel.marks)
     rings = [Bbox([point - RING, point + RING]) for point in points]
     for area in panel.areas:
@@ -371,7 +391,7 @@ def place_texts(axes: Axes, panel: Panel) -> None:
             continue
         text.set(ha="center", va="center")
         size, room = text.get_window_extent(), axes.bbox
-        # Costs of a position: overlaps with other texts, hidden parts of curves, room outside the axes, distance.
+        # The cost of a position counts overlapped texts, hidden curves, room outside the axes, and distance.
         costs = {}
         for place, distance in _places(str(text.get_gid()), size, room, point):
             box = size.translated(*place)
@@ -380,21 +400,22 @@ def place_texts(axes: Axes, panel: Panel) -> None:
             costs[place] = hidden + 10.0 * sum(box.overlaps(other) for other in taken) + outside + distance
         best = min(costs, key=costs.__getitem__)
         text.set_position((best[0] / point, best[1] / point))
-        taken.append(size.translated(*best).padded(2.0 * point))  # the patches of two texts keep apart
+        taken.append(size.translated(*best).padded(2.0 * point))  # leaves space between the patches of two texts
 
 
 def _hidden(curve: Path, box: BboxBase) -> float:
-    """Return the cost of a curve that runs through the box of a text: more if the text hides more of its length."""
+    """Return the cost of a text whose box lies over a curve. The cost grows with the hidden length of the curve."""
     x, y = np.asarray(curve.vertices).T
     inside = x[(x > box.x0) & (x < box.x1) & (y > box.y0) & (y < box.y1)]
     return 1.0 + 2.0 * float(np.ptp(inside)) / box.width if inside.size else 1.0
 
 
 def _places(kind: str, size: BboxBase, room: BboxBase, point: float) -> Iterator[tuple[tuple[float, float], float]]:
-    """Yield the positions that are tried for a text, relative to its point in pixels, and their costs by distance.
+    """Yield the positions that are tried for a text, each with a cost that grows with its distance from the point.
 
-    The name of a horizontal line may stand anywhere above or below the line. The name of a vertical line stays beside
-    it and may move down. `point` is the size of a typographic point in pixels.
+    Positions are in pixels, relative to the point of the text. The name of a horizontal line (`row`) may stand anywhere
+    along the line, above or below it. The name of a vertical line (`column`) stays at the line or beside it, and may
+    move down. `point` is the size of a typographic point in pixels.
     """
     gap = LEAST_REACH * point
     if kind == "row":

@@ -8,25 +8,28 @@ from matplotlib.colors import to_hex, to_rgb
 
 from app.figures.data import Hue, Role, ThemeName
 
-WIDTH, NARROW = 5.6, 3.9  # inches, of a figure, and of a figure in a column of a report
-DPI = {"svg": 100, "png": 180, "pdf": 180}  # also of maps inside the vector formats
-TITLE, TEXT = 11.0, 8.5  # points; the texts of axes have 8, as the style sheet says
+WIDTH, NARROW = 5.6, 3.9  # inches; width of a figure, and of a figure in a column of a report
+DPI = {"svg": 100, "png": 180, "pdf": 180}  # applies to maps inside the vector formats too
+TITLE, TEXT = 11.0, 8.5  # letter sizes in points; for texts of axes the style sheet says 8
 DASHES: dict[Role, Any] = {Role.RESULT: "solid", Role.REFERENCE: (0, (1.2, 1.8)), Role.VARIANT: (0, (4.5, 2.2))}
 LIMIT = "C7"  # colour of limits
 
 
 def themed(theme: ThemeName) -> AbstractContextManager[None]:
-    """Return the context with matplotlib's settings of a theme, in which a figure is laid out and written."""
+    """Return a context with matplotlib's settings for a theme. Lay out and write figures in this context."""
     return style.context(["app.figures.drawing.figures", f"app.figures.drawing.{theme}"])
 
 
 def written(hue: Hue) -> str:
-    """Return the colour of a text in a hue, mixed with the text colour so that the contrast is at least 4.5."""
+    """Return the colour of a text in a hue.
+
+    The hue is mixed with the text colour, so that the contrast to the background is at least 4.5.
+    """
     own, ink = to_rgb(hue), to_rgb(rcParams["text.color"])
     red, green, blue = (0.6 * hue_part + 0.4 * ink_part for hue_part, ink_part in zip(own, ink, strict=True))
     return to_hex((red, green, blue))
 
 
 def patch() -> dict[str, Any]:
-    """Return the style of the box behind a text that lies over other parts."""
+    """Return the style of the box behind a text that lies over other parts of a figure."""
     return {"facecolor": rcParams["figure.facecolor"], "alpha": 0.78, "linewidth": 0, "pad": 0.8}

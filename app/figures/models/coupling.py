@@ -1,4 +1,4 @@
-"""Figures of the couplings: friction map, loads, motion, thrust and losses; sleeve orbit; recommended crowning."""
+"""Figures of the coupling: friction map, loads, motion, thrust, losses, orbit of the sleeve, recommended crowning."""
 
 from dataclasses import replace
 from itertools import pairwise
@@ -17,14 +17,17 @@ from solvers.coupling.lubrication import CAPACITY_BOUNDARIES, OVERLAP_BOUNDARIES
 from solvers.coupling.results import CouplingResult, Orbit, OrbitResult
 
 TINTS = {"full": Hue.GREEN, "unstable": Hue.PURPLE, "transition": Hue.ORANGE, "boundary": Hue.VERMILLION}
-MAP_ENDS = {"overlap": (0.1, 10.0), "capacity": (0.01, 10.0)}  # of the axes, with room around Pahl's boundaries
+MAP_ENDS = {"overlap": (0.1, 10.0), "capacity": (0.01, 10.0)}  # ends of the axes, with room around Pahl's boundaries
 
 
 def friction_map(_: CouplingInputs, result: CouplingResult) -> Figure:
-    """Draw the supply of oil against the strength of the film, with the nine areas and the distance to the next."""
+    """Draw the point of the coupling in the map of the oil supply (abscissa) and the strength of the film (ordinate).
+
+    The map shows the nine areas of friction and the distance from the point to the nearest other area.
+    """
     lubrication = result.lubrication
     regime, point = lubrication.regime, (lubrication.contact_overlap, lubrication.load_capacity_coefficient)
-    overlap, capacity = (inf if value is None else value for value in point)  # None stands at the edge of the map
+    overlap, capacity = (inf if value is None else value for value in point)  # None is drawn at the edge of the map
     across, up = _around("overlap", overlap), _around("capacity", capacity)
     x = axis(lubrication, "contact_overlap", log=True, limits=across, ticks=_ticks(*OVERLAP_BOUNDARIES))
     y = axis(lubrication, "load_capacity_coefficient", log=True, limits=up, ticks=_ticks(*CAPACITY_BOUNDARIES))
@@ -44,7 +47,10 @@ def friction_map(_: CouplingInputs, result: CouplingResult) -> Figure:
 
 
 def _around(which: str, value: float) -> tuple[float, float]:
-    """Return the ends of an axis of the map such that it contains a finite value."""
+    """Return the ends of an axis of the map. They are moved outwards if the value would lie outside.
+
+    A value that is infinite or zero does not move the ends.
+    """
     low, high = MAP_ENDS[which]
     if not 0.0 < value < inf:
         return low, high
@@ -52,13 +58,13 @@ def _around(which: str, value: float) -> tuple[float, float]:
 
 
 def _ticks(low: float, high: float) -> list[float]:
-    """Return the boundaries, and the decades that are not too close to them."""
+    """Return the boundaries as ticks of an axis, with the powers of ten that lie well outside the boundaries."""
     decades = (10.0**exponent for exponent in range(-12, 13))
     return sorted({low, high, *(decade for decade in decades if decade <= low / 1.9 or decade >= high * 1.9)})
 
 
 def _areas(x: tuple[float, float], y: tuple[float, float]) -> list[Area]:
-    """Return the nine areas with their names and coefficients of friction from the model."""
+    """Return the nine areas with their names and with the coefficients of friction from the model."""
     words = {"transition from mixed to boundary lubrication": "transition", "mixed lubrication, unstable": "unstable"}
     areas = []
     for bottom, top in pairwise((y[0], *CAPACITY_BOUNDARIES, y[1])):
@@ -80,7 +86,7 @@ def _band(low: float | None, high: float | None) -> str:
 
 
 def _to_boundary(overlap: float, capacity: float, distance: float) -> Line:
-    """Return the line from the point to the nearest boundary along an axis."""
+    """Return the line from the point to the nearest boundary. The line is parallel to one of the axes."""
     ways = [(bound, capacity) for bound in OVERLAP_BOUNDARIES] + [(overlap, bound) for bound in CAPACITY_BOUNDARIES]
     x, y = min(ways, key=lambda way: abs(abs(log(way[0] / overlap)) + abs(log(way[1] / capacity)) - distance))
     return Line(
@@ -118,7 +124,7 @@ def orbit(_: CouplingInputs, result: OrbitResult) -> Figure:
 
 
 def inertia_force(_: CouplingInputs, result: OrbitResult) -> Figure:
-    """Draw the inertia force of the sleeve in both directions over the revolution."""
+    """Draw the inertia force of the sleeve in both directions over one revolution."""
     angle, force = result.orbit.rotor_angle, result.inertia_force
     directions = {"along x": np.append(force.x, force.x[0]), "along y": np.append(force.y, force.y[0])}
     lines = parts.lines(np.append(angle, angle[0] + 360.0), directions)
@@ -141,12 +147,15 @@ def orders(_: CouplingInputs, result: OrbitResult) -> Figure:
 
 
 def crowning_scan(inputs: RecommendationInputs, result: Recommendation) -> Figure:
-    """Draw least load capacity and largest overlap over the crowning ratio, the feasible range and the choice."""
+    """Draw the least load capacity and the largest overlap over the crowning ratio.
+
+    The feasible range of the crowning ratio is shaded, and the recommended ratio is marked.
+    """
     scan, best = result.scan, result.crowning_ratio
     ratio, capacity = scan.crowning_ratio, scan.min_load_capacity_coefficient
     if not ratio.size:
         raise NoFigure("no_contact_to_scan", "No crowning ratio gives a contact that can be computed")
-    # The axis ends at a thousandth of the best capacity, because the capacity of a film that tears off is zero.
+    # The logarithmic axis begins at 1e-4 of its end, because the capacity is zero where the film tears off.
     top = 10.0 ** np.ceil(np.log10(max(float(np.nanmax(capacity)), CAPACITY_BOUNDARIES[1])))
     x = axis(scan, "crowning_ratio", "crowning ratio (left: heavily, right: slightly crowned)", log=True)
     strength = axis(scan, "min_load_capacity_coefficient", log=True, limits=(top / 1e4, top))
@@ -186,7 +195,10 @@ RECOMMENDATION_FIGURES = (
 
 
 def tooth_loads(inputs: CouplingInputs, result: CouplingResult) -> Figure:
-    """Draw the tangential forces of the teeth with mean and maximum, and the pitch deviations that cause them."""
+    """Draw the tangential force of each tooth, with the mean force and the largest force.
+
+    If pitch deviations are given, they are drawn below the forces.
+    """
     load, deviations = result.load_distribution, inputs.coupling.pitch_errors
     curves, mean = load.curves, load.mean_tangential_force
     bars = Line("tangential force", curves.angle, curves.tangential_force)
@@ -244,7 +256,10 @@ def contact_track(_: CouplingInputs, result: CouplingResult) -> Figure:
 
 
 def axial_thrust(inputs: CouplingInputs, result: CouplingResult) -> Figure:
-    """Draw the thrust below its coaxial limit, and the directions in which the teeth slide."""
+    """Draw the thrust beside its coaxial limit, and the velocity at which the teeth slide along one another.
+
+    An axial velocity of the coupling is drawn beside the sliding velocity.
+    """
     thrust, curves, axial = result.axial_thrust, result.kinematics.curves, inputs.operation.axial_velocity
     rows = [
         Row("thrust", thrust.force, Hue.BLUE, (thrust.lower_bound, thrust.upper_bound)),
@@ -276,7 +291,7 @@ def axial_thrust(inputs: CouplingInputs, result: CouplingResult) -> Figure:
 
 
 def losses(_: CouplingInputs, result: CouplingResult) -> Figure:
-    """Draw the moments on shaft and bearings, and the power lost as heat."""
+    """Draw the moments on shaft and bearings, and the power that is lost as heat."""
     loss = result.losses
     moments = [
         Row("friction", loss.friction_moment, Hue.VERMILLION),

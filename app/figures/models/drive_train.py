@@ -27,7 +27,7 @@ from solvers.scuffing.safety_results import Scuffing
 
 OWN = "own derivation"
 ROUND = np.linspace(0.0, 2.0 * pi, 181)  # a circle in steps of 2°
-WALLS = -1.05, 1.05  # clearances, with some room
+WALLS = -1.05, 1.05  # ends of the axes in clearances, with some room
 NEWTONS = 1e3  # per kilonewton
 HUES = {
     "without coupling": Hue.ORANGE,
@@ -49,7 +49,7 @@ PARTS = (
 
 
 def flank_load(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
-    """Draw the line load over the flank in equilibrium."""
+    """Draw the line load over the flank for the unit in equilibrium."""
     flank, load = result.flank, result.load
     panel = over_flank(face_width(inputs), flank, axis(flank, "line_load"), flank.line_load, load.max_line_load, None)
     if load.face_load_factor is None:
@@ -72,7 +72,7 @@ def contact_temperature(inputs: DriveTrainInputs, result: DriveTrainResult) -> F
 
 
 def shaft_lines(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
-    """Draw the displaced axes of both shafts in both planes, with the reactions of their bearings."""
+    """Draw the displaced axes of both shafts in both planes, and the reactions of the bearings."""
     states = result.shafts
     z = np.concatenate([state.curves.z for state in states])
     ends = float(z.min()), float(z.max())
@@ -111,7 +111,7 @@ def face_width(inputs: DriveTrainInputs) -> float:
 
 
 def gap(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
-    """Draw the gap over the face by shafts, heat and modification."""
+    """Draw the gap between the flanks along the face, and its parts from shafts, heat and modification."""
     slopes, curves = result.misalignment, result.misalignment.curves
     gaps = {"shafts": curves.shaft, "heat": curves.thermal, "as ground": curves.modification, "total": curves.total}
     opened = axis(curves, "total", "gap, positive where the flanks part", magnitude=False)
@@ -123,7 +123,7 @@ def gap(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
 
 
 def slope_parts(_: DriveTrainInputs, result: DriveTrainResult) -> Figure:
-    """Draw the slopes of the gap by their causes."""
+    """Draw the slope of the gap from each of its causes."""
     slopes = result.misalignment
     causes = [Row(name, getattr(slopes.parts, part), hue) for name, part, hue in PARTS]
     totals = [
@@ -141,7 +141,10 @@ def slope_parts(_: DriveTrainInputs, result: DriveTrainResult) -> Figure:
 
 
 def effects_apart(inputs: DriveTrainInputs, result: DriveTrainResult) -> dict[str, Values]:
-    """Compute the transverse force per face [N/mm] of the unit without single effects, and without all of them."""
+    """Compute the transverse force per face width [N/mm] along the face if effects are left out.
+
+    Each variant of the unit lacks a single effect or, as `mesh alone`, all effects.
+    """
     own, variants = inputs.effects, dict[str, Effects]()
     if own.shafts and inputs.acting_couplings:
         variants["without coupling"] = replace(own, coupling=False)
@@ -159,7 +162,7 @@ def effects_apart(inputs: DriveTrainInputs, result: DriveTrainResult) -> dict[st
 
 
 def face_load(inputs: DriveTrainInputs, result: DriveTrainResult, others: dict[str, Values]) -> Figure:
-    """Draw the load along the face with all effects, and without single effects."""
+    """Draw the load along the face with all effects of the case, and the loads of `others`, which lack effects."""
     curves, load = result.misalignment.curves, result.load
     if load.face_load_factor is None or load.face_load_at is None:
         raise NoFigure("no_load", "Without load there is no line load to draw", "operation")
@@ -171,7 +174,7 @@ def face_load(inputs: DriveTrainInputs, result: DriveTrainResult, others: dict[s
 
 
 def journals(_: DriveTrainInputs, result: DriveTrainResult) -> Figure:
-    """Draw the positions of the journals in their clearances, and their paths as the load changes (Ocvirk)."""
+    """Draw the position of each journal in its clearance, and its path as the load changes (by Ocvirk's theory)."""
     wall = Line("clearance", np.cos(ROUND), np.sin(ROUND), Hue.GREY, named=False)
     across, up = (
         Axis(f"displacement over clearance, along {way}", magnitude=False, limits=WALLS, symbol=symbol)
@@ -202,9 +205,9 @@ def journals(_: DriveTrainInputs, result: DriveTrainResult) -> Figure:
 
 
 def _locus(x: float, y: float, reaction: Vector2) -> tuple[Values, Values]:
-    """Return the path of a journal from the middle of its clearance to its displacement, while the load grows.
+    """Return the path of a journal, from the middle of the clearance to its displacement, while the load grows.
 
-    The path and the displacement x, y are over the clearance. The direction of the load does not change.
+    The displacement (x, y) and the path are divided by the clearance. The direction of the load does not change.
     """
     load = atan2(-reaction[1], -reaction[0])
     side = copysign(1.0, sin(atan2(y, x) - load))
@@ -214,7 +217,7 @@ def _locus(x: float, y: float, reaction: Vector2) -> tuple[Values, Values]:
 
 
 def thrust(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
-    """Draw the axial load of both shafts between its bounds by the couplings' friction."""
+    """Draw the axial load of each shaft, and the bounds between which friction in the couplings may shift this load."""
     rows, usable, reversing = [], dict[float, list[str]](), []
     for name, given, state in zip(("pinion", "wheel"), inputs.shafts, result.shafts, strict=True):
         load = state.thrust
@@ -235,9 +238,9 @@ def thrust(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
 
 
 def losses(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
-    """Draw the power losses of the unit by their places."""
+    """Draw the power losses of the unit by the places where they arise."""
     lost, bearings = result.losses, (*inputs.pinion_shaft.bearings, *inputs.wheel_shaft.bearings)
-    plain = any(isinstance(bearing, JournalBearing) for bearing in bearings)  # others have no known friction
+    plain = any(isinstance(bearing, JournalBearing) for bearing in bearings)  # the friction of others is not known
     powers: tuple[tuple[str, float | None, Hue], ...] = (
         ("plain bearings" if plain else "bearings", lost.bearings if plain else None, Hue.BLUE),
         ("mesh", lost.mesh, Hue.VERMILLION),
@@ -262,7 +265,7 @@ def losses(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
 
 
 def as_warm(inputs: DriveTrainInputs, result: DriveTrainResult) -> DriveTrainInputs:
-    """Return the unit at the temperatures of its heat balance, if it has one."""
+    """Return the unit at the temperatures of its heat balance, or unchanged if it has no heat balance."""
     heat, kelvin = result.heat, UNITS["c"].offset
     if heat is None:
         return inputs
@@ -283,7 +286,7 @@ def mesh_as_drawn(inputs: DriveTrainInputs, result: DriveTrainResult) -> Scuffin
 
 
 def where_micropitting_starts(inputs: DriveTrainInputs, result: DriveTrainResult, plain: Scuffing | None) -> Figure:
-    """Draw the film ratio over the flank with its least value, beside the ratio of the unmodified mesh."""
+    """Draw the film ratio over the flank with its least value, and beside this map that of the unmodified mesh."""
     answer = micropitting.answered(result.micropitting)
     return micropitting.over_flanks(inputs.mesh, answer, result.flank, plain)
 
@@ -294,7 +297,7 @@ def wear(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
 
 
 def where_heat_goes(_: DriveTrainInputs, result: DriveTrainResult) -> Figure:
-    """Draw the heat supplied, the heat out of the gears, and the heat removed."""
+    """Draw the heat supplied, the heat that leaves the gears, and the heat removed."""
     return heat_balance.where_heat_goes(heat_balance.heat_of(result.heat))
 
 
@@ -309,14 +312,14 @@ def oil_temperature(inputs: DriveTrainInputs) -> float:
 
 
 def curve_over_the_flow(_: DriveTrainInputs, result: DriveTrainResult) -> FlowCurve:
-    """Solve the balance at a quarter to four times the oil flow, with the losses and loads of the case."""
+    """Solve the heat balance at a quarter to four times the oil flow of the case, with its losses and loads."""
     heat = heat_balance.heat_of(result.heat)
     assert result.over_the_flow is not None
     return result.over_the_flow(heat_balance.FLOWS * UNITS["l_per_min"].scale * heat.gear_flow)
 
 
 def oil_flow(inputs: DriveTrainInputs, result: DriveTrainResult, curve: FlowCurve) -> Figure:
-    """Draw flanks, drain and safety over the oil flow to the gears."""
+    """Draw the temperatures of flanks and drain, and the safety, over the oil flow to the gears."""
     scuffing, oil, used = None, oil_temperature(inputs), result.derived.temperatures
     if result.safety is not None and result.safety.minimum and used.scuffing is not None and used.bulk is not None:
         scuffing = (used.scuffing, oil + (used.scuffing - oil) / result.safety.minimum - used.bulk)

@@ -1,4 +1,4 @@
-"""Figures of the heat balance: heat flows, temperatures of the parts, effects of oil flow and wetting."""
+"""Figures of the heat balance: heat flows, temperatures of the parts, effect of the oil flow, safety over the band."""
 
 from collections.abc import Sequence
 
@@ -18,9 +18,9 @@ from solvers.scuffing.thermal.practice import HIGH_RISK_BELOW, LOW_RISK_ABOVE
 from solvers.scuffing.thermal.temperatures import with_friction
 
 KILOWATT, KELVIN = UNITS["kw"].scale, UNITS["c"].offset
-ROOM = 0.3  # of the range; room beside bars of temperatures, which do not start at zero
-SMALL = 2e-3  # of the heat supplied; smaller flows are left out
-FLOWS = np.geomspace(0.25, 4.0, 33)  # times the flow of the case
+ROOM = 0.3  # share of the range of temperatures; room at both ends of the axis
+SMALL = 2e-3  # share of the heat supplied; smaller flows are left out
+FLOWS = np.geomspace(0.25, 4.0, 33)  # oil flows over the oil flow of the case
 CASES = ("cool end of the band", "nominal", "hot end of the band")
 SUPPLY = {
     "friction of the mesh": "friction of the mesh",
@@ -42,14 +42,14 @@ BY_GEAR = {
 
 
 def heat_of(heat: Heat | None) -> Heat:
-    """Return the balance. Raises NoFigure if it is None."""
+    """Return the heat balance; raise NoFigure if it is None."""
     if heat is None:
         raise NoFigure("no_oil", "Without an oil there is no heat balance", "lubricant")
     return heat
 
 
 def where_heat_goes(heat: Heat) -> Figure:
-    """Draw the heat supplied, the heat that leaves each gear by its carriers, and the heat removed."""
+    """Draw the heat supplied, the heat that each carrier takes out of each gear, and the heat removed."""
     supplied = heat.balance.supplied / KILOWATT
     groups = (
         ("supplied", _summed(heat, SUPPLY, origins={"source"}), Hue.VERMILLION),
@@ -71,7 +71,7 @@ def where_heat_goes(heat: Heat) -> Figure:
 def _summed(
     heat: Heat, names: dict[str, str], *, origins: set[str] | None = None, targets: set[str] | None = None
 ) -> dict[str, float]:
-    """Return the heat flows from `origins` or to `targets`, summed by carrier [kW], the largest first."""
+    """Return the heat flows from `origins` or to `targets`, summed for each carrier [kW], the largest first."""
     powers: dict[str, float] = {}
     for flow in heat.flows:
         if (origins is None or flow.from_ in origins) and (targets is None or flow.to in targets):
@@ -81,7 +81,7 @@ def _summed(
 
 
 def _out_of(heat: Heat, gear: str) -> dict[str, float]:
-    """Return the heat that leaves a gear by carrier [kW]; negative if the heat enters the gear."""
+    """Return the heat [kW] that each carrier takes out of a gear; heat that enters the gear is negative."""
     powers: dict[str, float] = {}
     for flow in heat.flows:
         inside = [place.startswith(f"{gear}_") for place in (flow.from_, flow.to)]
@@ -92,7 +92,10 @@ def _out_of(heat: Heat, gear: str) -> dict[str, float]:
 
 
 def temperatures(heat: Heat, oil: float) -> Figure:
-    """Draw the temperatures of all nodes, flanks with their band, with the oil [°C] and the standard's estimate."""
+    """Draw the temperatures of all nodes, and the bands of the flanks.
+
+    Lines show the oil temperature `oil` [°C] and the standard's estimate of the bulk temperature.
+    """
     band = heat.band
     rows = [
         Row("pinion, loaded flank", heat.pinion.flank, Hue.VERMILLION, None if band is None else band.pinion_flank),
@@ -121,7 +124,7 @@ def temperatures(heat: Heat, oil: float) -> Figure:
 
 
 def curve_over_the_flow(inputs: ScuffingInputs, result: Scuffing) -> FlowCurve:
-    """Solve the balance of a pair at a quarter to four times its oil flow."""
+    """Solve the heat balance of a pair at a quarter to four times the oil flow of the case."""
     if result.heat is None:
         raise NoFigure("no_oil", "Without an oil there is no heat balance", "lubricant")
     balanced, distribution = with_friction(inputs, solve(inputs.distribution))
@@ -130,7 +133,7 @@ def curve_over_the_flow(inputs: ScuffingInputs, result: Scuffing) -> FlowCurve:
 
 
 def what_the_flow_does(heat: Heat, curve: FlowCurve) -> list[Panel]:
-    """Return panels of flanks and drain over the oil flow, with the flow of the case."""
+    """Return panels of the temperatures of flanks and drain over the oil flow. A line shows the flow of the case."""
     flow = curve.flow / UNITS["l_per_min"].scale
     lines = [
         Line("pinion flank", flow, curve.pinion_flank - KELVIN, Hue.VERMILLION),
@@ -152,17 +155,21 @@ def _own_flow(heat: Heat) -> Level:
 
 
 def oil_flow(inputs: ScuffingInputs, result: Scuffing, curve: FlowCurve) -> Figure:
-    """Draw flanks, drain and safety of a pair over the oil flow, with the flows at which verdicts change."""
+    """Draw the temperatures of flanks and drain, and the safety, of a pair over the oil flow.
+
+    Marks show the flows at which the verdict on the safety changes.
+    """
     heat, safety, largest = heat_of(result.heat), result.safety, result.flash.blok_max
     scuffing = None if safety is None or largest is None else (safety.scuffing, largest)
     return over_the_oil_flow(heat, curve, inputs.temperatures.oil - KELVIN, scuffing)
 
 
 def over_the_oil_flow(heat: Heat, curve: FlowCurve, oil: float, scuffing: tuple[float, float] | None) -> Figure:
-    """Draw flanks and drain over the oil flow, and the safety with the flows at which its verdict changes.
+    """Draw the temperatures of flanks and drain, and the safety, over the oil flow.
 
-    `scuffing` is the scuffing temperature [°C] and the rise of the contact above the bulk temperature [K]; both do not
-    depend on the flow. `oil` is the temperature of the supplied oil [°C].
+    Marks show the flows at which the verdict on the safety changes. `scuffing` is the scuffing temperature [°C] and the
+    rise of the contact temperature above the bulk temperature [K]; neither depends on the flow. If `scuffing` is None,
+    the safety is not drawn. `oil` is the temperature of the supplied oil [°C].
     """
     panels = what_the_flow_does(heat, curve)
     if scuffing is not None:
@@ -178,7 +185,7 @@ def over_the_oil_flow(heat: Heat, curve: FlowCurve, oil: float, scuffing: tuple[
 
 
 def _flank_change(heat: Heat, curve: FlowCurve) -> str:
-    """Return the effect of twice the oil flow as a sentence."""
+    """Return a text with the temperature of the pinion's flank at twice the oil flow."""
     double = float(np.interp(2.0, FLOWS, curve.pinion_flank)) - KELVIN
     if np.isnan(double):
         return f"pinion flank {number(heat.pinion.flank, '°C')}"
@@ -191,7 +198,7 @@ def _factors(scuffing: float, oil: float, contact: Values) -> Values:
 
 
 def _verdicts(factors: Values) -> list[Level]:
-    """Return the limits of the verdicts that are near the safety factors."""
+    """Return the limit of the verdict high risk, and the limit of low risk if the safety factors come near it."""
     levels = [Level(HIGH_RISK_BELOW, "high risk below 1", limit=True)]
     if float(np.nanmax(factors)) > (HIGH_RISK_BELOW + LOW_RISK_ABOVE) / 2:
         levels.append(Level(LOW_RISK_ABOVE, "low risk above 2"))
@@ -199,7 +206,7 @@ def _verdicts(factors: Values) -> list[Level]:
 
 
 def _first_crossing(line: Line, limit: float) -> Sequence[Mark]:
-    """Return a mark at the first point at which a rising line reaches a limit; none if there is no such point."""
+    """Return a mark at the first place where a rising line reaches a limit; empty if there is no such place."""
     above = np.flatnonzero(line.y >= limit)
     if above.size == 0 or above[0] == 0 or np.isnan(line.y[above[0] - 1]):
         return []
@@ -209,7 +216,7 @@ def _first_crossing(line: Line, limit: float) -> Sequence[Mark]:
 
 
 def safety_over_the_band(inputs: ScuffingInputs, result: Scuffing) -> Figure:
-    """Draw the safety over the bulk temperature, through the ends of the band and the nominal case."""
+    """Draw the safety over the bulk temperature, with marks at both ends of the band and at the nominal case."""
     heat, safety, largest = heat_of(result.heat), result.safety, result.flash.blok_max
     if safety is None or safety.blok_factor is None or largest is None:
         raise NoFigure("no_scuffing_temperature", "Safety needs a load and a scuffing temperature", "temperatures")

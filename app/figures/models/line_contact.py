@@ -10,7 +10,7 @@ from app.figures.wording import number, percent
 from solvers.contact.ehl import LineContactInputs, LineContactResult
 
 ACROSS = "position across the contact, along the flow"
-THICK = 3.0  # central film thicknesses; a thicker film belongs to inlet and outlet
+THICK = 3.0  # upper end of the axis over the central film thickness; thicker films belong to inlet and outlet
 
 
 def contact(_: LineContactInputs, result: LineContactResult) -> Figure:
@@ -45,7 +45,7 @@ def contact(_: LineContactInputs, result: LineContactResult) -> Figure:
 
 
 def film_temperature(_: LineContactInputs, result: LineContactResult) -> Figure:
-    """Draw the temperature over contact and film."""
+    """Draw the temperature over the length of the contact and the height of the film."""
     field, surfaces = result.field, result.temperature
     if field is None or surfaces is None:
         raise _isothermal()
@@ -62,7 +62,7 @@ def film_temperature(_: LineContactInputs, result: LineContactResult) -> Figure:
 
 
 def heat(_: LineContactInputs, result: LineContactResult) -> Figure:
-    """Draw the heat from shear and compression, and the heat that leaves by surfaces and flow."""
+    """Draw the heat from shear and compression, and the heat that leaves through the surfaces and with the oil."""
     books = result.heat
     if books is None:
         raise _isothermal()

@@ -20,7 +20,7 @@ from solvers.gears.pair import meshing_path
 from solvers.scuffing.inputs import LoadDistributionInputs
 from solvers.scuffing.results import Flank, LoadDistribution, Place
 
-MOST_LINES = 12  # lines of contact on either side of the highest loaded line
+MOST_LINES = 12  # largest number of lines of contact on either side of the highest loaded line
 FIFTHS = (0.0, 0.2, 0.4, 0.6, 0.8, 1.0)  # ticks of an axis from 0 to 1
 PROFILE = Axis("profile (0: A, 1: E)", limits=(0.0, 1.0), ticks=FIFTHS, symbol="ξ")
 ROLL = Axis("roll position", "base pitches", limits=(0.0, 1.0), magnitude=False, symbol="φ")
@@ -34,7 +34,10 @@ def face(width: float) -> Axis:
 
 
 def section(gears_of: Callable[[Any], GearPairInputs]) -> Declaration:
-    """Return the declaration of the figure of the gears; `gears_of` gets them from the inputs of a calculation."""
+    """Return the declaration of the figure of the gears.
+
+    `gears_of` takes the inputs of a calculation and returns the inputs of the gears.
+    """
     title = "Transverse section of the pair"
     return Declaration("section", title, "ISO 21771", lambda inputs, _: transverse_section(gears_of(inputs)))
 
@@ -42,9 +45,10 @@ def section(gears_of: Callable[[Any], GearPairInputs]) -> Declaration:
 def over_flank(
     width: float, flank: Flank | FlankMaps, shown: Axis, grid: Values, largest: float | None, at: Place | None
 ) -> Panel:
-    """Return a map of a quantity over the flank of a face width [m].
+    """Return a map of a quantity over the flank; `width` is the face width [m].
 
-    Its largest value is marked at the place `at`, or at the largest value of the map if `at` is None.
+    If `largest` is given and not zero, there is a mark with this value at the place `at`, or at the largest value of
+    the map if `at` is None.
     """
     y = flank.face_fraction * width / MM
     ends = 0.0, max(float(np.nanmax(grid, initial=0.0)), largest or 0.0) or 1.0
@@ -59,7 +63,7 @@ def over_flank(
 
 
 def flank_load(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figure:
-    """Draw the line load over the flank with its maximum over all roll positions."""
+    """Draw the line load over the flank, with a mark at its maximum over all roll positions."""
     load, flank, shown = result.load, result.flank, axis(Flank, "line_load")
     panel = over_flank(inputs.gears.face_width, flank, shown, flank.line_load, load.max_line_load, load.max_at)
     spread = "" if load.face_load_factor is None else f", K_Hβ = {number(load.face_load_factor)}"
@@ -69,7 +73,7 @@ def flank_load(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figu
 
 
 def flank_pressure(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figure:
-    """Draw the Hertzian pressure over the flank with its maximum over all roll positions."""
+    """Draw the Hertzian pressure over the flank, with a mark at its maximum over all roll positions."""
     largest, at, flank = result.pressure.max, result.pressure.max_at, result.flank
     panel = over_flank(inputs.gears.face_width, flank, axis(flank, "pressure"), flank.pressure, largest, at)
     finding = NO_LOAD
@@ -91,17 +95,17 @@ def modification(inputs: LoadDistributionInputs, result: LoadDistribution) -> Fi
 
 
 def _modified(flank: Flank) -> Values:
-    """Return the modification of the flanks. Raises NoFigure if they have none."""
+    """Return the modification of the flanks. Raise NoFigure if the flanks have no modification."""
     if not flank.modification.any():
         raise NoFigure("no_modification", "The flanks are not modified: the gap between them is zero", "modifications")
     return flank.modification
 
 
 def traces(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figure:
-    """Draw profile and helix charts, as if one gear alone were modified; removed material points downwards.
+    """Draw profile and helix charts. Removed material points downwards.
 
-    Profiles are those in the middle of the face, over the diameter of the gear; the helix is that in the middle of the
-    profile.
+    Each chart shows one gear as if this gear alone were modified. The profiles lie at the middle of the face; their
+    abscissa is the diameter of the gear. The helix lies at the middle of the profile.
     """
     flank, path = result.flank, meshing_path(inputs.gears)
     gap, pair, width = -_modified(flank), path.pair, inputs.gears.face_width
@@ -127,7 +131,7 @@ def traces(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figure:
 
 
 def contact_line_load(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figure:
-    """Draw the line load along the contact lines at the roll position with the largest line load.
+    """Draw the line load along the lines of contact, at the roll position with the largest line load.
 
     A line of contact crosses the plane of action at the base helix angle. Simultaneous lines are one transverse base
     pitch apart.
@@ -137,7 +141,7 @@ def contact_line_load(inputs: LoadDistributionInputs, result: LoadDistribution) 
         raise NoFigure("no_load", "Without load there is no line load to draw", "load")
     y, start = flank.face_fraction * width / MM, load.max_at.face_fraction * width / MM
     profile = load.max_at.profile_fraction
-    if not geometry.base_helix_angle:  # lines are parallel to the rows of the map, between which the load may jump
+    if not geometry.base_helix_angle:  # rows of the map are lines; the load may jump between rows
         profile = flank.profile_fraction[int(np.argmax(flank.line_load.max(axis=1)))]
     line_load = RegularGridInterpolator((flank.profile_fraction, y), flank.line_load, bounds_error=False)
     lines = []
@@ -155,7 +159,7 @@ def contact_line_load(inputs: LoadDistributionInputs, result: LoadDistribution) 
 
 
 def transmission_error(_: LoadDistributionInputs, result: LoadDistribution) -> Figure:
-    """Draw transmission error and length of contact over the roll, and the orders of the error."""
+    """Draw the transmission error and the length of the lines of contact over the roll, and the orders of the error."""
     error, lines = result.transmission_error, result.contact_lines
     y, mean = axis(error.curves, "error", magnitude=False), Level(error.mean, f"mean {number(error.mean, 'µm')}")
     length = axis(lines.curves, "length")
@@ -196,7 +200,7 @@ def path_points(gears: GearPairInputs) -> list[Level]:
 
 
 def stiffness(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figure:
-    """Draw the stiffness of one pair along the path, with that of the standard."""
+    """Draw the stiffness of one pair of teeth along the path of contact, and the stiffness by the standard."""
     stiff, path = result.stiffness, meshing_path(inputs.gears)
     levels = [Level(stiff.standard_single, f"ISO 6336-1, one pair: {number(stiff.standard_single)}")]
     if stiff.mean_mesh is not None:
@@ -213,7 +217,7 @@ def stiffness(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figur
 
 
 def load_sharing(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figure:
-    """Draw the load sharing factor, with that of the standard."""
+    """Draw the load sharing factor along the path of contact, and the factor by the standard."""
     curves, lines, finding = result.feature_line, list[Line](), NO_LOAD
     if curves.load_sharing is not None:
         lines.append(Line("this mesh", curves.psi, curves.load_sharing))
@@ -227,7 +231,7 @@ def load_sharing(inputs: LoadDistributionInputs, result: LoadDistribution) -> Fi
 
 
 def pair_share(_: LoadDistributionInputs, result: LoadDistribution) -> Figure:
-    """Draw the shares of the lines of contact in the force over the roll."""
+    """Draw the share of the force that each line of contact carries, over the roll."""
     if result.load.pair_share is None:
         raise NoFigure("no_load", "Without load no pair of teeth carries a share of it", "load")
     roll, lines = result.transmission_error.curves.roll_position, list[Line]()

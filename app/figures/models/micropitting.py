@@ -1,4 +1,4 @@
-"""Figures of the check against micropitting and wear, over the flank and along the lines that are checked."""
+"""Figures of the check against micropitting, and of wear, over the flank and along the evaluated lines."""
 
 from dataclasses import replace
 from typing import NamedTuple
@@ -18,14 +18,14 @@ from solvers.scuffing.micropitting.results import LocalFilm, Micropitting, Wear
 from solvers.scuffing.safety_results import HeatedFlank, Scuffing, ScuffingPath
 
 AS_DRAWN = "without modifications and misalignment"
-SHOWN_RATIOS = 2.5  # times the least ratio; greater ratios, at lightly loaded edges, have the same colour
+SHOWN_RATIOS = 2.5  # end of the colours over the least ratio; greater ratios, at lightly loaded edges, share one colour
 FILM_OVER_ROUGHNESS = "film over roughness"
 
 
 def solve_unmodified(inputs: ScuffingInputs, *_: Scuffing) -> Scuffing | None:
-    """Solve the pair without its modifications and misalignment in closed form; None if it has none.
+    """Solve the pair in closed form without its modifications and misalignment; return None if it has neither.
 
-    The result is in the units shown.
+    The quantities of the result are in the units in which they are shown.
     """
     if inputs.distribution.modifications == Modifications():
         return None
@@ -34,13 +34,13 @@ def solve_unmodified(inputs: ScuffingInputs, *_: Scuffing) -> Scuffing | None:
 
 
 def where_it_starts(inputs: ScuffingInputs, result: Scuffing, plain: Scuffing | None) -> Figure:
-    """Draw the film ratio over the flank with its least value, beside the ratio of the unmodified pair."""
+    """Draw the film ratio over the flank with its least value, and beside this map that of the unmodified pair."""
     answer = answered(result.micropitting)
     return over_flanks(inputs, answer, result.flank, plain)
 
 
 def answered(answer: Micropitting | None) -> Micropitting:
-    """Return the answer. Raises NoFigure if it is None or has no film."""
+    """Return the answer; raise NoFigure if it is None or has no least film ratio."""
     if answer is None:
         message = "Without an oil and the bulk temperature at which it enters there is no film"
         raise NoFigure("no_oil", message, "lubricant")
@@ -51,7 +51,7 @@ def answered(answer: Micropitting | None) -> Micropitting:
 
 
 class _Case(NamedTuple):
-    """Name, least film ratio and maps of a pair in the figure."""
+    """A pair in the figure: its title, its least film ratio, and the maps of its flank."""
 
     title: str | None
     local: LocalFilm
@@ -89,7 +89,7 @@ def _place(local: LocalFilm) -> str:
 
 
 def _film_map(width: float, case: _Case, permissible: float | None, ends: tuple[float, float], *, bar: bool) -> Panel:
-    """Return a map of the film ratio with its least value marked and the permissible ratio as a contour."""
+    """Return a map of the film ratio, with a mark at its least value and a contour at the permissible ratio."""
     film, local = axis(case.flank, "micropitting_ratio", FILM_OVER_ROUGHNESS), case.local
     inside = permissible is not None and float(np.nanmin(case.grid)) < permissible < float(np.nanmax(case.grid))
     mapped = Map(
@@ -111,7 +111,11 @@ def _film_map(width: float, case: _Case, permissible: float | None, ends: tuple[
 def film_lines(
     answer: Micropitting, psi: Values, ratio: Values, thermal_film: Values | None, roughness: float
 ) -> Panel:
-    """Return the ratios of film and thermal film along a line, and the permissible ratio; film and Ra in um."""
+    """Return a panel of the film ratios along a line, and of the permissible ratio.
+
+    `ratio` is the film ratio at the contact temperature. The ratio by thermal EHL is `thermal_film` [um] divided by
+    `roughness`, which is the mean Ra of both flanks [um].
+    """
     lines = [Line("at the contact temperature", psi, ratio)]
     if thermal_film is not None:
         lines.append(Line("thermal EHL", psi, thermal_film / roughness, Hue.VERMILLION))

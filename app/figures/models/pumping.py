@@ -1,4 +1,4 @@
-"""Figures of pumping between the teeth: over the stroke, along the face, over face and angle; over the speed."""
+"""Figures of pumping between the teeth: over the stroke, along the face, over face and angle, and over the speed."""
 
 from dataclasses import replace
 
@@ -15,10 +15,10 @@ from solvers.pumping.results import ChokingCurves, ChokingSpeeds, FaceProfile, P
 from solvers.pumping.speed_scan import speed_scan
 
 HUES = {"pinion": Hue.BLUE, "wheel": Hue.VERMILLION}
-NO_FLOW = 1e-9  # g/s
-SPEEDS = 24  # in the scan; chosen: the curve looks smooth
-BEYOND = 1.5  # times the highest choking speed: end of the scan
-LOWEST = 0.25  # of the end of the scan: its start
+NO_FLOW = 1e-9  # g/s; smaller flows count as no flow
+SPEEDS = 24  # number of speeds in the scan; chosen so that the curve looks smooth
+BEYOND = 1.5  # end of the scan over the highest choking speed
+LOWEST = 0.25  # start of the scan over its end
 
 
 def spaces(result: PumpingResult) -> list[tuple[str, SpacesResult]]:
@@ -28,13 +28,13 @@ def spaces(result: PumpingResult) -> list[tuple[str, SpacesResult]]:
 
 
 def critical_ratio(setup: PumpingSetup) -> float:
-    """Return the pressure over ambient pressure at which the flow into the surroundings becomes sonic (Eq. 7)."""
+    """Return the ratio of pressure to ambient pressure at which flow into the surroundings becomes sonic (Eq. 7)."""
     exponent = setup.ambient.isentropic_exponent
     return float(((exponent + 1.0) / 2.0) ** (exponent / (exponent - 1.0)))
 
 
 def pressure_map(inputs: PumpingInputs, result: PumpingResult) -> Figure:
-    """Draw the pressure over ambient pressure, with the ratio at which clearances become sonic."""
+    """Draw the ratio of pressure to ambient pressure, and the ratio at which the flow in clearances becomes sonic."""
     sonic = critical_ratio(inputs.setup)
     panels = _maps(inputs, result, "pressure_ratio", Scale.RATIO, Level(sonic, f"sonic {number(sonic)}"))
     peak = max(space.peak_pressure_ratio for _, space in spaces(result))
@@ -43,7 +43,10 @@ def pressure_map(inputs: PumpingInputs, result: PumpingResult) -> Figure:
 
 
 def mach_map(inputs: PumpingInputs, result: PumpingResult) -> Figure:
-    """Draw the axial Mach number, positive towards the end that meshes last, with sonic flow in both directions."""
+    """Draw the axial Mach number, with contours at sonic flow in both directions.
+
+    Flow towards the end that meshes last is positive.
+    """
     panels = _maps(inputs, result, "axial_mach", Scale.SIGNED, Level(1.0, "sonic"), Level(-1.0, "sonic"))
     peak = max(space.peak_axial_mach for _, space in spaces(result))
     choked = [gear for gear, space in spaces(result) if space.axial_choked]
@@ -57,7 +60,7 @@ def mach_map(inputs: PumpingInputs, result: PumpingResult) -> Figure:
 
 
 def temperature_map(inputs: PumpingInputs, result: PumpingResult) -> Figure:
-    """Draw the rise of the stagnation temperature above ambient."""
+    """Draw the rise of the stagnation temperature above the ambient temperature."""
     panels = _maps(inputs, result, "temperature_rise", Scale.SIGNED)
     peak = max(float(np.nanmax(panel.map.values)) for panel in panels if panel.map is not None)
     finding = f"up to {number(peak, 'K')} above ambient for a moment; the teeth see the mean over the stroke"
@@ -65,7 +68,10 @@ def temperature_map(inputs: PumpingInputs, result: PumpingResult) -> Figure:
 
 
 def _maps(inputs: PumpingInputs, result: PumpingResult, name: str, scale: Scale, *critical: Level) -> list[Panel]:
-    """Return maps of a quantity of the field for the spaces of both gears, on one scale of colours, with extremes."""
+    """Return maps of a quantity of the field for the tooth spaces of both gears, with marks at the extremes.
+
+    The maps have the same scale of colours.
+    """
     fields = {gear: space.field for gear, space in spaces(result)}
     grids: list[Values] = [getattr(field, name) for field in fields.values()]
     if any(grid is None for grid in grids):
@@ -101,8 +107,9 @@ def scan(inputs: ChokingInputs, result: ChokingSpeeds) -> ChokingCurves:
 def choking(inputs: ChokingInputs, result: ChokingSpeeds, curves: ChokingCurves) -> Figure:
     """Draw peak pressure and exit Mach number over the speed, with their limits of sonic flow and the choking speeds.
 
-    The exit Mach number is that of an expansion to ambient pressure. If the gas in the outermost slice is supersonic
-    itself (gas dynamics), it is the smaller Mach number of this slice. The curve bends where that begins.
+    The exit Mach number is that of an expansion to ambient pressure. If the gas in the outermost slice is itself
+    supersonic (possible in gas dynamics only), the Mach number of this slice, which is smaller, is drawn instead. The
+    curve bends at the speed at which this begins.
     """
     critical, mach, peak = critical_ratio(inputs.setup), curves.exit_mach, curves.peak_pressure_ratio
     clearances = [Level(critical, f"clearances sonic, {number(critical)}", limit=True)]
@@ -135,7 +142,10 @@ CHOKING_FIGURES = (
 
 
 def stroke(_: PumpingInputs, result: PumpingResult) -> Figure:
-    """Draw the section that the mating tooth leaves and its clearances; contact of the flanks is shaded."""
+    """Draw the area that the mating tooth leaves of a tooth space, and the radial clearances, over one stroke.
+
+    The range in which the flanks are in contact is shaded.
+    """
     gear, first = spaces(result)[0]
     course, curves = first.stroke, first.stroke.curves
     x = axis(curves, "angle", f"angle of the {gear} from the line of centres", magnitude=False)
@@ -157,7 +167,7 @@ def stroke(_: PumpingInputs, result: PumpingResult) -> Figure:
 
 
 def heating(inputs: PumpingInputs, result: PumpingResult) -> Figure:
-    """Draw the temperature along the face as its mean over the stroke, with the hottest places of both gears."""
+    """Draw the temperature rise along the face, averaged over the stroke, with marks at the hottest places."""
     lines, marks, texts = [], [], []
     for gear, space in spaces(result):
         profile, most = space.profile, space.max_temperature_rise
@@ -173,7 +183,10 @@ def heating(inputs: PumpingInputs, result: PumpingResult) -> Figure:
 
 
 def peak_pressure(inputs: PumpingInputs, result: PumpingResult) -> Figure:
-    """Draw the largest pressure of the stroke along the face, with the ratio at which clearances become sonic."""
+    """Draw the largest pressure of the stroke along the face, and the pressure at which clearances become sonic.
+
+    Both pressures are divided by the ambient pressure.
+    """
     lines, marks = [], []
     for gear, space in spaces(result):
         line = _along(inputs, gear, space.profile.position, space.profile.peak_pressure_ratio, HUES[gear])
@@ -215,7 +228,7 @@ def lead_correction(inputs: PumpingInputs, result: PumpingResult) -> Figure:
 
 
 def pulsation(_: PumpingInputs, result: PumpingResult) -> Figure:
-    """Draw the amplitudes of the mass flow at both ends over the multiples of the meshing frequency."""
+    """Draw the amplitudes of the mass flows at both ends over the multiples of the meshing frequency."""
     pulse, frequency = result.pulsation, number(result.total.meshing_frequency, "Hz")
     series = {"end that meshes first": pulse.front_mass_flow, "end that meshes last": pulse.rear_mass_flow}
     amplitude = Axis("amplitude of the mass flow", "g/s", symbol="m_k")
@@ -224,7 +237,7 @@ def pulsation(_: PumpingInputs, result: PumpingResult) -> Figure:
 
 
 def mass_flow(_: PumpingInputs, result: PumpingResult) -> Figure:
-    """Draw the mass flows that leave and enter the tooth spaces at the ends, and the net outward flow by exit."""
+    """Draw the mass flows out of and into the tooth spaces at the ends, and the net outward flow through each exit."""
     exits = {gear: _exits(space) for gear, space in spaces(result)}
     still = all(abs(row.value) < NO_FLOW for rows in exits.values() for row in rows)
     x = Axis("mass flow (net: out; negative: in)", "g/s", limits=(0.0, 1.0) if still else None, symbol="m")

@@ -21,13 +21,16 @@ from solvers.scuffing.safety_results import Safety, Scuffing, ScuffingPath, Ther
 
 UNSOLVED = {"no_solution", "refused"}
 WARNED = "outside validity"
-ROOM = 0.06  # of the range; room above and below the lines of panels on one scale
-FARTHEST = 4.0  # times the range of the lines; a level farther away is named at the edge of the axes
-SHOWN_SAFETIES = 4.0  # times the least safety; greater ones, near the pitch point without sliding, are cut off
+ROOM = 0.06  # share of the range; room above and below the lines of panels with a common scale
+FARTHEST = 4.0  # ranges of the lines; a level farther away is only named at the edge of the axes
+SHOWN_SAFETIES = 4.0  # end of the axis over the least safety; greater factors, near the pitch point, are cut off
 
 
 def temperature_on_flank(inputs: ScuffingInputs, result: Scuffing) -> Figure:
-    """Draw Blok's contact temperature over the flank, or his flash temperature without an oil, and the lines."""
+    """Draw Blok's contact temperature over the flank, and the evaluated lines.
+
+    If the case has no oil, draw Blok's flash temperature instead of the contact temperature.
+    """
     flank, width = result.flank, inputs.distribution.gears.face_width
     contact, largest = result.contact_temperature, result.flash.blok_max
     shown = axis(flank, "flash_temperature", "flash temperature")
@@ -52,7 +55,10 @@ def temperature_on_flank(inputs: ScuffingInputs, result: Scuffing) -> Figure:
 
 
 def heat_over_flank(width: float, flank: Flank | FlankMaps, shown: Axis, grid: Values, limit: float | None) -> Panel:
-    """Return a map of a temperature over the flank with the critical temperature as a contour; face width [m]."""
+    """Return a map of a temperature over the flank; `width` is the face width [m].
+
+    There is a contour at `limit`, the temperature at which scuffing begins.
+    """
     if not np.isfinite(grid).all():
         message = "The loaded path of contact reaches a base circle, where no temperature is defined"
         raise NoFigure("no_temperature", message, "gears")
@@ -87,14 +93,21 @@ def contact_temperature(inputs: ScuffingInputs, result: Scuffing) -> Figure:
 
 
 def _bulk_of(result: Scuffing, surface: str) -> float:
-    """Return the bulk temperature of pinion or wheel [°C] if there is a heat balance, else that of both."""
+    """Return the bulk temperature [°C] of a surface.
+
+    If there is a heat balance, pinion and wheel have different bulk temperatures. Otherwise, and for other names of
+    surfaces, the bulk temperature of the pair is returned.
+    """
     if result.heat is not None and surface in {"pinion", "wheel"}:
         return result.heat.pinion.flank if surface == "pinion" else result.heat.wheel.flank
     return present(result.contact_temperature).bulk
 
 
 def _flashes(path: ScuffingPath) -> list[Line]:
-    """Return the flash temperatures along a path: of both flanks by thermal EHL, if it was solved, and by Blok."""
+    """Return the flash temperatures along a path as lines.
+
+    The lines are those of both flanks by thermal EHL, if thermal EHL was solved, and the line by Blok's formula.
+    """
     lines = list[Line]()
     if path.thermal is not None:
         lines.append(Line("pinion", path.psi, path.thermal.pinion_flash, Hue.BLUE))
@@ -112,7 +125,10 @@ def _paths(result: Scuffing) -> dict[str, ScuffingPath]:
 
 
 def _along(inputs: ScuffingInputs, result: Scuffing, finding: str, panel: Callable[[ScuffingPath], Panel]) -> Figure:
-    """Return a panel for each evaluated line, on one scale, with the points of the path and the invalid ranges."""
+    """Return a figure with a panel for each evaluated line. All panels have the same scale.
+
+    `panel` makes the panel of a path. The points of the path and the ranges with warnings are added to it.
+    """
     points, panels = _points(inputs, result), list[Panel]()
     for path in _paths(result).values():
         line_panel = panel(path)
@@ -130,7 +146,7 @@ def _along(inputs: ScuffingInputs, result: Scuffing, finding: str, panel: Callab
 
 
 def _common_limits(panels: Sequence[Panel]) -> tuple[float, float]:
-    """Return the ends of an ordinate that shows the lines of all panels and the levels near them."""
+    """Return the ends of an ordinate that shows the lines of all panels, and the levels near these lines."""
     axes = panels[0].y
     if axes.limits is not None:
         return axes.limits
@@ -145,7 +161,7 @@ def _common_limits(panels: Sequence[Panel]) -> tuple[float, float]:
 
 
 def _with_oil(result: Scuffing) -> None:
-    """Raise NoFigure if the case has no oil with its temperature."""
+    """Raise NoFigure if the case lacks an oil or the temperature of the oil."""
     if result.path is not None and result.contact_temperature is None:
         message = (
             "Without an oil and the bulk temperature at which it enters there is neither film nor contact temperature"
@@ -154,7 +170,10 @@ def _with_oil(result: Scuffing) -> None:
 
 
 def safety_along(inputs: ScuffingInputs, result: Scuffing) -> Figure:
-    """Draw the safety factor at the points: scuffing over contact temperature, both above that of the oil (Eq. 26)."""
+    """Draw the safety factor at the points of the evaluated lines (Eq. 26).
+
+    It is the scuffing temperature divided by the contact temperature, both measured from the temperature of the oil.
+    """
     _with_oil(result)
     if result.safety is None:
         raise NoFigure("no_scuffing_temperature", "Safety needs a scuffing temperature", "temperatures")
@@ -181,7 +200,10 @@ def safety_along(inputs: ScuffingInputs, result: Scuffing) -> Figure:
 
 
 def _safeties(result: Scuffing, path: ScuffingPath, oil: float, reserve: float) -> list[Line]:
-    """Return the safety factors along a path by thermal EHL and Blok; NaN if the contact is not hotter than the oil."""
+    """Return the safety factors along a path by thermal EHL and by Blok's formula.
+
+    The safety factor is NaN if the contact is not hotter than the oil.
+    """
     *flanks, blok = (replace(line, y=_bulk_of(result, line.title) + line.y) for line in _flashes(path))
     contacts = [replace(blok, role=Role.RESULT)]
     if flanks:
@@ -192,7 +214,11 @@ def _safeties(result: Scuffing, path: ScuffingPath, oil: float, reserve: float) 
 
 
 def film(inputs: ScuffingInputs, result: Scuffing) -> Figure:
-    """Draw minimum and central film, the film by the formula, and the film that is as thick as the roughness."""
+    """Draw the film thickness along the evaluated lines, and the thickness that equals the roughness.
+
+    Minimum and central film are those of thermal EHL, if it was solved. The third curve is the formula of Dowson and
+    Higginson.
+    """
     _with_oil(result)
     thinnest, pair = present(result.film), inputs.distribution
     if thinnest.thickness_ratio is None:
@@ -218,7 +244,7 @@ def film(inputs: ScuffingInputs, result: Scuffing) -> Figure:
 
 
 def film_against_micropitting(inputs: ScuffingInputs, result: Scuffing) -> Figure:
-    """Draw the film ratio at the contact temperature along the lines, and the permissible ratio."""
+    """Draw the film ratio at the contact temperature along the evaluated lines, and the permissible ratio."""
     answer, pair = micropitting.answered(result.micropitting), inputs.distribution
     roughness = (pair.pinion_material.roughness + pair.wheel_material.roughness) / 2 / UM
 
@@ -233,7 +259,10 @@ def film_against_micropitting(inputs: ScuffingInputs, result: Scuffing) -> Figur
 
 
 def friction(inputs: ScuffingInputs, result: Scuffing) -> Figure:
-    """Draw local friction and film pressure by thermal EHL along the lines, and the mean friction of Blok's formula."""
+    """Draw the local friction and the film pressure by thermal EHL along the evaluated lines.
+
+    A line shows the mean coefficient of friction in Blok's formula.
+    """
     _with_oil(result)
     mean = result.flash.friction_coefficient
     solutions = {name: (path.psi, path.thermal) for name, path in _paths(result).items() if path.thermal is not None}
@@ -275,7 +304,10 @@ def _unsolved(result: Scuffing) -> int:
 
 
 def _warned(path: ScuffingPath) -> list[Span]:
-    """Return the ranges of a path whose points have warnings, up to the middle between points; the first has a name."""
+    """Return the ranges of a path whose points have warnings. Only the first range has a name.
+
+    A range ends midway between a point with warnings and a point without warnings.
+    """
     psi, spans = path.psi, list[Span]()
     edges = np.concatenate([psi[:1], (psi[:-1] + psi[1:]) / 2.0, psi[-1:]])
     for status, group in groupby(range(psi.size), key=lambda place: path.status[place]):
@@ -287,12 +319,12 @@ def _warned(path: ScuffingPath) -> list[Span]:
 
 
 def _of_distribution(build: Build) -> Build:
-    """Return the builder of a figure of the load distribution for the inputs and results of this calculation."""
+    """Adapt the builder of a load-distribution figure so that it accepts the inputs and results of this calculation."""
     return lambda inputs, result: build(inputs.distribution, result.distribution)
 
 
 def _balanced(build: Build) -> Build:
-    """Return the builder of a figure of the heat balance for the results of this calculation."""
+    """Adapt the builder of a heat-balance figure so that it accepts the inputs and results of this calculation."""
     return lambda _, result: build(heat_balance.heat_of(result.heat))
 
 
@@ -301,7 +333,7 @@ def node_temperatures(inputs: ScuffingInputs, result: Scuffing) -> Figure:
     return heat_balance.temperatures(heat_balance.heat_of(result.heat), inputs.temperatures.oil - UNITS["c"].offset)
 
 
-OWN = ("section", "flank-pressure")  # of the figures of the load distribution: where the pair can scuff
+OWN = ("section", "flank-pressure")  # figures of the load distribution that the page of scuffing shows
 METHOD, BALANCE, DERIVED = "temperatures.bulk_method", "heat_balance", "own derivation, heat balance"
 FIGURES = (
     Declaration(

@@ -21,7 +21,10 @@ HUES = {
 
 
 def temperatures(_: WarmUpInputs, result: UnitWarmUp) -> Figure:
-    """Draw the temperatures of all nodes over time, and the difference of the bodies with its greatest value."""
+    """Draw the temperatures of all nodes over time.
+
+    Also draw the difference between the temperatures of the two bodies, with a mark at the greatest difference.
+    """
     course = result.warm_up
     curves, time = course.curves, axis(WarmUpCurves, "time")
     lines = [
