@@ -252,7 +252,7 @@ VACUUM = "1.01 kPa is nearly a vacuum; was bar meant?"
 EXCHANGED = "°C; are they exchanged?"
 GROUND = "µm is less than can be ground; was mm meant?"
 NARROW = "mm is below half a module; were cm or inches meant?"
-DIAMETER = "13 mm is beyond 4 modules; is it a diameter?"
+DIAMETER = "the tooth height of 13 mm exceeds 4 modules; was a diameter entered instead of a height?"
 FAST = "m/s, beyond 250; is it the speed of another shaft?"
 FAHRENHEIT = "°C is hotter than gears are in service; were degrees Fahrenheit meant?"
 COLD = "°C is colder than oils are in service; is the sign right?"
@@ -282,7 +282,7 @@ SLACK = "N/mm at most; were kW or kN m meant?"
         (
             LOAD_DISTRIBUTION,
             {"load.power_kw": 900},
-            "the Hertzian pressure of 5917 MPa is beyond what steel carries; is the load too high?",
+            "the Hertzian pressure of 5917 MPa exceeds the strength of steel; was the load entered too high?",
         ),
         (
             TRAIN,

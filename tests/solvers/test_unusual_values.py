@@ -14,7 +14,11 @@ TALL = CouplingInputs(
     coupling=Coupling(teeth=52, module=3e-3, face_width=24e-3, tooth_height=13e-3, crowning_ratio=2.0),
     operation=Operation(torque=2000.0, speed=100.0, misalignment=0.005),
 )
-SAID = Notice("unusual_value", "13 mm is beyond 4 modules; is it a diameter?", "coupling.tooth_height")
+SAID = Notice(
+    "unusual_value",
+    "the tooth height of 13 mm exceeds 4 modules; was a diameter entered instead of a height?",
+    "coupling.tooth_height",
+)
 
 
 def test_a_solver_says_it_once() -> None:
