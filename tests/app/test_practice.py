@@ -250,7 +250,7 @@ SCUFFING, LOAD_DISTRIBUTION, TRAIN = "/v1/scuffing", "/v1/scuffing/load-distribu
 THICK = (
     "a viscosity of {} Pa s at operating temperature is unusually high; was a value entered in the wrong unit (mPa s)?"
 )
-VACUUM = "1.01 kPa is nearly a vacuum; was bar meant?"
+VACUUM = "an ambient pressure of 1.01 kPa is nearly a vacuum; was a value entered in the wrong unit (bar)?"
 EXCHANGED = "°C; were the two temperatures exchanged?"
 GROUND = "a modification of {} µm is too small to be ground; was a value entered in the wrong unit (mm)?"
 NARROW = "the face width of {} mm is less than half a module; was a value entered in the wrong unit (cm or inches)?"
