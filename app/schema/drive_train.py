@@ -173,7 +173,10 @@ class ShaftBearing(Section):
         if self.viscosity_pa_s is not None:
             return self.si(si.JournalBearing)
         if scuffing.oil is None:
-            message = "a plain bearing needs a viscosity if the gears have no oil; give the viscosity or the oil"
+            message = (
+                "a plain bearing needs a viscosity if the gears have no oil; give the viscosity of the bearing or the "
+                "oil of the gears"
+            )
             raise InvalidInput("no_oil", message, "viscosity")
         film = None if self.film_temperature_c is None else UNITS["c"].to_si(self.film_temperature_c)
         viscosity = si.gear_oil_viscosity(scuffing.oil, scuffing.temperatures.oil, film)
