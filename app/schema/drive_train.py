@@ -223,7 +223,7 @@ class UnitShaft(Section, of=si.Shaft, without=("ultimate_thrust",)):
             end = position + section.length
             beside = position > face_start + gears.face_width - si.COINCIDENT or end < face_start + si.COINCIDENT
             if left_out and beside:
-                message = f"section {k} is not under the teeth and needs its diameter"
+                message = f"section {k} is not under the teeth; give its outer diameter"
                 raise InvalidInput("section_diameter", message, f"{name}.sections.{k}.outer_diameter")
             yield section
             position = end
@@ -318,7 +318,9 @@ class DriveTrainRequest(MeshInOil):
         thermal = self.thermal
         if "bulk_includes_pumping" in thermal.model_fields_set and not thermal.bulk_includes_pumping:
             raise PydanticCustomError(
-                "exclusive", "thermal.bulk_includes_pumping is true with the heat balance, whose bodies hold that heat"
+                "exclusive",
+                "thermal.bulk_includes_pumping must be true with the heat balance, which already includes the heat "
+                "of pumping",
             )
         known = thermal.model_copy(update={"bulk_includes_pumping": True})
         return self.model_copy(update={"thermal": known})

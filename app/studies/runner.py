@@ -137,7 +137,7 @@ async def in_order(
 
 async def _solved_singly(pool: Pool, question: Question, overrides: list[Overrides], error: Exception) -> Chunk:
     """The points of a lost chunk one by one, each up to twice; a single point that took too long is not repeated."""
-    late = question.failed("deadline_exceeded", "the point took longer than one calculation may")
+    late = question.failed("deadline_exceeded", "the point took longer than the time limit of one calculation")
     if len(overrides) == 1 and isinstance(error, DeadlineExceeded):
         return Chunk([late], CHUNK_SECONDS)
     started = time.perf_counter()
@@ -271,7 +271,7 @@ async def guarded(lines: Lines, clock: Clock, seconds: float, progress_s: float 
                     upcoming = asyncio.ensure_future(anext(lines, None))
                 elif left > progress_s:
                     yield [clock.line()]
-            yield [clock.error("study_deadline", f"the study took longer than {seconds:g} s; make it smaller")]
+            yield [clock.error("study_deadline", f"the study took longer than {seconds:g} s; make the study smaller")]
         except PoolLost as error:
             yield [clock.error(error.code, str(error))]
         except Exception:
