@@ -206,10 +206,7 @@ def _unit(variable: Variable, base: BaseRequest, place: str) -> str | None:
     leaves = [base.leaf(path, f"{place}.path") for path in variable.paths]
     for leaf in leaves:
         if leaf.kind != "number":
-            message = (
-                not_a_number(leaf)
-                or f"{leaf.path} takes only whole numbers; the search needs a field that takes any number"
-            )
+            message = not_a_number(leaf) or f"{leaf.path} takes only whole numbers; the search needs a continuous field"
             raise Unprocessable("not_continuous", message, f"{place}.path")
         for name, end in {"min": variable.min, "max": variable.max}.items():
             check_value(leaf, end, f"{place}.{name}")

@@ -170,7 +170,8 @@ class Sweep(Study):
         self.points = self._points(base, most)
         first: int = self.body.from_index
         if first >= self.points.total:
-            message = f"this point does not exist; the study has {self.points.total} points, numbered from 0 to {self.points.total - 1}"
+            total = self.points.total
+            message = f"this point does not exist; the study has {total} points, numbered from 0 to {total - 1}"
             raise Unprocessable("out_of_range", message, "from_index")
         base.checked(self.points.overrides(0))
         return self.points.total - first
