@@ -71,7 +71,7 @@ def print_answer(endpoint: str, file: Path) -> None:
 
     gc.enable()
     if endpoint not in BY_PATH:
-        sys.exit(f"tribodrive: there is no {endpoint}; there are {', '.join(BY_PATH)}")
+        sys.exit(f"tribodrive: there is no endpoint {endpoint}; the endpoints are {', '.join(BY_PATH)}")
     try:
         body = sys.stdin.buffer.read() if file == Path("-") else file.read_bytes()
         content = answer(endpoint, content_of(body))
@@ -96,7 +96,7 @@ def compile_kernels(names: Sequence[str]) -> None:
     gc.enable()
     stages = {stage.name: stage for stage in STAGES}
     if unknown := set(names) - set(stages):
-        sys.exit(f"tribodrive: there is no {', '.join(sorted(unknown))}; there are {', '.join(stages)}")
+        sys.exit(f"tribodrive: there is no stage {', '.join(sorted(unknown))}; the stages are {', '.join(stages)}")
     if FOLDER is None:
         sys.exit("tribodrive: the folder for compiled kernels cannot be written")
     for stage in [stages[name] for name in names or stages]:

@@ -126,11 +126,15 @@ PROBLEMS: dict[type[Exception], Kind] = {
     QueueFull: Kind(503, "queue_full", "Too many calculations are waiting; try again later", 1),
     StudiesFull: Kind(503, "studies_full", "Other studies are running; try again later", 5),
     StudyEnded: Kind(503, "study_ended", "The study ended before its figure could be drawn"),
-    SchedulerUnavailable: Kind(503, "scheduler_unavailable", "The cluster for studies cannot be used; try later", 10),
+    SchedulerUnavailable: Kind(
+        503, "scheduler_unavailable", "The cluster for studies cannot be used; try again later", 10
+    ),
     WorkerLost: Kind(503, "worker_lost", "The calculation was lost with its process; try again", 1),
-    Stopping: Kind(503, "shutting_down", "The service stops", 5),
-    MemoryError: Kind(503, "memory_limit", "The calculation needs more memory than a worker may use; make it smaller"),
-    DeadlineExceeded: Kind(504, "deadline_exceeded", "The calculation took too long; make it smaller"),
+    Stopping: Kind(503, "shutting_down", "The service is shutting down", 5),
+    MemoryError: Kind(
+        503, "memory_limit", "The calculation needs more memory than a worker may use; make the calculation smaller"
+    ),
+    DeadlineExceeded: Kind(504, "deadline_exceeded", "The calculation took too long; make the calculation smaller"),
     ClientGone: Kind(499, "client_gone", "The client closed the connection"),
 }
 

@@ -73,7 +73,9 @@ def refuse_endless(calculation: Calculation, request: Request, deadline_s: float
 def calculation_at(endpoint: str) -> Calculation:
     """Return the calculation of an endpoint. Raises Unprocessable if there is no such endpoint."""
     if endpoint not in BY_PATH:
-        raise Unprocessable("unknown_endpoint", f"there are {', '.join(BY_PATH)}", "endpoint")
+        raise Unprocessable(
+            "unknown_endpoint", f"there is no such endpoint; the endpoints are {', '.join(BY_PATH)}", "endpoint"
+        )
     return BY_PATH[endpoint]
 
 

@@ -82,9 +82,9 @@ def _unpacked(content: bytes, most_bytes: int) -> bytes:
             if len(models) != 1:
                 names = ", ".join(PurePosixPath(entry.filename).name[:40] for entry in models[:5])
                 listed = f": {names}" if names else ""
-                raise not_rexs(f"the archive holds {len(models)} models ({MODELS}); it must hold one{listed}")
+                raise not_rexs(f"the archive holds {len(models)} models ({MODELS}); it must hold exactly one{listed}")
             if models[0].compress_type not in PACKINGS:
-                raise not_rexs("the compression of the archive is not supported; use deflate, the usual one")
+                raise not_rexs("the compression of the archive is not supported; use deflate, the usual method")
             with archive.open(models[0]) as packed:
                 return packed.read(most_bytes + 1)
     except (zipfile.BadZipFile, zlib.error, NotImplementedError, RuntimeError, OSError, EOFError, ValueError) as error:

@@ -103,7 +103,9 @@ class _DriveTrain:
         for shaft in stage.shafts:
             for part in self._reading.model.related("side", "inner_part", shaft.id, "assembly"):
                 if part.type in {"coupling", "switchable_coupling"}:
-                    stage.lacks("couplings", part, None, "the file has no tooth data of the coupling; left out")
+                    stage.lacks(
+                        "couplings", part, None, "the file has no tooth data of the coupling; the coupling is left out"
+                    )
         return True
 
     def _directions(self) -> None:
@@ -177,7 +179,9 @@ class _DriveTrain:
             outer, end_outer = (reading.number(part, f"outer_diameter_{end}", "mm") for end in ("begin", "end"))
             inner, end_inner = (reading.number(part, f"inner_diameter_{end}", "mm") or 0.0 for end in ("begin", "end"))
             if length is None or length <= 0.0 or outer is None or end_outer is None:
-                reading.find("section", part, "length", "the section has no length or no diameters; left out")
+                reading.find(
+                    "section", part, "length", "the section has no length or no diameters; the section is left out"
+                )
                 continue
             begin = reading.number(part, "u_coordinate_on_shaft", "mm")
             begin = stacked if begin is None else begin
@@ -218,7 +222,7 @@ class _DriveTrain:
                 if high - low >= SHORTEST_SECTION:
                     cylinders.append(Section(low, high, gear.reference_diameter if grown else outer, inner))
         if changed:
-            reason = "under the teeth the reference diameter, as in ISO 6336-1"
+            reason = "under the teeth the reference diameter is used, as in ISO 6336-1"
             self._stage.note(f"{NAMES[place]}.sections", gear.reference_diameter, reason)
         return cylinders
 
@@ -227,7 +231,7 @@ class _DriveTrain:
         fields: dict[str, Any] = {}
         if position is None:
             attribute = "u_coordinate_on_shaft_inner_side"
-            stage.lacks(f"{path}.position_mm", bearing, attribute, "where the bearing sits")
+            stage.lacks(f"{path}.position_mm", bearing, attribute, "the position of the bearing")
         else:
             fields["position_mm"] = position
         v, w = (reading.number(bearing, f"misalignment_in_{axis}_direction", "um") or 0.0 for axis in "vw")
@@ -265,7 +269,7 @@ class _DriveTrain:
             if position is not None:
                 self._stage.put(path, position, load, "u_coordinate_on_shaft")
                 return
-        self._stage.lacks(path, shaft, None, "where the torque enters or leaves the shaft")
+        self._stage.lacks(path, shaft, None, "the position at which the torque enters or leaves the shaft")
 
 
 def _dot(a: Vector, b: Vector) -> float:

@@ -22,12 +22,16 @@ class Lubrication:
             self._stage.lacks("lubricant", self._stage.stage, None, "film and scuffing safety need an oil")
             return
         if self._reading.text(oil, "kind") == "grease":
-            self._reading.find("grease", oil, "kind", "the lubricant is a grease, which is not modelled; not used")
+            self._reading.find(
+                "grease", oil, "kind", "the lubricant is a grease, which is not modelled; the lubricant is not used"
+            )
             self._stage.lacks("lubricant", oil, "kind", "film and scuffing safety need an oil")
             return
         viscosities = table.OIL[:2]
         if None in [self._reading.number(oil, row) for row in viscosities]:
-            self._stage.lacks("lubricant", oil, viscosities[0].name, "the oil's viscosities at 40 and 100 C are needed")
+            self._stage.lacks(
+                "lubricant", oil, viscosities[0].name, "the viscosities of the oil at 40 and 100 °C are needed"
+            )
             return
         for row in table.OIL:
             self._stage.take(row, oil, "lubricant.")
@@ -55,7 +59,7 @@ class Lubrication:
             self._stage.assume(path, "mineral", "the file does not give the base oil")
             return
         self._reading.find(
-            "oil_kind", oil, None, f"an oil of the kind {vague[:40]} is not modelled; choose the nearest"
+            "oil_kind", oil, None, f"an oil of the kind {vague[:40]} is not modelled; choose the nearest kind"
         )
         self._stage.lacks(
             path, oil, None, f"choose the kind nearest to {vague[:40]}; without a choice a mineral oil is used"
@@ -83,7 +87,7 @@ class Lubrication:
                 self._stage.put("temperatures.oil_supply", supply, self._stage.stage, name)
                 return
             if text:
-                message = f"lubrication by {text[:40]} is not modelled; not used"
+                message = f"lubrication by {text[:40]} is not modelled; the value is not used"
                 self._reading.find("oil_supply", self._stage.stage, name, message)
         self._supply_by_factor()
 
@@ -95,7 +99,7 @@ class Lubrication:
         if (supply := table.SUPPLY_FACTORS.get(factor)) is not None:
             self._stage.put("temperatures.oil_supply", supply, self._stage.stage, table.SUPPLY_FACTOR)
         else:
-            message = f"no oil supply of the model has the lubrication factor {factor:.4g}; not used"
+            message = f"no oil supply of the model has the lubrication factor {factor:.4g}; the factor is not used"
             self._reading.find("oil_supply", self._stage.stage, table.SUPPLY_FACTOR, message)
 
     def _friction(self) -> None:

@@ -39,7 +39,9 @@ class Modifications:
         modifications = sides.get(side, [])
         for item in modifications:
             if item.type in table.OTHER_MODIFICATIONS:
-                self._reading.find("modification", item, None, f"{table.OTHER_MODIFICATIONS[item.type]}; left out")
+                self._reading.find(
+                    "modification", item, None, f"{table.OTHER_MODIFICATIONS[item.type]}; the modification is left out"
+                )
         return [item for item in modifications if item.type in table.MODIFICATIONS]
 
     def _working_side(self, place: int) -> str | None:
@@ -94,14 +96,17 @@ class Modifications:
             self._stage.put(f"{path}_length_mm", length, component, f"{kind}_datum_length")
         if len(reliefs) > 1:
             reason = (
-                "both gears have a relief there: the sum of the amounts, with length and shape of the larger relief"
+                "both gears have a relief at this place; the sum of the amounts is used, with length and shape of the "
+                "larger relief"
             )
             self._stage.note(f"{path}_um", largest, reason)
         shape = self._reading.text(component, "shape_of_relief")
         exponent = {"linear": 1.0, "parabolic": 2.0}.get(shape)
         path = "modifications.relief_exponent"
         if exponent is None:
-            self._stage.assume(path, 1.0, f"the shape of the relief is {shape[:30] or 'not stated'}; linear is used")
+            self._stage.assume(
+                path, 1.0, f"the shape of the relief is {shape[:30] or 'not stated'}; a linear relief is used"
+            )
         elif self._stage.fields.get(path, exponent) != exponent:
             self._stage.note(path, self._stage.fields[path], "tip and root relief have different shapes")
         else:
@@ -140,7 +145,10 @@ class Modifications:
                 continue
             sense = (1.0, -1.0)[place] if item.type == "profile_slope" else self._end_sense(place)
             if sense is None:
-                message = "left out: its sign needs the direction of rotation and the driver"
+                message = (
+                    "the modification is left out, because its sign needs the direction of rotation and the driving "
+                    "gear"
+                )
                 self._reading.find("modification", item, "helix_slope", message)
                 continue
             sums[item.type] += sense * amount

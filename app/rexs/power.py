@@ -115,7 +115,8 @@ class Train:
                 continue  # the model's speed, while the load case states another one
             elif abs(speeds[group] - speed) > BALANCE * max(abs(speed), abs(speeds[group])):
                 message = (
-                    f"the stated speed is {speed:.6g} 1/min, but {speeds[group]:.6g} by the numbers of teeth; not used"
+                    f"the stated speed is {speed:.6g} 1/min, but the numbers of teeth give {speeds[group]:.6g} 1/min; "
+                    "the stated speed is not used"
                 )
                 reading.find("speed_conflict", shaft, "rotational_speed", message)
         return speeds
@@ -198,7 +199,8 @@ class Train:
             and abs(abs(of_power) - abs(torque)) > BALANCE * max(abs(of_power), abs(torque))
         ):
             message = (
-                f"the torque is {abs(torque):.6g} N m, but {abs(of_power):.6g} by power and speed; the torque is used"
+                f"the stated torque is {abs(torque):.6g} N m, but power and speed give {abs(of_power):.6g} N m; the "
+                "stated torque is used"
             )
             reading.find("power_conflict", load, "power", message)
         return torque * reading.sense(shaft)  # the u axis of a load is that of its shaft

@@ -234,7 +234,7 @@ class Reading:
         try:
             value = float("true" if isinstance(attribute.value, bool) else attribute.value)
         except (TypeError, ValueError, OverflowError):
-            self.find(code, component, name, f"{name} is not a number; not used")
+            self.find(code, component, name, f"{name} is not a number; the value is not used")
             return None
         result = convert(value, attribute.unit, unit)
         if not isfinite(value):
@@ -246,7 +246,7 @@ class Reading:
             fault = "is too large"
         else:
             return result
-        self.find(code, component, name, f"{name} {fault}; not used")
+        self.find(code, component, name, f"{name} {fault}; the value is not used")
         return None
 
 
@@ -320,8 +320,10 @@ class Draft:
                     self.lacks(back, None, None, fault.message)
                     continue
                 component, attribute = self.origins.get(ours, (None, None))
-                self.reading.find("out_of_range", component, attribute, f"{ours}: {fault.message}; not used")
-                self.lacks(ours, component, attribute, f"the file's value is not possible: {fault.message}")
+                self.reading.find(
+                    "out_of_range", component, attribute, f"{ours}: {fault.message}; the value is not used"
+                )
+                self.lacks(ours, component, attribute, f"the value in the file is not possible: {fault.message}")
                 del own[ours]
             if len(own) == accepted:
                 return request

@@ -125,7 +125,7 @@ class StageDraft(Draft):
         if by_power is None and len(stated) == 1:
             return stated[0]
         if by_power is not None and stated and by_power not in stated:
-            message = "by torque and speed the other gear is the driver, which is used"
+            message = "according to torque and speed the other gear drives; the other gear is used as the driver"
             self.reading.find("driver", pair.gears[stated[0]], None, message)
         return by_power
 
@@ -200,8 +200,8 @@ class StageDraft(Draft):
             tolerance = 1e-3 * max(1.0, abs(along))
             if abs(along - stated) > tolerance and abs(abs(along - stated) - half) > tolerance:
                 message = (
-                    f"the coordinate on the shaft is {stated:.6g} mm, but {along:.6g} mm by the position vectors, "
-                    "which are used"
+                    f"the coordinate on the shaft is {stated:.6g} mm, but the position vectors give {along:.6g} mm; "
+                    "the position vectors are used"
                 )
                 reading.find("position", part, table.POSITION.name, message)
         return self.position_of_coordinate(shaft, along)
@@ -240,7 +240,7 @@ class StageDraft(Draft):
             self.lacks(row.field, pinion, row.name, f"the file has no {row.name}")
             return
         if abs(modules[0][0] - modules[-1][0]) > SAME * abs(modules[0][0]):
-            message = "both gears must have one module; the pinion's is used"
+            message = "both gears must have the same module; the module of the pinion is used"
             self.reading.find("gears_differ", modules[-1][1], row.name, message)
         self.put(row.field, *modules[0], row.name)
 
@@ -256,11 +256,11 @@ class StageDraft(Draft):
         row, gear = table.HELIX_ANGLE, self.gears[0]
         pinion, wheel = (self._helix_angle(gear) for gear in self.gears)
         if pinion is not None and wheel is not None and abs(pinion + wheel) > SAME * 90.0:
-            message = "helix angles of an external pair are opposite; the pinion's is used"
+            message = "the helix angles of an external pair must be opposite; the helix angle of the pinion is used"
             self.reading.find("helix_angles", self.gears[1], row.name, message)
         if pinion is None:
             if wheel is None:
-                self.assume(row.field, 0.0, "the file has no helix angle: spur gears")
+                self.assume(row.field, 0.0, "the file has no helix angle; spur gears are assumed")
                 return
             pinion = -wheel
         self.put(row.field, abs(pinion), gear, row.name)
@@ -300,7 +300,9 @@ class StageDraft(Draft):
             if overlap > 0.0:
                 common = min(common, overlap)
             else:
-                self.reading.find("faces_apart", self.stage, None, "by their positions the faces do not overlap")
+                self.reading.find(
+                    "faces_apart", self.stage, None, "according to their positions the faces do not overlap"
+                )
         self.put(row.field, common, gear, row.name)
         if any(abs(width - common) > SAME * common for width in widths):
             self.note(row.field, common, "the face that both gears have in common")
@@ -311,7 +313,7 @@ class StageDraft(Draft):
         if wheel is None and pinion is None:
             self._from_transverse_angle()
         elif wheel is not None and pinion is not None and abs(wheel - pinion) > SAME:
-            message = "both gears must have one pressure angle; the pinion's is used"
+            message = "both gears must have the same pressure angle; the pressure angle of the pinion is used"
             self.reading.find("gears_differ", self.gears[1], row.name, message)
 
     def _from_transverse_angle(self) -> None:
@@ -319,7 +321,7 @@ class StageDraft(Draft):
         flanks = [flank for place in (0, 1) for flank in self.flanks(place).values()]
         angles = self.values_of(flanks, table.TRANSVERSE_PRESSURE_ANGLE)
         if not angles:
-            self.assume(row.field, NORMAL_ANGLE, "the file has no pressure angle: ISO 53")
+            self.assume(row.field, NORMAL_ANGLE, "the file has no pressure angle; the value of ISO 53 is used")
             return
         helix = radians(self.fields.get(table.HELIX_ANGLE.field, 0.0))
         normal = degrees(atan(tan(radians(angles[0][0])) * cos(helix)))
@@ -335,7 +337,11 @@ class StageDraft(Draft):
         if flank is not None and length is not None and module:
             self.put(path, length / module, flank, "addendum_modification")
         elif (finished := self._of_flanks(place, table.FINISHED_SHIFT, path)) is not None:
-            self.note(path, finished, "the one after finishing; the file has no nominal profile shift")
+            self.note(
+                path,
+                finished,
+                "the profile shift after finishing is used, because the file has no nominal profile shift",
+            )
         else:
             self.assume(path, 0.0, "the file has no profile shift")
 
@@ -374,7 +380,7 @@ class StageDraft(Draft):
 
     def _assume_rack(self, place: int, name: str) -> None:
         path = f"gears.{ROLES[place]}.{name}"
-        self.assume(path, ISO_53_A[name], f"the file gives no {name}: ISO 53, profile A")
+        self.assume(path, ISO_53_A[name], f"the file gives no {name}; the value of ISO 53, profile A, is used")
 
     def _of_tool(self, tool: Component | None, row: table.Row, length_row: table.Row) -> float | None:
         """Return a coefficient of the rack, which the file gives in modules or as a length."""
@@ -398,7 +404,7 @@ class StageDraft(Draft):
             return False
         fault = flank.tip_fault(diameter) if tip else flank.root_fault(diameter)
         if fault is not None:
-            self.reading.find("diameter", gear, row.name, f"{row.name} {fault}; not used")
+            self.reading.find("diameter", gear, row.name, f"{row.name} {fault}; the value is not used")
             return False
         height = (diameter - flank.reference_diameter) / (2.0 * flank.module) - flank.shift
         self.put(path, height if tip else -height, gear, row.name)
@@ -412,7 +418,9 @@ class StageDraft(Draft):
                 radii.append((radius, tool))
         path = "gears.rack_tip_radius"
         if not radii:
-            self.assume(path, ISO_53_A[path], "the file gives no tip radius of a tool: ISO 53, profile A")
+            self.assume(
+                path, ISO_53_A[path], "the file gives no tip radius of a tool; the value of ISO 53, profile A, is used"
+            )
             return
         smallest, tool = min(radii, key=lambda radius_and_tool: radius_and_tool[0])
         self.put(path, smallest, tool, table.TOOL_TIP_RADIUS.attributes[-1])
@@ -436,7 +444,10 @@ class StageDraft(Draft):
         stated = sum(limits) / len(limits)
         own = self._backlash_of_centre_distance()
         if own is None or stated < own - SAME:
-            message = f"the stated backlash of {stated:.4g} mm is smaller than that which the centre distance gives"
+            message = (
+                f"the stated backlash of {stated:.4g} mm is smaller than the backlash that results from the centre "
+                "distance"
+            )
             self.reading.find("backlash", self.stage, name, message)
             own = stated
         self.put(path, max(stated - own, 0.0), self.stage, name)
@@ -517,7 +528,8 @@ class StageDraft(Draft):
         apart = first.apart(second)
         if abs(apart - distance) > OFF_CENTRE * abs(distance):
             message = (
-                f"by their positions the shafts are {apart:.6g} mm apart; the centre distance of the stage is used"
+                f"according to their positions the shafts are {apart:.6g} mm apart; the centre distance of the stage "
+                "is used"
             )
             self.reading.find("centre_distance", self.stage, "center_distance", message)
 
@@ -561,7 +573,7 @@ class Involute:
         if diameter < self.reference_diameter:
             return f"is {diameter:.6g} mm, below the reference circle of {self.reference_diameter:.6g} mm"
         if diameter > pointed:
-            return f"is {diameter:.6g} mm, where the tooth is pointed at {pointed:.6g} mm"
+            return f"is {diameter:.6g} mm, but the teeth become pointed at {pointed:.6g} mm"
         return None
 
     def root_fault(self, diameter: float) -> str | None:

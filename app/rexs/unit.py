@@ -31,12 +31,12 @@ def gear_unit(model: Model) -> dict[str, Any]:
     _check_relations(reading)
     all_pairs = list(islice(pairs(reading), MOST_STAGES + 1))
     if len(all_pairs) > MOST_STAGES:
-        message = f"the unit has more than {MOST_STAGES} stages; the first ones are read"
+        message = f"the unit has more than {MOST_STAGES} stages; only the first stages are read"
         reading.find("too_many_stages", None, None, message)
         del all_pairs[MOST_STAGES:]
     cases = model.load_cases[: min(MOST_CASES, MOST_DRAFTS // max(len(all_pairs), 1))]
     if len(cases) < len(model.load_cases):
-        reading.find("too_many_cases", None, None, f"the first {len(cases)} load cases are read")
+        reading.find("too_many_cases", None, None, f"only the first {len(cases)} load cases are read")
     if len(cases) > MOST_SPECTRUM_CASES:
         message = f"/v1/spectrum takes at most {MOST_SPECTRUM_CASES} load cases; the file has more"
         reading.find("too_many_cases", None, None, message)
@@ -69,7 +69,9 @@ def _stages(reading: Reading, all_pairs: list[Pair], base: Flow, flows: list[Flo
         unused = chain(reading.ignored(own.values()), *(flow.reading.ignored_of_case(elsewhere) for flow in flows))
         row["ignored"] = _rows(islice(unused, MOST_IGNORED))
         if next(unused, None) is not None:
-            message = f"more than {MOST_IGNORED} attributes of the stage {row['id']} are not used; the first are listed"
+            message = (
+                f"more than {MOST_IGNORED} attributes of the stage {row['id']} are not used; only the first are listed"
+            )
             reading.find("too_many_ignored", None, None, message)
     return rows
 
@@ -84,7 +86,9 @@ def _stage(pair: Pair, base: Flow, flows: list[Flow]) -> tuple[dict[str, Any], S
     if (case := flow.reading.case) is not None:
         for path in (TORQUE, SPEED, table.OIL_TEMPERATURE.field):
             if path in stage.fields:
-                stage.note(path, stage.fields[path], f"from the load case {case.name}, because the model states none")
+                stage.note(
+                    path, stage.fields[path], f"taken from the load case {case.name}, because the model states no value"
+                )
     # The mesh comes first, then the oil.
     paths = sorted({**stage.fields, **stage.missing}, key=lambda path: path.partition(".")[0] not in MESH)
     requests = {endpoint: stage.request(endpoint, paths) for endpoint in SECTIONS}
@@ -193,9 +197,9 @@ def _shares(readings: list[Reading]) -> tuple[list[float], str | None]:
         values = [reading.number(unit, name, size) for reading in readings]
         valid = [value for value in values if value is not None and value >= 0.0]
         if len(valid) == len(values) and sum(valid) > 0.0:
-            reason = f"shares from the attribute {name}, which is not of the standard" if name in own else None
+            reason = f"shares from the attribute {name}, which is not part of the standard" if name in own else None
             return [value / sum(valid) for value in valid], reason
-    return [1.0 / len(readings)] * len(readings), "the file states no shares of the load cases: equal shares"
+    return [1.0 / len(readings)] * len(readings), "the file states no shares of the load cases; equal shares are used"
 
 
 def _check_relations(reading: Reading) -> None:

@@ -11,6 +11,7 @@ def high_pressure(pressure: float | None, field: str = "pinion_torque") -> Itera
     """Warn of a Hertzian pressure [Pa] that is beyond the strength of steel."""
     if pressure is not None and pressure > HIGHEST_PRESSURE:
         message = (
-            f"the Hertzian pressure of {pressure / 1e6:.4g} MPa is beyond what steel carries; is the load too high?"
+            f"the Hertzian pressure of {pressure / 1e6:.4g} MPa exceeds the strength of steel; was the load entered "
+            "too high?"
         )
         yield unusual_value(field, message)

@@ -75,7 +75,10 @@ class ShaftBearing:
         viscosity = self.viscosity
         if viscosity is None:
             if oil is None:
-                message = "a plain bearing needs a viscosity if the gears have no oil; give the viscosity or the oil"
+                message = (
+                    "a plain bearing needs a viscosity if the gears have no oil; give the viscosity of the bearing or "
+                    "the oil of the gears"
+                )
                 raise InvalidInput("no_oil", message, "viscosity")
             viscosity = gear_oil_viscosity(oil, oil_temperature, self.film_temperature)
         return JournalBearing(

@@ -95,8 +95,8 @@ def warm_unit(inputs: DriveTrainInputs, start: FloatArray | None = None) -> Warm
             heat = with_backlash_loss(heat, prepared.mesh.prepared.path.pair)
             return WarmUnit(warm, prepared, equilibrium, heat, balance)
     message = (
-        f"temperatures and alignment of the unit do not settle: they still change by {change:.3g} K after "
-        f"{MOST_PASSES} passes; give more oil or larger bearings"
+        f"temperatures and alignment of the unit do not settle; the temperatures still change by {change:.3g} K after "
+        f"{MOST_PASSES} passes. Give more oil or larger bearings"
     )
     raise NoSolution("heat_balance", message, {"change_k": change})
 

@@ -125,11 +125,16 @@ def solve(inputs: WarmUpInputs) -> UnitWarmUp:
     """
     unit = inputs.unit
     if not asks_for_balance(unit):
-        message = "a warm-up needs the heat balance: jets of a known oil, and a bulk temperature that is not given"
+        message = (
+            "a warm-up needs the heat balance; cool the gears by jets of a known oil, and do not give a bulk "
+            "temperature"
+        )
         raise InvalidInput("not_asked", message, "temperatures.bulk_method")
     walls = unit.mesh.cooling.casing
     if walls.area and walls.mass is None:
-        raise InvalidInput("missing_mass", "a casing that warms up needs its mass", "cooling.casing.mass")
+        raise InvalidInput(
+            "missing_mass", "a casing that warms up needs a mass; give the mass of the casing", "cooling.casing.mass"
+        )
     warm = warm_unit(unit)
     balance = warm.balance
     network = heat_balance.calibrated(heat_balance.network_of(balance), balance.cooling)

@@ -53,7 +53,9 @@ def choking_speeds(inputs: ChokingInputs) -> ChokingSpeeds:
     """
     setup, top = inputs.setup, log(inputs.search_limit)
     if setup.model.flow is Flow.INCOMPRESSIBLE:
-        raise InvalidInput("choking_not_modelled", "incompressible flow cannot choke", "flow")
+        raise InvalidInput(
+            "choking_not_modelled", "incompressible flow cannot choke; choose another flow model", "flow"
+        )
     mesh = prepare(setup)
     check_speed(inputs.search_limit)
     slices = setup.model.slice_count
@@ -66,7 +68,7 @@ def choking_speeds(inputs: ChokingInputs) -> ChokingSpeeds:
     notices = [
         Notice(
             "beyond_search_limit",
-            f"the {name} stays below sonic flow up to {rpm(exp(top)):.6g} rpm",
+            f"the flow through the {name} stays below the speed of sound up to {rpm(exp(top)):.6g} rpm",
             "search_limit",
             rank="note",
         )
@@ -114,7 +116,10 @@ def _scan(demands: list[_Demand], top: float) -> list[float]:
 
 
 def _refuse_sealed(speed: float) -> NoReturn:
-    message = f"the spaces are still choked at {rpm(speed):.3g} rpm of the pinion: their openings are too small"
+    message = (
+        f"the tooth spaces are still choked at {rpm(speed):.3g} rpm of the pinion, because their openings are too "
+        "small; increase the openings"
+    )
     raise InvalidInput("always_choked", message, "discharge_coefficient")
 
 

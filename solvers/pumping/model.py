@@ -237,14 +237,17 @@ def _missing(result: SpacesResult, total: Totals, correction: LeadCorrection | N
     """Return notices that explain which results are missing or uncertain with these gears and options."""
     notices = []
     if total.axial_meshing_speed is None:
-        message = "a spur gear meshes over its whole face at once: no meshing point moves along the face"
+        message = "a spur gear meshes over its whole face at once; there is no meshing point that moves along the face"
         notices.append(Notice("spur_gear", message, "helix_angle", rank="note"))
     if result.max_temperature_rise is None:
         notices.append(
             Notice("no_temperature", "the incompressible model gives no temperature rise", "flow", rank="note")
         )
     elif result.balance.energy_error is None:
-        message = "the isentropic closure loses energy: temperature rises are about half of those of the energy closure"
+        message = (
+            "the isentropic closure does not conserve energy; its temperature rises are about half of those of the "
+            "energy closure"
+        )
         notices.append(Notice("no_energy_balance", message, "closure"))
     if correction is None:
         message = "a lead correction needs the temperatures of the pinion's spaces"

@@ -76,13 +76,16 @@ def contact_lengths(path: PathOfContact) -> ContactLengths:
     if least <= 0.0:
         raise InvalidInput(
             "no_contact",
-            f"no pair of teeth is in contact at some roll positions (transverse contact ratio {transverse:.3f}, "
-            f"overlap ratio {overlap:.3f})",
+            f"at some roll positions no pair of teeth is in contact (transverse contact ratio {transverse:.3f}, "
+            f"overlap ratio {overlap:.3f}); increase the addendum",
             "addendum",
         )
     if path.total_contact_ratio > MOST_LINES:
         raise InvalidInput(
-            "overlap_range", f"the face is too wide for its helix: more than {MOST_LINES} lines at once", "face_width"
+            "overlap_range",
+            f"the face is too wide for the helix angle, because more than {MOST_LINES} contact lines would exist "
+            "at once; reduce the face width",
+            "face_width",
         )
     return ContactLengths(least * length, most * length, transverse * length)
 

@@ -374,8 +374,10 @@ class ScuffingTest:
         ge=1,
         le=14,
         text="stage at which the oil fails; 13 if a data sheet says above 12",
-        if_above='"above 12" on a data sheet means that stage 12 was passed: enter 13 for the limit that this proves '
-        "at least, or the failing stage if it is known",
+        if_above=(
+            '"above 12" on a data sheet means that the oil passed stage 12; enter 13 as a lower limit, or the stage at '
+            "which the oil failed if you know it"
+        ),
     )
     test: Literal["A/8.3/90"] = quantity("scuffing test", None, FZG, kw_only=True, default="A/8.3/90")
     structure_factor: float = quantity(

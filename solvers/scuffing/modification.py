@@ -95,7 +95,9 @@ def lead_table(curve: LeadCurve, face_width: float) -> FloatArray:
     rising = position.size >= 2 and bool(np.all(np.diff(position) > 0.0))
     if not rising or position.size != value.size or position[0] < 0.0 or position[-1] > face_width * (1 + 1e-9):
         raise InvalidInput(
-            "lead_curve", "give two points or more, rising from 0 to the face width, and one gap each", "lead_curve"
+            "lead_curve",
+            "give at least two positions, in rising order from 0 to the face width, and one gap for each position",
+            "lead_curve",
         )
     return np.asarray(np.interp(np.linspace(0.0, face_width, LEAD_POINTS), position, value))
 

@@ -40,7 +40,8 @@ def geometry_notices(path: PathOfContact, lengths: ContactLengths) -> list[Notic
         notices.append(
             Notice(
                 "uneven_contact_length",
-                f"the contact length falls to {lengths.ratio:.2f} of its maximum (below 0.2); line loads peak there",
+                f"the total length of the contact lines falls to {lengths.ratio:.2f} of its maximum, below 0.2; the "
+                "line loads are highest at these positions",
                 "face_width",
             )
         )
@@ -52,7 +53,7 @@ def _range_notices(inputs: GearPairInputs) -> list[Notice]:
     notices = []
     for teeth, name in ((inputs.pinion, "pinion"), (inputs.wheel, "wheel")):
         if teeth.teeth < LEAST_TEETH:
-            notices.append(Notice("teeth_range", "the model is meant for 8 teeth and more", f"{name}.teeth"))
+            notices.append(Notice("teeth_range", "the model is meant for gears with at least 8 teeth", f"{name}.teeth"))
     pressure_angle, helix_angle = degrees(inputs.normal_pressure_angle), degrees(abs(inputs.helix_angle))
     if not PRESSURE_ANGLES[0] - 1e-9 <= pressure_angle <= PRESSURE_ANGLES[1] + 1e-9:
         notices.append(
@@ -76,7 +77,7 @@ def model_notices(path: PathOfContact, model: Model) -> list[Notice]:
         notices.append(
             Notice(
                 "calibrated_stiffness",
-                "the parabola is calibrated to the load maxima of Xue, Zhang and Wang, not derived",
+                "the parabolic tooth stiffness is not derived but calibrated to the load maxima of Xue, Zhang and Wang",
                 "tooth_stiffness",
                 rank="note",
             )
@@ -85,7 +86,8 @@ def model_notices(path: PathOfContact, model: Model) -> list[Notice]:
         notices.append(
             Notice(
                 "transverse_section",
-                "teeth cut in the transverse section are too stiff above 15 degrees of helix (16 % at 20, 40 % at 30)",
+                "above a helix angle of 15 degrees, teeth in the transverse section are too stiff (by 16 % at 20 "
+                "degrees, by 40 % at 30 degrees)",
                 "section",
             )
         )
@@ -103,7 +105,8 @@ def relief_notices(path: PathOfContact, modifications: Modifications) -> list[No
     return [
         Notice(
             "unusual_value",
-            f"the relief is {length * 1e3:.4g} mm long, the {place} {whole * 1e3:.4g} mm; is that a radius?",
+            f"the relief is {length * 1e3:.4g} mm long, but the {place} is only {whole * 1e3:.4g} mm long; was a "
+            "radius entered instead of a length?",
             f"{name}_length",
         )
         for name, amplitude, length, whole, place in reliefs
@@ -115,17 +118,17 @@ def load_notices(balance: LoadBalance) -> list[Notice]:
     """Return warnings about a missing or light load, a too wide contact, and pressures without a limit."""
     notices = []
     if balance.force == 0.0:
-        message = "without a torque that presses the flanks only the kinematic transmission error is computed"
+        message = "no torque presses the flanks together; only the kinematic transmission error is computed"
         notices.append(Notice("no_load", message, "pinion_torque", rank="note"))
     if balance.bent_steps:
         message = (
-            f"the contact is so light that between {balance.bent_steps} roll positions loads are interpolated roughly: "
-            "curves over the flank and the face load factor may be off by percents"
+            f"the contact is so light that loads are interpolated only roughly in {balance.bent_steps} intervals "
+            "between roll positions; curves over the flank and the face load factor may be wrong by several percent"
         )
         notices.append(Notice("light_contact", message, "pinion_torque"))
     if reaches_base_circle(balance.survey):
         message = (
-            "the loaded path reaches a base circle, towards which the reduced radius vanishes: pressure and flash "
+            "the loaded path of contact reaches a base circle, where the reduced radius vanishes; pressure and flash "
             "temperature have no maximum there, and no safety is stated"
         )
         notices.append(Notice("path_reaches_base_circle", message, "profile_shift", rank="invalid"))
@@ -133,7 +136,8 @@ def load_notices(balance: LoadBalance) -> list[Notice]:
         notices.append(
             Notice(
                 "half_space",
-                "somewhere the contact is wider than half the tooth thickness behind it; its compliance is held there",
+                "at some points the contact is wider than half the tooth thickness behind it; beyond this width the "
+                "compliance of the contact is kept constant",
                 "pinion_torque",
             )
         )
@@ -157,11 +161,17 @@ def unusual_modifications(modifications: Modifications) -> Iterator[Notice]:
     }
     for name, value in depths.items():
         if 0.0 < abs(value) < LEAST_MODIFICATION:
-            message = f"{value * 1e6:g} µm is less than can be ground; was mm meant?"
+            message = (
+                f"a modification of {value * 1e6:g} µm is too small to be ground; was a value entered in the wrong "
+                "unit (mm)?"
+            )
             yield unusual_value(f"modifications.{name}", message)
     highest = max(map(abs, modifications.lead_curve.gap), default=0.0)
     if 0.0 < highest < LEAST_MODIFICATION:
-        message = f"{highest * 1e6:g} µm is less than can be ground; was mm meant?"
+        message = (
+            f"a largest gap of {highest * 1e6:g} µm is too small to be ground; was a value entered in the wrong unit "
+            "(mm)?"
+        )
         yield unusual_value("modifications.lead_curve.gap", message)
 
 

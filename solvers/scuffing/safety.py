@@ -85,7 +85,10 @@ def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
     Eq. 16.
     """
     if inputs.temperatures.bulk_method == "estimated" and inputs.temperatures.bulk is not None:
-        message = "a bulk temperature is given, but its method is estimated; set the method to given or leave it out"
+        message = (
+            "a bulk temperature is given, but bulk_method is 'estimated'; set bulk_method to 'given', or leave the "
+            "bulk temperature out"
+        )
         raise InvalidInput("exclusive", message, "temperatures.bulk_method")
     inputs, distribution, flash_map, heat = in_force(inputs, solve(inputs.distribution))
     given, bulk = inputs.distribution, inputs.temperatures.bulk

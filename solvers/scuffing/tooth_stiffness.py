@@ -85,7 +85,8 @@ def tooth_shape(gear: Gear) -> ToothShape:
     if tip_width <= 0.0:
         raise InvalidInput(
             "pointed_tooth",
-            "a tooth is pointed in its normal section; choose transverse, or reduce addendum or profile shift",
+            "a tooth is pointed in its normal section; choose the transverse section, or reduce addendum or profile "
+            "shift",
             "section",
         )
     height = gear.tip_radius * cos(tip_angle) - _chord_height(gear, root_width)
@@ -119,7 +120,10 @@ def _chord_height(gear: Gear, root_width: float) -> float:
     Raises InvalidInput root_circle if the chord does not fit into the root circle.
     """
     if gear.root_radius <= root_width / 2:
-        message = "a gear's root circle is narrower than the root of its teeth; reduce the dedendum or take more teeth"
+        message = (
+            "the roots of the teeth do not fit on the root circle of a gear; reduce the dedendum or increase the "
+            "number of teeth"
+        )
         raise InvalidInput("root_circle", message, "gears")
     return sqrt(gear.root_radius**2 - root_width**2 / 4)
 
@@ -333,7 +337,9 @@ def pair_compliance(path: PathOfContact, pinion: Solid, wheel: Solid, model: Mod
 def _pair_compliance(path: PathOfContact, pinion: Solid, wheel: Solid, model: Model) -> PairCompliance:
     if model.tooth_stiffness == "parabola" and model.contact != "linear":
         raise InvalidInput(
-            "contact_law", "the parabola is scaled to Ishikawa's maximum with linear contact; choose linear", "contact"
+            "contact_law",
+            "the parabolic tooth stiffness is scaled to Ishikawa's maximum with linear contact; choose linear contact",
+            "contact",
         )
     x = np.linspace(0.0, path.length, TABLE_POINTS)
     roll_lengths = (path.start + x, path.pair.line_of_action - path.start - x)

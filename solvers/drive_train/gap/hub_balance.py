@@ -151,7 +151,7 @@ def solve_linear(matrix: FloatArray, right: FloatArray) -> FloatArray:
     try:
         return np.asarray(np.linalg.solve(matrix, right), dtype=float)
     except np.linalg.LinAlgError as error:
-        message = "shafts and couplings yield without bound: their equations are singular"
+        message = "the deflections of shafts and couplings have no limit, because their equations are singular"
         raise NoSolution("drive_train", message, {"reciprocal_condition": 0.0}) from error
 
 

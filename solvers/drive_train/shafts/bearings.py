@@ -173,7 +173,10 @@ def friction_and_eccentricity(bearing: JournalBearing, load: float, speed: float
 def _eccentricity(load: float) -> float:
     """Return the eccentricity ratio at a load number."""
     if load > load_number(LARGEST_ECCENTRICITY):
-        message = "a plain bearing's film cannot carry its load; it would be thinner than a thousandth of the clearance"
+        message = (
+            "the film of a plain bearing cannot carry the load, because it would be thinner than a thousandth of the "
+            "clearance"
+        )
         raise NoSolution("journal", message, {"load_number": load})
     return _invert_load_number(load)
 

@@ -52,7 +52,9 @@ def gas_dynamics(gas: Gas, ducts: list[tuple[Stretch, Duct]], angle: FloatArray)
             reason = "the step limit was reached" if steps == -1 else "no step length gave a physical state"
             duration = float(angle[-1] - angle[0]) / part.speed
             remaining = {"remaining_share_of_stroke": 1.0 - float(record.ends.time.max()) / duration}
-            raise NoSolution("unphysical_state", f"the gas dynamics failed: {reason}; try fewer slices", remaining)
+            raise NoSolution(
+                "unphysical_state", f"the gas dynamics failed because {reason}; try fewer slices", remaining
+            )
         marches.append(March(stretch, record, steps))
     return space_flow(angle, marches, conserves_energy=True)
 

@@ -50,7 +50,7 @@ def stretches(face_width: float, grooves: tuple[Groove, ...], slices: int, least
             message = f"the groove from {1e3 * low:.3f} to {1e3 * high:.3f} mm does not lie within the face"
             raise InvalidInput("groove_outside", message, f"grooves.{k}.position")
         if low < edges[-1] - tolerance and len(edges) > 1:
-            message = f"the groove at {1e3 * groove.position:.3f} mm overlaps its neighbour"
+            message = f"the groove at {1e3 * groove.position:.3f} mm overlaps the groove beside it"
             raise InvalidInput("groove_overlap", message, f"grooves.{k}.position")
         edges += [low, high]
     edges.append(face_width)
@@ -60,5 +60,7 @@ def stretches(face_width: float, grooves: tuple[Groove, ...], slices: int, least
             cells = max(round(slices * (high - low) / face_width), least)
             parts.append(Stretch(low, (high - low) / cells, cells, low == 0.0, high == face_width))
     if not parts:
-        raise InvalidInput("groove_outside", "the grooves leave nothing of the face", "grooves")
+        raise InvalidInput(
+            "groove_outside", "the grooves cover the whole face; leave a part of the face free", "grooves"
+        )
     return parts

@@ -101,14 +101,17 @@ def _tabulate(
 def _check_area(angle: FloatArray, area: FloatArray) -> None:
     smallest = int(np.argmin(area))
     if area[smallest] <= 0.0:
-        message = f"the mate's tooth fills the tooth space at {degrees(angle[smallest]):.3f} deg"
+        message = (
+            f"at {degrees(angle[smallest]):.3f} deg the tooth of the mating gear fills the tooth space completely; "
+            "check the teeth and the centre distance"
+        )
         raise InvalidInput("tooth_space_closed", message, "gears")
     noise = 1e-12 * area.max()
     wrong = np.concatenate([np.diff(area[: smallest + 1]) > noise, np.diff(area[smallest:]) < -noise])
     if wrong.any():
         where = degrees(angle[int(np.argmax(wrong))])
         message = (
-            f"the area of the tooth space has a second minimum near {where:.3f} deg: with tip gaps the point nearest "
-            "to a tip corner can jump along the root, contact gaps have no such jump"
+            f"near {where:.3f} deg the area of the tooth space has a second minimum. With tip gaps the point nearest "
+            "to a tip corner can jump along the root; use contact gaps, which have no such jump"
         )
         raise InvalidInput("tooth_space_minima", message, "gears")

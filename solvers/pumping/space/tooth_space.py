@@ -114,7 +114,9 @@ def tooth_space(pair: GearPair, extra_backlash: float, gap: Gap, *, of_pinion: b
     mate_tip = mate.half_tooth_angle(mate.tip_radius) - thinning
     if mate_tip <= 0.0:
         raise InvalidInput(
-            "pointed_tooth", "the mate's teeth are pointed with this backlash; reduce it", "normal_backlash"
+            "pointed_tooth",
+            "with this backlash the teeth of the mating gear are pointed; reduce the backlash",
+            "normal_backlash",
         )
     return ToothSpace(
         root=root_profile(pair.inputs, teeth, owner),

@@ -117,18 +117,18 @@ def with_temperatures(inputs: ScuffingInputs, distribution: LoadDistribution, fl
         test = replace(test, lubricant_factor=factor)
         temperatures = replace(temperatures, scuffing=limit, scuffing_test=test)
     if temperatures.scuffing is not None and temperatures.scuffing <= temperatures.oil:
-        message = "the scuffing temperature must lie above the oil temperature"
+        message = "the scuffing temperature must be above the oil temperature"
         raise InvalidInput("scuffing_temperature", message, "temperatures.scuffing")
     bulk = temperatures.bulk
     if bulk is None and temperatures.bulk_method != "estimated":
-        message = f"the method '{temperatures.bulk_method}' needs a bulk temperature"
+        message = f"the method '{temperatures.bulk_method}' needs a bulk temperature; give one"
         raise InvalidInput("missing_bulk", message, "temperatures.bulk")
     if bulk is None:
         return replace(inputs, temperatures=temperatures, oil=oil, lubricant=None)
     if isinstance(oil, OilSheet) and not COLDEST_OIL <= bulk <= HOTTEST_OIL:
         message = (
-            f"the oil would enter at {bulk - 273.15:.4g} °C, where grade and data sheet do not hold; "
-            "give a lower load, another bulk temperature, or the oil by its viscosity"
+            f"the oil would enter the contact at {bulk - 273.15:.4g} °C, where grade and data sheet are not valid; "
+            "reduce the load, give another bulk temperature, or give the viscosity of the oil"
         )
         raise InvalidInput("oil_temperature", message, "temperatures.bulk_method")
     return replace(inputs, temperatures=temperatures, lubricant=lubricant_at(oil, bulk))
@@ -138,30 +138,31 @@ def oil_notices(inputs: ScuffingInputs, path: PathOfContact) -> Iterator[Notice]
     """Warn of a missing oil or bulk temperature, of doubtful estimates, and of unused inputs of the cooling."""
     if inputs.known_oil is None:
         message = (
-            "no oil is given (iso_vg, kinematic_viscosity_40 or viscosity_pa_s): film, contact temperature and "
-            "safety are not stated"
+            "no oil is given (iso_vg, kinematic_viscosity_40 or viscosity_pa_s); film, contact temperature and safety "
+            "are therefore not stated"
         )
         yield Notice("no_oil", message, "lubricant", rank="note")
         return
     yield from _material_notices(inputs)
     if inputs.temperatures.bulk is None:
         message = (
-            "the path of contact reaches a base circle, where no flash temperature is defined to estimate the bulk "
-            "temperature from: film, contact temperature and safety are not stated; give the bulk temperature"
+            "the path of contact reaches a base circle, where no flash temperature is defined, so that the bulk "
+            "temperature cannot be estimated. Film, contact temperature and safety are not stated; give the bulk "
+            "temperature"
         )
         yield Notice("no_bulk_estimate", message, "temperatures.bulk_method", rank="invalid")
         return
     speed = pitch_line_velocity(inputs.distribution, path)
     if inputs.temperatures.bulk_method == "estimated" and speed > FLOODED_UP_TO:
         message = (
-            f"the bulk temperature is estimated for flooded flanks; at {speed:.4g} m/s, beyond 60 m/s, it is a lower "
-            "bound, the contact temperature is higher and the safety lower than stated"
+            f"the estimate of the bulk temperature holds for flooded flanks; at {speed:.4g} m/s, above 60 m/s, it is a "
+            "lower bound. The real contact temperature is higher and the real safety is lower than stated"
         )
         yield Notice("bulk_lower_bound", message, "temperatures.bulk_method")
     if inputs.temperatures.bulk_method != "heat_balance" and inputs.cooling != Cooling():
         message = (
-            f"the bulk temperature is {inputs.temperatures.bulk_method}; the inputs of the cooling are only used by "
-            "the method heat_balance"
+            "the inputs of the cooling are not used, because the bulk temperature is "
+            f"{inputs.temperatures.bulk_method}; only the method heat_balance uses them"
         )
         yield Notice("cooling_not_used", message, "temperatures.bulk_method", rank="note")
 
@@ -178,8 +179,8 @@ def _material_notices(inputs: ScuffingInputs) -> Iterator[Notice]:
     for name, solid in (("pinion", given.pinion_material), ("wheel", given.wheel_material)):
         if estimated and not least <= solid.youngs_modulus <= largest:
             message = (
-                f"the {name} is not of steel ({solid.youngs_modulus / 1e9:.4g} GPa), but ISO/TR 13989-1 estimates "
-                f"{' and '.join(estimated)} for gears of steel: give measured values"
+                f"the {name} is not made of steel (Young's modulus {solid.youngs_modulus / 1e9:.4g} GPa), but ISO/TR "
+                f"13989-1 estimates {' and '.join(estimated)} for steel gears; give measured values"
             )
             yield Notice("made_for_steel", message, f"materials.{name}.youngs_modulus")
 

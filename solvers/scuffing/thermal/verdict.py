@@ -194,15 +194,15 @@ def path_notices(
     notices = []
     status = [outcome for path in paths for outcome in path.status]
     if "unloaded" in paths[0].status:
-        message = "there is no film at points of the feature line without load or motion"
+        message = "some points of the feature line have no load or no motion; at these points there is no film"
         notices.append(Notice("no_film", message, _what_leaves_no_film(distribution), rank="note"))
     if unknown:
         notices.append(
             Notice(
                 "unsolved_points",
-                f"{status.count('no_solution')} of {len(status)} points have no solution and "
-                f"{status.count('refused')} are outside the range of the model; {unknown} of them may decide: no "
-                "largest flash temperature, thinnest film or safety is stated from the others",
+                f"{status.count('no_solution')} of {len(status)} points have no solution and {status.count('refused')} "
+                f"are outside the range of the model. The extreme value may lie at {unknown} of these points. "
+                "Therefore no largest flash temperature, thinnest film or safety is stated",
                 rank="invalid",
             )
         )
@@ -210,7 +210,7 @@ def path_notices(
         notices.append(
             Notice(
                 "no_safety",
-                "the teeth stay as cool as the oil; the safety factor has no meaning",
+                "the teeth stay as cool as the oil; the safety factor therefore has no meaning",
                 "temperatures",
                 rank="note",
             )
@@ -228,5 +228,8 @@ def _other_verdict(flank: float, feature_line: float | None) -> list[Notice]:
     if feature_line is not None and scuffing_risk(feature_line) == scuffing_risk(flank):
         return []
     along = "the teeth stay as cool as the oil" if feature_line is None else f"the safety is {feature_line:.2f}"
-    message = f"since version 0.3 the whole flank is judged: its safety is {flank:.2f}; along the feature line {along}"
+    message = (
+        f"since version 0.3 the whole flank is judged; the safety of the whole flank is {flank:.2f}, but along the "
+        f"feature line {along}"
+    )
     return [Notice("whole_flank", message, "model.line", rank="note")]
