@@ -65,7 +65,7 @@ class Slices(NamedTuple):
 
 
 class Peaks(NamedTuple):
-    """Largest value and its place at every roll position, arrays (positions,); see `Peak`."""
+    """Largest value at every roll position and the place of this value, arrays (positions,); see `Peak`."""
 
     value: FloatArray
     x: FloatArray

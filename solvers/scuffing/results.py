@@ -242,7 +242,7 @@ class ContactPoints:
 
     @property
     def in_contact(self) -> BoolArray:
-        """True at points at which the flanks touch and move, so that film and flash temperature have a meaning."""
+        """True at points at which the flanks touch and move; only there do film and flash temperature have a meaning."""
         return (self.line_load > 0.0) & (self.half_width > 0.0) & (self.pinion_speed + self.wheel_speed > 0.0)
 
     @property
@@ -309,7 +309,7 @@ class FeatureLine:
 
 @record
 class Flank:
-    """Maps [profile, face] of modification [m], line load [N/m] and pressure [Pa]; pressure is NaN where R_n vanishes."""
+    """Maps [profile, face] of modification [m], line load [N/m] and pressure [Pa] (NaN where R_n vanishes)."""
 
     profile_fraction: FloatArray = quantity("profile position of the map", "ξ", text="fraction of the path from A to E")
     face_fraction: FloatArray = quantity(

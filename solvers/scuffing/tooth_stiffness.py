@@ -38,7 +38,7 @@ LAST_STEP = 1e-3
 
 @dataclass(frozen=True, slots=True)
 class LoadPoints:
-    """Points at which a tooth is loaded, arrays over the points.
+    """Points at which a tooth is loaded; the fields are arrays over these points.
 
     `height` is the height above the root chord [m], `angle` the angle between the load and the normal of the centre
     line [rad], `depth` the distance from the flank to the centre line along the load [m].
@@ -425,7 +425,7 @@ def _parabola(fraction: FloatArray, end_ratio: float) -> FloatArray:
 
 @inlined_kernel
 def compliance_at(compliance: PairCompliance, x: float) -> tuple[float, float]:
-    """Return `constant` [1/Pa] and `limit` [m] at x [m] from A; linear contact has no limit."""
+    """Return `constant` [1/Pa] and `limit` [m] at x [m] from A; the limit is infinite for linear contact."""
     place = place_of(x, compliance.points_per_metre, compliance.constant.size)
     constant = interpolated(compliance.constant, place)
     return constant, np.inf if compliance.logarithmic == 0.0 else interpolated(compliance.limit, place)

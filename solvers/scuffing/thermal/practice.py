@@ -48,7 +48,7 @@ def lubricant_factor(viscosity: float, kind: OilKind) -> float:
 
 
 def roughness_factor(roughness_1: float, roughness_2: float) -> float:
-    """Compute the roughness factor of the mean friction.
+    """Compute the roughness factor of the mean coefficient of friction.
 
     Parameters
     ----------
@@ -68,7 +68,7 @@ def roughness_factor(roughness_1: float, roughness_2: float) -> float:
 
 
 def pitch_line_velocity(inputs: LoadDistributionInputs, path: PathOfContact) -> float:
-    """Return the speed of the working pitch circles [m/s]."""
+    """Return the circumferential speed of the working pitch circles [m/s]."""
     return inputs.load.pinion_speed * path.pair.pinion_working_radius
 
 
