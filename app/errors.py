@@ -18,7 +18,7 @@ class Fault(NamedTuple):
 
 
 def pointer(location: Iterable[str | int]) -> str:
-    """Return the RFC 6901 pointer of a location."""
+    """Return the JSON Pointer (RFC 6901) to a location."""
     return "".join("/" + printable(part).replace("~", "~0").replace("/", "~1") for part in location)
 
 
@@ -28,7 +28,7 @@ def printable(name: str | int) -> str:
 
 
 class ServiceError(Exception):
-    """An exception of `PROBLEMS`; `detail` describes the present case, if more is known about it."""
+    """Base class of exceptions in `PROBLEMS`; `detail` says more about the present case, or is empty."""
 
     def __init__(self, detail: str = "") -> None:
         super().__init__(detail)
@@ -52,7 +52,7 @@ class InvalidBody(Exception):
 
 
 class Unprocessable(Exception):
-    """Input that the schema allows but physics does not; `path` is the dotted field of the request."""
+    """Input that the schema allows but physics does not; `path` is the dotted path of the field in the request."""
 
     def __init__(self, code: str, message: str, path: str | None = None) -> None:
         super().__init__(code, message, path)
@@ -62,7 +62,7 @@ class Unprocessable(Exception):
 
 
 def faults_of(error: InvalidBody | Unprocessable) -> list[dict[str, str]]:
-    """Return pointer, code and message of the errors of all fields."""
+    """Return pointer, code and message of every error."""
     if isinstance(error, Unprocessable):
         parts = error.path.split(".") if error.path else ()
         return [{"pointer": pointer(parts), "code": error.code, "message": error.message}]
@@ -102,11 +102,11 @@ class Stopping(ServiceError):
 
 
 class ClientGone(ServiceError):
-    """The client closed the connection; its calculation is given up."""
+    """The client closed the connection, so the calculation is given up."""
 
 
 class Kind(NamedTuple):
-    """Status, code and title of a problem, and the time after which to try again [s]."""
+    """Status, code and title of a problem, and the time [s] after which the client should try again."""
 
     status: int
     code: str

@@ -1,4 +1,4 @@
-"""Read the oil of a mesh, its supply, the temperatures of oil and teeth, and the friction."""
+"""Oil and oil supply of a mesh, temperatures of oil and teeth, and friction, as the file states them."""
 
 from app.rexs import table
 from app.rexs.model import Component
@@ -38,7 +38,10 @@ class Lubrication:
         self._base_oil(oil)
 
     def _base_oil(self, oil: Component) -> None:
-        """Read the kind of oil from its standard type, else from other texts. A kind without a model is a finding."""
+        """Fill in the kind of oil from the attribute of the standard, else from other texts.
+
+        A kind of oil that is not modelled is recorded as a finding.
+        """
         path, texts = "lubricant.kind", {}
         for name in (*table.OIL_TYPES, *table.OIL_WORDS):
             texts[name] = self._reading.text(oil, name)
@@ -68,7 +71,8 @@ class Lubrication:
     def _temperatures(self) -> None:
         """Fill in temperature and supply of the oil, and the bulk temperature.
 
-        The bulk temperature is the mean of both gears, or that of the stage if the gears have none.
+        The bulk temperature is the mean of both gears. If the gears state none, it is the bulk temperature of the
+        stage.
         """
         for origin in self._stage.oil_origins:
             if self._stage.take(table.OIL_TEMPERATURE, origin) is not None:

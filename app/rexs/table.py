@@ -1,7 +1,7 @@
 """The names of REXS: units, attributes that become fields of a request, and attributes for the numbers of an answer.
 
 Sources: the specification and the published schemas of REXS 1.0 to 2.0 (https://www.rexs.info). Only names and units
-are used here. If versions of REXS have different names for the same attribute, the preferred name comes first.
+are used here. If different versions of REXS name an attribute differently, the preferred name comes first.
 """
 
 from math import pi
@@ -27,10 +27,11 @@ UNITS = (
     {"m/s^2": 1.0},
     {"l/min": 1e-3 / 60.0, "l/s": 1e-3, "m^3/s": 1.0, "m^3/h": 1.0 / 3600.0},
 )
-"""Units of each quantity as files spell them, without blanks, and their size in SI.
+"""Units of each quantity as files spell them, without blanks, and the size of each unit in SI.
 
-A file states the unit of every attribute. Values are converted by this unit and never by the version of the file:
-degrees are "°" up to version 1.3 and "deg" from 1.4; modifications are in "mum" or in "mm".
+A file states the unit of every attribute. Values are converted by this unit and never by the version of the file,
+because versions spell units differently: degrees are "°" up to version 1.3 and "deg" from 1.4; modifications are in
+"mum" or in "mm".
 """
 ZEROS = {"C": 273.15, "°C": 273.15}  # K
 
@@ -48,7 +49,7 @@ def convert(value: float, stated: str, wanted: str) -> float | None:
 
 
 class Row(NamedTuple):
-    """A number taken from the file as it is: our field, attributes in order of preference, unit of our field."""
+    """A number taken from the file as it is: field of the request, attributes by preference, unit of the field."""
 
     field: str
     attributes: tuple[str, ...]
@@ -97,7 +98,7 @@ HEAT = (
     Row("thermal_conductivity_w_per_m_k", ("thermal_conductivity",), "W/(mK)"),
     Row("specific_heat_j_per_kg_k", ("thermal_capacity",), "J/(kgK)"),
 )
-"""Of gears and oils; shafts have no such fields."""
+"""Thermal properties of gears and oils. Shafts have no such fields."""
 OIL = (
     Row("kinematic_viscosity_40_mm2_per_s", ("viscosity_at_40_degree_celsius",), "mm^2/s"),
     Row("kinematic_viscosity_100_mm2_per_s", ("viscosity_at_100_degree_celsius",), "mm^2/s"),
@@ -194,7 +195,7 @@ BEARING_BORE = Row("diameter_mm", ("reference_diameter_relative_clearance_plain_
 JOURNAL = (
     Row("diameter_mm", ("inner_diameter",), "mm"),
     Row("width_mm", ("width",), "mm"),
-    Row("radial_clearance_um", ("diameter_clearance_plain_bearing",), "um"),  # half of it
+    Row("radial_clearance_um", ("diameter_clearance_plain_bearing",), "um"),  # half of the value is used
     Row("film_temperature_c", ("lubricant_feed_temperature",), "C"),
     Row("oil_flow_l_per_min", ("lubricant_flow_through_bearing",), "l/min"),
 )
@@ -342,7 +343,7 @@ IGNORED = (
 
 CUSTOM = "custom_tribodrive_"
 STANDARD_FROM = {"face_load_factor_contact_stress": 2}
-"""Attributes of the standard for results, and the major version that introduced them; all others are custom."""
+"""Attributes of the standard for results, and the major version that introduced each of them."""
 LOAD_RESULTS = (
     ("load.face_load_factor", "face_load_factor_contact_stress", "none"),
     ("load.max_line_load_n_per_mm", "maximum_line_load", "N / mm"),

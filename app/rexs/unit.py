@@ -15,14 +15,14 @@ from app.rexs.power import Flow, Pair, Train
 from app.rexs.reading import MESH, SCUFFING, SECTIONS, Reading, path_in, rounded
 from app.rexs.stages import SPEED, TORQUE, StageDraft, pairs
 
-MOST_FINDINGS = 1000  # in an answer; the author of the file sees the pattern earlier
+MOST_FINDINGS = 1000  # in an answer; the author of the file sees the pattern from fewer findings
 MOST_STAGES = 50  # chosen: far beyond any unit
-MOST_CASES = 200  # of a spectrum in the file; further cases are not read
+MOST_CASES = 200  # load cases of a file; further load cases are not read
 MOST_DRAFTS = 2000  # stages times load cases; a draft takes 2 ms
-LONGEST_NAME, MOST_SPECTRUM_CASES = 100, 100  # of /v1/spectrum
-MOST_IGNORED = 2000  # of a stage
+LONGEST_NAME, MOST_SPECTRUM_CASES = 100, 100  # limits of /v1/spectrum
+MOST_IGNORED = 2000  # ignored attributes per stage
 SHARES = {"operating_time_fraction": "", "load_duration_fraction": "", "operating_time": "h", "load_duration": "h"}
-"""Attributes with the share of a load case, and their units."""
+"""Attributes that state the share of a load case in the operating time, and the units of these attributes."""
 
 
 def gear_unit(model: Model) -> dict[str, Any]:
@@ -79,7 +79,8 @@ def _stages(reading: Reading, all_pairs: list[Pair], base: Flow, flows: list[Flo
 def _stage(pair: Pair, base: Flow, flows: list[Flow]) -> tuple[dict[str, Any], StageDraft]:
     """Return a stage of the answer and its draft.
 
-    The load is that of the base model. If the base model states no load, it is that of the first load case with one.
+    The load is that of the base model. If the base model states no load, the load is that of the first load case that
+    states a load.
     """
     flow = next((flow for flow in (base, *flows) if flow.knows(pair)), base)
     stage = _draft_of(pair, flow)
@@ -89,7 +90,7 @@ def _stage(pair: Pair, base: Flow, flows: list[Flow]) -> tuple[dict[str, Any], S
                 stage.note(
                     path, stage.fields[path], f"taken from the load case {case.name}, because the model states no value"
                 )
-    # The mesh comes first, then the oil.
+    # Fields of the mesh come first, then fields of the oil.
     paths = sorted({**stage.fields, **stage.missing}, key=lambda path: path.partition(".")[0] not in MESH)
     requests = {endpoint: stage.request(endpoint, paths) for endpoint in SECTIONS}
     if add_drive_train(stage):
@@ -138,7 +139,7 @@ def _described_by(stage: StageDraft) -> Iterator[Component]:
 
 
 class _Case(NamedTuple):
-    """A load case of a stage, with its changes of the fields of the draft."""
+    """A load case of a stage, with the changes that it makes to the fields of the draft."""
 
     name: str
     share: float
@@ -160,7 +161,7 @@ class _Case(NamedTuple):
 
 
 def _cases(stage: StageDraft, pair: Pair, flows: list[Flow]) -> list[_Case]:
-    """Return the load spectrum: the changes of torque, speed and further inputs by each load case."""
+    """Return the load spectrum. Each load case changes torque, speed and possibly further inputs."""
     cases = []
     shares, reason = _shares([flow.reading for flow in flows])
     load_sources = stage.load_sources
@@ -186,7 +187,10 @@ def _rows(models: Iterable[BaseModel]) -> list[dict[str, Any]]:
 
 
 def _shares(readings: list[Reading]) -> tuple[list[float], str | None]:
-    """Return the shares of the operating time of all load cases, and the reason if the file leaves them open."""
+    """Return the shares of all load cases in the operating time.
+
+    If the file states no shares in attributes of the standard, also return how the shares were chosen.
+    """
     if not readings:
         return [], None
     unit = readings[0].model.first("gear_unit")

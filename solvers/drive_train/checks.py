@@ -7,10 +7,10 @@ from solvers.errors import InvalidInput
 from solvers.gears.pair import PathOfContact
 
 NAMES = ("pinion_shaft", "wheel_shaft")
-COLLAR_BEYOND_TEETH = 3.0  # normal modules
-LEAST_BEARING_DISTANCE = 0.5  # face widths
+COLLAR_BEYOND_TEETH = 3.0  # normal modules; largest distance of the collar radius from the pitch circle
+LEAST_BEARING_DISTANCE = 0.5  # face widths between the two bearings of a shaft
 LEAST_STIFFNESS = 1e6  # N/m, of the symmetric part in its weakest direction
-ROUNDING = 1e-9  # relative, of numbers converted from other units
+ROUNDING = 1e-9  # relative rounding error of numbers that were converted from other units
 
 
 def check_inputs(inputs: DriveTrainInputs, path: PathOfContact) -> None:
@@ -21,7 +21,7 @@ def check_inputs(inputs: DriveTrainInputs, path: PathOfContact) -> None:
     inputs : DriveTrainInputs
         The unit.
     path : PathOfContact
-        Path of contact of its gear pair.
+        Path of contact of the gear pair of the unit.
 
     Raises
     ------
@@ -84,7 +84,10 @@ def _check_bearings(inputs: DriveTrainInputs, shaft: Shaft, name: str) -> None:
 
 
 def _is_on(shaft: Shaft, position: float) -> bool:
-    """Return True if a position [m] is on the shaft or at its ends, which are sums of lengths and thus rounded."""
+    """Return True if a position [m] is on the shaft, which includes the ends.
+
+    The ends are sums of lengths. The comparison therefore allows for rounding errors.
+    """
     return shaft.start - COINCIDENT <= position <= shaft.end + COINCIDENT
 
 

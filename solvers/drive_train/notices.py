@@ -20,15 +20,15 @@ from solvers.notices import Notice
 from solvers.pumping.notices import thin_air
 from solvers.scuffing.notices import unusual_modifications, unusual_temperatures
 
-SHORT_BEARING = 0.7  # width over diameter
-ROUNDING = 1e-9  # relative, of lengths converted from other units
-THIN_FILM = 15e-6  # m
-LARGE_ECCENTRICITY = 0.9  # customary limit of design: the film is a tenth of the clearance
-LIFTED = 0.9  # contact fraction
+SHORT_BEARING = 0.7  # largest ratio of width to diameter
+ROUNDING = 1e-9  # relative rounding error of lengths that were converted from other units
+THIN_FILM = 15e-6  # m; thinner films give a warning
+LARGE_ECCENTRICITY = 0.9  # customary design limit, at which the thinnest film is a tenth of the clearance
+LIFTED = 0.9  # contact fraction below which flanks count as lifted off
 
 
 def shaft_notices(inputs: DriveTrainInputs, shafts: tuple[ShaftResult, ShaftResult]) -> Iterator[Notice]:
-    """Warn of films out of range, of thrust that may reverse or is too high, and of long overhangs."""
+    """Warn of thin films, bearing losses left out, thrust that may reverse or is too high, and long overhangs."""
     for shaft, result, name in zip(inputs.shafts, shafts, NAMES, strict=True):
         for k, (bearing, state) in enumerate(zip(shaft.bearings, result.bearings, strict=True)):
             field = f"{name}.bearings.{k}"
@@ -76,7 +76,7 @@ def _film_notices(
 
 
 def load_notices(inputs: DriveTrainInputs, load: FaceLoad) -> Iterator[Notice]:
-    """Warn of load at an end of the face, of flanks that lift off, and of an assumed wall response."""
+    """Warn if the load is largest at an end of the face, if flanks lift off, or if the wall response is assumed."""
     if load.face_load_at in {0.0, 1.0}:
         message = f"the load is largest at the end y/b = {load.face_load_at:.0f} of the face"
         yield Notice("edge_load", message, "mesh.distribution.modifications.helix_slope")
@@ -102,7 +102,11 @@ def loss_notices(inputs: DriveTrainInputs, losses: TrainLosses) -> Iterator[Noti
 def coupling_notices(
     inputs: DriveTrainInputs, couplings: tuple[CouplingResult, ...], of_model: list[tuple[Notice, ...]]
 ) -> Iterator[Notice]:
-    """Tell of hubs that stick, and pass on the warnings of the coupling model, `of_model`, each code once."""
+    """Report hubs that stick, and pass on the warnings of the coupling model.
+
+    `of_model` holds the warnings of the coupling model for each coupling. If a coupling has several warnings with the
+    same code, only one of these warnings is passed on.
+    """
     for k, (coupling, notices) in enumerate(zip(couplings, of_model, strict=True)):
         field = f"couplings.{k}"
         for name, stuck, share in zip(("unit", "machine"), coupling.stuck, coupling.friction_share, strict=True):
@@ -119,7 +123,7 @@ def coupling_notices(
 
 
 def unusual_values(inputs: DriveTrainInputs, result: DriveTrainResult) -> Iterator[Notice]:
-    """Tell of unusual values of oils, temperatures, ambient, couplings, gears, modifications and load."""
+    """Report unusual values of oils, temperatures, ambient pressure, couplings, gears, modifications and load."""
     derived, mesh, load = result.derived, inputs.mesh.distribution, result.load
     yield from thick_oil(derived.lubricant.viscosity if derived.lubricant else None)
     for name, shaft in zip(NAMES, (derived.pinion_shaft, derived.wheel_shaft), strict=True):
