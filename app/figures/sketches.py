@@ -14,7 +14,7 @@ from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.gears.pair import PathOfContact, meshing_path
 
 WINDOW = 4.2, 3.6  # transverse modules on either side of the pitch point, across and along the line of centres
-POINTS = 25  # per fillet or flank
+POINTS = 25  # points per fillet or flank
 
 
 def transverse_section(inputs: GearPairInputs) -> Figure:

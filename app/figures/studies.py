@@ -1,4 +1,4 @@
-"""Figures of studies: sweeps as curves and maps, influences, worst corners, and the course of a search."""
+"""Figures of studies: sweeps as curves and maps, influences, worst corners, lead charts, and the course of a search."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -258,7 +258,7 @@ def answer(grid: Grid) -> str:
 
 
 class Lead(NamedTuple):
-    """Slope and crowning of a helix [um], or their tolerances [um]."""
+    """Slope and crowning of a helix [um], or the tolerances of both [um]."""
 
     slope: float
     crowning: float

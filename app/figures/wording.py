@@ -6,7 +6,7 @@ from math import floor, log10
 
 NO_BREAK = "\u00a0"  # a space at which lines do not break
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
-PLAIN = (1e-3, 1e6)  # magnitudes written without a power of ten
+PLAIN = (1e-3, 1e6)  # range of the magnitudes that are written without a power of ten
 NOISE = 1e-9  # share of a whole; a smaller part is a rounding error
 UNCERTAIN = 0.2  # chosen; verdicts on a number with a larger relative error by resolution are doubtful
 DIFFERENCES = {"°C": "K", "K": "K", "°": "°", "%": "percentage points"}
@@ -53,7 +53,7 @@ def percent(fraction: float) -> str:
 
 
 def ratio(value: float, unit: str | None = None) -> str:
-    """Return a ratio as text, with more digits if it is close to 1."""
+    """Return a ratio as text, with more digits if the ratio is close to 1."""
     return number(value, unit, digits=3 if abs(value - 1.0) > 0.01 else 6)
 
 

@@ -164,7 +164,7 @@ only these fields.
 
 
 class Place(NamedTuple):
-    """A place in the manual: the text of a link to the place, and its address."""
+    """A place in the manual: the text of a link to the place, its address, and its chapter."""
 
     text: str
     address: str

@@ -16,7 +16,7 @@ from app.schema.fields import ITEM, Branch, Leaf, branches, leaf_at, tree
 from app.schema.model import Documented
 
 SUBJECTS = {"gears": "pair", "coupling": "coupling"}
-"""Sections that several calculations share, with the word for their subject: a gear pair or a coupling."""
+"""Sections that several calculations share, each with a word for the subject of these calculations."""
 LOAD, OPERATION = "load.", "operation."
 """Two names of one section: `load` in the request of scuffing and in `pair`, `operation` in the other requests."""
 
@@ -33,7 +33,7 @@ class Use(NamedTuple):
 
 
 def subject_of(calculation: Calculation) -> str:
-    """Return the subject of a calculation: pair or coupling. It is empty if no other calculation shares the subject."""
+    """Return the subject of a calculation, pair or coupling; empty if no other calculation shares the subject."""
     return next((name for section, name in SUBJECTS.items() if section in branches(calculation.request)), "")
 
 

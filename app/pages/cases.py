@@ -32,7 +32,7 @@ from app.sources import SHORT_SOURCES, changes_since
 from solvers.quantity import Detail
 
 NAME = r"[a-z]\w*(?:[._]\w+)+"  # name of a field: words joined by points and underscores
-FILE_NAMES = ("rexs_file", "rexs_sha256", "rexs_stage")  # views that say where a case was read from
+FILE_NAMES = ("rexs_file", "rexs_sha256", "rexs_stage")  # views that name the file from which a case was read
 COMPRESSION = 1  # the fastest level of zlib
 REFUSED = (Unreadable, InvalidBody, Unprocessable)
 

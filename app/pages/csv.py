@@ -1,4 +1,4 @@
-"""An answer as CSV for spreadsheets: the case, its inputs and results in lines, or its curves in columns.
+"""An answer as CSV for spreadsheets: either the case with its inputs and results in lines, or curves in columns.
 
 Results have six significant digits; the JSON answer has all digits.
 """

@@ -26,7 +26,7 @@ LABELS = {name: name for name in REPORT_NAMES} | {
     "rexs_file": "name of the REXS file",
     "rexs_sha256": "SHA-256 of the REXS file",
 }
-"""The labels of the form's fields."""
+"""Labels of the fields in the form of the report."""
 MOST_SHORT = 4  # largest number of figures in the short form, where two stand beside each other
 LONGEST_LINK = 160  # characters of the printed text of a link; the address behind the text is complete
 _element = re.compile(r"(\.\d+){1,2}$")  # indices of an element of a list or a matrix of numbers
@@ -150,7 +150,7 @@ def for_python(address: str, case: Case) -> str:
 
 
 def body_of(case: Case) -> str:
-    """Return a JSON text of the fields that the user has given."""
+    """Return the fields that the user has given, as a JSON text."""
     return json.dumps(_given(case))
 
 

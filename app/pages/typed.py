@@ -11,7 +11,7 @@ from decimal import Decimal
 from typing import Any
 
 DOUBT = "?"
-LONGEST = 60  # characters of a number with its unit, chosen
+LONGEST = 60  # characters of the longest number with its unit that is read; chosen
 MOST_ITEMS = 2000  # items of a list; more than any list of a request may have
 
 _TIDY = str.maketrans({"−": "-", "’": "'", "\u00a0": " ", "\u2007": " ", "\u2009": " ", "\u202f": " "})
@@ -143,7 +143,7 @@ def power_between(typed: str | None, own: str | None) -> int | None:
 
 
 def question(text: str) -> str:
-    """Return the question which reading of a link's text is meant; empty if the text has only one reading."""
+    """Return the question that asks which reading of a link's text is meant; empty if there is only one reading."""
     asked = text.removesuffix(DOUBT)
     if asked == text and not _AMBIGUOUS.fullmatch(text):
         return ""
@@ -173,7 +173,7 @@ def _unit_in_doubt(parts: re.Match[str]) -> bool:
 
 
 def _ungrouped(text: str) -> str:
-    """Remove the marks between groups of three digits if they cannot be decimal marks."""
+    """Remove the marks between groups of three digits if these marks cannot be decimal marks."""
     plain = _BLANKS.sub("", text) if _SPACED.fullmatch(text) else text
     if _ENGLISH.fullmatch(plain):
         return plain.replace(",", "")
@@ -218,9 +218,9 @@ def _has_several(item: str) -> bool:
 
 
 def _settled(item: str, decimal: set[str]) -> str:
-    """Add a zero as fourth decimal to a doubtful number if its list shows that its mark is the decimal mark.
+    """Add a zero as fourth decimal to a doubtful number if the list shows that its mark is a decimal mark.
 
-    The list shows this if other numbers in the list use the mark as the decimal mark. A number with four decimals is
+    The list shows this if other numbers in it use the same mark as their decimal mark. A number with four decimals is
     not doubtful.
     """
     doubtful = _DOUBTFUL.match(item)

@@ -53,7 +53,7 @@ def _of_pumping(response: PumpingResponse) -> dict[str, Verdict]:
 
 
 def _thrust(response: CouplingResponse) -> Verdict:
-    """Compare the thrust in motion with the limit of coaxial shafts, and the thrust to be held with 0.25 T/D."""
+    """Compare the thrust in motion with the limit of coaxial shafts, and the design thrust with 0.25 T/D."""
     thrust = response.axial_thrust
     share, customary, held = thrust.fraction_of_limit, thrust.customary_force_n, thrust.design_force_n
     limit = number(thrust.coaxial_limit_n, "N")
@@ -143,7 +143,7 @@ def _pumping(response: PumpingResponse) -> str:
 
 
 def _choking(response: ChokingSpeedResponse) -> str:
-    """Say from which pinion speeds on the mesh is choked."""
+    """Say above which pinion speeds the mesh is choked."""
     speeds = {"ends": response.axial_choking_speed_rpm, "radial clearances": response.radial_choking_speed_rpm}
     sonic = [f"at the {place} from {number(speed, '1/min')}" for place, speed in speeds.items() if speed is not None]
     never = [

@@ -204,7 +204,7 @@ def _elsewhere(asked: Asked) -> list[tuple[str, str, list[str]]]:
 def _both(asked: Asked) -> tuple[Case, Case | None, str]:
     """Return the case, the variant to compare the case with, and the reason if the variant cannot be computed.
 
-    The variant is None if there is none, or if it cannot be computed. The reason is empty if there is none.
+    If there is no variant, or if it cannot be computed, None takes its place. The reason is otherwise empty.
     """
     case = solved(asked.calculation, asked.pairs, asked.kept)
     if not asked.ref and asked.kept_ref is None:

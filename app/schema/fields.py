@@ -93,8 +93,8 @@ class Branch:
 def tree(model: type[Documented]) -> Branch:
     """Return the whole request or response as one section without a name.
 
-    If several leaves have the same title, the name of a section is added to the title of each. This is the nearest
-    section around the leaf that contains none of the other leaves with this title.
+    If several leaves have the same title, the name of a section is added to the title of each. The section is the
+    nearest one around the leaf that contains no other leaf with this title.
     """
     namesakes: dict[str, dict[str, list[str]]] = defaultdict(dict)
     for way in _ways(model):
@@ -278,7 +278,7 @@ def _meant(model: type[Documented], wanted: _Names) -> _Names | None:
             if (
                 theirs[-1] == wanted[-1]
                 and theirs.count(ITEM) == wanted.count(ITEM)
-                and all(name in rest for name in wanted[start:])  # in their order
+                and all(name in rest for name in wanted[start:])  # in the order of `wanted`
                 and (start == 0 or theirs[0] == wanted[start])
             ):
                 return request_names[theirs]

@@ -30,12 +30,12 @@ class _Declaration(Quantity):
 
     @classmethod
     def of(cls, record: type, name: str, **changes: Any) -> Self:
-        """Return the declaration of a field of the solver's dataclass, with changes."""
+        """Return the declaration of a field of the solver's dataclass, with `changes` to its attributes."""
         return cls(**vars(quantities(record)[name]) | {"origin": (record, name)} | changes)
 
     @property
     def description(self) -> str:
-        """The text, or the title if there is no text, and the meaning of null."""
+        """The text, or the title if there is no text, followed by the meaning of null if it is declared."""
         text = self.text or self.title
         return f"{text}; null: {self.default_text}" if self.default_text else text
 

@@ -93,7 +93,7 @@ class BaseRequest(NamedTuple):
         return leaf
 
     def outputs(self, wanted: list[str] | None) -> tuple[Leaf, ...]:
-        """Return the leaves of the outputs at the paths `wanted`; if it is None, those of the headline numbers."""
+        """Return the leaves of the outputs at the paths `wanted`, or of the headline numbers if `wanted` is None."""
         if wanted is None:
             return headlines(self.calculation.response)
         check_distinct(wanted, "outputs", numbered=True)

@@ -25,7 +25,7 @@ TITLE_LENGTH, LENGTH, BESIDE_LENGTH = 58, 84, 30  # characters per line of title
 HEIGHTS = {1: 2.6, 2: 1.6, 3: 1.25}  # inches; height of a panel, by the number of panels above one another
 PLANE, PLANE_BESIDE = 3.3, 1.8  # inches; height of a plane alone, and of planes side by side
 TOUCH = 0.025  # inches by which the boxes of two texts may overlap, as boxes include space around letters
-NARROW_HEIGHT = 0.66  # height of axes in narrow figures over the usual height
+NARROW_HEIGHT = 0.66  # height of axes in a narrow figure divided by their usual height
 ROW_HEIGHT = 0.3  # inches; height of a bar whose name has up to two lines
 APART, FEWEST_TICKS = 0.05, 3  # inches between neighbouring tick labels; number of ticks that are always kept
 ABSCISSA = 0.45  # inches; height of the tick labels and the name below axes
@@ -94,10 +94,9 @@ def _letters(figure: Figure, length: int) -> int:
 
 
 def _head(figure: Figure) -> tuple[str, str, float, float]:
-    """Return the title and the finding of a figure, and their places.
+    """Return the title and the finding of a figure, and two distances from the top [in].
 
-    Both texts are broken into lines. They are followed by the distances of the finding and of the panels from the top
-    [in].
+    Both texts are broken into lines. The distances are those of the finding and of the panels.
     """
     title, finding = fill(figure.title, _letters(figure, TITLE_LENGTH)), fill(figure.subtitle, _letters(figure, LENGTH))
     below = EDGE + LINE * TITLE * (1 + title.count("\n"))
@@ -119,7 +118,7 @@ def _usual_height(panel: Panel, figure: Figure) -> float:
 
 
 def _heading(figure: Figure) -> float:
-    """Return the height [in] of the titles, the names of ordinates and, if narrow, the legends above axes."""
+    """Return the height [in] of the texts above axes: titles, names of ordinates and, in a narrow figure, legends."""
     names = 0 if all(panel.rows for panel in figure.panels) else 2 if figure.beside else 1
     names += max(map(legend_lines, figure.panels), default=0) if figure.narrow else 0
     return LINE * TEXT * (names + any(panel.title for panel in figure.panels)) + EDGE / 2
@@ -229,7 +228,7 @@ def _room_right(axes: Axes, *, narrow: bool) -> float:
 
 
 def _thin_ticks(axes: Axes) -> None:
-    """Remove every second tick of a linear abscissa, as often as neighbouring labels are too close to read."""
+    """Remove every second tick of a linear abscissa until neighbouring labels are far enough apart to be read."""
     low, high = sorted(axes.get_xlim())
     ticks = [tick for tick in axes.get_xticks() if low <= tick <= high]
     while axes.get_xscale() == "linear" and len(ticks) > FEWEST_TICKS:

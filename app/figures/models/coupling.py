@@ -47,7 +47,7 @@ def friction_map(_: CouplingInputs, result: CouplingResult) -> Figure:
 
 
 def _around(which: str, value: float) -> tuple[float, float]:
-    """Return the ends of an axis of the map. They are moved outwards if the value would lie outside.
+    """Return the ends of an axis of the map. The ends are moved outwards if the value would lie outside them.
 
     A value that is infinite or zero does not move the ends.
     """
@@ -256,9 +256,9 @@ def contact_track(_: CouplingInputs, result: CouplingResult) -> Figure:
 
 
 def axial_thrust(inputs: CouplingInputs, result: CouplingResult) -> Figure:
-    """Draw the thrust beside its coaxial limit, and the velocity at which the teeth slide along one another.
+    """Draw the thrust with its coaxial limit, and the sliding velocity along the teeth.
 
-    An axial velocity of the coupling is drawn beside the sliding velocity.
+    If the coupling has an axial velocity, a line shows this velocity beside the sliding velocity.
     """
     thrust, curves, axial = result.axial_thrust, result.kinematics.curves, inputs.operation.axial_velocity
     rows = [

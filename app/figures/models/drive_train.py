@@ -111,7 +111,7 @@ def face_width(inputs: DriveTrainInputs) -> float:
 
 
 def gap(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
-    """Draw the gap between the flanks along the face, and its parts from shafts, heat and modification."""
+    """Draw the gap between the flanks along the face, with the parts that come from shafts, heat and modification."""
     slopes, curves = result.misalignment, result.misalignment.curves
     gaps = {"shafts": curves.shaft, "heat": curves.thermal, "as ground": curves.modification, "total": curves.total}
     opened = axis(curves, "total", "gap, positive where the flanks part", magnitude=False)
@@ -286,7 +286,7 @@ def mesh_as_drawn(inputs: DriveTrainInputs, result: DriveTrainResult) -> Scuffin
 
 
 def where_micropitting_starts(inputs: DriveTrainInputs, result: DriveTrainResult, plain: Scuffing | None) -> Figure:
-    """Draw the film ratio over the flank with its least value, and beside this map that of the unmodified mesh."""
+    """Draw maps of the film ratio over the flank: of the unit, with its least ratio, and of the unmodified mesh."""
     answer = micropitting.answered(result.micropitting)
     return micropitting.over_flanks(inputs.mesh, answer, result.flank, plain)
 
@@ -312,7 +312,7 @@ def oil_temperature(inputs: DriveTrainInputs) -> float:
 
 
 def curve_over_the_flow(_: DriveTrainInputs, result: DriveTrainResult) -> FlowCurve:
-    """Solve the heat balance at a quarter to four times the oil flow of the case, with its losses and loads."""
+    """Solve the heat balance at a quarter to four times the oil flow, with the losses and loads of the case."""
     heat = heat_balance.heat_of(result.heat)
     assert result.over_the_flow is not None
     return result.over_the_flow(heat_balance.FLOWS * UNITS["l_per_min"].scale * heat.gear_flow)

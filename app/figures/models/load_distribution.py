@@ -86,7 +86,7 @@ def flank_pressure(inputs: LoadDistributionInputs, result: LoadDistribution) -> 
 
 
 def modification(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figure:
-    """Draw the gap between the unloaded flanks."""
+    """Draw the gap between the unloaded flanks over the flank."""
     flank, width, gap = result.flank, inputs.gears.face_width, _modified(result.flank)
     y = flank.face_fraction * width / MM
     mapped = Map("gap between the unloaded flanks", "µm", y, flank.profile_fraction, gap, Scale.SIGNED)

@@ -34,7 +34,7 @@ def solve_unmodified(inputs: ScuffingInputs, *_: Scuffing) -> Scuffing | None:
 
 
 def where_it_starts(inputs: ScuffingInputs, result: Scuffing, plain: Scuffing | None) -> Figure:
-    """Draw the film ratio over the flank with its least value, and beside this map that of the unmodified pair."""
+    """Draw maps of the film ratio over the flank: of the pair, with its least ratio, and of the unmodified pair."""
     answer = answered(result.micropitting)
     return over_flanks(inputs, answer, result.flank, plain)
 
@@ -89,7 +89,7 @@ def _place(local: LocalFilm) -> str:
 
 
 def _film_map(width: float, case: _Case, permissible: float | None, ends: tuple[float, float], *, bar: bool) -> Panel:
-    """Return a map of the film ratio, with a mark at its least value and a contour at the permissible ratio."""
+    """Return a map of the film ratio, with a mark at the least ratio and a contour at the permissible ratio."""
     film, local = axis(case.flank, "micropitting_ratio", FILM_OVER_ROUGHNESS), case.local
     inside = permissible is not None and float(np.nanmin(case.grid)) < permissible < float(np.nanmax(case.grid))
     mapped = Map(

@@ -76,7 +76,7 @@ def _maps(inputs: PumpingInputs, result: PumpingResult, name: str, scale: Scale,
     grids: list[Values] = [getattr(field, name) for field in fields.values()]
     if any(grid is None for grid in grids):
         raise _without_temperatures()
-    # The smallest value of a ratio matters as much as the largest.
+    # The smallest value of a ratio matters as much as the largest value, so both are marked.
     wording, extremes = (ratio, (False, True)) if scale is Scale.RATIO else (number, (False,))
     panels = []
     for gear, field in fields.items():
@@ -208,7 +208,7 @@ def peak_pressure(inputs: PumpingInputs, result: PumpingResult) -> Figure:
 
 
 def lead_correction(inputs: PumpingInputs, result: PumpingResult) -> Figure:
-    """Draw the thermal growth of the pinion's flank and the lead correction that compensates it."""
+    """Draw the thermal growth of the pinion's flank, and the lead correction that compensates this growth."""
     lead = result.lead_correction
     if lead is None:
         message = "A lead correction needs the temperatures of the pinion's spaces"

@@ -45,7 +45,7 @@ def temperatures(_: WarmUpInputs, result: UnitWarmUp) -> Figure:
 
 
 def alignment(_: WarmUpInputs, result: UnitWarmUp) -> Figure:
-    """Draw face load factor and safety at five times."""
+    """Draw the face load factor and the safety at five moments of the warm-up."""
     own, time = result.alignment, axis(AlignmentOverTime, "time")
     factor = Line("face load factor", own.time, own.face_load_factor, Hue.BLUE, named=False)
     factor_axis = axis(AlignmentOverTime, "face_load_factor", magnitude=False)
