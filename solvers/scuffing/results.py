@@ -242,7 +242,7 @@ class ContactPoints:
 
     @property
     def in_contact(self) -> BoolArray:
-        """True at points at which the flanks touch and move; only there do film and flash temperature have a meaning."""
+        """True at points at which the flanks touch and move; film and flash temperature have a meaning only there."""
         return (self.line_load > 0.0) & (self.half_width > 0.0) & (self.pinion_speed + self.wheel_speed > 0.0)
 
     @property
