@@ -96,7 +96,7 @@ def empty_cells(cells: int) -> Cells:
 
 @kernel
 def set_walls(duct: Duct, cells: Cells, low: int, high: int, angle: float, turn: float) -> None:
-    """Set the walls of the active cells at the start and end of a step, and the face areas in the middle of the step."""
+    """Set the walls of the active cells at the start and end of a step, and the face areas in the middle of it."""
     for i in range(low, high):
         z = duct.start + (i + 0.5) * duct.width
         share = stroke_share(duct, z, angle, turn)
