@@ -1,6 +1,6 @@
 """Incompressible flow out of a single spur tooth space (Rosen's theory), for checks at low speed.
 
-Gas dynamics does not tend to this model at low speed, because it lets the pressure vary along the face.
+Gas dynamics does not tend to this model at low speed, because gas dynamics lets the pressure vary along the face.
 """
 
 import numpy as np

@@ -1,4 +1,4 @@
-"""Warnings of a pumping calculation about coarse grids, unresolved flows and inputs outside the compared range."""
+"""Warnings of a pumping calculation: coarse grids, unresolved flows, inputs outside the range of comparisons."""
 
 from collections.abc import Iterator, Sequence
 from math import degrees, expm1, inf, pi

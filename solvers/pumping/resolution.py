@@ -30,7 +30,7 @@ from solvers.pumping.results import Resolution
 SAFETY = 3.0  # factor on the difference of two grids, as in the grid convergence index (Roache 1994)
 OF_EXTREMES = 1.2  # further factor on the uncertainty of extremes
 RISE = 2.0  # a value may rise further by this factor times its rise from half the resolution to the full one
-NEAR = 0.97  # share of the Mach number of an end; a slice with a higher one may exceed the end on a finer grid
+NEAR = 0.97  # share of the Mach number of an end; slices with a larger Mach number may exceed it on a finer grid
 CLOSE = 0.9  # share of an extreme gauge pressure; larger pressures count as close to the extreme
 SPREAD = 4.0  # number of slices over which a grid spreads a wave
 LOST = 1.0  # relative uncertainty of a pressure from which on no result is certain: a finer grid may give another flow

@@ -23,7 +23,7 @@ from solvers.pumping.space.face import Stretch, stretches
 from solvers.pumping.space.stroke import StrokeTable, stroke_table
 from solvers.pumping.space.tooth_space import tooth_space
 
-CELL_STEP_LIMIT = 5_000_000  # cells times steps, about ten seconds
+CELL_STEP_LIMIT = 5_000_000  # number of cells times number of steps, about ten seconds
 _ANGLES = 201  # number of angles at which fields are recorded, enough for figures
 
 
@@ -43,7 +43,7 @@ class Space:
 
 @dataclass(frozen=True, slots=True)
 class Mesh:
-    """Everything that does not depend on the speed."""
+    """The parts of a calculation that do not depend on the speed."""
 
     setup: PumpingSetup
     path: PathOfContact

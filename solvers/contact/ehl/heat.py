@@ -79,7 +79,7 @@ class Surfaces(NamedTuple):
 class Heat(NamedTuple):
     """The linearised heat balance of n columns with k nodes across.
 
-    The columns' values (n,) are `fluid_fraction` [-], `generated` (heat of shear) [W/m^2] and `compression` (heat of
+    One value for each column (n,): `fluid_fraction` [-], `generated` (heat of shear) [W/m^2] and `compression` (heat of
     compression) [W/m^2].
     """
 

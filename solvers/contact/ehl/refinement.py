@@ -25,8 +25,8 @@ from solvers.materials import Solid
 FINEST = 481  # largest number of nodes, chosen; the cost of the dense solution grows with the third power of the number
 STEPS_ON_FINER = 20.0  # Newton steps that a refinement may take, chosen
 STEPS_ON_COARSER = 12  # Newton steps of the comparison with half as many nodes, chosen
-# Tolerances of P and of temperature [K] for the solution on half the nodes; a smaller Newton step makes it accurate
-# enough.
+# Tolerances of P and of temperature [K] for the solution on half the nodes. After a Newton step within these tolerances
+# the solution is accurate enough for the comparison.
 NEAR = (0.12, 12.0)
 # Remaining error as a share of the difference from the result on half as many nodes. The share is 1/3 if convergence is
 # of second order. If the pressure falls steeply from one node to the next, both meshes place the fall between the same
@@ -34,7 +34,7 @@ NEAR = (0.12, 12.0)
 # If the fall is p_H/2 or more, the whole difference counts as error.
 SECOND_ORDER = 1 / 3
 LEFT = {"friction": 1 / 2, "generated_heat": 1 / 2}  # shares of results that depend on heat: their order is below two
-LEFT_BY_FALL = 2.0  # share of the difference, divided by the fall of pressure in p_H
+LEFT_BY_FALL = 2.0  # share of the difference that counts as error, per fall of pressure in p_H
 AT_INLET = {"central_film", "centre_pressure"}  # the inlet decides these results; falls at the outlet have no effect
 BEFORE_SPIKES = 0.5  # half widths downstream of the centre; pressure spikes lie further downstream
 SURFACES = {"surface_1_flash": 0, "surface_2_flash": -1}  # numbers of the nodes across the film

@@ -278,7 +278,7 @@ def balance_of_mass(
 
 @kernel
 def assemble_jacobian(grid: Grid, cavitated: BoolArray, faces: FaceFluxes, jacobian: FloatArray) -> None:
-    """Compute the derivatives of the residual of `balance_of_mass` by P_0..P_n-1 and H0."""
+    """Compute the derivatives of the residuals of `balance_of_mass` by P_0..P_n-1 and H0."""
     n = grid.x.size
     deflection, by_film, by_pressure = grid.deflection, faces.by_film, faces.by_pressure
     for i in range(n):

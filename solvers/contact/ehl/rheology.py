@@ -27,7 +27,7 @@ STRESS_LIMIT = 300.0  # largest |h dp/dx|/(2 tau0); exp(300)^2 does not overflow
 
 
 def softened(problem: Problem, stress: float) -> Problem | None:
-    """Return the contact with a Ree-Eyring oil of a lower Eyring stress [Pa], or None if `stress` is not lower."""
+    """Give the contact a Ree-Eyring oil of a lower Eyring stress [Pa]; return None if `stress` is not lower."""
     if problem.rheology == REE_EYRING and stress >= problem.eyring_stress:
         return None
     return problem._replace(rheology=REE_EYRING, eyring_stress=stress)

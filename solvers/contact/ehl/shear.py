@@ -63,7 +63,7 @@ class MidFilm(NamedTuple):
 
 
 class Film(NamedTuple):
-    """The film across n columns with m intervals of equal height and m + 1 nodes; `moments` (n,) is of MOMENTS."""
+    """Arrays of n columns of the film with m intervals of equal height and m + 1 nodes; `moments` (n,) of MOMENTS."""
 
     shear: Shear
     moments: RecordArray

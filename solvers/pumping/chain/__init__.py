@@ -1,1 +1,1 @@
-"""The paper's chain of pockets; `pocket_chain` marches the steps of `step`."""
+"""The paper's chain of pockets: `pocket_chain` marches through the stroke by the time steps of `step`."""

@@ -104,7 +104,7 @@ def _renew(
     new_high: int,
     angle: float,
 ) -> None:
-    """Fill the pockets whose stroke begins, with ambient gas; update the balances.
+    """Fill pockets with ambient gas when their stroke begins, and update the balances.
 
     The content of a pocket is added to the balances when its stroke begins and when it ends.
     """

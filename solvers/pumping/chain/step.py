@@ -69,7 +69,7 @@ class Side(NamedTuple):
 
 
 class Passage(NamedTuple):
-    """Flow of mass or heat through an opening from left to right, and its derivatives by the state of both sides."""
+    """Flow of mass or heat through an opening from left to right, and derivatives of the flow by both states."""
 
     flow: float
     by_left_pressure: float
@@ -176,7 +176,7 @@ def _add_change(value: float, change: float) -> float:
 def _set_from_flows(
     gas: Gas, width: float, pockets: RecordArray, low: int, high: int, dt: float, isentropic: bool
 ) -> None:
-    """Compute mass and pressure from the converged flows, so that mass and energy are conserved to rounding."""
+    """Compute mass and pressure from the converged flows, so that mass and energy are conserved up to round-off."""
     g = gas.exponent
     for i in range(low, high):
         old_area, area = pockets[i].start_area, pockets[i].area

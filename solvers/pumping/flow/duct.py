@@ -38,7 +38,7 @@ class Wall(NamedTuple):
 
 
 def wall_table(area: FloatArray, clearance: FloatArray, carried: FloatArray) -> RecordArray:
-    """Build the table of walls from arrays of the values in `Wall` at equal steps of the owner's angle."""
+    """Build the table of walls from arrays of the values of `Wall`, given at equal steps of the owner's angle."""
     table = records(area.size, WALL)
     table.area, table.clearance, table.carried = area, clearance, carried
     return table

@@ -222,7 +222,7 @@ def space_flow(angle: FloatArray, marches: list[March], *, conserves_energy: boo
 
 
 def _error(balances: list[RecordArray]) -> float:
-    """Compute the error of conservation relative to the content of the cells when their stroke begins."""
+    """Compute the error of conservation, relative to the content of the cells when their strokes begin."""
     begun = np.concatenate([balance.begun for balance in balances]).sum()
     accounted = np.array(
         [[balance[0][name] for name in ("ended", "low_end", "high_end", "walls", "idle")] for balance in balances]

@@ -31,7 +31,7 @@ from solvers.pumping.space.face import Stretch
 LEAST_SLICES = 4  # chosen: limited slopes need three cells
 _HASTE = 2.5  # factor on the number of steps for sound in gas at rest, which gives the room in the record
 COURANT = 0.7  # Courant number; less than the limit of the scheme, 1, because waves may become faster within a step
-_ROUNDING = 1e-6  # share of a step; a remainder this small is added to the step before it
+_ROUNDING = 1e-6  # share of a step; a step may be longer by this share, so that no smaller remainder is left
 _RETRIES = 12  # number of halvings of a failed step, chosen
 _AHEAD = 4.0  # number of cells that take part early if the stroke runs along the face faster than sound
 _STEEP = 0.5  # share of a cell's density or pressure; smaller extrapolated values are replaced by those of the cell
@@ -117,7 +117,9 @@ def march(gas: Gas, duct: Duct, cells: Cells, angles: FloatArray, record: Record
 
 @kernel
 def _taking_part(gas: Gas, duct: Duct, angle: float, turn: float) -> tuple[int, int]:
-    """Find the first cell that takes part in a step of `turn` from `angle` [rad], and the cell after the last of them.
+    """Find the range of cells that take part in a step of `turn` from `angle` [rad].
+
+    Returns the first of these cells, and the cell after the last of them.
 
     A cell takes part while its centre is in its stroke. The first and the last cell of the duct also take part while
     their outer end is in its stroke, so that gas can leave through an end as long as the end is open. Walls and

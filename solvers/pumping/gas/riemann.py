@@ -20,7 +20,7 @@ class State(NamedTuple):
 
 
 class Conserved(NamedTuple):
-    """Flux of mass, momentum and energy [kg/s, N, W]; if it is divided by the area, [kg/(s m^2), Pa, W/m^2]."""
+    """Fluxes of mass, momentum and energy [kg/s, N, W], or fluxes per area [kg/(s m^2), Pa, W/m^2]."""
 
     mass: float
     momentum: float
@@ -173,7 +173,7 @@ def front_face(gas: Gas, speed: float, cell: State) -> State:
 
 @kernel
 def _inflow(gas: Gas, invariant: float, cell_sound_speed: float) -> State:
-    """Compute the state of inflow from rest whose pressure and velocity equal those of the cell's gas beside it.
+    """Compute the state of inflow from rest that has the same pressure and velocity as the gas of the cell.
 
     The inflow is at most sonic. `cell_sound_speed` is the speed of sound of the cell's gas after an expansion to
     ambient pressure [m/s]. If this gas is hotter than the ambient gas, a contact discontinuity lies between both gases,

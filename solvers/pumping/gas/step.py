@@ -96,7 +96,7 @@ def empty_cells(cells: int) -> Cells:
 
 @kernel
 def set_walls(duct: Duct, cells: Cells, low: int, high: int, angle: float, turn: float) -> None:
-    """Set the walls of the active cells at the start and at the end of a step, and the face areas in its middle."""
+    """Set the walls of the active cells at the start and end of a step, and the face areas in the middle of it."""
     for i in range(low, high):
         z = duct.start + (i + 0.5) * duct.width
         share = stroke_share(duct, z, angle, turn)
@@ -109,7 +109,7 @@ def set_walls(duct: Duct, cells: Cells, low: int, high: int, angle: float, turn:
 
 @kernel
 def _put(walls: RecordArray, i: int, wall: Wall, share: float) -> None:
-    """Store the walls of cell i, whose clearance is open for a share of the step."""
+    """Store the walls of cell i; the clearance is multiplied by the share of the step in which the gap is open."""
     walls[i].area, walls[i].clearance, walls[i].carried = wall.area, share * wall.clearance, wall.carried
 
 
@@ -181,7 +181,7 @@ def _put_slope(slope: RecordArray, i: int, density: float, velocity: float, pres
 
 @kernel
 def _limited(side: int, back: float, ahead: float) -> float:
-    """Limit two neighbouring differences after van Leer; in an end cell (side -1 or 1), return a one-sided slope."""
+    """Return van Leer's limited slope of two neighbouring differences; in an end cell (side -1 or 1), `_end_slope`."""
     if side < 0:
         return _end_slope(back, ahead)
     if side > 0:
@@ -200,7 +200,7 @@ def _end_slope(nearest: float, next_one: float) -> float:
 
 @kernel
 def _walls(duct: Duct, now: RecordArray, after: RecordArray, i: int, fraction: float, dt: float) -> Walls:
-    """Interpolate the walls of cell i after a fraction of the step."""
+    """Interpolate the walls of cell i linearly to the instant after a fraction of the step."""
     return Walls(
         now[i].area + fraction * (after[i].area - now[i].area),
         (after[i].area - now[i].area) / dt,
@@ -282,8 +282,8 @@ def _set_fluxes(gas: Gas, duct: Duct, cells: Cells, low: int, high: int) -> None
 def _put_flux(gas: Gas, cells: Cells, face: int, outward: float, state: State) -> None:
     """Store the flux of a state through a face.
 
-    `outward` is -1 if the velocity of the state is positive towards the low end, else 1; it turns the signs of the
-    fluxes of mass and energy.
+    `outward` is -1 if the velocity of the state is positive towards the low end, else 1. A value of -1 reverses the
+    signs of the fluxes of mass and energy.
     """
     through, fluxes = flux(gas.exponent, cells.face_area[face], state, ram_pressure(state)), cells.flux
     fluxes[face].mass, fluxes[face].energy = outward * through.mass, outward * through.energy
@@ -303,7 +303,7 @@ def _set_end(gas: Gas, cells: Cells, cell: int, face: int, end: int) -> None:
 
 @kernel
 def _correct(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, dt: float) -> bool:
-    """Compute the content at the end of the step from the fluxes in its middle and two implicit stages at the walls."""
+    """Compute the content at the end of the step from the fluxes in the middle of the step and two implicit stages."""
     fluxes, area, c, h = cells.flux, cells.face_area, cells.content, _DIAGONAL * dt
     loss, leak = cells.loss, cells.leak
     for i in range(low, high):

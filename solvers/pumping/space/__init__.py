@@ -1,1 +1,1 @@
-"""The space between two teeth in mesh: tooth_space -> profile -> section -> stroke. `face` cuts it into slices."""
+"""The space between two teeth in mesh: tooth_space -> profile -> section -> stroke; `face` divides the face width."""

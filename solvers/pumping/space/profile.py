@@ -20,14 +20,14 @@ _GOLDEN = 0.6180339887498949  # (sqrt(5) - 1) / 2, the golden section
 
 @kernel
 def involute(roll: float, base: float) -> float:
-    """Compute the polar angle of an involute [rad] at a roll length [m], from its start on the base circle."""
+    """Compute the polar angle [rad] from the start of an involute on the base circle to a roll length [m]."""
     angle: float = roll / base - np.arctan(roll / base)
     return angle
 
 
 @kernel
 def sector(roll: float, base: float) -> float:
-    """Compute 1/2 integral r^2 dpsi along an involute from its base circle to a roll length [m^2]."""
+    """Compute the area under an involute, 1/2 integral r^2 dpsi, from the base circle to a roll length [m^2]."""
     return roll**3 / (6.0 * base)
 
 
@@ -47,9 +47,9 @@ def _distance_to_fillet(fillet: RackFillet, t: float, radius: float, angle: floa
 
 @kernel
 def _nearest_on_fillet(fillet: RackFillet, radius: float, angle: float) -> tuple[float, float]:
-    """Find the point of the fillet nearest to (radius, angle); return its parameter on the fillet and its distance [m].
+    """Find the point of the fillet nearest to (radius, angle).
 
-    The distance is that between the two points.
+    Returns the parameter of this point on the fillet, and the distance of both points [m].
     """
     step = fillet.end / (_SCAN - 1)
     best, nearest = 0, np.inf
@@ -70,7 +70,10 @@ def _nearest_on_fillet(fillet: RackFillet, radius: float, angle: float) -> tuple
 
 @kernel
 def _foot_on_flank(space: ToothSpace, radius: float, angle: float) -> tuple[float, float]:
-    """Find the point of the space's flank nearest to (radius, angle); return its roll length and its distance [m]."""
+    """Find the point of the space's flank nearest to (radius, angle).
+
+    Returns the roll length of this point [m], and the distance of both points [m].
+    """
     base, start = space.base_radius, space.root.involute_roll
     if radius > base:
         roll = np.sqrt(radius**2 - base**2)
@@ -89,8 +92,8 @@ def _foot_on_flank(space: ToothSpace, radius: float, angle: float) -> tuple[floa
 def nearest_on_profile(space: ToothSpace, radius: float, angle: float) -> tuple[float, float, float, float]:
     """Find the point of half the space's profile nearest to (radius, angle).
 
-    Returns its distance [m], its radius [m], its angle [rad], and the area between the owner's axis and the profile
-    up to this point [m^2].
+    Returns the distance of both points [m]; radius [m] and angle [rad] of the nearest point; and the area between the
+    owner's axis and the profile up to the nearest point [m^2].
     """
     root, base = space.root, space.base_radius
     roll, distance = _foot_on_flank(space, radius, angle)
@@ -112,7 +115,10 @@ def nearest_on_profile(space: ToothSpace, radius: float, angle: float) -> tuple[
 
 @kernel
 def foot_on_mate(space: ToothSpace, radius: float, angle: float) -> tuple[float, float]:
-    """Find the point of the mate's flank nearest to (radius, angle); return its roll length and its distance [m]."""
+    """Find the point of the mate's flank nearest to (radius, angle).
+
+    Returns the roll length of this point [m], and the distance of both points [m].
+    """
     base = space.mate_base_radius
     foot = 0.0
     if radius > base:
