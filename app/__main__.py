@@ -1,17 +1,23 @@
-"""The command `python -m app`: it runs `app.command`; Ctrl-C during imports ends the process without a traceback."""
+"""The command `python -m app`, which runs `app.command`.
+
+Ctrl-C during the imports ends the process without a traceback.
+"""
 
 import gc
 import os
 import signal
 
-INTERRUPTED = 130  # exit status in shells of a process that Ctrl-C ended
+INTERRUPTED = 130  # exit status that shells give to a process ended by Ctrl-C
 
 
 def main() -> None:
-    """Run the command line. While uvicorn serves, it handles Ctrl-C itself, and passes it on after its end."""
+    """Run the command line.
+
+    While uvicorn serves, uvicorn handles Ctrl-C. It sends the signal again after it has stopped serving.
+    """
     # An exception could get lost or change its type in the extension modules that are being imported.
     signal.signal(signal.SIGINT, lambda *_: os._exit(INTERRUPTED))
-    gc.disable()  # during the imports: they leave no garbage, and the search for it takes a third of their time
+    gc.disable()  # imports leave no garbage, and the search for garbage takes a third of their time
     from app.command import main as run_command  # noqa: PLC0415
 
     run_command()

@@ -1,4 +1,4 @@
-"""The table of calculations: a row here and its solver make an endpoint."""
+"""The table of calculations. Each row, together with the solver that it names, makes an endpoint."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -32,10 +32,10 @@ class Cost(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Stage:
-    """Kernels that are compiled and loaded together, before the endpoints that need them answer.
+    """Kernels that are compiled and loaded together, before the endpoints that need these kernels answer.
 
-    Together the `examples` call all kernels of these endpoints that no earlier stage has compiled. `kernels` is their
-    approximate number.
+    Together the `examples` call all kernels of these endpoints that no earlier stage has compiled. `kernels` is the
+    approximate number of these kernels.
     """
 
     name: str
@@ -64,10 +64,10 @@ class Calculation:
 
 
 def _thermal_path(request: Any) -> Cost:
-    """Estimate the time of the contacts along the path.
+    """Estimate the time to solve the contacts along the path.
 
-    A contact with 121 x 21 nodes takes 4 to 8 ms, one with a Newtonian film up to 20 ms. The estimate uses the least
-    time, so that no possible request is rejected.
+    A contact with 121 x 21 nodes takes 4 to 8 ms. A contact with a Newtonian film takes up to 20 ms. The estimate uses
+    the least time, so that no request that can finish in time is rejected.
     """
     model = request.model
     if model.lubrication == "closed_form":
@@ -77,22 +77,22 @@ def _thermal_path(request: Any) -> Cost:
 
 
 def _checked_lines(request: Any) -> Cost:
-    """Estimate the time of the film along the feature line, and along the hottest profile if the flank is checked."""
+    """Estimate the time to solve the feature line and, if the whole flank is checked, the hottest profile line."""
     path = _thermal_path(request)
     return Cost((2 if request.model.line == "flank" else 1) * path.seconds, path.field)
 
 
 def _two_thermal_paths(request: Any) -> Cost:
-    """Estimate the time of a drive train's films along two lines in all its states."""
+    """Estimate the time to solve the contacts of a drive train along two lines in all requested states."""
     path = _thermal_path(request)
     return Cost(2 * len({*request.states}) * path.seconds, path.field)
 
 
 def _choking_search(request: Any) -> Cost:
-    """Estimate the time of the pocket chains in the search over both gears' spaces.
+    """Estimate the time to search the choking speeds with a pocket chain in the tooth spaces of both gears.
 
-    Measured were 0.7, 2.6, 6.2 and 16 s with 10, 40, 80 and 160 pockets. Gas dynamics limits its number of steps
-    itself.
+    The search took 0.7, 2.6, 6.2 and 16 s with 10, 40, 80 and 160 pockets. The model of gas dynamics needs no estimate,
+    because it limits its number of steps itself.
     """
     pockets = request.model.slices or 0
     if request.model.flow != "pocket_chain":

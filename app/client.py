@@ -36,7 +36,7 @@ OPTIONS: dict[str, Any] = {
     "limits": httpx.Limits(keepalive_expiry=3.0),  # s: the service closes idle connections after 5 s
 }
 PATIENCE_S = 120.0  # longest wait for an answer; chosen: four times the service's deadline
-LEAST_WAIT_S = 0.25  # before a busy service is asked again; chosen
+LEAST_WAIT_S = 0.25  # chosen; shortest wait before a busy service is asked again
 
 
 class ServiceError(Exception):
@@ -102,7 +102,7 @@ class _Endpoints(ABC, Generic[Answer, Stream]):
 
     @abstractmethod
     def study(self, endpoint: str, request: Json, *, progress: bool = False) -> Stream:
-        """Open a study, which runs while its lines are read.
+        """Open a study. The study runs while its lines are read.
 
         Parameters
         ----------
@@ -194,7 +194,7 @@ class _Study(Generic[Http]):
         self._bar: Any = None
 
     def _begin(self) -> float:
-        """Begin the study again. Return the time at which to give up if the service is busy [s]."""
+        """Begin the study again. Return the time [s] at which to give up if the service is still busy then."""
         self.header, self.end = {}, {}
         if self._progress:
             from tqdm.auto import tqdm  # noqa: PLC0415  only progress bars need it
@@ -203,7 +203,7 @@ class _Study(Generic[Http]):
         return time.monotonic() + self._patience_s
 
     def _results(self, text: str) -> Iterator[Json]:
-        """Yield the line if it is a result. Raises `StudyError` if it ends the study early or is not a study's."""
+        """Yield the line if it is a result. Raises `StudyError` if it is an error or not a line of a study."""
         try:
             yield from self._process(json.loads(text))
         except (ValueError, LookupError, TypeError) as error:
@@ -288,8 +288,8 @@ class Study(_Study[httpx.Client]):
         Returns
         -------
         pandas.DataFrame
-            One row per result. A sweep has one column per input and output. A spectrum has one row per case, unless its
-            points are asked for.
+            One row per result. A sweep has one column per input and output. A spectrum has one row per case, unless the
+            request asks for its points.
         """
         return self._table(list(self))
 
@@ -373,7 +373,7 @@ class Tribodrive(_Endpoints[Json, Study]):
             time.sleep(_wait_s(response, give_up))
 
     def study(self, endpoint: str, request: Json, *, progress: bool = False) -> Study:
-        """Open a study, which runs while its lines are read."""
+        """Open a study. The study runs while its lines are read."""
         return Study(self._http, endpoint, request, self._patience_s, progress=progress)
 
     def example(self, name: str) -> Json:
@@ -419,7 +419,7 @@ class AsyncTribodrive(_Endpoints[Awaitable[Json], AsyncStudy]):
             await asyncio.sleep(_wait_s(response, give_up))
 
     def study(self, endpoint: str, request: Json, *, progress: bool = False) -> AsyncStudy:
-        """Open a study, which runs while its lines are read."""
+        """Open a study. The study runs while its lines are read."""
         return AsyncStudy(self._http, endpoint, request, self._patience_s, progress=progress)
 
     async def example(self, name: str) -> Json:
@@ -468,7 +468,7 @@ def _request_of(example: httpx.Response) -> Json:
 
 
 def _wait_s(response: httpx.Response, give_up: float) -> float:
-    """Return the time before a busy service is asked again [s]. Raises `ProblemError` for every other answer."""
+    """Return the time [s] to wait before a busy service is asked again. Raises `ProblemError` for other answers."""
     stated = response.headers.get("Retry-After", "")
     seconds = max(float(stated), LEAST_WAIT_S) if stated.isdecimal() else inf
     if time.monotonic() + seconds > give_up:

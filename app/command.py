@@ -1,4 +1,4 @@
-"""The command line: it starts the service, or solves a request; --help lists all settings."""
+"""The command line, which starts the service or runs a command; --help lists all settings."""
 
 import argparse
 import gc
@@ -47,7 +47,7 @@ def main() -> None:
 
 
 def print_unit(file: Path) -> None:
-    """Print the answer of /v1/rexs to a file. Exit with the reason if the file cannot be read."""
+    """Print the answer that /v1/rexs gives for a file. If the file cannot be read, exit with the reason."""
     from app.errors import Unprocessable  # noqa: PLC0415  the service starts without this
     from app.rexs.answer import unit_of  # noqa: PLC0415
 
@@ -61,9 +61,10 @@ def print_unit(file: Path) -> None:
 
 
 def print_answer(endpoint: str, file: Path) -> None:
-    """Print the answer of an endpoint to the request in a file, and exit with its status of `EXIT_STATUS`.
+    """Print the answer of an endpoint to the request in a file.
 
-    If the request is rejected, exit with the reason.
+    The exit status is the number in `EXIT_STATUS` for the status of the answer. If the request is rejected, exit with
+    the reason.
     """
     from app.calculations import BY_PATH  # noqa: PLC0415
     from app.errors import InvalidBody, Unprocessable, Unreadable, faults_of  # noqa: PLC0415
@@ -71,7 +72,7 @@ def print_answer(endpoint: str, file: Path) -> None:
 
     gc.enable()
     if endpoint not in BY_PATH:
-        sys.exit(f"tribodrive: there is no {endpoint}; there are {', '.join(BY_PATH)}")
+        sys.exit(f"tribodrive: there is no endpoint {endpoint}; the endpoints are {', '.join(BY_PATH)}")
     try:
         body = sys.stdin.buffer.read() if file == Path("-") else file.read_bytes()
         content = answer(endpoint, content_of(body))
@@ -87,7 +88,7 @@ def print_answer(endpoint: str, file: Path) -> None:
 
 
 def compile_kernels(names: Sequence[str]) -> None:
-    """Compile stages, by default all, and print their progress every second; at 100 % a stage is on disk."""
+    """Compile stages, by default all. Print the progress every second; a stage at 100 % is stored on disk."""
     from numba.core import event  # noqa: PLC0415
 
     from app.workers.stages import STAGES, warm  # noqa: PLC0415
@@ -96,12 +97,12 @@ def compile_kernels(names: Sequence[str]) -> None:
     gc.enable()
     stages = {stage.name: stage for stage in STAGES}
     if unknown := set(names) - set(stages):
-        sys.exit(f"tribodrive: there is no {', '.join(sorted(unknown))}; there are {', '.join(stages)}")
+        sys.exit(f"tribodrive: there is no stage {', '.join(sorted(unknown))}; the stages are {', '.join(stages)}")
     if FOLDER is None:
         sys.exit("tribodrive: the folder for compiled kernels cannot be written")
     for stage in [stages[name] for name in names or stages]:
         done = threading.Event()
-        with event.install_recorder("numba:compile") as recorder:  # an event at each begin and end
+        with event.install_recorder("numba:compile") as recorder:  # records an event at each begin and end
             arguments = (stage.name, stage.kernels, recorder.buffer, done)
             showing = threading.Thread(target=_show, args=arguments, daemon=True)
             showing.start()
@@ -118,7 +119,7 @@ def _show(name: str, kernels: int, events: Sequence[object], done: threading.Eve
 
 
 def _tell(name: str, percent: int) -> None:
-    """Print the progress of a stage; end the process if nobody can read it any more."""
+    """Print the progress of a stage; end the process if nobody can read the output any more."""
     try:
         print(f"{name}: {percent} %", flush=True)  # noqa: T201
     except OSError:
@@ -126,7 +127,7 @@ def _tell(name: str, percent: int) -> None:
 
 
 def _print_json(content: dict[str, Any]) -> None:
-    """Print JSON, with escapes if the standard output cannot encode a character. Exit if it cannot be written."""
+    """Print JSON, with escapes if the standard output cannot encode a character. Exit if the output fails."""
     text = json.dumps(content, indent=1, ensure_ascii=False)
     try:
         text.encode(sys.stdout.encoding)
@@ -161,7 +162,7 @@ def serve(application: str) -> None:
 
 
 def open_standard_streams() -> None:
-    """Open the null device for closed standard streams; otherwise a socket would get the number of one of them."""
+    """Open the null device in place of closed standard streams, so that no socket gets the number of such a stream."""
     for name in ("stdin", "stdout", "stderr"):
         if getattr(sys, name) is None:
             stream = Path(os.devnull).open("r+")  # noqa: SIM115  gets the lowest free number, 0 to 2

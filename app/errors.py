@@ -18,7 +18,7 @@ class Fault(NamedTuple):
 
 
 def pointer(location: Iterable[str | int]) -> str:
-    """Return the RFC 6901 pointer of a location."""
+    """Return the JSON Pointer (RFC 6901) to a location."""
     return "".join("/" + printable(part).replace("~", "~0").replace("/", "~1") for part in location)
 
 
@@ -28,7 +28,7 @@ def printable(name: str | int) -> str:
 
 
 class ServiceError(Exception):
-    """An exception of `PROBLEMS`; `detail` describes the present case, if more is known about it."""
+    """Base class of exceptions in `PROBLEMS`; `detail` says more about the present case, or is empty."""
 
     def __init__(self, detail: str = "") -> None:
         super().__init__(detail)
@@ -52,7 +52,7 @@ class InvalidBody(Exception):
 
 
 class Unprocessable(Exception):
-    """Input that the schema allows but physics does not; `path` is the dotted field of the request."""
+    """Input that the schema allows but physics does not; `path` is the dotted path of the field in the request."""
 
     def __init__(self, code: str, message: str, path: str | None = None) -> None:
         super().__init__(code, message, path)
@@ -62,7 +62,7 @@ class Unprocessable(Exception):
 
 
 def faults_of(error: InvalidBody | Unprocessable) -> list[dict[str, str]]:
-    """Return pointer, code and message of the errors of all fields."""
+    """Return pointer, code and message of every error."""
     if isinstance(error, Unprocessable):
         parts = error.path.split(".") if error.path else ()
         return [{"pointer": pointer(parts), "code": error.code, "message": error.message}]
@@ -102,11 +102,11 @@ class Stopping(ServiceError):
 
 
 class ClientGone(ServiceError):
-    """The client closed the connection; its calculation is given up."""
+    """The client closed the connection, so the calculation is given up."""
 
 
 class Kind(NamedTuple):
-    """Status, code and title of a problem, and the time after which to try again [s]."""
+    """Status, code and title of a problem, and the time [s] after which the client should try again."""
 
     status: int
     code: str
@@ -126,11 +126,15 @@ PROBLEMS: dict[type[Exception], Kind] = {
     QueueFull: Kind(503, "queue_full", "Too many calculations are waiting; try again later", 1),
     StudiesFull: Kind(503, "studies_full", "Other studies are running; try again later", 5),
     StudyEnded: Kind(503, "study_ended", "The study ended before its figure could be drawn"),
-    SchedulerUnavailable: Kind(503, "scheduler_unavailable", "The cluster for studies cannot be used; try later", 10),
+    SchedulerUnavailable: Kind(
+        503, "scheduler_unavailable", "The cluster for studies cannot be used; try again later", 10
+    ),
     WorkerLost: Kind(503, "worker_lost", "The calculation was lost with its process; try again", 1),
-    Stopping: Kind(503, "shutting_down", "The service stops", 5),
-    MemoryError: Kind(503, "memory_limit", "The calculation needs more memory than a worker may use; make it smaller"),
-    DeadlineExceeded: Kind(504, "deadline_exceeded", "The calculation took too long; make it smaller"),
+    Stopping: Kind(503, "shutting_down", "The service is shutting down", 5),
+    MemoryError: Kind(
+        503, "memory_limit", "The calculation needs more memory than a worker may use; make the calculation smaller"
+    ),
+    DeadlineExceeded: Kind(504, "deadline_exceeded", "The calculation took too long; make the calculation smaller"),
     ClientGone: Kind(499, "client_gone", "The client closed the connection"),
 }
 

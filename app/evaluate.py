@@ -1,4 +1,4 @@
-"""Reading and solving of requests and writing of answers, for JSON, pages, figures and studies."""
+"""Reading of requests, solving, and writing of answers, for JSON, pages, figures and studies."""
 
 import json
 from collections import Counter
@@ -53,7 +53,7 @@ def content_of(body: bytes) -> Any:
     except json.JSONDecodeError as error:
         message = f"the body is not valid JSON: {error.msg} at position {error.pos}"
         raise InvalidBody([Fault("", "json_invalid", message)]) from None
-    except (ValueError, RecursionError):  # not UTF-8, a number of thousands of digits, too many brackets
+    except (ValueError, RecursionError):  # not UTF-8, a number with too many digits, too many brackets
         raise Unreadable("The body cannot be read as JSON") from None
 
 
@@ -73,7 +73,9 @@ def refuse_endless(calculation: Calculation, request: Request, deadline_s: float
 def calculation_at(endpoint: str) -> Calculation:
     """Return the calculation of an endpoint. Raises Unprocessable if there is no such endpoint."""
     if endpoint not in BY_PATH:
-        raise Unprocessable("unknown_endpoint", f"there are {', '.join(BY_PATH)}", "endpoint")
+        raise Unprocessable(
+            "unknown_endpoint", f"there is no such endpoint; the endpoints are {', '.join(BY_PATH)}", "endpoint"
+        )
     return BY_PATH[endpoint]
 
 
@@ -158,7 +160,7 @@ def solve(calculation: Calculation, request: Request) -> Any:
 
 
 def response_to(calculation: Calculation, request: Request, result: Any) -> Response:
-    """Return the response for a result or a NoSolution. Raises a validation error if a number is not finite."""
+    """Return the response to a result or a NoSolution. Raises a validation error if a number is not finite."""
     content: dict[str, Any]
     if isinstance(result, NoSolution):
         warning = {"rank": "invalid", "code": result.code, "message": result.message}
@@ -190,7 +192,11 @@ def response_to(calculation: Calculation, request: Request, result: Any) -> Resp
 
 
 def case_of(endpoint: str, inputs: dict[str, Any], sources: str) -> str:
-    """Return the SHA-256 of a case's JSON in hex: sorted keys, no blanks, shortest floats, UTF-8."""
+    """Return the SHA-256 of a case in hex.
+
+    The hash is that of the case as JSON in UTF-8, with sorted keys, without blanks, and with floats in their shortest
+    form.
+    """
     content = {"endpoint": endpoint, "inputs": inputs, "sources": sources}
     return sha256(_CANONICAL.encode(content).encode()).hexdigest()
 
@@ -200,8 +206,8 @@ def _assumptions(
 ) -> Iterator[dict[str, Any]]:
     """Yield the assumed defaults on which the result depends, with the values used.
 
-    `derived` has such values under their names, or in groups and lists with the names of the sections. `unused` are the
-    dotted names that the outer sections do not use.
+    `derived` holds these values by the names of the fields, in groups and lists that have the names of the sections.
+    `unused` holds the dotted names of fields that the outer sections do not use.
     """
     unused |= {prefix + name for name, left_out in section.unused().items() if left_out}
     for member in members(type(section)):

@@ -17,7 +17,7 @@ from logging.handlers import QueueHandler, QueueListener
 from prometheus_client import Counter, Gauge, Histogram
 
 LINES_KEPT = 10_000  # for a reader that stalls; further lines are dropped and counted
-LAST_LINES_S = 1.0  # to write the remaining lines at the end
+LAST_LINES_S = 1.0  # longest time to write the remaining lines at the end
 REQUEST_LOG = "tribodrive.requests"
 
 # At /metrics, in the Prometheus text format.
@@ -34,7 +34,7 @@ LINES_DROPPED = Counter("tribodrive_log_lines_dropped", "Log lines dropped becau
 
 
 class _Handler(QueueHandler):
-    """Handler that counts records without room in the queue or with a wrong format, instead of writing about them."""
+    """Handler that puts records into the queue. It counts records that do not fit or have a wrong format."""
 
     def handleError(self, record: logging.LogRecord) -> None:  # noqa: N802  logging's name
         del record
@@ -42,7 +42,7 @@ class _Handler(QueueHandler):
 
 
 class _Writer(logging.Handler):
-    """Handler that writes records without the locks of logging, for which the end of the process would wait."""
+    """Handler that writes records without the locks of `logging`; the end of the process would wait for these locks."""
 
     def handle(self, record: logging.LogRecord) -> bool:
         """Write a record. A failure does not end the thread."""

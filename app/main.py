@@ -42,7 +42,7 @@ def create_app() -> FastAPI:
 
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
-        gc.freeze()  # imported objects stay
+        gc.freeze()  # imported objects stay in memory; the collector need not search them
         gc.enable()
         app.state.settings = limits
         app.state.pool = pool = Pool(limits, MODULES)
@@ -67,7 +67,7 @@ def create_app() -> FastAPI:
         description=DESCRIPTION,
         version=MODEL_VERSION,
         lifespan=lifespan,
-        docs_url=None,  # app.http.routes.service has this page
+        docs_url=None,  # app.http.routes.service serves this page
         redoc_url=None,
         redirect_slashes=False,  # redirects would repeat the host that the client names
     )

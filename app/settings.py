@@ -1,4 +1,4 @@
-"""Limits and addresses of the service. Each is an environment variable: `TRIBODRIVE_` and the name in capitals."""
+"""Limits and addresses of the service, read from environment variables: `TRIBODRIVE_` plus the name in capitals."""
 
 import os
 import sys
@@ -12,7 +12,7 @@ from pydantic_core import ErrorDetails
 from pydantic_settings import BaseSettings, NoDecode, SettingsConfigDict
 
 MEBIBYTE = 2**20  # bytes
-CLUSTER_POINTS = 100_000  # per study that other machines solve; chosen
+CLUSTER_POINTS = 100_000  # chosen; most points of one study if a cluster solves the study
 
 
 def _share_of_cores() -> int:
@@ -75,13 +75,16 @@ class Settings(BaseSettings):
 
     @property
     def most_study_points(self) -> int:
-        """Most points of one study: as set, else more for a cluster."""
+        """Most points of one study: the setting, or a larger default if a cluster solves the studies."""
         return CLUSTER_POINTS if self.scheduler and "study_points" not in self.model_fields_set else self.study_points
 
 
 @lru_cache(maxsize=1)
 def settings() -> Settings:
-    """Return the settings of this process, read from the environment once. Wrong settings end it with a line each."""
+    """Return the settings of this process, which are read from the environment only once.
+
+    If settings are wrong, end the process and print a line for each wrong setting.
+    """
     try:
         return Settings()
     except ValidationError as error:

@@ -1,4 +1,4 @@
-"""Rows as CSV, such that spreadsheets do not run any of their cells as a formula."""
+"""Rows as CSV in which no cell is a formula for a spreadsheet."""
 
 import csv
 import re
@@ -7,7 +7,7 @@ from io import StringIO
 from typing import Any
 
 FORMULA_SIGNS = ("=", "+", "-", "@", "\t", "\r", "\n")
-_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)  # its sign does not begin a formula
+_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)  # a number with a sign is not a formula
 
 
 def csv_of(rows: Iterable[Iterable[Any]], digits: int | None = None) -> bytes:
@@ -21,7 +21,7 @@ def csv_of(rows: Iterable[Iterable[Any]], digits: int | None = None) -> bytes:
 
 
 def _cell(value: Any, digits: int | None) -> Any:
-    """Return a cell that no spreadsheet takes for a formula."""
+    """Return a cell that no spreadsheet interprets as a formula."""
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, float) and digits is not None:

@@ -29,7 +29,7 @@ def guarded(
     Parameters
     ----------
     solve : callable
-        The solver; its first argument are the inputs, a dataclass, and its result has `warnings`.
+        The solver; its first argument is a dataclass with the inputs, and its result has `warnings`.
     unusual : callable
         Yields the warnings about unusual values, from the inputs and the result.
 

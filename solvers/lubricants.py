@@ -132,9 +132,9 @@ class Lubricant:
         logarithm = float(log_viscosity(laws, pressure_part(laws, 0.0)[0], temperature)[0])
         if not logarithm < log(HIGHEST_VISCOSITY):
             message = (
-                f"the oil's law gives it 10^{logarithm / log(10.0):.2g} Pa s at {temperature:g} K, beyond "
-                f"{HIGHEST_VISCOSITY:g}; bring the temperatures nearer to the reference temperature, or lower the "
-                "temperature-viscosity coefficient"
+                f"at {temperature:g} K the law of the oil gives a viscosity of 10^{logarithm / log(10.0):.2g} Pa s, "
+                f"above the limit of {HIGHEST_VISCOSITY:g} Pa s; bring the temperatures nearer to the reference "
+                "temperature, or lower the temperature-viscosity coefficient"
             )
             raise InvalidInput("viscosity_range", message, "lubricant.temperature_viscosity")
         return float(np.exp(log_viscosity(laws, pressure_part(laws, pressure)[0], temperature)[0]))
@@ -283,7 +283,11 @@ def density(laws: FluidLaws, pressure: float, temperature: float) -> tuple[float
 def thick_oil(viscosity: float | None, field: str = "lubricant.viscosity") -> Iterator[Notice]:
     """Warn of a viscosity [Pa s] at operating temperature that is unusually high."""
     if viscosity is not None and viscosity > THICK_OIL:
-        yield unusual_value(field, f"{viscosity:.4g} Pa s at operating temperature is very thick; was mPa s meant?")
+        yield unusual_value(
+            field,
+            f"a viscosity of {viscosity:.4g} Pa s at operating temperature is unusually high; was a value entered in "
+            "the wrong unit (mPa s)?",
+        )
 
 
 def oil_temperature(temperature: float, field: str = "temperatures.oil") -> Iterator[Notice]:
@@ -291,19 +295,25 @@ def oil_temperature(temperature: float, field: str = "temperatures.oil") -> Iter
     yield from hotter_than_gears(temperature, field)
     if temperature < COLDEST_OIL:
         shown = f"{temperature - 273.15:g} °C"
-        yield unusual_value(field, f"{shown} is colder than oils are in service; is the sign right?")
+        yield unusual_value(
+            field, f"a temperature of {shown} is unusually low for an oil in service; is the sign right?"
+        )
 
 
 def hotter_than_gears(temperature: float, field: str) -> Iterator[Notice]:
     """Warn of a temperature [K] of oil or teeth that is too high for gears in service."""
     if temperature > HOTTEST:
         shown = f"{temperature - 273.15:g} °C"
-        yield unusual_value(field, f"{shown} is hotter than gears are in service; were degrees Fahrenheit meant?")
+        yield unusual_value(
+            field,
+            f"a temperature of {shown} is unusually high for gears in service; was a value entered in degrees "
+            "Fahrenheit?",
+        )
 
 
 def hot_oil(oil: float, bulk: float | None) -> Iterator[Notice]:
     """Warn of an oil temperature [K] above the temperature of the teeth [K]."""
     if bulk is not None and oil > bulk:
         message = f"the oil at {oil - 273.15:g} °C is hotter than the teeth at {bulk - 273.15:g} °C"
-        message += "; are they exchanged?"
+        message += "; were the two temperatures exchanged?"
         yield unusual_value("temperatures.oil", message)

@@ -100,8 +100,9 @@ def viscosity_of_index(viscosity_40: float, index: float) -> float:
     least, largest = LEAST_VISCOSITY, thick * (1.0 - 1e-9)
     if not (least < largest and excess(least) <= 0.0 <= excess(largest)):
         message = (
-            f"no oil of {thick:.4g} mm²/s at 40 °C and at least 2 mm²/s at 100 °C, from which the index is defined, "
-            f"has a viscosity index of {index:.4g}: give its viscosity at 100 °C"
+            f"no oil with {thick:.4g} mm²/s at 40 °C and at least 2 mm²/s at 100 °C has a viscosity index of "
+            f"{index:.4g}, and the index is not defined below 2 mm²/s; give the viscosity at 100 °C instead of the "
+            "index"
         )
         raise InvalidInput("viscosity_index", message, "lubricant.viscosity_index")
     return float(brentq(excess, least, largest, xtol=1e-12)) * SQUARE_MILLIMETRE
@@ -210,14 +211,17 @@ class OilSheet:
         """
         thick, thin, field = self.kinematic_viscosity_40, self.kinematic_viscosity_100, _THIN
         if not thin >= LEAST_VISCOSITY_100:
-            raise InvalidInput("out_of_range", "the oil needs at least 1 mm²/s at 100 °C", field)
+            raise InvalidInput("out_of_range", "the viscosity of the oil at 100 °C must be at least 1 mm²/s", field)
         if not thin < thick:
-            raise InvalidInput("viscosity_order", "the oil must be thinner at 100 °C than at 40 °C", field)
+            raise InvalidInput(
+                "viscosity_order", "the viscosity of the oil at 100 °C must be lower than its viscosity at 40 °C", field
+            )
         index, (least, largest) = self.viscosity_index, VISCOSITY_INDICES
         if not least <= index <= largest:
             message = (
-                f"{thick / SQUARE_MILLIMETRE:.4g} and {thin / SQUARE_MILLIMETRE:.4g} mm²/s at 40 and 100 °C make a "
-                f"viscosity index of {index:.3g}; oils have {least:g} to {largest:g}: check both viscosities"
+                f"viscosities of {thick / SQUARE_MILLIMETRE:.4g} mm²/s at 40 °C and {thin / SQUARE_MILLIMETRE:.4g} "
+                f"mm²/s at 100 °C correspond to a viscosity index of {index:.3g}, but oils have {least:g} to "
+                f"{largest:g}; check both viscosities"
             )
             raise InvalidInput("viscosity_index", message, field)
 
@@ -246,8 +250,9 @@ class OilSheet:
         logarithm = self._logarithm(temperature)
         if logarithm > log10(LARGEST_VISCOSITY / SQUARE_MILLIMETRE):
             message = (
-                f"by its viscosities at 40 and 100 °C the oil would have 10^{logarithm:.1f} mm²/s at "
-                f"{temperature - CELSIUS:.4g} °C; beyond 10^5 it hardly flows: give a warmer oil or a thinner one"
+                f"according to its viscosities at 40 and 100 °C the oil would have 10^{logarithm:.1f} mm²/s at "
+                f"{temperature - CELSIUS:.4g} °C. Above 10^5 mm²/s oil hardly flows; raise the temperature or choose "
+                "an oil of lower viscosity"
             )
             raise InvalidInput("oil_too_thick", message, _THICK)
         return float(10.0**logarithm - WALTHER_SHIFT) * SQUARE_MILLIMETRE

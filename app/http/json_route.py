@@ -1,4 +1,4 @@
-"""A route that reads its JSON body strictly, before FastAPI validates it against the signature of the handler."""
+"""A route that reads its JSON body strictly before FastAPI validates the body by the signature of the handler."""
 
 from collections.abc import Callable, Coroutine
 from typing import Any, cast
@@ -24,7 +24,10 @@ class _ReadRequest(Request):
 
 
 class JsonRoute(APIRoute):
-    """A route with a JSON body: 415 for other types, 400 if a name occurs twice, messages by `schema.reading`."""
+    """A route with a JSON body.
+
+    It answers 415 to other media types, and 400 if a name occurs twice. `schema.reading` words the messages.
+    """
 
     def get_route_handler(self) -> Callable[[Request], Coroutine[Any, Any, Response]]:
         """Return the function that answers a request."""
@@ -43,7 +46,7 @@ class JsonRoute(APIRoute):
                 return await answer(read)
             except RequestValidationError as error:
                 in_body = [item | {"loc": item["loc"][1:]} for item in error.errors() if item["loc"][0] == "body"]
-                if len(in_body) < len(error.errors()):  # errors of the address come first
+                if len(in_body) < len(error.errors()):  # errors of the address are reported first
                     raise
                 raise InvalidBody(faults(model, in_body)) from None
 

@@ -1,4 +1,4 @@
-"""The outermost layer, pure ASGI: request id, limit of bodies, security headers, timing, log, metrics, status 500."""
+"""The outermost layer (pure ASGI): request id, limit of bodies, security headers, timing, log, metrics, status 500."""
 
 import asyncio
 import json
@@ -27,7 +27,7 @@ SECURITY_HEADERS = (
     (b"cache-control", b"no-store"),
     (b"content-security-policy", CONTENT_POLICY),
 )
-# A format is faster than json.dumps. Only the client's address needs escaping, because a proxy may give it.
+# A format is faster than json.dumps. Only the address of the client needs escaping, because a proxy may state it.
 LOG_LINE = (
     '{"time": %.3f, "request_id": "%s", "client": %s, "method": "%s", "endpoint": "%s", "status": %d, '
     '"duration_ms": %.3f}'
@@ -47,7 +47,7 @@ class Protection:
         self._most_bytes = dict.fromkeys(("/v1/rexs", "/v1/rexs/results", "/rexs"), (settings.rexs_mb + 1) * MEBIBYTE)
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Answer a request in any case, log and count it."""
+        """Answer a request even if the application fails; log and count the request."""
         if scope["type"] != "http":
             await self._app(scope, receive, send)
             return
@@ -62,7 +62,7 @@ class Protection:
             message = await receive()
             received += len(message.get("body", b""))
             if received > most_bytes:
-                while message.get("more_body", False):  # the answer could get lost if the connection were closed before
+                while message.get("more_body", False):  # an early close could lose the answer
                     message = await receive()
                 raise ContentTooLarge(f"The request body is larger than {most_bytes} bytes")
             return message
@@ -85,7 +85,7 @@ class Protection:
         except (Exception, asyncio.CancelledError) as error:
             if status != CLIENT_GONE:
                 raise  # too late for another answer: the connection is cut
-            # A server that stops cancels requests after its time for them.
+            # A server that stops cancels the requests that have not ended in time.
             stopping = answer(Request(inner), Stopping())
             failure = internal_error(identifier, error) if isinstance(error, Exception) else stopping
             await failure(inner, receive, send_decorated)
@@ -98,10 +98,13 @@ class Protection:
             logger.info(LOG_LINE, *line)
 
     def _inner(self, scope: Scope, identifier: str) -> Scope:
-        """Return the scope for the application, under the prefix of the settings even if a proxy strips it."""
+        """Return the scope for the application.
+
+        The path in the scope has the prefix of the settings, even if a proxy strips this prefix.
+        """
         root, path = self._settings.root_path or scope.get("root_path", ""), scope["path"]
         path = path if f"{path}/".startswith(f"{root}/") else root + path
         path = f"{root}/" if path == root else path
-        method = "GET" if scope["method"] == "HEAD" else scope["method"]  # the server leaves the body out
+        method = "GET" if scope["method"] == "HEAD" else scope["method"]  # the server omits the body
         state = {**scope.get("state", {}), "request_id": identifier}
         return {**scope, "root_path": root, "path": path, "method": method, "state": state}

@@ -1,4 +1,4 @@
-"""Errors as RFC 9457 problem documents. Values of the input are never repeated in them."""
+"""Errors as problem documents (RFC 9457). These documents never repeat values of the input."""
 
 import logging
 from http import HTTPStatus
@@ -58,7 +58,7 @@ def documented(*statuses: int) -> dict[int | str, dict[str, Any]]:
 
 
 def install(app: FastAPI) -> None:
-    """Answer all exceptions with problem documents, and add their schema to the OpenAPI document."""
+    """Answer all exceptions with problem documents, and add the schema of these documents to the OpenAPI document."""
     for kind in (RequestValidationError, InvalidBody, Unprocessable, HTTPException, *PROBLEMS):
         app.add_exception_handler(kind, answer)
     openapi = app.openapi
@@ -107,7 +107,7 @@ def answer(request: Request, error: Exception) -> JSONResponse:
     """Return the problem document of an exception."""
     instance = str(request.state.request_id)
     match error:
-        case RequestValidationError():  # faults of an address; those of a body are InvalidBody
+        case RequestValidationError():  # faults of an address; faults of a body are InvalidBody
             items = error.errors()[:MOST_FAULTS]
             faults = [Fault(pointer(item["loc"][1:]), item["type"], _message(item)) for item in items]
             return answer(request, InvalidBody(faults))

@@ -167,9 +167,11 @@ def opened(content: bytes, root: str) -> Asked:
         endpoint, title = str(case["endpoint"]), str(case.get("title", ""))
         pairs = pairs_of_query(link("", pairs_of(dict(case["request"]))).removeprefix("?"))  # as the form sends them
     except (InvalidBody, Unreadable, AttributeError, KeyError, RecursionError, TypeError, ValueError):
-        raise Unreadable("The file holds no case: JSON with an endpoint and a request") from None
+        raise Unreadable(
+            "The file does not contain a case. A case is a JSON object with an endpoint and a request"
+        ) from None
     if endpoint not in BY_PATH:
-        raise Unreadable("The file is a case of a calculation that is not known here")
+        raise Unreadable("The file contains a case of a calculation that this service does not have")
     return Asked(endpoint.removeprefix("/v1"), pairs, {"title": title} if title else {}, root=root)
 
 

@@ -67,7 +67,7 @@ def pairs_of_query(query: str) -> Pairs:
     try:
         return parse_qsl(query, keep_blank_values=True, max_num_fields=MOST_FIELDS, errors="replace")
     except ValueError:
-        raise Unreadable(f"More than {MOST_FIELDS} fields") from None
+        raise Unreadable(f"The query has more than {MOST_FIELDS} fields, which is the largest number allowed") from None
 
 
 def split_views(pairs: Pairs) -> tuple[Pairs, dict[str, str]]:
@@ -169,16 +169,16 @@ def body_of(model: type[Documented], pairs: Pairs) -> dict[str, Any]:
     for name, text in pairs:
         parts = name[:LONGEST_NAME].split(".")
         if len(parts) > DEEPEST or not all(parts):
-            raise Unreadable("A field's name is made of words with points between them")
+            raise Unreadable("The name of a field consists of words separated by points")
         place = body
         for part in parts[:-1]:
             place = place.setdefault(part, {})
             if not isinstance(place, dict):
-                raise Unreadable("A field stands beside fields of its own")
+                raise Unreadable("The same name is used for a value and for a section")
         if isinstance(place.get(parts[-1]), dict) and text == PRESENT:
             continue
         if parts[-1] in place:
-            raise Unreadable("A field stands twice")
+            raise Unreadable("A field occurs twice")
         place[parts[-1]] = _value(model, name, text)
     content: dict[str, Any] = _with_lists(model, body)
     return content

@@ -7,7 +7,7 @@ reading        attributes as numbers, and the draft of a request with its missin
 power          speeds and torques of all shafts
 stages         requests of one mesh
 lubrication    oil, temperatures and friction of a mesh
-modifications  modifications of its flanks
+modifications  modifications of the flanks of a mesh
 drive_train    the request of a stage with its shafts and bearings
 unit           a whole file: stages, load cases and findings
 answer         the answers of the endpoints and the page

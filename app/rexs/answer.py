@@ -1,4 +1,4 @@
-"""A worker's answers to the file of a gear unit: the answer of /v1/rexs, its page, and the file with results."""
+"""What a worker returns for the file of a gear unit: the answer of /v1/rexs, a page, and the file with results."""
 
 import json
 from hashlib import sha256
@@ -82,21 +82,21 @@ def unit_of(content: bytes, most_bytes: int) -> dict[str, Any]:
 
 
 def unit_json(content: bytes, most_bytes: int) -> bytes:
-    """Return the answer as JSON."""
+    """Return the answer of /v1/rexs as JSON."""
     return json.dumps(unit_of(content, most_bytes), allow_nan=False, ensure_ascii=False).encode()
 
 
 def unit_html(root: str, content: bytes, most_bytes: int, name: str = "") -> bytes:
-    """Return the answer as a page; `root` is the prefix of its links, `name` the name of the file."""
+    """Return the answer of /v1/rexs as a page; `root` is the prefix of the links, `name` is the name of the file."""
     return unit_page(root, unit_of(content, most_bytes), name, sha256(content).hexdigest()).encode()
 
 
 def with_results(content: bytes, most_bytes: int, stage: int, request: bytes | None, deadline_s: float) -> File:
     """Calculate a stage and return the file with the answer in it.
 
-    `request` is the stage's request as the user edited it. If it is None, the request from the file is solved: that of
-    the drive train if the file describes one, else that of /v1/scuffing. Raises Unprocessable if the file is not
-    readable or has no such stage, and the errors of reading a request.
+    `request` is the stage's request as the user edited it. If `request` is None, a request that follows from the file
+    is solved: the request of the drive train if the file describes one, else the request of /v1/scuffing. Raises
+    Unprocessable if the file is not readable or has no such stage, and the errors of reading a request.
     """
     document = read(content, most_bytes)
     row = next((row for row in gear_unit(document.model)["stages"] if row["id"] == stage), None)
@@ -115,10 +115,11 @@ def with_results(content: bytes, most_bytes: int, stage: int, request: bytes | N
 
 
 def with_answer(document: Document, stage: int, endpoint: str, answer: dict[str, Any]) -> File:
-    """Return the file with the numbers of an answer, its status and its case as attributes of the stage.
+    """Return the file with the numbers, the status and the case of an answer as attributes of the stage.
 
-    A quantity has the attribute of the standard if the file's version has one. Other quantities have names that begin
-    with `custom_tribodrive_`; REXS reserves such names for programs.
+    A quantity is written to the attribute of the standard if the file's version of REXS has such an attribute. Other
+    quantities are written to attributes whose names begin with `custom_tribodrive_`; REXS reserves such names for
+    programs.
     """
     major, written = int(document.model.version.split(".")[0]), []
     for path, name, unit in table.RESULTS[endpoint]:

@@ -1,7 +1,8 @@
-"""REXS files as bytes: XML, JSON or a zip archive of one of them, read into a `Model` and written with new attributes.
+"""Reading of a REXS file into a `Model`, and writing of the file with new attributes.
 
-The file may come from anybody. lxml parses XML without entities, external files or deep nesting. Tags and attributes
-are counted before the parser turns them into objects.
+A file is XML, JSON, or a zip archive with one XML or JSON file. The file may come from anybody. Therefore lxml parses
+XML without entities, external files or deep nesting, and tags and attributes are counted before the parser turns the
+file into objects.
 """
 
 import base64
@@ -21,7 +22,7 @@ from lxml import etree
 from app.errors import Unprocessable
 from app.rexs.model import Attribute, Component, LoadCase, Model, Relation
 
-MOST_ELEMENTS = 1_500_000  # tags and attributes of XML, containers of JSON: 300 MB at 200 bytes per element
+MOST_ELEMENTS = 1_500_000  # tags and attributes of XML, or containers of JSON; 300 MB at 200 bytes per element
 VERSIONS = ("1", "2")
 SUFFIXES = (".rexs", ".rexsj", ".rexs.json", ".rexs.xml")
 MODELS = ", ".join(SUFFIXES)
@@ -52,7 +53,10 @@ class Document(NamedTuple):
 
 
 def read(content: bytes, most_bytes: int) -> Document:
-    """Read a REXS file in any of its formats. Raises Unprocessable, also if it has more than `most_bytes` unpacked."""
+    """Read a REXS file in any of its formats.
+
+    Raises Unprocessable if the file cannot be read, or if the unpacked file has more than `most_bytes` bytes.
+    """
     if content.startswith(b"PK"):
         content = _unpacked(content, most_bytes)
     if len(content) > most_bytes:
@@ -72,7 +76,7 @@ def with_attributes(file: File, component: int, attributes: Iterable[Attribute])
 
 
 def _unpacked(content: bytes, most_bytes: int) -> bytes:
-    """Return the model in a zip archive, but not more than one byte beyond the limit.
+    """Return the model in a zip archive, but at most `most_bytes` + 1 bytes of the model.
 
     The size that the archive states is not trusted.
     """
@@ -82,9 +86,9 @@ def _unpacked(content: bytes, most_bytes: int) -> bytes:
             if len(models) != 1:
                 names = ", ".join(PurePosixPath(entry.filename).name[:40] for entry in models[:5])
                 listed = f": {names}" if names else ""
-                raise not_rexs(f"the archive holds {len(models)} models ({MODELS}); it must hold one{listed}")
+                raise not_rexs(f"the archive holds {len(models)} models ({MODELS}); it must hold exactly one{listed}")
             if models[0].compress_type not in PACKINGS:
-                raise not_rexs("the compression of the archive is not supported; use deflate, the usual one")
+                raise not_rexs("the compression of the archive is not supported; use deflate, the usual method")
             with archive.open(models[0]) as packed:
                 return packed.read(most_bytes + 1)
     except (zipfile.BadZipFile, zlib.error, NotImplementedError, RuntimeError, OSError, EOFError, ValueError) as error:
@@ -162,7 +166,7 @@ def _children(element: Any, tag: str) -> Iterator[Any]:
 
 
 def _is_of_model(component: Any) -> bool:
-    """Return True if a component stands in the list of components, False if in a load case."""
+    """Return True if a component belongs to the list of components, and False if it belongs to a load case."""
     parent = component.getparent()
     return parent is not None and _tag(parent) == "components"
 
@@ -178,7 +182,7 @@ def _xml_component(element: Any) -> Component:
 
 
 def _xml_array(element: Any) -> list[Any] | None:
-    """Return an array as a list; matrices and arrays of arrays as lists of their rows."""
+    """Return an array as a list. Return a matrix or an array of arrays as a list of rows."""
     if code := element.get("code"):
         return _numbers(code, element.text)
     if _tag(element) == "array":
@@ -232,7 +236,7 @@ def _model_of_json(content: bytes) -> Model:
             json.dumps(document, ensure_ascii=False).encode()  # raises for half a surrogate pair
     except json.JSONDecodeError as error:
         raise not_rexs(f"line {error.lineno}: {error.msg}") from error
-    except (ValueError, RecursionError) as error:  # not UTF-8, a number of thousands of digits, too deep
+    except (ValueError, RecursionError) as error:  # not UTF-8, a number with too many digits, nested too deeply
         raise not_rexs("the file is not valid JSON") from error
     model = document.get("model")
     if not isinstance(model, dict):
@@ -269,7 +273,8 @@ def _json_component(item: dict[str, Any]) -> Component:
     attributes = {}
     for attribute in _objects(item, "attributes"):
         name = str(attribute.get("id") or "")
-        value = next((attribute[key] for key in attribute if key not in {"id", "unit"}), None)  # the key is its type
+        # The value stands under a key that names its type.
+        value = next((attribute[key] for key in attribute if key not in {"id", "unit"}), None)
         if isinstance(value, dict):
             value = _numbers(value.get("code"), value.get("value"))
         attributes[name] = Attribute(name, str(attribute.get("unit") or ""), value)

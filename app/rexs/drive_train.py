@@ -1,7 +1,7 @@
-"""The drive-train request of a stage: its two shafts in their bearings, along the axis of the pinion's shaft.
+"""The drive-train request of a stage: its two shafts and their bearings, with positions along the pinion's axis.
 
-A stage has such a request if both shafts carry only the gears of this stage and run in two radial bearings in the
-casing. Z is the u axis of the pinion's shaft, X and Y are its v and w axes.
+A stage has such a request if both shafts carry only the gears of this stage, and if each shaft runs in two radial
+bearings in the casing. Z is the u axis of the pinion's shaft; X and Y are the v and w axes of this shaft.
 """
 
 from collections.abc import Iterator
@@ -14,8 +14,8 @@ from app.rexs.model import Component
 from app.rexs.reading import Vector
 from app.rexs.stages import StageDraft
 
-MOST_PIECES = 10  # per cone; a request allows 40 sections per shaft
-LONGEST_PIECE = 10.0  # mm; a cylinder that replaces a part of a cone
+MOST_PIECES = 10  # largest number of pieces per cone; a request allows 40 sections per shaft
+LONGEST_PIECE = 10.0  # mm; length of a cylinder that replaces a part of a cone
 SHORTEST_SECTION = 0.1  # mm
 RIGID_FROM_N_PER_UM = 1e5  # chosen: some hundred times the stiffness of a plain bearing
 STANDARD_GRAVITY = 9.80665  # m/s^2
@@ -34,7 +34,7 @@ class Section(NamedTuple):
 def add_drive_train(stage: StageDraft) -> bool:
     """Add the fields of the drive train to the draft of a stage.
 
-    Return False if the file describes no drive train that can be calculated; the draft then says why.
+    Return False if the file describes no drive train that can be calculated. The draft then states the reasons.
     """
     reasons = list(_obstacles(stage))
     for component, reason in reasons:
@@ -87,7 +87,7 @@ class _DriveTrain:
         self._x = _cross(self._y, z)
 
     def fill(self) -> bool:
-        """Fill in the request for a drive train. Return False if the sections do not make a shaft."""
+        """Fill in the request for a drive train. Return False if a shaft has no sections."""
         stage = self._stage
         faces = [stage.face_interval(place) for place in (0, 1)]
         start = max(face[0] for face in faces if face is not None)
@@ -103,7 +103,9 @@ class _DriveTrain:
         for shaft in stage.shafts:
             for part in self._reading.model.related("side", "inner_part", shaft.id, "assembly"):
                 if part.type in {"coupling", "switchable_coupling"}:
-                    stage.lacks("couplings", part, None, "the file has no tooth data of the coupling; left out")
+                    stage.lacks(
+                        "couplings", part, None, "the file has no tooth data of the coupling; the coupling is left out"
+                    )
         return True
 
     def _directions(self) -> None:
@@ -134,7 +136,7 @@ class _DriveTrain:
         return degrees(atan2(_dot(direction, self._y), _dot(direction, self._x)))
 
     def _in_file(self, component: Component, along: Vector) -> Vector:
-        """Convert a vector from a component's own u, v, w axes to the coordinates of the file."""
+        """Convert a vector from the u, v, w axes of a component to the coordinates of the file."""
         u = self._reading.vector(component, "u_axis_vector") or (1.0, 0.0, 0.0)
         w = self._reading.vector(component, "w_axis_vector") or (0.0, 0.0, 1.0)
         x, y, z = (_dot(along, axes) for axes in zip(u, _cross(w, u), w, strict=True))
@@ -166,7 +168,7 @@ class _DriveTrain:
         return True
 
     def _sections(self, shaft: Component) -> list[Section]:
-        """Return the cylinders of a shaft; cones become pieces with the mean diameter of each piece."""
+        """Return the cylinders of a shaft. Cones are replaced by cylindrical pieces with their mean diameters."""
         reading, stage = self._reading, self._stage
         base, sense = stage.position_of_coordinate(shaft, 0.0) or 0.0, stage.along(shaft)
         cylinders, stacked = [], 0.0
@@ -177,7 +179,9 @@ class _DriveTrain:
             outer, end_outer = (reading.number(part, f"outer_diameter_{end}", "mm") for end in ("begin", "end"))
             inner, end_inner = (reading.number(part, f"inner_diameter_{end}", "mm") or 0.0 for end in ("begin", "end"))
             if length is None or length <= 0.0 or outer is None or end_outer is None:
-                reading.find("section", part, "length", "the section has no length or no diameters; left out")
+                reading.find(
+                    "section", part, "length", "the section has no length or no diameters; the section is left out"
+                )
                 continue
             begin = reading.number(part, "u_coordinate_on_shaft", "mm")
             begin = stacked if begin is None else begin
@@ -192,7 +196,7 @@ class _DriveTrain:
         return self._contiguous(sorted(cylinders), shaft)
 
     def _contiguous(self, sections: list[Section], shaft: Component) -> list[Section]:
-        """Join the sections without gaps and overlaps; both are findings."""
+        """Join the sections without gaps and overlaps. Gaps and overlaps of the file are recorded as findings."""
         joined: list[Section] = []
         for section in sections:
             here = joined[-1].end if joined else section.begin
@@ -218,7 +222,7 @@ class _DriveTrain:
                 if high - low >= SHORTEST_SECTION:
                     cylinders.append(Section(low, high, gear.reference_diameter if grown else outer, inner))
         if changed:
-            reason = "under the teeth the reference diameter, as in ISO 6336-1"
+            reason = "under the teeth the reference diameter is used, as in ISO 6336-1"
             self._stage.note(f"{NAMES[place]}.sections", gear.reference_diameter, reason)
         return cylinders
 
@@ -227,7 +231,7 @@ class _DriveTrain:
         fields: dict[str, Any] = {}
         if position is None:
             attribute = "u_coordinate_on_shaft_inner_side"
-            stage.lacks(f"{path}.position_mm", bearing, attribute, "where the bearing sits")
+            stage.lacks(f"{path}.position_mm", bearing, attribute, "the position of the bearing")
         else:
             fields["position_mm"] = position
         v, w = (reading.number(bearing, f"misalignment_in_{axis}_direction", "um") or 0.0 for axis in "vw")
@@ -239,14 +243,14 @@ class _DriveTrain:
             for row in table.JOURNAL:
                 if (value := reading.number(bearing, row)) is not None:
                     fields[row.field] = value / 2.0 if row.field == "radial_clearance_um" else value
-            if fields.get("oil_flow_l_per_min", 1.0) <= 0.0:  # not known: the heat balance takes the side leakage
+            if fields.get("oil_flow_l_per_min", 1.0) <= 0.0:  # not known; the heat balance uses the side leakage
                 del fields["oil_flow_l_per_min"]
             relative = reading.number(bearing, "relative_clearance_plain_bearing")
             bore = reading.number(bearing, table.BEARING_BORE)
             if "radial_clearance_um" not in fields and relative is not None and bore is not None:
                 fields["radial_clearance_um"] = (
                     relative * bore * 500.0
-                )  # the bore is in mm; half of the diameter's clearance
+                )  # from mm to um; the radial clearance is half of the diametral clearance
             return fields
         stiffness = reading.number(bearing, "radial_stiffness", "N/um")
         if stiffness is not None and stiffness >= RIGID_FROM_N_PER_UM:
@@ -265,7 +269,7 @@ class _DriveTrain:
             if position is not None:
                 self._stage.put(path, position, load, "u_coordinate_on_shaft")
                 return
-        self._stage.lacks(path, shaft, None, "where the torque enters or leaves the shaft")
+        self._stage.lacks(path, shaft, None, "the position at which the torque enters or leaves the shaft")
 
 
 def _dot(a: Vector, b: Vector) -> float:

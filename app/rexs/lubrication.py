@@ -1,4 +1,4 @@
-"""Read the oil of a mesh, its supply, the temperatures of oil and teeth, and the friction."""
+"""Oil and oil supply of a mesh, temperatures of oil and teeth, and friction, as the file states them."""
 
 from app.rexs import table
 from app.rexs.model import Component
@@ -22,19 +22,26 @@ class Lubrication:
             self._stage.lacks("lubricant", self._stage.stage, None, "film and scuffing safety need an oil")
             return
         if self._reading.text(oil, "kind") == "grease":
-            self._reading.find("grease", oil, "kind", "the lubricant is a grease, which is not modelled; not used")
+            self._reading.find(
+                "grease", oil, "kind", "the lubricant is a grease, which is not modelled; the lubricant is not used"
+            )
             self._stage.lacks("lubricant", oil, "kind", "film and scuffing safety need an oil")
             return
         viscosities = table.OIL[:2]
         if None in [self._reading.number(oil, row) for row in viscosities]:
-            self._stage.lacks("lubricant", oil, viscosities[0].name, "the oil's viscosities at 40 and 100 C are needed")
+            self._stage.lacks(
+                "lubricant", oil, viscosities[0].name, "the viscosities of the oil at 40 and 100 °C are needed"
+            )
             return
         for row in table.OIL:
             self._stage.take(row, oil, "lubricant.")
         self._base_oil(oil)
 
     def _base_oil(self, oil: Component) -> None:
-        """Read the kind of oil from its standard type, else from other texts. A kind without a model is a finding."""
+        """Fill in the kind of oil from the attribute of the standard, else from other texts.
+
+        A kind of oil that is not modelled is recorded as a finding.
+        """
         path, texts = "lubricant.kind", {}
         for name in (*table.OIL_TYPES, *table.OIL_WORDS):
             texts[name] = self._reading.text(oil, name)
@@ -55,7 +62,7 @@ class Lubrication:
             self._stage.assume(path, "mineral", "the file does not give the base oil")
             return
         self._reading.find(
-            "oil_kind", oil, None, f"an oil of the kind {vague[:40]} is not modelled; choose the nearest"
+            "oil_kind", oil, None, f"an oil of the kind {vague[:40]} is not modelled; choose the nearest kind"
         )
         self._stage.lacks(
             path, oil, None, f"choose the kind nearest to {vague[:40]}; without a choice a mineral oil is used"
@@ -64,7 +71,8 @@ class Lubrication:
     def _temperatures(self) -> None:
         """Fill in temperature and supply of the oil, and the bulk temperature.
 
-        The bulk temperature is the mean of both gears, or that of the stage if the gears have none.
+        The bulk temperature is the mean of both gears. If the gears state none, it is the bulk temperature of the
+        stage.
         """
         for origin in self._stage.oil_origins:
             if self._stage.take(table.OIL_TEMPERATURE, origin) is not None:
@@ -83,7 +91,7 @@ class Lubrication:
                 self._stage.put("temperatures.oil_supply", supply, self._stage.stage, name)
                 return
             if text:
-                message = f"lubrication by {text[:40]} is not modelled; not used"
+                message = f"lubrication by {text[:40]} is not modelled; the value is not used"
                 self._reading.find("oil_supply", self._stage.stage, name, message)
         self._supply_by_factor()
 
@@ -95,7 +103,7 @@ class Lubrication:
         if (supply := table.SUPPLY_FACTORS.get(factor)) is not None:
             self._stage.put("temperatures.oil_supply", supply, self._stage.stage, table.SUPPLY_FACTOR)
         else:
-            message = f"no oil supply of the model has the lubrication factor {factor:.4g}; not used"
+            message = f"no oil supply of the model has the lubrication factor {factor:.4g}; the factor is not used"
             self._reading.find("oil_supply", self._stage.stage, table.SUPPLY_FACTOR, message)
 
     def _friction(self) -> None:

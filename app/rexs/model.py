@@ -10,14 +10,15 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-ASSEMBLIES = ("ordered_assembly", "assembly")  # relations of a part to its whole
+ASSEMBLIES = ("ordered_assembly", "assembly")  # types of the relations between a part and a whole
 
 
 @dataclass(frozen=True, slots=True)
 class Attribute:
-    """A value and its unit in the file, "" without a unit.
+    """A value and its unit in the file.
 
-    `value` is a text (XML), a number, text or boolean (JSON), a list for an array, or None.
+    `unit` is empty if the value has no unit. In XML, `value` is a text; in JSON, a number, a text or a boolean. In
+    both, the value of an array is a list, and an absent value is None.
     """
 
     name: str
@@ -37,7 +38,7 @@ class Component:
 
 @dataclass(frozen=True, slots=True)
 class Relation:
-    """Components that belong together: pairs of role and component id in the order of the file."""
+    """A relation between components. `parts` holds pairs of role and component id in the order of the file."""
 
     type: str
     order: int | None
@@ -50,7 +51,7 @@ class Relation:
 
 @dataclass(frozen=True, slots=True)
 class LoadCase:
-    """A case of the load spectrum: attributes by component, which replace those of the model."""
+    """A case of the load spectrum. The attributes, by component, replace the attributes of the model."""
 
     name: str
     attributes: dict[int, dict[str, Attribute]]
@@ -83,7 +84,7 @@ class Model:
         return relations
 
     def first(self, type_: str) -> Component | None:
-        """Return the first component of a type; of `gear_unit` or `gear_casing` there is usually only one."""
+        """Return the first component of a type. A file usually has only one `gear_unit` and only one `gear_casing`."""
         return next(iter(self.by_type[type_]), None)
 
     def part(self, relation: Relation, role: str) -> Component | None:
@@ -94,7 +95,7 @@ class Model:
     def relations_of(self, type_: str, role: str, component: int) -> Sequence[Relation]:
         """Return the relations of a type in which the component has the role.
 
-        Relations with an order come first, in that order.
+        Relations that state an order come first, sorted by this order.
         """
         relations = self._by_part.get((type_, role, component), ())
         return sorted(relations, key=lambda relation: (relation.order is None, relation.order or 0))

@@ -1,4 +1,4 @@
-"""Flank modifications of both gears as the gap of the mesh, on the flanks that carry the load.
+"""Modifications of the mesh: the sums of the modifications of both gears, on the flanks that carry the load.
 
 Tip relief of the pinion and root relief of the wheel act at E; root relief of the pinion and tip relief of the wheel
 act at A. The sign of a slope depends on the end of the face that meshes first.
@@ -39,13 +39,15 @@ class Modifications:
         modifications = sides.get(side, [])
         for item in modifications:
             if item.type in table.OTHER_MODIFICATIONS:
-                self._reading.find("modification", item, None, f"{table.OTHER_MODIFICATIONS[item.type]}; left out")
+                self._reading.find(
+                    "modification", item, None, f"{table.OTHER_MODIFICATIONS[item.type]}; the modification is left out"
+                )
         return [item for item in modifications if item.type in table.MODIFICATIONS]
 
     def _working_side(self, place: int) -> str | None:
-        """Return the loaded flank: as the file says, else by sense of rotation and driving gear.
+        """Return the loaded flank as the file states it, else by the sense of rotation and the driving gear.
 
-        Seen from the end of the shaft where u is least (the datum face), a gear with positive speed turns clockwise.
+        Seen from the end of the shaft at which u is least (the datum face), a gear with positive speed turns clockwise.
         Then the right flank of a driving gear is loaded, and the left flank of a driven gear.
         """
         stage = self._stage
@@ -58,7 +60,10 @@ class Modifications:
         return "right" if (speed > 0.0) == (place == 0) else "left"
 
     def _crowning(self, kind: str, field: str, ends: tuple[str, str]) -> None:
-        """Fill in a crowning: the sum of both gears. The crowning of a gear is the mean of its amounts at both ends."""
+        """Fill in the sum of the crownings of both gears.
+
+        The crowning of a gear is the mean of the amounts at its two ends.
+        """
         means, origin = [], None
         for _, item in self._carried:
             values = [self._reading.number(item, kind + end, "um") for end in ends] if item.type == kind else []
@@ -74,9 +79,10 @@ class Modifications:
             self._stage.put(f"modifications.{field}", sum(means), origin, kind + ends[0])
 
     def _relief(self, name: str, kinds: tuple[str, str]) -> None:
-        """Fill in the relief at one end of the path: the sum of both gears, with length and shape of the larger relief.
+        """Fill in the relief at one end of the path of contact.
 
-        `kinds` names the reliefs of pinion and wheel that act at this end.
+        The amount is the sum of both gears; length and shape are those of the larger relief. `kinds` names the reliefs
+        of pinion and wheel that act at this end.
         """
         reliefs = []
         for place, item in self._carried:
@@ -94,21 +100,24 @@ class Modifications:
             self._stage.put(f"{path}_length_mm", length, component, f"{kind}_datum_length")
         if len(reliefs) > 1:
             reason = (
-                "both gears have a relief there: the sum of the amounts, with length and shape of the larger relief"
+                "both gears have a relief at this place; the sum of the amounts is used, with length and shape of the "
+                "larger relief"
             )
             self._stage.note(f"{path}_um", largest, reason)
         shape = self._reading.text(component, "shape_of_relief")
         exponent = {"linear": 1.0, "parabolic": 2.0}.get(shape)
         path = "modifications.relief_exponent"
         if exponent is None:
-            self._stage.assume(path, 1.0, f"the shape of the relief is {shape[:30] or 'not stated'}; linear is used")
+            self._stage.assume(
+                path, 1.0, f"the shape of the relief is {shape[:30] or 'not stated'}; a linear relief is used"
+            )
         elif self._stage.fields.get(path, exponent) != exponent:
             self._stage.note(path, self._stage.fields[path], "tip and root relief have different shapes")
         else:
             self._stage.put(path, exponent, component, "shape_of_relief")
 
     def _relief_length(self, component: Component, kind: str, place: int) -> float | None:
-        """Return the length of a relief along the line of action [mm]: as given or from the diameter at its start."""
+        """Return the length of a relief along the line of action [mm], as given or from the start diameter."""
         length = self._reading.number(component, f"{kind}_datum_length", "mm")
         if length is not None:
             return length
@@ -140,7 +149,10 @@ class Modifications:
                 continue
             sense = (1.0, -1.0)[place] if item.type == "profile_slope" else self._end_sense(place)
             if sense is None:
-                message = "left out: its sign needs the direction of rotation and the driver"
+                message = (
+                    "the modification is left out, because its sign needs the direction of rotation and the driving "
+                    "gear"
+                )
                 self._reading.find("modification", item, "helix_slope", message)
                 continue
             sums[item.type] += sense * amount
@@ -155,8 +167,9 @@ class Modifications:
     def _end_sense(self, place: int) -> float | None:
         """Return +1 if u of this gear's shaft grows towards the end that leaves the mesh last, else -1.
 
-        The end at which contact begins depends on sense of rotation and hand of the driving gear. Seen along its u
-        axis, y runs in the direction -sigma h, where sigma is the sense of rotation and h is +1 for a right-hand helix.
+        The coordinate y runs from the end that meshes first to the end that leaves last. Along the u axis of the
+        driving gear, y has the direction -sigma h, where sigma is the sense of rotation and h is +1 for a right-hand
+        helix.
         """
         stage = self._stage
         speed = stage.flow.speed.get(stage.shafts[0].id)
@@ -166,7 +179,7 @@ class Modifications:
         return -(1.0 if speed > 0.0 else -1.0) * hand * stage.along(stage.shafts[place])
 
     def _end_relief(self) -> None:
-        """Fill in the end relief. The request has one relief for both ends, the mean of the ends in the file."""
+        """Fill in the end relief. The request has one relief for both ends. It is the mean of both ends in the file."""
         depths, lengths, origins = {"datum_face": 0.0, "non_datum_face": 0.0}, list[float](), list[Component]()
         for end in depths:
             for _, item in self._carried:
@@ -190,5 +203,5 @@ class Modifications:
 
 
 def modifications_of(reading: Reading, flank: Component) -> list[Component]:
-    """Return the modifications of a flank, including those without a model."""
+    """Return the modifications of a flank, including modifications that are not modelled."""
     return list(reading.model.references_of(flank.id, *table.MODIFICATIONS, *table.OTHER_MODIFICATIONS))

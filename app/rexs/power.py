@@ -1,8 +1,8 @@
-"""Speeds and torques of all shafts, from those that the file states; losses of the meshes are neglected.
+"""Speeds and torques of all shafts, which follow from the values in the file. Losses of the meshes are neglected.
 
-Shafts joined by a coupling turn as one. In a cylindrical stage, n_1 z_1 = -n_2 z_2. The mesh puts torques in the ratio
-z_1 : z_2 and with the same sign on its two gears. The torques on a shaft add up to zero. In a unit without power
-splitting the equations can be solved one after another, because one of them always has a single unknown.
+Shafts joined by a coupling turn as one. In a cylindrical stage, n_1 z_1 = -n_2 z_2. The mesh loads both gears with
+torques of the same sign in the ratio z_1 : z_2. The torques on a shaft add up to zero. In a unit without power
+splitting the equations can be solved one after another, because at each step one equation has a single unknown.
 """
 
 from collections import defaultdict
@@ -15,7 +15,7 @@ from app.rexs.reading import Reading
 from app.rexs.table import REVOLUTION_PER_MINUTE
 
 MOST_SHAFTS = 200  # chosen: far beyond any gear unit
-BALANCE = 0.02  # of the largest torque: the imbalance of files that include efficiencies
+BALANCE = 0.02  # tolerated relative difference; torques in some files include efficiencies
 
 
 class Pair(NamedTuple):
@@ -31,8 +31,9 @@ class Pair(NamedTuple):
 class Flow:
     """Speeds of shafts and torques of meshes, as far as the file determines them.
 
-    `reading` is the model, or its load case, that states the load. `speed` [1/min] by shaft is about the shaft's own u
-    axis. `mesh_torque` [N m] by stage acts on gear 1 and gear 2 about their shafts' own u axes.
+    `reading` reads the model or the load case that states the load. `speed` maps each shaft to its speed [1/min] about
+    its own u axis. `mesh_torque` maps each stage to the torques [N m] of the mesh on gear 1 and gear 2, about the u
+    axis of the shaft of each gear.
     """
 
     reading: Reading
@@ -64,7 +65,7 @@ class Train:
             self._shafts, self._pairs = [], []
         self._group = self._groups()
         self._elsewhere = self._not_modelled()
-        self._at: dict[int, list[tuple[Pair, int]]] = defaultdict(list)  # meshes of a group, and the place of its gear
+        self._at: dict[int, list[tuple[Pair, int]]] = defaultdict(list)  # meshes of each group, and place of its gear
         for pair in self._pairs:
             for place, shaft in enumerate(pair.shafts):
                 self._at[self._group[shaft.id]].append((pair, place))
@@ -112,10 +113,11 @@ class Train:
             if group not in speeds:
                 self._spread(group, speed, speeds)
             elif restated and shaft.id not in restated:
-                continue  # the model's speed, while the load case states another one
+                continue  # this speed is of the model, but the load case states other speeds
             elif abs(speeds[group] - speed) > BALANCE * max(abs(speed), abs(speeds[group])):
                 message = (
-                    f"the stated speed is {speed:.6g} 1/min, but {speeds[group]:.6g} by the numbers of teeth; not used"
+                    f"the stated speed is {speed:.6g} 1/min, but the numbers of teeth give {speeds[group]:.6g} 1/min; "
+                    "the stated speed is not used"
                 )
                 reading.find("speed_conflict", shaft, "rotational_speed", message)
         return speeds
@@ -129,7 +131,7 @@ class Train:
                 self._spread(other, -speed * pair.teeth[place] / pair.teeth[1 - place], speeds)
 
     def _forces(self, speeds: dict[int, float], reading: Reading) -> dict[int, float]:
-        """Return the mesh torque per tooth of the stages [N m] for which the torques in the file determine it."""
+        """Return the mesh torque per tooth [N m] of all stages for which the torques in the file determine it."""
         torques, opened = self._loads(speeds, reading)
         forces: dict[int, float] = {}
         waiting = list(self._at) if torques else []
@@ -168,7 +170,7 @@ class Train:
         return torques, opened
 
     def _not_modelled(self) -> set[int]:
-        """Return the groups with gears in stages without a model: the torque there is not known."""
+        """Return the groups with gears in stages that are not modelled. The torques of these stages are not known."""
         model, modelled = self._reading.model, {pair.stage.id for pair in self._pairs}
         stages = (relation for relation in model.relations if relation.type == "stage")
         others = (relation for relation in stages if relation.part("stage") not in modelled)
@@ -198,7 +200,8 @@ class Train:
             and abs(abs(of_power) - abs(torque)) > BALANCE * max(abs(of_power), abs(torque))
         ):
             message = (
-                f"the torque is {abs(torque):.6g} N m, but {abs(of_power):.6g} by power and speed; the torque is used"
+                f"the stated torque is {abs(torque):.6g} N m, but power and speed give {abs(of_power):.6g} N m; the "
+                "stated torque is used"
             )
             reading.find("power_conflict", load, "power", message)
-        return torque * reading.sense(shaft)  # the u axis of a load is that of its shaft
+        return torque * reading.sense(shaft)  # the u axis of a load is the u axis of its shaft

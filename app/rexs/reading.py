@@ -1,6 +1,6 @@
 """Attributes of a file as numbers in the units of the requests, and the draft of a request that these numbers fill.
 
-Both record for the answer what is wrong in the file, and what is missing, assumed or not used.
+`Reading` and `Draft` record for the answer what is wrong in the file, and what is missing, assumed or not used.
 """
 
 import re
@@ -20,7 +20,7 @@ from app.rexs.table import APPLICATION_FACTOR, IGNORED, SCUFFING_FACTOR, Row, co
 from app.schema.quantities import Output
 from app.schema.reading import validated
 
-LARGEST = 1e30  # in any unit; keeps sums and products finite if the file is hostile
+LARGEST = 1e30  # largest number in any unit; keeps sums and products finite even if the file is hostile
 DIGITS = 7
 SCUFFING = "/v1/scuffing"
 MESH = {"gears", "load", "materials", "modifications", "friction_coefficient"}
@@ -29,7 +29,7 @@ SECTIONS = {
     SCUFFING: MESH | {"temperatures", "lubricant"},
     "/v1/pumping": {"gears"},
 }
-"""Sections of a draft that the requests for a single mesh have."""
+"""For each endpoint of a single mesh, the sections of a draft that the request of the endpoint has."""
 Vector = tuple[float, float, float]
 
 
@@ -94,10 +94,10 @@ class Unused(BaseModel):
 
 @dataclass
 class Reading:
-    """A model while it is read: attributes that were asked for are recorded, and faults become findings.
+    """Reader of a model. It records which attributes were asked for, and records faults as findings.
 
-    The attributes of the load case `case` replace those of the model. `used` and `used_of_case` are the attributes of
-    the model and of the load case that were asked for, as pairs of component and name.
+    The attributes of the load case `case` replace the attributes of the model. `used` and `used_of_case` are the
+    attributes of the model and of the load case that were asked for, as pairs of component and name.
     """
 
     model: Model
@@ -117,7 +117,7 @@ class Reading:
         return self.case is not None and name in self.case.attributes.get(component.id, {})
 
     def find(self, code: str, component: Component | None, attribute: str | None, message: str) -> None:
-        """Record a fault, once."""
+        """Record a fault as a finding. A fault that is already recorded is not recorded again."""
         id_ = component.id if component else None
         if (
             component is not None
@@ -129,17 +129,18 @@ class Reading:
         self.findings[Fault(code=code, component=id_, attribute=attribute, message=message)] = None
 
     def number(self, component: Component | None, wanted: Row | str, unit: str = "") -> float | None:
-        """Return the value of a row in the row's unit, or of an attribute in `unit`; None if the file does not have it.
+        """Return the value of a row in the unit of the row, or the value of an attribute in `unit`.
 
-        Of the attributes of a row, the first that the file has is used. A value that is not a number, or whose unit
-        belongs to another quantity, is a finding and not used.
+        Return None if the file has no such value. If a row names several attributes, the first attribute that the file
+        has is used. A value that is not a number, or whose unit belongs to another quantity, is recorded as a finding
+        and is not used.
         """
         names, unit = (wanted.attributes, wanted.unit) if isinstance(wanted, Row) else ((wanted,), unit)
         first = self.first_of(component, names, unit)
         return None if first is None else first.value
 
     def first_of(self, component: Component | None, names: Iterable[str], unit: str) -> "Number | None":
-        """Return the first of these attributes that is a number of this quantity, with its name."""
+        """Return value and name of the first of these attributes that is a number of the quantity of `unit`."""
         if component is None:
             return None
         for name in names:
@@ -150,18 +151,18 @@ class Reading:
         return None
 
     def text(self, component: Component, name: str) -> str:
-        """Return a text in lower case; empty without the attribute."""
+        """Return a text in lower case. The text is empty if the file does not have the attribute."""
         attribute = self._attribute(component, name)
         return str(attribute.value).lower() if attribute is not None and isinstance(attribute.value, str) else ""
 
     def flag(self, component: Component, name: str) -> bool | None:
-        """Return a truth value, or None without one."""
+        """Return a truth value, or None if the file does not have it."""
         attribute = self._attribute(component, name)
         text = "" if attribute is None else str(attribute.value).lower()
         return {"true": True, "1": True, "false": False, "0": False}.get(text)
 
     def vector(self, component: Component, name: str) -> Vector | None:
-        """Return three numbers, lengths in mm; None without the attribute or if it is not three numbers."""
+        """Return a vector of three numbers, with lengths in mm. Return None if the file has no such vector."""
         attribute = self._attribute(component, name)
         if attribute is None or not isinstance(attribute.value, list) or len(attribute.value) != 3:
             return None
@@ -189,9 +190,9 @@ class Reading:
         return Axis(origin, (x / size, y / size, z / size))
 
     def sense(self, shaft: Component) -> float:
-        """Return -1 if the u axis of a shaft points against that of the first shaft with an axis, else +1.
+        """Return -1 if the u axis of a shaft is opposite to the u axis of the first shaft with an axis, else +1.
 
-        A shaft without an axis has +1.
+        For a shaft without an axis, return +1.
         """
         return self._senses.get(shaft.id, 1.0)
 
@@ -234,7 +235,7 @@ class Reading:
         try:
             value = float("true" if isinstance(attribute.value, bool) else attribute.value)
         except (TypeError, ValueError, OverflowError):
-            self.find(code, component, name, f"{name} is not a number; not used")
+            self.find(code, component, name, f"{name} is not a number; the value is not used")
             return None
         result = convert(value, attribute.unit, unit)
         if not isfinite(value):
@@ -246,13 +247,13 @@ class Reading:
             fault = "is too large"
         else:
             return result
-        self.find(code, component, name, f"{name} {fault}; not used")
+        self.find(code, component, name, f"{name} {fault}; the value is not used")
         return None
 
 
 @dataclass
 class Draft:
-    """Fields by their dotted path in the request of /v1/scuffing, and their origins in the file."""
+    """Fields by their dotted path in the request of /v1/scuffing, and the origins of these fields in the file."""
 
     reading: Reading
     fields: dict[str, Any] = field(default_factory=dict)
@@ -266,12 +267,12 @@ class Draft:
         self.origins[path] = component, attribute
 
     def assume(self, path: str, value: Any, reason: str) -> None:
-        """Set a field that the file does not give."""
+        """Set a field that the file does not give, and record the reason for the value."""
         self.fields[path] = value
         self.note(path, value, reason)
 
     def note(self, path: str, value: Any, reason: str) -> None:
-        """Record how the value of a field was chosen if the file leaves a choice."""
+        """Record why a field has this value if the file leaves a choice."""
         self.assumed[path] = AssumedValue(field=path, value=value, reason=reason)
 
     def lacks(self, path: str, component: Component | None, attribute: str | None, message: str) -> None:
@@ -280,7 +281,7 @@ class Draft:
         self.missing.setdefault(path, MissingValue(field=path, component=id_, attribute=attribute, message=message))
 
     def take(self, row: Row, component: Component | None, prefix: str = "") -> float | None:
-        """Set a field to a number of the file without a change. Return the number, or None without one."""
+        """Set a field to a number of the file as it is. Return this number, or None if the file does not have it."""
         number = self.reading.first_of(component, row.attributes, row.unit)
         if component is None or number is None:
             return None
@@ -288,10 +289,11 @@ class Draft:
         return number.value
 
     def request(self, endpoint: str, paths: Iterable[str]) -> dict[str, Any]:
-        """Return the request of an endpoint from these fields, without those that it does not know or rejects.
+        """Return the request of an endpoint from these fields.
 
-        A value of the file that the endpoint rejects is a finding with the permitted range. A field that the endpoint
-        requires and that has no value is missing.
+        Fields that the endpoint does not know or rejects are left out. If the endpoint rejects a value of the file, the
+        value is recorded as a finding with the permitted range. If a field that the endpoint requires has no value, the
+        field is recorded as missing.
         """
         replaced = endpoint == SCUFFING and SCUFFING_FACTOR in self.fields
         places = {
@@ -320,15 +322,17 @@ class Draft:
                     self.lacks(back, None, None, fault.message)
                     continue
                 component, attribute = self.origins.get(ours, (None, None))
-                self.reading.find("out_of_range", component, attribute, f"{ours}: {fault.message}; not used")
-                self.lacks(ours, component, attribute, f"the file's value is not possible: {fault.message}")
+                self.reading.find(
+                    "out_of_range", component, attribute, f"{ours}: {fault.message}; the value is not used"
+                )
+                self.lacks(ours, component, attribute, f"the value in the file is not possible: {fault.message}")
                 del own[ours]
             if len(own) == accepted:
                 return request
 
 
 def path_in(endpoint: str, path: str) -> str | None:
-    """Return the path of a field of the draft in the request of an endpoint; None if it has no such field."""
+    """Return the path of a field of the draft in the request of an endpoint; None if the request has no such field."""
     if path == SCUFFING_FACTOR:
         return APPLICATION_FACTOR if endpoint == SCUFFING else None
     if endpoint == "/v1/drive-train" or (endpoint, path) == ("/v1/pumping", "load.pinion_speed_rpm"):

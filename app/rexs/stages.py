@@ -11,16 +11,16 @@ from solvers.gears.gear import involute
 from solvers.gears.pair import inverse_involute
 
 ISO_53_A = {"addendum": 1.0, "dedendum": 1.25, "gears.rack_tip_radius": 0.38}  # in modules
-SAME = 1e-6  # chosen: numbers stated twice that differ by less are equal
-OFF_CENTRE = 1e-3  # chosen: share of the centre distance; positions in files are often rounded
-MOST_INVOLUTE = 1e8  # the inverse works up to 1e9; only absurd profile shifts give larger values
+SAME = 1e-6  # chosen: two statements of a number count as equal if they differ by less
+OFF_CENTRE = 1e-3  # chosen: tolerated share of the centre distance, because positions in files are often rounded
+MOST_INVOLUTE = 1e8  # the inverse function works up to 1e9; only absurd profile shifts give larger values
 NORMAL_ANGLE = 20.0  # deg, ISO 53
 ROLES = ("pinion", "wheel")
 TORQUE, SPEED = "load.pinion_torque_n_m", "load.pinion_speed_rpm"
 
 
 def pairs(reading: Reading) -> Iterator[Pair]:
-    """Yield the cylindrical stages of two external gears on shafts; every other stage is a finding."""
+    """Yield the cylindrical stages of two external gears on shafts. Every other stage is recorded as a finding."""
     for stage in reading.model.components.values():
         if stage.type in table.OTHER_STAGES:
             reading.find("stage_not_modelled", stage, None, f"{table.OTHER_STAGES[stage.type]}; the stage is left out")
@@ -48,7 +48,7 @@ def _pair(reading: Reading, stage: Component) -> Pair | None:
 
 
 def _teeth(reading: Reading, stage: Component, gear: Component) -> int | None:
-    """Return the number of teeth of an external gear; any other gear is a finding."""
+    """Return the number of teeth of an external gear. Any other gear is recorded as a finding."""
     if gear.type != "cylindrical_gear":
         what = "pairs with a ring gear" if gear.type == "ring_gear" else "other pairs than two external gears"
         reading.find("stage_not_modelled", stage, None, f"{what} are not modelled; the stage is left out")
@@ -78,13 +78,14 @@ def _gear_data(reading: Reading, pair: Pair, gear: Component) -> Iterator[Compon
 
 
 class StageDraft(Draft):
-    """The draft of one mesh. Its pinion is the driving gear, or the smaller gear if the driving gear is not known.
+    """The draft of one mesh. The pinion is the driving gear, or the smaller gear if the driving gear is not known.
 
-    `order` holds the places of pinion and wheel in the file's pair, `driver` that of the driving gear, if known.
+    The place of a gear is its position in the pair of the file, 0 or 1. `order` holds the places of pinion and wheel.
+    `driver` is the place of the driving gear, or None if the driving gear is not known.
     """
 
     def __init__(self, pair: Pair, flow: Flow, pinion: int | None = None) -> None:
-        """Begin the draft of a stage; `pinion` is the place of its pinion, if another draft has chosen it."""
+        """Begin the draft of a stage; `pinion` is the place of the pinion, if another draft has chosen the pinion."""
         super().__init__(flow.reading)
         self.flow, self.pair = flow, pair
         self.driver = self._driver()
@@ -118,14 +119,14 @@ class StageDraft(Draft):
                 self.take(row, self.material(place), f"materials.{role}.")
 
     def _driver(self) -> int | None:
-        """Return the place of the driving gear, by power, else as the file says."""
+        """Return the place of the driving gear by torque and speed, else as the file states it."""
         by_power, pair = self.flow.driver(self.pair), self.pair
         stated = [place for place in (0, 1) for data in _gear_data(self.reading, pair, pair.gears[place])
                   if self.reading.flag(data, "is_driving_gear")]  # fmt: skip
         if by_power is None and len(stated) == 1:
             return stated[0]
         if by_power is not None and stated and by_power not in stated:
-            message = "by torque and speed the other gear is the driver, which is used"
+            message = "according to torque and speed the other gear drives; the other gear is used as the driver"
             self.reading.find("driver", pair.gears[stated[0]], None, message)
         return by_power
 
@@ -156,7 +157,7 @@ class StageDraft(Draft):
         return made_by or model.reference_of((self.gears[place], *flanks), table.TOOL)
 
     def material(self, place: int) -> Component | None:
-        """Return the material of a gear, else that of its shaft."""
+        """Return the material of a gear, else the material of the gear's shaft."""
         return self.reading.model.reference_of((self.gears[place], self.shafts[place]), "material")
 
     @property
@@ -166,7 +167,7 @@ class StageDraft(Draft):
 
     @property
     def lubricant(self) -> Component | None:
-        """Lubricant of the stage, else that of the casing."""
+        """Lubricant of the stage, else the lubricant of the casing."""
         return self.reading.model.reference_of(self.oil_origins, "lubricant")
 
     def load(self, flow: Flow) -> dict[str, float]:
@@ -186,8 +187,8 @@ class StageDraft(Draft):
     def position(self, part: Component, shaft: Component) -> float | None:
         """Return the position of a part's middle along the axis of the pinion's shaft [mm]; None if it is not known.
 
-        The origin of a part is the middle of its width. If the file gives the origin and a coordinate that differs by
-        half the width, the coordinate is that of the part's end.
+        The origin of a part is the middle of its width. If the file gives an origin and a coordinate that differ by
+        half the width, the coordinate belongs to an end of the part.
         """
         reading = self.reading
         stated = reading.number(part, table.POSITION)
@@ -200,8 +201,8 @@ class StageDraft(Draft):
             tolerance = 1e-3 * max(1.0, abs(along))
             if abs(along - stated) > tolerance and abs(abs(along - stated) - half) > tolerance:
                 message = (
-                    f"the coordinate on the shaft is {stated:.6g} mm, but {along:.6g} mm by the position vectors, "
-                    "which are used"
+                    f"the coordinate on the shaft is {stated:.6g} mm, but the position vectors give {along:.6g} mm; "
+                    "the position vectors are used"
                 )
                 reading.find("position", part, table.POSITION.name, message)
         return self.position_of_coordinate(shaft, along)
@@ -229,7 +230,7 @@ class StageDraft(Draft):
         return Involute(self.teeth[place], module, radians(angle), radians(helix), shift)
 
     def values_of(self, components: Iterable[Component], row: table.Row) -> list[tuple[float, Component]]:
-        """Return the values of those components that have one, with the component."""
+        """Return pairs of value and component for the components that have a value."""
         numbers = ((self.reading.number(component, row), component) for component in components)
         return [(value, component) for value, component in numbers if value is not None]
 
@@ -240,12 +241,12 @@ class StageDraft(Draft):
             self.lacks(row.field, pinion, row.name, f"the file has no {row.name}")
             return
         if abs(modules[0][0] - modules[-1][0]) > SAME * abs(modules[0][0]):
-            message = "both gears must have one module; the pinion's is used"
+            message = "both gears must have the same module; the module of the pinion is used"
             self.reading.find("gears_differ", modules[-1][1], row.name, message)
         self.put(row.field, *modules[0], row.name)
 
     def _transverse_modules(self) -> list[tuple[float, Component]]:
-        """Return the normal modules that follow from transverse modules of the file, with their gears."""
+        """Return pairs of normal module and gear. The normal modules follow from transverse modules of the file."""
         cosine = cos(radians(self.fields.get(table.HELIX_ANGLE.field, 0.0)))
         modules = self.values_of(self.gears, table.TRANSVERSE_MODULE)
         if modules:
@@ -256,11 +257,11 @@ class StageDraft(Draft):
         row, gear = table.HELIX_ANGLE, self.gears[0]
         pinion, wheel = (self._helix_angle(gear) for gear in self.gears)
         if pinion is not None and wheel is not None and abs(pinion + wheel) > SAME * 90.0:
-            message = "helix angles of an external pair are opposite; the pinion's is used"
+            message = "the helix angles of an external pair must be opposite; the helix angle of the pinion is used"
             self.reading.find("helix_angles", self.gears[1], row.name, message)
         if pinion is None:
             if wheel is None:
-                self.assume(row.field, 0.0, "the file has no helix angle: spur gears")
+                self.assume(row.field, 0.0, "the file has no helix angle; spur gears are assumed")
                 return
             pinion = -wheel
         self.put(row.field, abs(pinion), gear, row.name)
@@ -300,18 +301,21 @@ class StageDraft(Draft):
             if overlap > 0.0:
                 common = min(common, overlap)
             else:
-                self.reading.find("faces_apart", self.stage, None, "by their positions the faces do not overlap")
+                self.reading.find(
+                    "faces_apart", self.stage, None, "according to their positions the faces do not overlap"
+                )
         self.put(row.field, common, gear, row.name)
         if any(abs(width - common) > SAME * common for width in widths):
             self.note(row.field, common, "the face that both gears have in common")
 
     def _pressure_angle(self) -> None:
         row = table.PRESSURE_ANGLE
-        wheel, pinion = self._of_flanks(1, row, row.field), self._of_flanks(0, row, row.field)  # the pinion's is kept
+        # The pinion comes last, so that the field keeps the angle of the pinion.
+        wheel, pinion = self._of_flanks(1, row, row.field), self._of_flanks(0, row, row.field)
         if wheel is None and pinion is None:
             self._from_transverse_angle()
         elif wheel is not None and pinion is not None and abs(wheel - pinion) > SAME:
-            message = "both gears must have one pressure angle; the pinion's is used"
+            message = "both gears must have the same pressure angle; the pressure angle of the pinion is used"
             self.reading.find("gears_differ", self.gears[1], row.name, message)
 
     def _from_transverse_angle(self) -> None:
@@ -319,7 +323,7 @@ class StageDraft(Draft):
         flanks = [flank for place in (0, 1) for flank in self.flanks(place).values()]
         angles = self.values_of(flanks, table.TRANSVERSE_PRESSURE_ANGLE)
         if not angles:
-            self.assume(row.field, NORMAL_ANGLE, "the file has no pressure angle: ISO 53")
+            self.assume(row.field, NORMAL_ANGLE, "the file has no pressure angle; the value of ISO 53 is used")
             return
         helix = radians(self.fields.get(table.HELIX_ANGLE.field, 0.0))
         normal = degrees(atan(tan(radians(angles[0][0])) * cos(helix)))
@@ -335,12 +339,16 @@ class StageDraft(Draft):
         if flank is not None and length is not None and module:
             self.put(path, length / module, flank, "addendum_modification")
         elif (finished := self._of_flanks(place, table.FINISHED_SHIFT, path)) is not None:
-            self.note(path, finished, "the one after finishing; the file has no nominal profile shift")
+            self.note(
+                path,
+                finished,
+                "the profile shift after finishing is used, because the file has no nominal profile shift",
+            )
         else:
             self.assume(path, 0.0, "the file has no profile shift")
 
     def _of_flanks(self, place: int, row: table.Row, path: str) -> float | None:
-        """Fill in a number of the flanks, which must be the same for both. Return it, or None without one."""
+        """Fill in a number that must be the same for both flanks. Return this number, or None if the file has none."""
         values = self.values_of(self.flanks(place).values(), row)
         if not values:
             return None
@@ -374,7 +382,7 @@ class StageDraft(Draft):
 
     def _assume_rack(self, place: int, name: str) -> None:
         path = f"gears.{ROLES[place]}.{name}"
-        self.assume(path, ISO_53_A[name], f"the file gives no {name}: ISO 53, profile A")
+        self.assume(path, ISO_53_A[name], f"the file gives no {name}; the value of ISO 53, profile A, is used")
 
     def _of_tool(self, tool: Component | None, row: table.Row, length_row: table.Row) -> float | None:
         """Return a coefficient of the rack, which the file gives in modules or as a length."""
@@ -385,7 +393,7 @@ class StageDraft(Draft):
     def _from_diameter(self, place: int, row: table.Row) -> bool:
         """Fill in a coefficient of the rack from tip or root diameter. Return True on success.
 
-        An impossible diameter is a finding and not used.
+        An impossible diameter is recorded as a finding and is not used.
         """
         path, gear = f"gears.{ROLES[place]}.{row.field}", self.gears[place]
         diameter, flank = self.reading.number(gear, row), self.involute(place)
@@ -398,7 +406,7 @@ class StageDraft(Draft):
             return False
         fault = flank.tip_fault(diameter) if tip else flank.root_fault(diameter)
         if fault is not None:
-            self.reading.find("diameter", gear, row.name, f"{row.name} {fault}; not used")
+            self.reading.find("diameter", gear, row.name, f"{row.name} {fault}; the value is not used")
             return False
         height = (diameter - flank.reference_diameter) / (2.0 * flank.module) - flank.shift
         self.put(path, height if tip else -height, gear, row.name)
@@ -412,7 +420,9 @@ class StageDraft(Draft):
                 radii.append((radius, tool))
         path = "gears.rack_tip_radius"
         if not radii:
-            self.assume(path, ISO_53_A[path], "the file gives no tip radius of a tool: ISO 53, profile A")
+            self.assume(
+                path, ISO_53_A[path], "the file gives no tip radius of a tool; the value of ISO 53, profile A, is used"
+            )
             return
         smallest, tool = min(radii, key=lambda radius_and_tool: radius_and_tool[0])
         self.put(path, smallest, tool, table.TOOL_TIP_RADIUS.attributes[-1])
@@ -420,9 +430,9 @@ class StageDraft(Draft):
             self.note(path, smallest, "the tools differ; the smaller radius is used for both gears")
 
     def _backlash(self) -> None:
-        """Fill in the normal backlash of the file minus that which follows from the centre distance.
+        """Fill in the normal backlash of the file minus the backlash that follows from the centre distance.
 
-        If the file states no backlash, it follows from the profile shifts before and after finishing.
+        If the file states no backlash, the value follows from the profile shifts before and after finishing.
         """
         path, name = "gears.normal_backlash_mm", table.BACKLASH[0]
         limits = self._stated_backlash()
@@ -436,7 +446,10 @@ class StageDraft(Draft):
         stated = sum(limits) / len(limits)
         own = self._backlash_of_centre_distance()
         if own is None or stated < own - SAME:
-            message = f"the stated backlash of {stated:.4g} mm is smaller than that which the centre distance gives"
+            message = (
+                f"the stated backlash of {stated:.4g} mm is smaller than the backlash that results from the centre "
+                "distance"
+            )
             self.reading.find("backlash", self.stage, name, message)
             own = stated
         self.put(path, max(stated - own, 0.0), self.stage, name)
@@ -444,9 +457,9 @@ class StageDraft(Draft):
             self.note(path, stated - own, "mean of the least and the largest backlash")
 
     def _stated_backlash(self) -> list[float]:
-        """Return the least and the largest normal backlash [mm], else from the transverse backlash j_t.
+        """Return the least and the largest normal backlash [mm], as stated or from the transverse backlash.
 
-        j_bn = j_t cos alpha_wt cos beta_b.
+        With the transverse backlash j_t, the normal backlash is j_bn = j_t cos alpha_wt cos beta_b.
         """
         normal, transverse = (
             [value for name in names if (value := self.reading.number(self.stage, name, "mm")) is not None]
@@ -459,9 +472,9 @@ class StageDraft(Draft):
         return [value * factor for value in transverse]
 
     def _thinning(self) -> float | None:
-        """Return the normal backlash by the finishing of both gears [mm].
+        """Return the normal backlash that results from the finishing of both gears [mm].
 
-        It is 2 m_n sin alpha_n times the sum of the profile shifts that finishing removes.
+        This backlash is 2 m_n sin alpha_n times the sum of the profile shifts that finishing removes.
         """
         pinion, total = self.involute(0), 0.0
         for place, role in enumerate(ROLES):
@@ -474,7 +487,7 @@ class StageDraft(Draft):
         return 2.0 * pinion.module * sin(pinion.normal_angle) * total
 
     def working_distance(self) -> float | None:
-        """Return the stated centre distance [mm], else that at which the shifted teeth mesh without backlash."""
+        """Return the stated centre distance [mm], else the distance at which the teeth mesh without backlash."""
         pinion, wheel = self.involute(0), self.involute(1)
         if pinion is None or wheel is None:
             return None
@@ -493,7 +506,8 @@ class StageDraft(Draft):
     def _backlash_of_centre_distance(self) -> float | None:
         """Return the normal backlash of unthinned teeth at the centre distance [mm].
 
-        It is 2 a cos alpha_wt (inv alpha_wt - inv alpha_0) cos beta_b, where alpha_0 is the angle without backlash.
+        This backlash is 2 a cos alpha_wt (inv alpha_wt - inv alpha_0) cos beta_b, where alpha_0 is the working pressure
+        angle without backlash.
         """
         pinion, wheel = self.involute(0), self.involute(1)
         distance = self.fields.get("gears.centre_distance_mm")
@@ -509,7 +523,7 @@ class StageDraft(Draft):
         return gap * cos(pinion.base_helix) if gap > 0.0 else 0.0
 
     def _axes(self) -> None:
-        """Record a finding if the distance of the shafts differs from the centre distance."""
+        """Record a finding if the distance between the axes of the shafts differs from the centre distance."""
         first, second = (self.reading.axis(shaft) for shaft in self.shafts)
         distance = self.fields.get("gears.centre_distance_mm")
         if first is None or second is None or distance is None:
@@ -517,12 +531,13 @@ class StageDraft(Draft):
         apart = first.apart(second)
         if abs(apart - distance) > OFF_CENTRE * abs(distance):
             message = (
-                f"by their positions the shafts are {apart:.6g} mm apart; the centre distance of the stage is used"
+                f"according to their positions the shafts are {apart:.6g} mm apart; the centre distance of the stage "
+                "is used"
             )
             self.reading.find("centre_distance", self.stage, "center_distance", message)
 
     def _load(self) -> None:
-        """Fill in torque and speed from the loads of the shafts, else from the gear."""
+        """Fill in torque and speed from the loads of the shafts, else as the file states them for the gear."""
         load = self.load(self.flow)
         own = (table.GEAR_TORQUE, self.gear_data(0)), (table.GEAR_SPEED, (self.gears[0],))
         for (row, origins), what in zip(own, ("torque", "speed"), strict=True):
@@ -550,22 +565,25 @@ class Involute:
         self.base_diameter = self.reference_diameter * cos(self.transverse_angle)
 
     def roll_length(self, diameter: float) -> float:
-        """Return the distance from the base tangent point along the line of action [mm]; 0 inside the base circle."""
+        """Return the distance of a diameter [mm] from the base tangent point along the line of action [mm].
+
+        Inside the base circle the distance is 0.
+        """
         return sqrt(max(diameter**2 - self.base_diameter**2, 0.0)) / 2.0
 
     def tip_fault(self, diameter: float) -> str | None:
-        """Return the fault of a tip diameter [mm], or None."""
+        """Return what is wrong with a tip diameter [mm], or None if the diameter is possible."""
         half = pi / (2 * self.teeth) + 2.0 * self.shift * tan(self.normal_angle) / self.teeth
         reach = min(max(half + involute(self.transverse_angle), 0.0), MOST_INVOLUTE)
         pointed = self.base_diameter / cos(inverse_involute(reach))
         if diameter < self.reference_diameter:
             return f"is {diameter:.6g} mm, below the reference circle of {self.reference_diameter:.6g} mm"
         if diameter > pointed:
-            return f"is {diameter:.6g} mm, where the tooth is pointed at {pointed:.6g} mm"
+            return f"is {diameter:.6g} mm, but the teeth become pointed at {pointed:.6g} mm"
         return None
 
     def root_fault(self, diameter: float) -> str | None:
-        """Return the fault of a root diameter [mm], or None."""
+        """Return what is wrong with a root diameter [mm], or None if the diameter is possible."""
         low, high = self.reference_diameter - 6.0 * self.module, self.reference_diameter + 2.0 * self.module
         return (
             None

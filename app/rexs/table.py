@@ -1,7 +1,7 @@
 """The names of REXS: units, attributes that become fields of a request, and attributes for the numbers of an answer.
 
 Sources: the specification and the published schemas of REXS 1.0 to 2.0 (https://www.rexs.info). Only names and units
-are used here. If versions of REXS have different names for the same attribute, the preferred name comes first.
+are used here. If different versions of REXS name an attribute differently, the preferred name comes first.
 """
 
 from math import pi
@@ -27,10 +27,11 @@ UNITS = (
     {"m/s^2": 1.0},
     {"l/min": 1e-3 / 60.0, "l/s": 1e-3, "m^3/s": 1.0, "m^3/h": 1.0 / 3600.0},
 )
-"""Units of each quantity as files spell them, without blanks, and their size in SI.
+"""Units of each quantity as files spell them, without blanks, and the size of each unit in SI.
 
-A file states the unit of every attribute. Values are converted by this unit and never by the version of the file:
-degrees are "°" up to version 1.3 and "deg" from 1.4; modifications are in "mum" or in "mm".
+A file states the unit of every attribute. Values are converted by this unit and never by the version of the file,
+because versions spell units differently: degrees are "°" up to version 1.3 and "deg" from 1.4; modifications are in
+"mum" or in "mm".
 """
 ZEROS = {"C": 273.15, "°C": 273.15}  # K
 
@@ -48,7 +49,7 @@ def convert(value: float, stated: str, wanted: str) -> float | None:
 
 
 class Row(NamedTuple):
-    """A number taken from the file as it is: our field, attributes in order of preference, unit of our field."""
+    """A number taken from the file as it is: field of the request, attributes by preference, unit of the field."""
 
     field: str
     attributes: tuple[str, ...]
@@ -97,7 +98,7 @@ HEAT = (
     Row("thermal_conductivity_w_per_m_k", ("thermal_conductivity",), "W/(mK)"),
     Row("specific_heat_j_per_kg_k", ("thermal_capacity",), "J/(kgK)"),
 )
-"""Of gears and oils; shafts have no such fields."""
+"""Thermal properties of gears and oils. Shafts have no such fields."""
 OIL = (
     Row("kinematic_viscosity_40_mm2_per_s", ("viscosity_at_40_degree_celsius",), "mm^2/s"),
     Row("kinematic_viscosity_100_mm2_per_s", ("viscosity_at_100_degree_celsius",), "mm^2/s"),
@@ -194,7 +195,7 @@ BEARING_BORE = Row("diameter_mm", ("reference_diameter_relative_clearance_plain_
 JOURNAL = (
     Row("diameter_mm", ("inner_diameter",), "mm"),
     Row("width_mm", ("width",), "mm"),
-    Row("radial_clearance_um", ("diameter_clearance_plain_bearing",), "um"),  # half of it
+    Row("radial_clearance_um", ("diameter_clearance_plain_bearing",), "um"),  # half of the value is used
     Row("film_temperature_c", ("lubricant_feed_temperature",), "C"),
     Row("oil_flow_l_per_min", ("lubricant_flow_through_bearing",), "l/min"),
 )
@@ -279,12 +280,12 @@ IGNORED = (
     (
         "(cylindrical|flank|stage|lubricant|material|gear_casing).*",
         f"^({'|'.join(sorted(_TAKEN))})$",
-        "another value of the file counts before it",
+        "another value of the file is used instead",
     ),
-    (".*", "^custom_", "a value of another program's own"),
+    (".*", "^custom_", "a value that only another program uses"),
     (".*", f"^({_BOOKKEEPING})$", "bookkeeping of the file"),
     (".*", "^(machining|grinding)_allowance", "the flank is taken as finished"),
-    (".*", "friction.*(agma|vdi)", "calculated by a method that is not used here; the models have their own"),
+    (".*", "friction.*(agma|vdi)", "calculated by a method that is not used here; the models have their own methods"),
     (".*", f"{_RATINGS}(_|$)", "belongs to a rating that is not made here"),
     (
         "cylindrical_.*",
@@ -296,44 +297,44 @@ IGNORED = (
         "(iso_1328|din_39|din_26281|tolerance|deviation|allowance|_variation$)",
         "tolerances are not part of the nominal gear",
     ),
-    (".*", f"^({_POSITIONS})$", "position; needed where a drive train is formed only"),
+    (".*", f"^({_POSITIONS})$", "a position, which is used only if a drive train is formed"),
     (
         "(concept|rolling|slide|hydrodynamic).*",
         "",
-        "a radial bearing counts by stiffness and offset, a plain one by bore, width, clearance and feed temperature",
+        "a radial bearing is used by stiffness and offset, a plain one by bore, width, clearance and feed temperature",
     ),
-    ("material", "", "of materials elasticity, density and heat are used"),
-    ("rack_shaped_tool", "", "of tools addendum and tip radius are used"),
-    ("lubricant", "", "the oil counts by its kind and its values at 15, 40 and 100 °C"),
-    ("external_load", "", "of loads on shafts the torque about the axis is used, and where it acts"),
-    ("shaft_section", "", "sections count where a drive train is formed only"),
+    ("material", "", "of materials only elasticity, density and heat are used"),
+    ("rack_shaped_tool", "", "of tools only addendum and tip radius are used"),
+    ("lubricant", "", "of the oil only the kind and the values at 15, 40 and 100 °C are used"),
+    ("external_load", "", "of loads on shafts only the torque about the axis and its position are used"),
+    ("shaft_section", "", "sections are used only if a drive train is formed"),
     (
         "shaft|gear_casing|cylindrical_gear",
         "temperature|mass",
         "temperatures and masses of shafts and casing are calculated or not needed",
     ),
-    ("gear_unit", "operating_time|load_duration", "shares of time count in load cases"),
+    ("gear_unit", "operating_time|load_duration", "shares of time are used only in load cases"),
     (
         "gear_unit",
         "gravit|reference_temperature|shear",
-        "weight and thermal shape; used where a drive train is formed only",
+        "weight and thermal shape; used only if a drive train is formed",
     ),
     ("gear_casing|cylindrical_stage", "viscosity", "the viscosity follows from the oil and its temperature"),
-    (".*_(relief|crowning|slope)(_.*)?", "", "modifications count by amount, length and shape"),
+    (".*_(relief|crowning|slope)(_.*)?", "", "of modifications only amount, length and shape are used"),
     (
         ".*",
         "chamfer|protuberance|edge_radius|topographical|facewidth_usable|peak_to_valley|valley_height|roughness.*root",
-        "chamfers, undercuts, measured flanks and roots are not modelled; roughness counts as Ra",
+        "chamfers, undercuts, measured flanks and roots are not modelled; of roughness only Ra is used",
     ),
     (
         "cylindrical_.*|stage_gear_data|flank_geometry",
         "basic_profile|addendum_modification",
-        "the tip diameter or the nominal profile shift counts before it",
+        "the tip diameter or the nominal profile shift is used instead",
     ),
     (
         "cylindrical_.*|stage_gear_data|flank_geometry",
         _SAID_OF_TEETH,
-        "follows from the teeth, which other values give",
+        "follows from the teeth, which are described by other values",
     ),
     (".*", _RESULTS, "a result of the program that wrote the file"),
     (".*", "", "the models have no such input"),
@@ -342,7 +343,7 @@ IGNORED = (
 
 CUSTOM = "custom_tribodrive_"
 STANDARD_FROM = {"face_load_factor_contact_stress": 2}
-"""Attributes of the standard for results, and the major version that introduced them; all others are custom."""
+"""Attributes of the standard for results, and the major version that introduced each of them."""
 LOAD_RESULTS = (
     ("load.face_load_factor", "face_load_factor_contact_stress", "none"),
     ("load.max_line_load_n_per_mm", "maximum_line_load", "N / mm"),

@@ -15,14 +15,14 @@ from app.rexs.power import Flow, Pair, Train
 from app.rexs.reading import MESH, SCUFFING, SECTIONS, Reading, path_in, rounded
 from app.rexs.stages import SPEED, TORQUE, StageDraft, pairs
 
-MOST_FINDINGS = 1000  # in an answer; the author of the file sees the pattern earlier
+MOST_FINDINGS = 1000  # in an answer; the author of the file sees the pattern from fewer findings
 MOST_STAGES = 50  # chosen: far beyond any unit
-MOST_CASES = 200  # of a spectrum in the file; further cases are not read
+MOST_CASES = 200  # load cases of a file; further load cases are not read
 MOST_DRAFTS = 2000  # stages times load cases; a draft takes 2 ms
-LONGEST_NAME, MOST_SPECTRUM_CASES = 100, 100  # of /v1/spectrum
-MOST_IGNORED = 2000  # of a stage
+LONGEST_NAME, MOST_SPECTRUM_CASES = 100, 100  # limits of /v1/spectrum
+MOST_IGNORED = 2000  # ignored attributes per stage
 SHARES = {"operating_time_fraction": "", "load_duration_fraction": "", "operating_time": "h", "load_duration": "h"}
-"""Attributes with the share of a load case, and their units."""
+"""Attributes that state the share of a load case in the operating time, and the units of these attributes."""
 
 
 def gear_unit(model: Model) -> dict[str, Any]:
@@ -31,12 +31,12 @@ def gear_unit(model: Model) -> dict[str, Any]:
     _check_relations(reading)
     all_pairs = list(islice(pairs(reading), MOST_STAGES + 1))
     if len(all_pairs) > MOST_STAGES:
-        message = f"the unit has more than {MOST_STAGES} stages; the first ones are read"
+        message = f"the unit has more than {MOST_STAGES} stages; only the first stages are read"
         reading.find("too_many_stages", None, None, message)
         del all_pairs[MOST_STAGES:]
     cases = model.load_cases[: min(MOST_CASES, MOST_DRAFTS // max(len(all_pairs), 1))]
     if len(cases) < len(model.load_cases):
-        reading.find("too_many_cases", None, None, f"the first {len(cases)} load cases are read")
+        reading.find("too_many_cases", None, None, f"only the first {len(cases)} load cases are read")
     if len(cases) > MOST_SPECTRUM_CASES:
         message = f"/v1/spectrum takes at most {MOST_SPECTRUM_CASES} load cases; the file has more"
         reading.find("too_many_cases", None, None, message)
@@ -69,7 +69,9 @@ def _stages(reading: Reading, all_pairs: list[Pair], base: Flow, flows: list[Flo
         unused = chain(reading.ignored(own.values()), *(flow.reading.ignored_of_case(elsewhere) for flow in flows))
         row["ignored"] = _rows(islice(unused, MOST_IGNORED))
         if next(unused, None) is not None:
-            message = f"more than {MOST_IGNORED} attributes of the stage {row['id']} are not used; the first are listed"
+            message = (
+                f"more than {MOST_IGNORED} attributes of the stage {row['id']} are not used; only the first are listed"
+            )
             reading.find("too_many_ignored", None, None, message)
     return rows
 
@@ -77,15 +79,18 @@ def _stages(reading: Reading, all_pairs: list[Pair], base: Flow, flows: list[Flo
 def _stage(pair: Pair, base: Flow, flows: list[Flow]) -> tuple[dict[str, Any], StageDraft]:
     """Return a stage of the answer and its draft.
 
-    The load is that of the base model. If the base model states no load, it is that of the first load case with one.
+    The load is that of the base model. If the base model states no load, the load is that of the first load case that
+    states a load.
     """
     flow = next((flow for flow in (base, *flows) if flow.knows(pair)), base)
     stage = _draft_of(pair, flow)
     if (case := flow.reading.case) is not None:
         for path in (TORQUE, SPEED, table.OIL_TEMPERATURE.field):
             if path in stage.fields:
-                stage.note(path, stage.fields[path], f"from the load case {case.name}, because the model states none")
-    # The mesh comes first, then the oil.
+                stage.note(
+                    path, stage.fields[path], f"taken from the load case {case.name}, because the model states no value"
+                )
+    # Fields of the mesh come first, then fields of the oil.
     paths = sorted({**stage.fields, **stage.missing}, key=lambda path: path.partition(".")[0] not in MESH)
     requests = {endpoint: stage.request(endpoint, paths) for endpoint in SECTIONS}
     if add_drive_train(stage):
@@ -134,7 +139,7 @@ def _described_by(stage: StageDraft) -> Iterator[Component]:
 
 
 class _Case(NamedTuple):
-    """A load case of a stage, with its changes of the fields of the draft."""
+    """A load case of a stage, with the changes that it makes to the fields of the draft."""
 
     name: str
     share: float
@@ -156,7 +161,7 @@ class _Case(NamedTuple):
 
 
 def _cases(stage: StageDraft, pair: Pair, flows: list[Flow]) -> list[_Case]:
-    """Return the load spectrum: the changes of torque, speed and further inputs by each load case."""
+    """Return the load spectrum. Each load case changes torque, speed and possibly further inputs."""
     cases = []
     shares, reason = _shares([flow.reading for flow in flows])
     load_sources = stage.load_sources
@@ -182,7 +187,10 @@ def _rows(models: Iterable[BaseModel]) -> list[dict[str, Any]]:
 
 
 def _shares(readings: list[Reading]) -> tuple[list[float], str | None]:
-    """Return the shares of the operating time of all load cases, and the reason if the file leaves them open."""
+    """Return the shares of all load cases in the operating time.
+
+    If the file states no shares in attributes of the standard, also return how the shares were chosen.
+    """
     if not readings:
         return [], None
     unit = readings[0].model.first("gear_unit")
@@ -193,9 +201,9 @@ def _shares(readings: list[Reading]) -> tuple[list[float], str | None]:
         values = [reading.number(unit, name, size) for reading in readings]
         valid = [value for value in values if value is not None and value >= 0.0]
         if len(valid) == len(values) and sum(valid) > 0.0:
-            reason = f"shares from the attribute {name}, which is not of the standard" if name in own else None
+            reason = f"shares from the attribute {name}, which is not part of the standard" if name in own else None
             return [value / sum(valid) for value in valid], reason
-    return [1.0 / len(readings)] * len(readings), "the file states no shares of the load cases: equal shares"
+    return [1.0 / len(readings)] * len(readings), "the file states no shares of the load cases; equal shares are used"
 
 
 def _check_relations(reading: Reading) -> None:

@@ -177,7 +177,10 @@ class ShaftBearing(Section):
         if self.viscosity_pa_s is not None:
             return self.si(si.JournalBearing)
         if scuffing.oil is None:
-            message = "a plain bearing needs a viscosity if the gears have no oil; give the viscosity or the oil"
+            message = (
+                "a plain bearing needs a viscosity if the gears have no oil; give the viscosity of the bearing or the "
+                "oil of the gears"
+            )
             raise InvalidInput("no_oil", message, "viscosity")
         film = None if self.film_temperature_c is None else UNITS["c"].to_si(self.film_temperature_c)
         viscosity = si.gear_oil_viscosity(scuffing.oil, scuffing.temperatures.oil, film)
@@ -225,7 +228,7 @@ class UnitShaft(Section, of=si.Shaft, without=("ultimate_thrust",)):
             end = position + section.length
             beside = position > face_start + gears.face_width - si.COINCIDENT or end < face_start + si.COINCIDENT
             if left_out and beside:
-                message = f"section {k} is not under the teeth and needs its diameter"
+                message = f"section {k} is not under the teeth; give its outer diameter"
                 raise InvalidInput("section_diameter", message, f"{name}.sections.{k}.outer_diameter")
             yield section
             position = end
@@ -326,7 +329,9 @@ class DriveTrainRequest(MeshInOil):
         thermal = self.thermal
         if "bulk_includes_pumping" in thermal.model_fields_set and not thermal.bulk_includes_pumping:
             raise PydanticCustomError(
-                "exclusive", "thermal.bulk_includes_pumping is true with the heat balance, whose bodies hold that heat"
+                "exclusive",
+                "thermal.bulk_includes_pumping must be true with the heat balance, which already includes the heat "
+                "of pumping",
             )
         heat = thermal.model_copy(update={"bulk_includes_pumping": True})
         return self.model_copy(update={"thermal": heat})

@@ -66,7 +66,7 @@ class LineContactRequest(Request):
         """
         oil = self.lubricant.resolve()
         if oil is None:
-            message = "there is no film without an oil: give iso_vg, kinematic_viscosity_40 or viscosity_pa_s"
+            message = "without an oil there is no film; give iso_vg, kinematic_viscosity_40 or viscosity_pa_s"
             raise InvalidInput("no_oil", message, "lubricant")
         inlet = self.temperatures.si(ehl.Temperatures).inlet
         return self.si(ehl.LineContactInputs, lubricant=lubricant_at(oil, inlet))

@@ -93,7 +93,8 @@ class SheetOil(Section):
             )
         if self.viscosity_index is not None and not self.by_sheet:
             raise PydanticCustomError(
-                "two_viscosities", "give kinematic_viscosity_40_mm2_per_s or iso_vg beside viscosity_index"
+                "two_viscosities",
+                "viscosity_index needs a viscosity; give kinematic_viscosity_40_mm2_per_s or iso_vg as well",
             )
         return self
 
@@ -196,7 +197,7 @@ class Oil(SheetOil, of=Lubricant):
         missing = [name for name in _WITH_VISCOSITY if getattr(self, name) is None]
         if self.viscosity_pa_s is not None and missing:
             raise PydanticCustomError(
-                "missing_property", "give {name}, or the oil by its grade or data sheet", {"name": missing[0]}
+                "missing_property", "give {name}, or describe the oil by its grade or data sheet", {"name": missing[0]}
             )
         return self
 
@@ -253,7 +254,9 @@ class CouplingLubricant(SheetOil):
     def some_viscosity(self) -> Self:
         """Refuse an oil without a viscosity, a grade and a data sheet."""
         if not self.by_sheet and self.viscosity_pa_s is None:
-            raise PydanticCustomError("missing_property", "give viscosity_pa_s, or the oil by its grade or data sheet")
+            raise PydanticCustomError(
+                "missing_property", "give viscosity_pa_s, or describe the oil by its grade or data sheet"
+            )
         return self
 
     def at_teeth(self) -> OilAtTeeth:

@@ -257,13 +257,17 @@ class ContactTemperatures(Section, of=si.Temperatures):
     def one_bulk(self) -> Self:
         """Refuse a bulk temperature with any other method than `given`, and a heat balance without jets of oil."""
         if self.bulk_method != "given" and self.bulk_c is not None:
-            method = "an estimated bulk" if self.bulk_method == "estimated" else "a bulk by heat balance"
+            method = (
+                "an estimated bulk temperature"
+                if self.bulk_method == "estimated"
+                else "a bulk temperature by heat balance"
+            )
             raise PydanticCustomError("exclusive", "bulk_c and {method} are both given; keep one", {"method": method})
         if self.bulk_method == "heat_balance" and self.oil_supply != "spray":
             raise PydanticCustomError(
                 "exclusive",
-                "the heat balance is for gears under jets, oil_supply spray; for gears that dip into oil set "
-                "bulk_method to estimated, or give bulk_c as measured",
+                "the heat balance holds only for gears under jets (oil_supply spray); for gears that dip into oil, set "
+                "bulk_method to estimated, or give a measured bulk_c",
             )
         return self
 
@@ -279,7 +283,7 @@ class ScuffingTemperatures(ContactTemperatures):
     def known_bulk(self) -> Self:
         """Refuse the method `given` without a bulk temperature."""
         if self.bulk_method == "given" and self.bulk_c is None:
-            raise PydanticCustomError("missing_bulk", "give bulk_c, or bulk_method estimated or heat_balance")
+            raise PydanticCustomError("missing_bulk", "give bulk_c, or set bulk_method to estimated or heat_balance")
         return self
 
 

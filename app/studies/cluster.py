@@ -21,7 +21,7 @@ ANSWER_S = 15.0  # for two calls: to connect and to list the workers
 WARM_S = 600.0  # for the workers to load their kernels, which may include compiling them
 WATCH_S = 0.5  # between two checks whether the cluster still runs while a call is under way
 PACKAGES = ("tribodrive", "numpy", "scipy", "numba", "pydantic")  # whose versions change the results
-LOST = "the Dask scheduler is gone; start the study again"
+LOST = "the connection to the Dask scheduler is lost; start the study again"
 
 
 class DaskCluster:
@@ -75,7 +75,7 @@ class DaskCluster:
         new = set(threads) - self._prepared
         for worker, theirs in self._call_on(versions, new).items():
             if theirs != versions():
-                raise ValueError(f"its worker {worker} runs {theirs}, the service {versions()}")
+                raise ValueError(f"its worker {worker} runs {theirs}, but the service runs {versions()}")
         self._call_on(prepare, new)
         self._prepared |= new
         self.slots = sum(threads.values())
@@ -127,7 +127,10 @@ def solved_with(sources: str, function: Callable[..., Any], *arguments: Any) -> 
     other solvers.
     """
     if sources != SOURCES:
-        raise OtherSources(f"a Dask worker has the solvers' sources {SOURCES}, the service {sources}; update it")
+        raise OtherSources(
+            f"a Dask worker has version {SOURCES} of the solvers' sources, but the service has version {sources}; "
+            "update the worker"
+        )
     return function(*arguments)
 
 

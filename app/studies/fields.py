@@ -35,7 +35,7 @@ def scalar_at(model: type[Documented], path: str, place: str, unknown: str) -> L
     if not leaf.is_scalar:
         message = f"{path} is a list, not a single value"
         if leaf.dimensions == 1:
-            message += f"; name one of its places, {path}.0"
+            message += f"; name one of its values, such as {path}.0"
         raise Unprocessable("not_scalar", message, place)
     return replace(leaf, path=path)
 

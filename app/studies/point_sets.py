@@ -122,7 +122,7 @@ def _check_axis(axis: Axis, base: BaseRequest, place: str) -> CheckedAxis:
     values = _spread(axis, leaves, place) if axis.values is None else axis.values
     for number, value in enumerate(values):
         if isinstance(value, list) and (isinstance(axis.path, str) or len(value) != len(leaves)):
-            message = "give one value for all fields of the axis, or of a list of fields each its own"
+            message = "give either one value for all fields of the axis, or a list with one value for each field"
             raise Unprocessable("values_per_field", message, f"{place}.values.{number}")
         for leaf, own in zip(leaves, _values_of_fields(value, leaves), strict=True):
             check_value(leaf, own, place)
@@ -139,7 +139,7 @@ def _spread(axis: Axis, leaves: tuple[Leaf, ...], place: str) -> list[Any]:
     ends: dict[str, Any] = {"start": axis.start, "stop": axis.stop}
     for name, end in ends.items():
         if axis.scale == "log" and end <= 0.0:
-            message = "a logarithmic axis needs both ends above zero"
+            message = "both ends of a logarithmic axis must be above zero"
             raise Unprocessable("log_needs_positive", message, f"{place}.{name}")
         for leaf in leaves:
             check_value(leaf, end, f"{place}.{name}")
@@ -156,9 +156,11 @@ def scattering(scatters: Sequence[Range | Scatter], base: BaseRequest, place: st
         leaf = base.leaf(scatter.path, f"{here}.path")
         message = not_a_number(leaf)
         if message is not None:
-            raise Unprocessable("not_continuous", f"{message}; vary it or list cases", f"{here}.path")
+            raise Unprocessable("not_continuous", f"{message}; vary it along an axis, or list cases", f"{here}.path")
         if leaf.kind == "integer":
-            raise Unprocessable("not_integer", f"{scatter.path} takes whole numbers; vary it or list cases", here)
+            raise Unprocessable(
+                "not_integer", f"{scatter.path} takes only whole numbers; vary it along an axis, or list cases", here
+            )
         for name, value in anchors(scatter).items():
             check_value(leaf, value, f"{here}.{name}")
         for (low, least), (high, greatest) in pairwise(anchors(scatter).items()):
@@ -176,8 +178,8 @@ def _check_digits(scatter: Range | Scatter, leaf: Leaf, place: str) -> None:
     """
     if isinstance(scatter, Normal) and 1.0 - cut(scatter, leaf).cut_off < LEAST_SHARE:
         message = (
-            f"{scatter.path}: a deviation of {scatter.deviation:.6g} leaves no digits of the values inside the field's "
-            f"range; permissible {allowed(leaf.declared)}; give a smaller one, or a uniform distribution"
+            f"{scatter.path}: with a deviation of {scatter.deviation:.6g} almost no values lie inside the permissible "
+            f"range of the field ({allowed(leaf.declared)}); give a smaller deviation, or a uniform distribution"
         )
         raise Unprocessable("out_of_range", message, f"{place}.deviation")
 
@@ -253,7 +255,7 @@ def unit_cube(method: Method, count: int, dimensions: int, seed: Any, place: str
         return np.asarray(qmc.LatinHypercube(dimensions, rng=seed).random(count))
     exponent = count.bit_length() - 1
     if count != 1 << exponent:
-        raise Unprocessable("not_power_of_two", "a Sobol sample needs a power of two of points", place)
+        raise Unprocessable("not_power_of_two", "the number of points of a Sobol sample must be a power of two", place)
     return np.asarray(qmc.Sobol(dimensions, rng=seed).random_base2(exponent))
 
 

@@ -79,7 +79,7 @@ class BaseRequest(NamedTuple):
         try:
             set_value(self.calculation.request, copy.deepcopy(self.body), path, None)
         except IndexError:
-            message = f"the request has no {path}: its list is shorter"
+            message = f"the request has no {path}, because the list in the request is shorter"
             raise Unprocessable("unknown_path", message, place) from None
         return leaf
 
@@ -87,7 +87,9 @@ class BaseRequest(NamedTuple):
         """Return the leaf of a single value at a path of the answer."""
         leaf = scalar_at(self.calculation.response, path, place, "unknown_output")
         if leaf.detail != "summary":
-            raise Unprocessable("not_scalar", f"{path} belongs to a curve or field; a study has single values", place)
+            raise Unprocessable(
+                "not_scalar", f"{path} belongs to a curve or field; a study gives single values only", place
+            )
         return leaf
 
     def outputs(self, wanted: list[str] | None) -> tuple[Leaf, ...]:

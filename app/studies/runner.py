@@ -142,7 +142,7 @@ async def _solved_singly(pool: Pool, question: Question, overrides: list[Overrid
 
     A chunk of a single point that exceeded its deadline is not repeated.
     """
-    late = question.failed("deadline_exceeded", "the point took longer than one calculation may")
+    late = question.failed("deadline_exceeded", "the point took longer than the time limit of one calculation")
     if len(overrides) == 1 and isinstance(error, DeadlineExceeded):
         return Chunk([late], CHUNK_SECONDS)
     started = time.perf_counter()
@@ -278,7 +278,7 @@ async def guarded(lines: Lines, clock: Clock, seconds: float, progress_s: float 
                     upcoming = asyncio.ensure_future(anext(lines, None))
                 elif left > progress_s:
                     yield [clock.line()]
-            yield [clock.error("study_deadline", f"the study took longer than {seconds:g} s; make it smaller")]
+            yield [clock.error("study_deadline", f"the study took longer than {seconds:g} s; make the study smaller")]
         except PoolLost as error:
             yield [clock.error(error.code, str(error))]
         except Exception:

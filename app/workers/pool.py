@@ -1,9 +1,9 @@
 """A fixed number of worker processes, and the queue of their calls.
 
 The owner of a call is a client or a study. A free worker gets a call of the owner with the fewest running calls. If
-several owners have as few, the owner whose last call began longest ago is next. If the queue is full, the newest call
-of the owner with the most places is rejected. A call for which nobody waits any more has `GRACE_S` to end by itself;
-then its worker is killed and replaced.
+several owners have equally few, the owner whose last call began longest ago is next. If the queue is full, the newest
+call of the owner with the most places is rejected. If nobody waits for a running call any more, the call has `GRACE_S`
+to end by itself. After this time the worker of the call is killed and replaced.
 """
 
 import asyncio
@@ -24,10 +24,10 @@ from app.log import CALCULATIONS, DEADLINES_MISSED, REFUSED, WAITING, WORKERS_LO
 from app.settings import MEBIBYTE, Settings
 from app.workers.worker import perform, prepare
 
-GRACE_S = 2.0  # nearly all calculations end in this time, so that paging through the site costs no worker
+GRACE_S = 2.0  # nearly all calculations end in this time, so a user who pages through the site costs no worker
 START_S = 30.0  # longest time of a worker's start, chosen: it takes 2 s on a quiet core
-IDLE_S = 5.0  # between two checks that idle workers answer
-PAUSE_S = 0.1  # before the replacement of a lost worker
+IDLE_S = 5.0  # time between two checks that idle workers answer
+PAUSE_S = 0.1  # pause before a lost worker is replaced
 
 logger = logging.getLogger("tribodrive")
 Outcome = asyncio.Future[Any]
@@ -39,7 +39,7 @@ class Job:
 
     owner: Hashable
     call: bytes
-    is_single: bool  # not part of a study
+    is_single: bool  # False if the call is part of a study
     outcome: Outcome
     timeout: asyncio.Timeout | None = None
 
@@ -63,15 +63,15 @@ class Pool:
     async def calculate(self, http: Request, function: Callable[..., Any], *arguments: Any) -> Any:
         """Run a call in a worker and return its result.
 
-        The owner is the client that a header names, or its address. Raises the errors of the call and those of
-        PROBLEMS.
+        The owner is the name of the client in the header of the settings, or the address of the client. Raises the
+        errors of the call and the exceptions of PROBLEMS.
         """
         owner = http.headers.get(self._settings.client_header or "") or (http.client.host if http.client else "")
         self._admit(owner)
         return await unless_gone(http, self.submit(owner, function, *arguments), self._settings.deadline_s)
 
     def submit(self, owner: Hashable, function: Callable[..., Any], *arguments: Any, is_single: bool = True) -> Outcome:
-        """Queue a call for a worker. Return the future of its result; to cancel the future gives up the call."""
+        """Queue a call for a worker. Return the future of the result; cancelling the future gives up the call."""
         job = Job(owner, pickle.dumps((function, arguments)), is_single, asyncio.get_running_loop().create_future())
         job.outcome.add_done_callback(lambda _: self._let_go(job))
         self._waiting.append(job)
@@ -91,14 +91,14 @@ class Pool:
         refused.outcome.set_exception(QueueFull())
 
     def _let_go(self, job: Job) -> None:
-        """Remove a call that has a result or is not wanted from the queue; limit the time of a running call."""
+        """Remove a waiting call whose future is done from the queue. Limit the remaining time of a running call."""
         if job in self._waiting:
             self._waiting.remove(job)
         elif job in self._running and job.timeout is not None and not job.timeout.expired():
             job.timeout.reschedule(asyncio.get_running_loop().time() + GRACE_S)
 
     async def keep_workers(self) -> None:
-        """Start the workers and keep them.
+        """Start the workers, and replace workers that are lost.
 
         The first worker starts alone, so that it is ready soon. Idle workers are called again and again, because AnyIO
         ends workers that are not used.
@@ -121,7 +121,7 @@ class Pool:
         return False
 
     async def serve(self) -> None:
-        """Give calls to a worker one after another. As many of these loops run as there are workers."""
+        """Give calls to a worker one after another. One such loop runs for each worker."""
         while True:
             while not (waiting := [job for job in self._waiting if not job.outcome.done()]):
                 self._arrival.clear()

@@ -6,11 +6,14 @@ from app.examples import examples
 
 STAGES = (COUPLING, SLEEVE, LOADS, PUMPING, DRIVE_TRAIN, LINE_CONTACT)
 BESIDE = LINE_CONTACT
-"""This stage takes as long as all others together. It needs only the load distribution of them, near its end."""
+"""This stage takes as long as all other stages together.
+
+It needs only one of them, the load distribution, and needs it only near the end.
+"""
 
 
 def warm(stage: Stage) -> None:
-    """Compile or load all kernels of a stage in this process; keep them on disk if there is a folder for them."""
+    """Compile or load all kernels of a stage in this process. If there is a folder for kernels, store them on disk."""
     for name in stage.examples:
         example = examples()[name]
         answer_of(example.endpoint, BY_PATH[example.endpoint].request.model_validate(example.request))

@@ -30,7 +30,7 @@ class StartUp:
         return [name for name, percent in self._percent.items() if percent == 100]
 
     def require(self, *endpoints: str) -> None:
-        """Raise WarmingUp if the stage of one of the endpoints is not ready, or no stage is."""
+        """Raise WarmingUp if the stage of one of the endpoints is not ready, or if no stage is ready."""
         if not {BY_PATH[endpoint].stage.name for endpoint in endpoints} <= {*self.warm} or not self.warm:
             raise self._warming_up()
 
@@ -44,7 +44,11 @@ class StartUp:
         return WarmingUp(f"Kernels are being compiled, once after installation: {report}")
 
     async def run(self) -> None:
-        """Compile stage after stage. A second attempt begins with an empty folder; after it all endpoints open."""
+        """Compile all stages, then open all endpoints.
+
+        If the first attempt fails, a second attempt begins with an empty folder. All endpoints open even if the second
+        attempt fails.
+        """
         began = time.monotonic()
         if FOLDER is not None and not await self._compile(STAGES):
             logger.warning("a process that compiled kernels died: all are compiled anew")
@@ -56,7 +60,7 @@ class StartUp:
         logger.info("tribodrive: everything is warm after %.1f s", time.monotonic() - began)
 
     async def _compile(self, stages: Sequence[Stage]) -> bool:
-        """Run `tribodrive compile` and follow the lines that it prints. Return False if its process died.
+        """Run `tribodrive compile` and read the lines that it prints. Return False if the process died.
 
         As soon as a kernel has to be compiled, a second process compiles the stage `BESIDE` at the same time.
         """

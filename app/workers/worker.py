@@ -31,11 +31,14 @@ class _Notes(logging.Handler):
 
 @lru_cache(maxsize=1)
 def prepare(memory_bytes: int, modules: Sequence[str]) -> None:
-    """Prepare this process for calls, once: load modules, and limit its memory if the platform allows that."""
+    """Prepare this process for calls: load modules, and limit the memory if the platform allows a limit.
+
+    Only the first call has an effect.
+    """
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C reaches every process of the terminal
     os.environ.update(ONE_THREAD)
     threading.Thread(target=_end_with_the_service, args=(os.getppid(),), daemon=True).start()
-    gc.disable()  # imports leave no garbage, and the search for it takes a third of their time
+    gc.disable()  # imports leave no garbage, and the search for garbage takes a third of their time
     for name in modules:
         import_module(name)
     gc.freeze()
@@ -49,7 +52,7 @@ def prepare(memory_bytes: int, modules: Sequence[str]) -> None:
 
 
 def _end_with_the_service(service: int) -> None:
-    """End this process in any state as soon as the service is no longer its parent."""
+    """End this process, whatever it is doing, as soon as the service is no longer its parent."""
     while os.getppid() == service:
         time.sleep(0.5)
     os._exit(1)
@@ -58,7 +61,7 @@ def _end_with_the_service(service: int) -> None:
 def perform(memory_bytes: int, modules: Sequence[str], call: bytes) -> tuple[Any, list[str]]:
     """Call a pickled function with its arguments. Return the result and the lines logged meanwhile.
 
-    Raises the error of the function, or RuntimeError with its traceback if that error cannot be pickled.
+    Raises the error of the function, or RuntimeError with the traceback if this error cannot be pickled.
     """
     prepare(memory_bytes, modules)
     _lines.clear()

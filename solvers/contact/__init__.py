@@ -1,1 +1,1 @@
-"""Line contacts: dry (Hertz), lubricated by film formulas, and lubricated with a numerical solution (ehl)."""
+"""Line contacts: dry contact, film thickness and flash temperature by formula, and the numerical solution (ehl)."""

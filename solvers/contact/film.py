@@ -1,4 +1,4 @@
-"""Film thickness of a lubricated line contact by formula, and its ratio to the roughness."""
+"""Film thickness of a lubricated line contact by formula, and the ratio of film thickness to roughness."""
 
 from math import hypot
 from typing import Literal, TypeVar, cast
@@ -13,7 +13,7 @@ Regime = Literal["boundary", "mixed", "full_film"]
 def dowson_higginson_minimum(
     *, viscosity: float, pressure_viscosity: float, mean_speed: Real, radius: Real, line_load: Real, modulus: float
 ) -> Real:
-    """Compute the minimum film thickness of a line contact by Dowson and Higginson (1966).
+    """Compute the minimum film thickness of a line contact by the formula of Dowson and Higginson (1966).
 
     Parameters
     ----------
@@ -28,7 +28,7 @@ def dowson_higginson_minimum(
     line_load : Real
         Line load w, positive [N/m].
     modulus : float
-        Reduced modulus E' by `hertz.reduced_modulus` [Pa].
+        Reduced modulus E', see `hertz.reduced_modulus` [Pa].
 
     Returns
     -------
@@ -68,10 +68,10 @@ def thickness_ratio(film: Real, roughness_1: float, roughness_2: float) -> Real:
 
 
 def thickness_regime(ratio: float, boundary_below: float = 1.0, full_film_above: float = 4.0) -> Regime:
-    """Return the regime of lubrication at a ratio of film thickness to roughness.
+    """Return the regime of lubrication for a given ratio of film thickness to roughness.
 
-    The limits are those of the paper; many texts end mixed lubrication at 3. Scuffing is probable with boundary
-    lubrication.
+    The default limits are those of the paper. In many texts, mixed lubrication ends at a ratio of 3 instead of 4.
+    Scuffing is probable under boundary lubrication.
     """
     if ratio < boundary_below:
         return "boundary"

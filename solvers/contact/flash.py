@@ -20,7 +20,7 @@ def blok_flash_temperature(
     solid_1: Solid,
     solid_2: Solid,
 ) -> Real:
-    """Compute the flash temperature of a line contact by Blok.
+    """Compute the flash temperature of a line contact by Blok's formula.
 
     Parameters
     ----------
@@ -47,7 +47,7 @@ def blok_flash_temperature(
     Notes
     -----
     Eq. 25: t_f = 0.7858 f w |u_1 - u_2|/{[sqrt(lambda_1 rho_1 c_1 u_1) + sqrt(lambda_2 rho_2 c_2 u_2)] sqrt(b_0)}. The
-    factor is 1.1113/sqrt(2), where 1.11 is Blok's factor for the full width 2 b_0.
+    factor 0.7858 is 1.1113/sqrt(2). In a formula with the full width 2 b_0, Blok's factor is 1.11.
     """
     conducted = np.sqrt(_conduction(solid_1) * speed_1) + np.sqrt(_conduction(solid_2) * speed_2)
     generated = friction * line_load * np.abs(speed_1 - speed_2)

@@ -32,7 +32,7 @@ def reduced_modulus(solid_1: Solid, solid_2: Solid) -> float:
 
     Notes
     -----
-    Eq. E1: E' = 2/[(1 - nu_1^2)/E_1 + (1 - nu_2^2)/E_2], the convention of the film formulas.
+    Eq. E1: E' = 2/[(1 - nu_1^2)/E_1 + (1 - nu_2^2)/E_2]. The film formulas use the same definition of E'.
     """
     return 2.0 / (plane_strain_compliance(solid_1) + plane_strain_compliance(solid_2))
 
@@ -80,6 +80,6 @@ def maximum_pressure(line_load: Real, radius: Real, modulus: float) -> Real:
 
     Notes
     -----
-    Eq. E1: p_H = sqrt(w E'/(2 pi R)); the mean pressure is pi/4 of it.
+    Eq. E1: p_H = sqrt(w E'/(2 pi R)). The mean pressure is pi/4 p_H.
     """
     return cast("Real", np.sqrt(line_load * modulus / (2.0 * np.pi * radius)))

@@ -1,16 +1,17 @@
-"""Warnings about a dry line contact; they are the same in every model."""
+"""Warnings about the dry line contact, used by all models of line contacts."""
 
 from collections.abc import Iterator
 
 from solvers.notices import Notice, unusual_value
 
-HIGHEST_PRESSURE = 2.5e9  # Pa, chosen; steel flows
+HIGHEST_PRESSURE = 2.5e9  # Pa, chosen; steel deforms plastically at this pressure
 
 
 def high_pressure(pressure: float | None, field: str = "pinion_torque") -> Iterator[Notice]:
     """Warn of a Hertzian pressure [Pa] that is beyond the strength of steel."""
     if pressure is not None and pressure > HIGHEST_PRESSURE:
         message = (
-            f"the Hertzian pressure of {pressure / 1e6:.4g} MPa is beyond what steel carries; is the load too high?"
+            f"the Hertzian pressure of {pressure / 1e6:.4g} MPa exceeds the strength of steel; was the load entered "
+            "too high?"
         )
         yield unusual_value(field, message)

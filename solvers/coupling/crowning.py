@@ -90,11 +90,14 @@ _SCAN_POINTS = 49  # chosen: a factor of 1.14 between two ratios
 _WINDOW_POINTS = 25  # chosen: points of the grid from which the search for the best ratio starts
 
 _REASONS = {
-    "contact_overlap": "no crowning ratio up to 1000 brings the overlap below 1 at the smallest misalignment",
-    "edge_contact": "with an overlap below 1 at the smallest misalignment the contact leaves the face at the largest",
+    "contact_overlap": "no crowning ratio up to 1000 brings the contact overlap below 1 at the smallest misalignment",
+    "edge_contact": (
+        "every crowning ratio that brings the overlap below 1 at the smallest misalignment lets the contact leave the "
+        "face at the largest misalignment"
+    ),
     "hertz_pressure": "no crowning ratio up to 1000 brings the Hertzian pressure below 2 GPa",
-    "contact_width": "no crowning ratio up to 1000 keeps the contact below a tenth of the flank radius",
-    "sliding_velocity": "the sliding velocity exceeds its limit whatever the crowning",
+    "contact_width": "no crowning ratio up to 1000 keeps the contact narrower than a tenth of the flank radius",
+    "sliding_velocity": "the sliding velocity exceeds its limit at every crowning ratio",
 }
 
 
@@ -343,7 +346,10 @@ def _sliding_notices(inputs: RecommendationInputs) -> tuple[Notice, ...]:
     sliding = abs(inputs.design.operation.speed) * radius * inputs.max_misalignment
     if sliding <= SLIDING_VELOCITY_LIMIT:
         return ()
-    message = f"the sliding velocity reaches {sliding:.3g} m/s, beyond the limit of {SLIDING_VELOCITY_LIMIT} m/s"
+    message = (
+        f"the sliding velocity at the largest misalignment is {sliding:.3g} m/s, above the limit of "
+        f"{SLIDING_VELOCITY_LIMIT} m/s"
+    )
     return (Notice("sliding_velocity", message, "misalignment_range"),)
 
 
@@ -352,11 +358,11 @@ def _check(inputs: RecommendationInputs) -> None:
     if not 0.0 < inputs.min_misalignment <= inputs.max_misalignment <= MAX_MISALIGNMENT:
         raise InvalidInput(
             "misalignment_range",
-            "give a rising range of misalignment above 0 and within 6 degrees",
+            "the smallest misalignment must be above 0, and the largest must lie between the smallest and 6 degrees",
             "misalignment_range",
         )
     check_inputs(at_misalignment(inputs, 1.0, inputs.max_misalignment))
     if inputs.design.operation.torque == 0.0:
-        raise InvalidInput("no_load", "without torque every crowning serves; give a torque", "torque")
+        raise InvalidInput("no_load", "without torque every crowning ratio is suitable; give a torque", "torque")
     if inputs.design.operation.speed == 0.0:
         raise InvalidInput("not_turning", "without speed there is no oil film to maximise; give a speed", "speed")

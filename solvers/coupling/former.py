@@ -97,6 +97,6 @@ class CouplingOil(OilBySheet):
             viscosity = sheet.viscosity(self.temperature)
             return Lubricant(viscosity, self.reference_film, sheet.viscosity_index, self.temperature)
         if self.viscosity is None:
-            message = "give viscosity, or the oil by its grade or data sheet"
+            message = "give the viscosity, or describe the oil by its grade or data sheet"
             raise InvalidInput("missing_property", message, "lubricant.viscosity")
         return Lubricant(self.viscosity, self.reference_film)

@@ -438,12 +438,15 @@ def check_inputs(inputs: CouplingInputs) -> None:
     """Raise InvalidInput for what cannot be computed: out_of_range, pitch_errors_length, mixed_law, mixed_curve."""
     if not abs(inputs.operation.misalignment) <= MAX_MISALIGNMENT:
         raise InvalidInput(
-            "out_of_range", "the theory is one of small angles; keep the misalignment within 6 degrees", "misalignment"
+            "out_of_range",
+            "the theory holds for small angles only; give a misalignment within 6 degrees",
+            "misalignment",
         )
     if 0.0 < inputs.operation.torque < LEAST_TORQUE:
         raise InvalidInput(
             "out_of_range",
-            f"a torque below {LEAST_TORQUE:g} N m is too small to be a load; give 0 or more than that",
+            f"a torque below {LEAST_TORQUE:g} N m is too small to be a load; give either 0 or at least "
+            f"{LEAST_TORQUE:g} N m",
             "torque",
         )
     _check_pitch_errors(inputs)
@@ -460,16 +463,22 @@ def _check_pitch_errors(inputs: CouplingInputs) -> None:
         return
     if len(errors) != inputs.coupling.teeth:
         raise InvalidInput(
-            "pitch_errors_length", f"give one pitch deviation a tooth: {inputs.coupling.teeth}", "pitch_errors"
+            "pitch_errors_length",
+            f"give one pitch deviation per tooth, which means {inputs.coupling.teeth} values",
+            "pitch_errors",
         )
     if not all(isfinite(error) for error in errors):
-        raise InvalidInput("out_of_range", "pitch deviations must be finite", "pitch_errors")
+        raise InvalidInput("out_of_range", "all pitch deviations must be finite numbers", "pitch_errors")
 
 
 def _check_mixed_curve(law: MixedFrictionCurve) -> None:
     """Positive numbers, the lowest coefficient not above the highest."""
     if law.lowest > law.highest:
-        raise InvalidInput("mixed_curve", "the lowest coefficient must not exceed the highest", "lowest")
+        raise InvalidInput(
+            "mixed_curve",
+            "the lowest coefficient of friction must not exceed the highest coefficient of friction",
+            "lowest",
+        )
 
 
 def _check_mixed_table(law: MixedFrictionTable) -> None:
@@ -477,6 +486,14 @@ def _check_mixed_table(law: MixedFrictionTable) -> None:
     velocities, coefficients = law.sliding_velocity, law.coefficient
     rising = all(a < b for a, b in pairwise(velocities))
     if len(velocities) != len(coefficients) or not velocities or not rising or not velocities[0] >= 0.0:
-        raise InvalidInput("mixed_law", "give velocities >= 0 in rising order, and as many coefficients", "mixed_law")
+        raise InvalidInput(
+            "mixed_law",
+            "give velocities of at least 0 in rising order, and one coefficient of friction for each velocity",
+            "mixed_law",
+        )
     if not isfinite(velocities[-1]) or not all(0.0 < coefficient < inf for coefficient in coefficients):
-        raise InvalidInput("mixed_law", "velocities must be finite, coefficients positive and finite", "mixed_law")
+        raise InvalidInput(
+            "mixed_law",
+            "the velocities must be finite, and the coefficients of friction must be positive and finite",
+            "mixed_law",
+        )

@@ -26,33 +26,50 @@ def motion_notices(
     if operation.misalignment == 0.0:
         yield Notice(
             "no_misalignment",
-            "the contact does not travel: no contact overlap, no oil film",
+            "without misalignment the contact does not travel; there is no contact overlap and no oil film",
             "misalignment",
             rank="note",
         )
     if operation.speed == 0.0:
         yield Notice(
-            "not_turning", "the coupling does not turn: no permissible misalignment, no oil film", "speed", rank="note"
+            "not_turning",
+            "the coupling does not turn; there is no permissible misalignment and no oil film",
+            "speed",
+            rank="note",
         )
     elif limits.allowable_misalignment is None:
-        message = "it turns so slowly that no misalignment reaches the sliding velocity limit: none to report"
+        message = (
+            "the coupling turns so slowly that no misalignment reaches the limit of the sliding velocity; no "
+            "permissible misalignment is stated"
+        )
         yield Notice("no_sliding_limit", message, "speed", rank="note")
     elif limits.allowable_misalignment > MAX_MISALIGNMENT:
         angle = degrees(limits.allowable_misalignment)
-        message = f"the permissible misalignment of {angle:.3g} degrees lies beyond the 6 degrees of the theory"
+        message = (
+            f"the permissible misalignment of {angle:.3g} degrees exceeds the 6 degrees up to which the theory holds"
+        )
         yield Notice("allowable_misalignment", message, "speed", rank="note")
     if sliding > SLIDING_VELOCITY_LIMIT:
         message = f"the sliding velocity of {sliding:.3g} m/s exceeds the limit of {SLIDING_VELOCITY_LIMIT} m/s"
         yield Notice("sliding_velocity", message, "misalignment")
     if thrust.indeterminate:
-        message = "nothing slides: friction may hold any thrust between the bounds, the middle is reported"
+        message = (
+            "no tooth slides, so that friction may hold any thrust between the bounds; the middle of the bounds is "
+            "stated"
+        )
         yield Notice("friction_indeterminate", message, "axial_velocity")
     elif thrust.self_induced is not None and sliding == 0.0:
-        message = "nothing slides by itself: the direction of self-induced thrust is open, zero is reported"
+        message = (
+            "no tooth slides because of misalignment, so that the direction of the self-induced thrust is not known; "
+            "zero is stated"
+        )
         yield Notice("friction_indeterminate", message, "misalignment")
     if sliding == operation.axial_velocity == 0.0 < thrust.coaxial_limit:
         bound = equal_loads_friction_moment(thrust.coaxial_limit, geometry.pitch_radius)
-        message = f"nothing slides: friction may hold any moment up to {bound:.4g} N m against a tilt, zero is reported"
+        message = (
+            f"no tooth slides, so that friction may hold any moment up to {bound:.4g} N m against a tilt; zero is "
+            "stated"
+        )
         yield Notice("indeterminate_moment", message, "speed" if operation.speed == 0.0 else "misalignment")
 
 
@@ -63,17 +80,25 @@ def load_notices(
     torque = inputs.operation.torque
     if torque == 0.0:
         message = (
-            "no torque: no load concentration, load capacity coefficient or thrust limit; "
-            "friction regime and coefficient are those of a vanishing load"
+            "without torque there is no load concentration, load capacity coefficient or thrust limit; friction regime "
+            "and coefficient of friction are those of a vanishing load"
         )
         yield Notice("no_load", message, "torque", rank="note")
     elif thrust.coaxial_limit == 0.0:
-        yield Notice("no_friction", "no friction: the thrust is no fraction of its limit", "coefficient", rank="note")
+        yield Notice(
+            "no_friction",
+            "without friction the limit of the thrust is zero, and the thrust cannot be stated as a share of the limit",
+            "coefficient",
+            rank="note",
+        )
     if torque < limits.sleeve_centring_torque:
-        message = f"below {limits.sleeve_centring_torque:.4g} N m the teeth do not hold a horizontal sleeve centred"
+        message = (
+            f"below a torque of {limits.sleeve_centring_torque:.4g} N m the teeth do not hold a horizontal sleeve "
+            "centred"
+        )
         yield Notice("sleeve_not_centred", message, "torque")
     if inputs.model.sleeve == "floating" and 0 < load.loaded_teeth < 3:
-        message = "fewer than three teeth carry: the place of the floating sleeve is not unique"
+        message = "fewer than three teeth carry load; the position of the floating sleeve is therefore not unique"
         yield Notice("sleeve_position", message, "sleeve")
 
 
@@ -86,16 +111,19 @@ def contact_notices(inputs: CouplingInputs, kinematics: Kinematics, lubrication:
     if lubrication.hertz_half_width > half_face:
         yield Notice("wide_contact", "the contact at rest is wider than the tooth face", "face_width", rank="invalid")
     if kinematics.max_contact_travel >= half_face:
-        message = f"the contact travels {kinematics.max_contact_travel * 1e3:.3g} mm and leaves the tooth: no oil film"
+        message = (
+            f"the contact travels {kinematics.max_contact_travel * 1e3:.3g} mm and leaves the tooth face; there is no "
+            "oil film"
+        )
         yield Notice("edge_contact", message, "face_width", rank="invalid")
     elif kinematics.max_contact_travel + lubrication.hertz_half_width > half_face:
         reach = kinematics.max_contact_travel + lubrication.hertz_half_width
-        message = f"the contact reaches {reach * 1e3:.3g} mm from the middle of the face, beyond its end"
+        message = f"the contact extends to {reach * 1e3:.3g} mm from the middle of the face, beyond the end of the face"
         yield Notice("edge_contact", message, "face_width")
     if lubrication.inlet_ratio is None:
         yield Notice("infinite_inlet", "an infinitely long inlet has no inlet ratio", "inlet", rank="note")
     if lubrication.regime.area == UNSTABLE_AREA:
-        message = "the friction is unstable here: the paper states no coefficient for area 3.3"
+        message = "the friction is unstable in area 3.3, for which the paper states no coefficient of friction"
         yield Notice("unstable_regime", message, "misalignment", rank="invalid")
 
 
@@ -111,12 +139,17 @@ def orbit_notices(
     `displacement` [m] and `harmonic` [N] are the largest of the orbit.
     """
     if fewest_teeth < 3:
-        message = "at some rotor angle fewer than three teeth carry: the place of the sleeve is not unique there"
+        message = (
+            "at some rotor angles fewer than three teeth carry load; the position of the sleeve is not unique there"
+        )
         yield Notice("sleeve_position", message, "torque")
     if displacement < LEAST_ORBIT:
         return
     if displacement_uncertainty is None or harmonic_uncertainty is None:
-        message = "with twice the orders the orbit does not settle: how certain it is cannot be told"
+        message = (
+            "with twice the number of orders the orbit does not settle; the uncertainty of the orbit is therefore not "
+            "known"
+        )
         yield Notice("orbit_resolution", message, "speed")
         return
     uncertain = (
@@ -125,7 +158,10 @@ def orbit_notices(
     )
     share, name = max(uncertain)
     if share > ORBIT_RESOLUTION:
-        message = f"teeth that load and unload leave the {name} uncertain by {100.0 * share:.2g} %"
+        message = (
+            "some teeth alternately carry load and lift off; "
+            f"the {name} is therefore uncertain by {100.0 * share:.2g} %"
+        )
         yield Notice("orbit_resolution", message, "misalignment")
 
 
@@ -138,5 +174,8 @@ def unusual_values(inputs: CouplingInputs | RecommendationInputs, _result: objec
 def tall_tooth(height: float, module: float, section: str = "coupling") -> Iterator[Notice]:
     """Warn of a tooth height [m] of a coupling that is unusual for its module [m]."""
     if height > TALLEST_TOOTH * module:
-        message = f"{height * 1e3:g} mm is beyond {TALLEST_TOOTH:g} modules; is it a diameter?"
+        message = (
+            f"the tooth height of {height * 1e3:g} mm exceeds {TALLEST_TOOTH:g} modules; was a diameter entered "
+            "instead of a height?"
+        )
         yield unusual_value(f"{section}.tooth_height", message)

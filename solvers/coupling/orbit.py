@@ -81,7 +81,7 @@ def solve_orbit(inputs: CouplingInputs) -> OrbitResult:
     """
     check_inputs(inputs)
     if inputs.operation.torque == 0.0:
-        raise InvalidInput("torque_too_low", "without torque nothing centres the sleeve", "torque")
+        raise InvalidInput("torque_too_low", "without torque nothing centres the sleeve; give a torque", "torque")
     angles = revolution(inputs.coupling.teeth)
     settled = _settled_path(inputs, angles, np.zeros((angles.size, 2)), HIGHEST_ORDER, MAX_SWEEPS)
     _check_holding(settled.force, _safe_force(inputs))
@@ -134,8 +134,8 @@ def _settled_path(
             return _SettledPath(path, force, farthest, sweep, change, int(loaded.sum(axis=1).min()))
     raise NoSolution(
         "sleeve_orbit",
-        "the orbit does not settle: the sleeve's inertia is no longer small against the mesh stiffness; "
-        "lower the speed or the sleeve mass, or raise the torque",
+        "the orbit of the sleeve does not settle, because the inertia of the sleeve is too large for the stiffness of "
+        "the mesh; lower the speed or the sleeve mass, or raise the torque",
         {"change": change, "sweeps": float(sweep)},
     )
 
@@ -158,7 +158,7 @@ def _farthest(
         loads = floating_loads(coupling, mesh, teeth, inputs.operation.torque, _limited(inertia_force, limit))
         unbalanced = int(np.count_nonzero(loads.iterations < 0))
         if unbalanced:
-            message = "the sleeve was not balanced between two rotor angles of its orbit; raise the torque"
+            message = "no equilibrium of the sleeve was found between two rotor angles of its orbit; raise the torque"
             raise NoSolution("sleeve_orbit", message, {"unbalanced_angles": float(unbalanced)})
         return np.hypot(loads.displacement[:, 0], loads.displacement[:, 1])
 
@@ -185,7 +185,8 @@ def _check_holding(force: FloatArray, limit: float) -> None:
     if needed > limit:
         raise InvalidInput(
             "torque_too_low",
-            f"torque too low to centre the sleeve: inertia asks for {needed:.4g} N, the teeth hold {limit:.4g} N",
+            f"the torque is too low to centre the sleeve: the inertia force is {needed:.4g} N, but the teeth can hold "
+            f"only {limit:.4g} N",
             "torque",
         )
 

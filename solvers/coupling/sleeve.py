@@ -321,8 +321,8 @@ def _tooth_forces(
     if residual >= FORCE_TOLERANCE:
         raise NoSolution(
             "sleeve_equilibrium",
-            "the tooth forces cannot hold the overturning moment of friction on the sleeve; "
-            "lengthen the hub distance or lower the friction",
+            "the tooth forces cannot balance the overturning moment of the friction on the sleeve; increase the hub "
+            "distance or reduce the friction",
             {"lateral_force": min(residual, 1.0)},
         )
     return unit * coupling.tooth_stiffness * share

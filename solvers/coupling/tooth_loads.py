@@ -511,7 +511,7 @@ def mesh_loads(
         residual = float(np.hypot(*lateral)) * pitch_radius(coupling) / torque
         raise NoSolution(
             "sleeve_balance",
-            "the floating sleeve was not balanced; raise the torque or lower the pitch deviations",
+            "no equilibrium of the floating sleeve was found; raise the torque or lower the pitch deviations",
             {"lateral_force": residual},
         )
     return loads

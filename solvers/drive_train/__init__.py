@@ -1,9 +1,11 @@
-"""A complete gear unit: couplings, shafts in bearings, pumping heat and mesh, solved for one gap over the face.
+"""Calculation of a complete gear unit: couplings, shafts, bearings, pumping heat and gear mesh.
 
-Data flows inputs, checks -> shafts (shafts, bearings and couplings as one flexibility matrix) -> gap (its equilibrium
-with the mesh, and its parts by cause) -> elements, losses, safety. `model.solve` calls all of these and notices;
-`states.solve` calls `model.solve` for the hot and for the cold unit. `unit_heat` iterates between the heat balance and
-the gap, and `warm_up` follows both over time. Own derivation; sources are given with the equations.
+The unknown is the gap between the flanks over the face. `inputs` holds the inputs, and `checks` checks them. The
+package `shafts` joins shafts, bearings and couplings into one flexibility matrix. The package `gap` finds the gap at
+which these parts are in equilibrium with the mesh, and divides the gap into parts by cause. `elements`, `losses` and
+`safety` compute the results at this gap. `model.solve` calls all these modules and `notices`. `states.solve` calls
+`model.solve` for the hot unit and for the cold unit. `unit_heat` iterates between the heat balance and the gap, and
+`warm_up` computes both over time. The derivation is our own; the equations state their sources.
 """
 
 from solvers.drive_train import states, warm_up

@@ -7,10 +7,10 @@ from solvers.errors import InvalidInput
 from solvers.gears.pair import PathOfContact
 
 NAMES = ("pinion_shaft", "wheel_shaft")
-COLLAR_BEYOND_TEETH = 3.0  # normal modules
-LEAST_BEARING_DISTANCE = 0.5  # face widths
+COLLAR_BEYOND_TEETH = 3.0  # normal modules; largest distance of the collar radius from the pitch circle
+LEAST_BEARING_DISTANCE = 0.5  # face widths between the two bearings of a shaft
 LEAST_STIFFNESS = 1e6  # N/m, of the symmetric part in its weakest direction
-ROUNDING = 1e-9  # relative, of numbers converted from other units
+ROUNDING = 1e-9  # relative rounding error of numbers that were converted from other units
 
 
 def check_inputs(inputs: DriveTrainInputs, path: PathOfContact) -> None:
@@ -21,7 +21,7 @@ def check_inputs(inputs: DriveTrainInputs, path: PathOfContact) -> None:
     inputs : DriveTrainInputs
         The unit.
     path : PathOfContact
-        Path of contact of its gear pair.
+        Path of contact of the gear pair of the unit.
 
     Raises
     ------
@@ -42,23 +42,26 @@ def _check_sections(inputs: DriveTrainInputs, path: PathOfContact, index: int, n
     shaft, tip = inputs.shafts[index], 2 * (path.pair.pinion, path.pair.wheel)[index].tip_radius
     start, end = inputs.face_start, inputs.face_start + path.plane.face_width
     if start < shaft.start - COINCIDENT or end > shaft.end + COINCIDENT:
-        raise InvalidInput("face_outside", "the face lies outside the shaft's sections", "face_start")
+        raise InvalidInput("face_outside", "the face of the gear lies outside the sections of the shaft", "face_start")
     position = shaft.start
     for k, section in enumerate(shaft.sections):
         field = f"{name}.sections.{k}"
         if section.inner_diameter >= section.outer_diameter:
-            message = f"the bore of section {k} is not smaller than its outer diameter"
+            message = f"the inner diameter of section {k} must be smaller than its outer diameter"
             raise InvalidInput("section_diameter", message, f"{field}.inner_diameter")
         under_face = position < end - COINCIDENT and position + section.length > start + COINCIDENT
         if under_face and section.outer_diameter > tip:
-            message = f"section {k} has a larger diameter than the tips of the teeth on it; leave the diameter out"
+            message = (
+                f"the outer diameter of section {k} exceeds the tip diameter of the teeth on it; leave the outer "
+                "diameter out"
+            )
             raise InvalidInput("section_diameter", message, f"{field}.outer_diameter")
         position += section.length
 
 
 def _check_bearings(inputs: DriveTrainInputs, shaft: Shaft, name: str) -> None:
     if len(shaft.bearings) != 2:
-        raise InvalidInput("bearing_count", "a shaft runs in exactly two bearings", f"{name}.bearings")
+        raise InvalidInput("bearing_count", "a shaft needs exactly two bearings", f"{name}.bearings")
     for k, bearing in enumerate(shaft.bearings):
         if not _is_on(shaft, bearing.position):
             message = f"bearing {k} lies outside the shaft"
@@ -66,18 +69,25 @@ def _check_bearings(inputs: DriveTrainInputs, shaft: Shaft, name: str) -> None:
         if isinstance(bearing, LinearBearing):
             matrix = np.array(bearing.stiffness)
             if np.linalg.eigvalsh((matrix + matrix.T) / 2).min() < LEAST_STIFFNESS * (1 - ROUNDING):
-                message = "the symmetric part of a bearing's stiffness needs at least 1 N/um in every direction"
+                message = (
+                    "the symmetric part of the stiffness matrix of a bearing must be at least 1 N/um in every direction"
+                )
                 raise InvalidInput("stiffness_matrix", message, f"{name}.bearings.{k}.stiffness")
     distance = abs(shaft.bearings[0].position - shaft.bearings[1].position)
     if distance <= COINCIDENT:
-        raise InvalidInput("bearing_order", "the bearings need different positions", f"{name}.bearings.1.position")
+        raise InvalidInput(
+            "bearing_order", "the two bearings of a shaft need different positions", f"{name}.bearings.1.position"
+        )
     if distance < LEAST_BEARING_DISTANCE * inputs.mesh.distribution.gears.face_width:
-        message = "the distance of the bearings is less than half the face width"
+        message = "the distance between the bearings must be at least half the face width"
         raise InvalidInput("bearing_distance", message, f"{name}.bearings.1.position")
 
 
 def _is_on(shaft: Shaft, position: float) -> bool:
-    """Return True if a position [m] is on the shaft or at its ends, which are sums of lengths and thus rounded."""
+    """Return True if a position [m] is on the shaft, which includes the ends.
+
+    The ends are sums of lengths. The comparison therefore allows for rounding errors.
+    """
     return shaft.start - COINCIDENT <= position <= shaft.end + COINCIDENT
 
 
@@ -88,14 +98,14 @@ def _check_torque(inputs: DriveTrainInputs, index: int, name: str) -> None:
         hubs = [coupling.position for coupling in inputs.couplings if NAMES[index].startswith(coupling.shaft)]
         if not hubs:
             raise InvalidInput(
-                "torque_position", "a shaft without a coupling needs the position at which torque enters", field
+                "torque_position", "a shaft without a coupling needs the position at which the torque enters", field
             )
         position = hubs[0]
     if not _is_on(shaft, position):
-        raise InvalidInput("torque_position", "torque must enter within the shaft", field)
+        raise InvalidInput("torque_position", "the torque must enter the shaft at a position within the shaft", field)
     end = inputs.face_start + inputs.mesh.distribution.gears.face_width
     if inputs.face_start + COINCIDENT < position < end - COINCIDENT:
-        raise InvalidInput("torque_position", "torque must enter outside the face", field)
+        raise InvalidInput("torque_position", "the torque must enter the shaft outside the face of the gear", field)
 
 
 def _check_couplings(inputs: DriveTrainInputs) -> None:
@@ -107,9 +117,13 @@ def _check_couplings(inputs: DriveTrainInputs) -> None:
             raise InvalidInput("couplings_on_shaft", "a shaft can have only one coupling", f"{field}.shaft")
         shaft = inputs.pinion_shaft if coupling.shaft == "pinion" else inputs.wheel_shaft
         if not _is_on(shaft, coupling.position):
-            raise InvalidInput("position_outside", "the hub lies outside its shaft", f"{field}.position")
+            raise InvalidInput(
+                "position_outside", "the hub of the coupling lies outside the shaft", f"{field}.position"
+            )
         if (coupling.position > middle) != (coupling.machine_side == "plus"):
-            message = "the machine would lie on the gears' side of the hub; change machine_side or move the hub"
+            message = (
+                "the machine would lie on the same side of the hub as the gears; change machine_side or move the hub"
+            )
             raise InvalidInput("machine_side", message, f"{field}.machine_side")
 
 
@@ -119,5 +133,8 @@ def _check_collar(inputs: DriveTrainInputs, path: PathOfContact) -> None:
     low = path.pair.pinion_working_radius
     high = low + COLLAR_BEYOND_TEETH * path.pair.inputs.normal_module
     if not low < inputs.collar_radius < high:
-        message = f"a collar that touches the wheel has a radius between {low * 1e3:.2f} and {high * 1e3:.2f} mm"
+        message = (
+            f"the radius of a thrust collar that touches the wheel must be between {low * 1e3:.2f} and "
+            f"{high * 1e3:.2f} mm"
+        )
         raise InvalidInput("thrust_collar_radius", message, "collar_radius")

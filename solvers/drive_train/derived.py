@@ -1,4 +1,4 @@
-"""Quantities that follow from the inputs of a unit alone: geometry, speeds, estimated temperatures."""
+"""Values that the calculation used for inputs that were left open, such as torques, lengths and temperatures."""
 
 from solvers.coupling.inputs import Coupling
 from solvers.drive_train.inputs import DriveTrainInputs, JournalBearing, Shaft, ShaftName
@@ -12,7 +12,7 @@ from solvers.scuffing.results import LoadDistribution
 
 @record
 class DerivedBearing:
-    """Clearance and viscosity that a plain bearing uses; None for other bearings."""
+    """Clearance and oil viscosity used for a plain bearing; both are None for other bearings."""
 
     radial_clearance: float | None = quantity("radial clearance used", "c", unit="um")
     viscosity: float | None = quantity("oil viscosity used in the bearing", "η_B", unit="pa_s")
@@ -20,14 +20,14 @@ class DerivedBearing:
 
 @record
 class DerivedSection:
-    """The outer diameter that a section uses."""
+    """The outer diameter used for a section."""
 
     outer_diameter: float = quantity("section outer diameter used", "d_o", unit="mm")
 
 
 @record
 class DerivedShaft:
-    """The values that a shaft uses."""
+    """The values used for a shaft."""
 
     torque_position: float = quantity("place of the torque used", "z_T", unit="mm")
     sections: tuple[DerivedSection, ...] = quantity("sections used")
@@ -36,7 +36,7 @@ class DerivedShaft:
 
 @record
 class DerivedCoupling:
-    """The values that a coupling, its oil and its teeth use."""
+    """The values used for a coupling, for the oil at its teeth, and for the teeth."""
 
     coupling: Coupling = quantity("proportions used")
     viscosity: float = quantity("oil viscosity used", "η", unit="pa_s", text="at the teeth")
@@ -48,7 +48,7 @@ class DerivedCoupling:
 
 @record
 class DerivedHeat:
-    """The wall responses that both gears use."""
+    """The wall responses used for both gears."""
 
     wall_response: float = quantity("wall response used", "κ_1")
     wall_response_wheel: float = quantity("wall response of the wheel used", "κ_2")
@@ -56,7 +56,7 @@ class DerivedHeat:
 
 @record
 class DerivedTemperatures:
-    """The temperatures and the lubricant factor that the contact uses."""
+    """The temperatures and the lubricant factor used for the contact."""
 
     bulk: float | None = quantity(
         "bulk temperature used",
@@ -74,7 +74,7 @@ class DerivedTemperatures:
 
 @record
 class Derived:
-    """The values that the calculation used where the inputs left them open."""
+    """The values that the calculation used for inputs that were left open."""
 
     pinion_torque: float = quantity("pinion torque used", "T_1", unit="n_m")
     power: float = quantity("power used", "P", unit="kw")
@@ -95,21 +95,21 @@ class Derived:
 
 
 def derived(inputs: DriveTrainInputs, mesh: LoadDistribution, heat: Heat | None = None) -> Derived:
-    """Collect the values that the inputs left open, as the calculation used them.
+    """Collect the values that the calculation used for inputs that were left open.
 
     Parameters
     ----------
     inputs : DriveTrainInputs
         The unit.
     mesh : LoadDistribution
-        The load distribution of its mesh.
+        Load distribution of the mesh of the unit.
     heat : Heat, optional
-        Its heat balance, if one was asked for.
+        Heat balance of the unit, if one was asked for.
 
     Returns
     -------
     Derived
-        The values in force.
+        The values used.
     """
     ratio = inputs.mesh.distribution.gears.pinion.teeth / inputs.mesh.distribution.gears.wheel.teeth
     lengths, lubricant = mesh.derived, inputs.mesh.lubricant

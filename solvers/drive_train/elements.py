@@ -17,7 +17,7 @@ from solvers.notices import Notice
 
 
 def hubs_of(unit: Unit, equilibrium: Equilibrium) -> list[tuple[HubMoments, HubMoments]]:
-    """Return the moments of both hubs of every coupling at their tilts in equilibrium."""
+    """Return the moments of both hubs of every coupling at the tilts in equilibrium."""
     return [
         (hub_moments(port, sizes[0]), hub_moments(port, sizes[1]))
         for port, sizes in zip(unit.couplings, _tilt_sizes(unit, equilibrium), strict=True)
@@ -33,7 +33,7 @@ def warnings_of(unit: Unit, equilibrium: Equilibrium) -> list[tuple[Notice, ...]
 
 
 def _tilt_sizes(unit: Unit, equilibrium: Equilibrium) -> list[Vector2]:
-    """Return the tilts [rad] of both hubs of every coupling, but not less than `LEAST_TILT`."""
+    """Return the sizes of the tilts [rad] of both hubs of every coupling; smaller sizes are raised to `LEAST_TILT`."""
     tilts = equilibrium.hubs.tilts.reshape(len(unit.couplings), 2, 2)
     return [(max(hypot(*a), LEAST_TILT), max(hypot(*b), LEAST_TILT)) for a, b in tilts]
 
@@ -93,7 +93,7 @@ def shaft_results(
 
 
 def _hub_diameter(inputs: DriveTrainInputs, index: int) -> float | None:
-    """Return the diameter of a shaft under its hub [m], or None without a coupling."""
+    """Return the diameter of a shaft under its hub [m], or None if the shaft has no coupling."""
     shaft, name = inputs.shafts[index], ("pinion", "wheel")[index]
     for coupling in inputs.couplings:
         if coupling.shaft == name:
@@ -115,7 +115,7 @@ def _bearing(state: BearingState) -> BearingResult:
 
 
 def _curves(side: ShaftPorts, loads: FloatArray, bearings: list[BearingState], offsets: FloatArray) -> ShaftCurves:
-    """Return the elastic line of a shaft on its displaced bearings, and its twist."""
+    """Return the elastic line of a shaft on its displaced bearings, and the twist of the shaft."""
     nodes = side.model.z.size
     displacement = np.array([state.displacement for state in bearings]) + offsets.reshape(2, 2)
     motion = side.motion(side.loads @ loads + side.fixed) + displacement.T @ side.model.bearing_share

@@ -1,4 +1,4 @@
-"""Former name of a bearing with the fields of a request; the next minor version removes it."""
+"""The former class of all bearings, with the fields of a request. The next minor version removes this class."""
 
 from typing import Literal
 
@@ -18,7 +18,7 @@ from solvers.quantity import described, record
 
 @record
 class ShaftBearing:
-    """Former bearing of any type, now `JournalBearing`, `LinearBearing` or `RigidBearing`."""
+    """Former class of bearings of any type, replaced by `JournalBearing`, `LinearBearing` and `RigidBearing`."""
 
     position: float = described("Position along the Z of the unit [m].")
     type: Literal["journal", "linear", "rigid"] = described("Type of the bearing.", default="journal")
@@ -48,7 +48,7 @@ class ShaftBearing:
         Parameters
         ----------
         oil : OilSheet, Lubricant or None
-            Oil of the gears, in which a bearing without a viscosity of its own runs.
+            Oil of the gears. A plain bearing whose viscosity is not given runs in this oil.
         oil_temperature : float
             Temperature of the gears' oil [K].
 
@@ -60,8 +60,8 @@ class ShaftBearing:
         Raises
         ------
         InvalidInput
-            `no_oil` if a plain bearing has neither a viscosity nor an oil, `bearing_data` if data of its type are
-            missing.
+            `no_oil` if a plain bearing has neither a viscosity nor an oil, `bearing_data` if data
+            that the type of the bearing requires are missing.
         """
         if self.type == "rigid":
             return RigidBearing(self.position, offset=self.offset)
@@ -75,7 +75,10 @@ class ShaftBearing:
         viscosity = self.viscosity
         if viscosity is None:
             if oil is None:
-                message = "a plain bearing needs a viscosity if the gears have no oil; give the viscosity or the oil"
+                message = (
+                    "a plain bearing needs a viscosity if the gears have no oil; give the viscosity of the bearing or "
+                    "the oil of the gears"
+                )
                 raise InvalidInput("no_oil", message, "viscosity")
             viscosity = gear_oil_viscosity(oil, oil_temperature, self.film_temperature)
         return JournalBearing(

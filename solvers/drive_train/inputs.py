@@ -1,7 +1,7 @@
 """Inputs of a single-stage gear unit with its shafts, bearings and couplings; SI units, angles in radians.
 
-The Z axis runs along the pinion's axis, X and Y are normal to it. Positions along Z count from any datum, which is the
-same for both shafts. "Pinion" is the driving gear.
+The Z axis runs along the pinion's axis; X and Y are normal to Z. Positions along Z are measured from an arbitrary
+datum, which is the same for both shafts. "Pinion" is the driving gear.
 """
 
 from dataclasses import field
@@ -23,8 +23,8 @@ CouplingFriction = Literal["elastic_plastic", "sliding"]
 ShaftName = Literal["pinion", "wheel"]
 State = Literal["hot", "cold"]
 ASSUMED_RESPONSE = 0.5  # chosen within the range of published values, 0.2 to 1
-FILM_ABOVE_OIL = 15.0  # K
-COINCIDENT = 1e-9  # m; nearer positions are the same
+FILM_ABOVE_OIL = 15.0  # K; assumed temperature of a bearing film above that of the oil
+COINCIDENT = 1e-9  # m; positions that are closer together count as the same
 
 
 @record
@@ -61,7 +61,7 @@ def torsion_diameter(gears: GearPairInputs, teeth: GearTeeth) -> float:
 
 @record
 class RadialBearing:
-    """Position and offset, which every radial bearing of a shaft has."""
+    """The fields that all radial bearings have: position of the bearing and offset of the bore."""
 
     position: float = quantity(
         "bearing position", "z_B", unit="mm", ge=-20000, le=20000, tolerance=0.1, text="along the unit's Z"
@@ -124,7 +124,7 @@ class JournalBearing(RadialBearing):
 
 @record
 class LinearBearing(RadialBearing):
-    """A bearing given by its stiffness, a matrix ((xx, xy), (yx, yy)) that is symmetric or not."""
+    """A bearing with a given stiffness matrix ((xx, xy), (yx, yy)), which need not be symmetric."""
 
     stiffness: tuple[Vector2, Vector2] = quantity(
         "bearing stiffness",
@@ -156,7 +156,7 @@ def gear_oil_viscosity(oil: OilSheet | Lubricant, oil_temperature: float, film_t
     oil_temperature : float
         Temperature of the gears' oil [K].
     film_temperature : float or None
-        Temperature of the film; None: 15 K above the temperature of the oil [K].
+        Temperature of the film; if None, the film is 15 K warmer than the oil [K].
 
     Returns
     -------
@@ -211,13 +211,13 @@ class Shaft:
 
     @property
     def end(self) -> float:
-        """Position of the far end [m]."""
+        """Position of the end with the highest Z [m]."""
         return self.start + sum(section.length for section in self.sections)
 
 
 @record
 class Alignment:
-    """Heights of the unit's and the machine's shaft above their feet, and the temperature rises of their supports."""
+    """Heights of the shafts of unit and machine above their feet, and temperature rises of the supports of both."""
 
     unit_height: float | None = quantity(
         "height of the unit's shaft",
@@ -274,7 +274,7 @@ class Alignment:
 
     @property
     def growth(self) -> float:
-        """Rise of the machine's shaft relative to the unit's as both warm up [m]."""
+        """Rise of the machine's shaft relative to the unit's shaft while both warm up [m]."""
         unit, machine = (
             (height or 0.0) * (rise or 0.0)
             for height, rise in ((self.unit_height, self.unit_rise), (self.machine_height, self.machine_rise))
@@ -375,10 +375,10 @@ class Arrangement:
 class Heat:
     """Tooth temperatures without the pumping heat, and how strongly the metal follows the temperature rise of the gas.
 
-    If `wall_response` is None, 0.5 is assumed and a warning says so. If `wall_response_wheel` is None, it is the
-    pinion's times z1/z2, because a wheel tooth meets the hot gas once per turn of the wheel. If the tooth temperatures
-    already include the pumping heat, only the deviation of the gas's temperature rise from its mean over the face
-    counts.
+    If `wall_response` is None, 0.5 is assumed and a warning says so. If `wall_response_wheel` is None, the response of
+    the wheel is the response of the pinion times z1/z2, because a wheel tooth meets the hot gas once per turn of the
+    wheel. If the tooth temperatures already include the pumping heat, only the difference between the temperature rise
+    of the gas and the mean of this rise over the face counts.
     """
 
     wall_response: float | None = quantity(
@@ -451,7 +451,7 @@ class Heat:
         Returns
         -------
         tuple of float
-            Rise of the metal over the rise of the gas, of pinion and wheel [-].
+            Temperature rise of the metal divided by the temperature rise of the gas, for pinion and wheel [-].
         """
         pinion = ASSUMED_RESPONSE if self.wall_response is None else self.wall_response
         return pinion, pinion * speed_ratio if self.wall_response_wheel is None else self.wall_response_wheel
@@ -459,7 +459,7 @@ class Heat:
 
 @record
 class Effects:
-    """The effects that the model takes into account; couplings act only if the shafts do."""
+    """The effects that the model takes into account; couplings act only if `shafts` is on."""
 
     shafts: bool = quantity(
         "shafts", default=True, text="whether shafts and bearings yield; without, couplings neither"
@@ -470,11 +470,12 @@ class Effects:
 
 @record
 class DriveTrainInputs:
-    """A gear unit: its mesh, the gas that its teeth pump, shafts, couplings, heat.
+    """A gear unit: the mesh, the gas that the teeth pump, shafts, couplings and heat.
 
     The mesh and the pumped spaces describe the same gear pair; only the tip radius of the rack may differ. The load
-    factors of the mesh raise the load of its contacts only. A thrust collar on the pinion replaces the pinion's thrust
-    bearing. The result describes the hot unit; if `states` contains "cold", it also contains the cold unit.
+    factors of the mesh raise only the load of the contacts, not the load of the shafts. A thrust collar on the pinion
+    replaces the pinion's thrust bearing. The result describes the hot unit; if `states` contains "cold", the result
+    also contains the cold unit.
     """
 
     mesh: ScuffingInputs

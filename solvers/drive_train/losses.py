@@ -20,8 +20,9 @@ def train_losses(
 ) -> TrainLosses:
     """Return the losses of all parts of the unit [W].
 
-    `mesh` and `pumping` [W] are the results of these models. A heat balance adds the other losses and replaces that of
-    the mesh. Without a loss of the mesh there is no total; if the total exceeds the power, there is no efficiency.
+    `mesh` and `pumping` [W] are the losses by the models of the mesh and of pumping. A heat balance adds other losses
+    and replaces the loss of the mesh. If the loss of the mesh is not known, there is no total. If the total exceeds the
+    power, there is no efficiency.
     """
     bearings = sum(bearing.friction_power for shaft in shafts for bearing in shaft.bearings)
     coupling = sum(result.friction_power for result in couplings)
@@ -54,7 +55,7 @@ def force_balance(unit: Unit, equilibrium: Equilibrium, torques: tuple[float, fl
 
 
 def _sums(side: ShaftPorts, loads: FloatArray, reactions: list[FloatArray]) -> tuple[FloatArray, FloatArray]:
-    """Sum the nodal loads and the reactions of the bearings: forces, and moments about Z = 0, in both planes."""
+    """Return the sum of all forces on a shaft, and the sum of all moments about Z = 0, in both planes."""
     nodal = side.loads @ loads + side.fixed
     nodes = side.model.z.size
     sums = nodal[:, :nodes].sum(axis=1) + sum(reactions)

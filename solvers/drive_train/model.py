@@ -1,4 +1,4 @@
-"""The drive train: the gap over the face at which couplings, shafts, bearings, heat and mesh are in equilibrium."""
+"""Results of a drive train at the gap over the face at which couplings, shafts, bearings and mesh are in balance."""
 
 from dataclasses import replace
 from functools import partial
@@ -32,17 +32,17 @@ def solve(inputs: DriveTrainInputs, start: FloatArray | None = None) -> DriveTra
     inputs : DriveTrainInputs
         The unit.
     start : FloatArray of shape (stations,), optional
-        The shafts' gap of a similar unit, from which the iteration starts [m].
+        Gap by the shafts of a similar unit; the iteration starts from this gap [m].
 
     Returns
     -------
     DriveTrainResult
-        The unit at the gap on which mesh, shafts, bearings and couplings agree.
+        Results at the gap at which mesh, shafts, bearings and couplings are in equilibrium.
 
     Raises
     ------
     InvalidInput
-        The codes of `check_inputs`, of the models of mesh, pumping and couplings, and of the heat balance.
+        The errors of `check_inputs`, of the models of mesh, pumping and couplings, and of the heat balance.
     NoSolution
         `drive_train`, `load_balance`, `journal`, `heat_balance` or `thermal_runaway`.
     """
@@ -98,7 +98,7 @@ def solve(inputs: DriveTrainInputs, start: FloatArray | None = None) -> DriveTra
 
 
 def face_load(spread: LoadDistribution) -> FaceLoad:
-    """Return how the load spreads over the face."""
+    """Return the largest values of the load over the face, and the face load factor."""
     loaded = spread.load.face_load_factor is not None
     shares = np.trapezoid(spread.flank.line_load, axis=0)
     return FaceLoad(

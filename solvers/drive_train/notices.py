@@ -20,15 +20,15 @@ from solvers.notices import Notice
 from solvers.pumping.notices import thin_air
 from solvers.scuffing.notices import unusual_modifications, unusual_temperatures
 
-SHORT_BEARING = 0.7  # width over diameter
-ROUNDING = 1e-9  # relative, of lengths converted from other units
-THIN_FILM = 15e-6  # m
-LARGE_ECCENTRICITY = 0.9  # customary limit of design: the film is a tenth of the clearance
-LIFTED = 0.9  # contact fraction
+SHORT_BEARING = 0.7  # largest ratio of width to diameter
+ROUNDING = 1e-9  # relative rounding error of lengths that were converted from other units
+THIN_FILM = 15e-6  # m; thinner films give a warning
+LARGE_ECCENTRICITY = 0.9  # customary design limit, at which the thinnest film is a tenth of the clearance
+LIFTED = 0.9  # contact fraction below which flanks count as lifted off
 
 
 def shaft_notices(inputs: DriveTrainInputs, shafts: tuple[ShaftResult, ShaftResult]) -> Iterator[Notice]:
-    """Warn of films out of range, of thrust that may reverse or is too high, and of long overhangs."""
+    """Warn of thin films, bearing losses left out, thrust that may reverse or is too high, and long overhangs."""
     for shaft, result, name in zip(inputs.shafts, shafts, NAMES, strict=True):
         for k, (bearing, state) in enumerate(zip(shaft.bearings, result.bearings, strict=True)):
             field = f"{name}.bearings.{k}"
@@ -36,21 +36,25 @@ def shaft_notices(inputs: DriveTrainInputs, shafts: tuple[ShaftResult, ShaftResu
                 yield from _film_notices(bearing, state.eccentricity_ratio, state.min_film, field)
         if not all(isinstance(bearing, JournalBearing) for bearing in shaft.bearings):
             message = (
-                "only plain bearings have a known loss; total loss and efficiency do not contain that of other bearings"
+                "the loss is known only for plain bearings; total loss and efficiency do not include the losses of the "
+                "other bearings"
             )
             yield Notice("bearing_loss_left_out", message, f"{name}.bearings", rank="note")
         thrust = result.thrust
         if thrust.reverses:
-            message = f"the coupling's friction can reverse the thrust: {thrust.lower:.0f} to {thrust.upper:.0f} N"
+            message = (
+                f"the friction of the coupling can reverse the thrust, which ranges from {thrust.lower:.0f} to "
+                f"{thrust.upper:.0f} N"
+            )
             yield Notice("thrust_reversal", message, f"{name}.ultimate_thrust")
         if thrust.use is not None and thrust.use > 1.0:
-            message = f"the thrust bearing is loaded to {thrust.use:.2f} times half its ultimate rating"
+            message = f"the load of the thrust bearing is {thrust.use:.2f} times half its ultimate rating"
             yield Notice("thrust_overload", message, f"{name}.ultimate_thrust")
     for k, coupling in enumerate(inputs.couplings):
         shaft = inputs.shafts[0 if coupling.shaft == "pinion" else 1]
         places = [bearing.position for bearing in shaft.bearings]
         if min(abs(coupling.position - place) for place in places) > max(places) - min(places):
-            message = "the hub overhangs its bearing by more than the bearings' distance"
+            message = "the hub overhangs the nearest bearing by more than the distance between the bearings"
             yield Notice("long_overhang", message, f"couplings.{k}.position", rank="note")
 
 
@@ -59,23 +63,28 @@ def _film_notices(
 ) -> Iterator[Notice]:
     if bearing.width > SHORT_BEARING * bearing.diameter * (1 + ROUNDING):
         ratio = bearing.width / bearing.diameter
-        message = f"width over diameter is {ratio:.2f}; beyond 0.7 the short bearing's film is too stiff"
+        message = (
+            f"the ratio of width to diameter is {ratio:.2f}; above 0.7 the theory of the short bearing makes the film "
+            "too stiff"
+        )
         yield Notice("short_bearing_range", message, f"{field}.width")
     if film is not None and eccentricity is not None and (film < THIN_FILM or eccentricity > LARGE_ECCENTRICITY):
-        message = f"the film is {film * 1e6:.1f} um thin at eccentricity ratio {eccentricity:.2f}"
+        message = (
+            f"the film of the bearing is only {film * 1e6:.1f} um thick at an eccentricity ratio of {eccentricity:.2f}"
+        )
         yield Notice("thin_film", message, f"{field}.radial_clearance")
 
 
 def load_notices(inputs: DriveTrainInputs, load: FaceLoad) -> Iterator[Notice]:
-    """Warn of load at an end of the face, of flanks that lift off, and of an assumed wall response."""
+    """Warn if the load is largest at an end of the face, if flanks lift off, or if the wall response is assumed."""
     if load.face_load_at in {0.0, 1.0}:
         message = f"the load is largest at the end y/b = {load.face_load_at:.0f} of the face"
         yield Notice("edge_load", message, "mesh.distribution.modifications.helix_slope")
     if load.contact_fraction < LIFTED:
-        message = f"only {load.contact_fraction:.2f} of the contact length is loaded"
+        message = f"only a share of {load.contact_fraction:.2f} of the contact length carries load"
         yield Notice("lift_off", message, "mesh.distribution.modifications")
     if inputs.effects.thermal and inputs.heat.wall_response is None:
-        message = "the wall response is assumed (0.5); only measurements give it, between 0.2 and 1"
+        message = "the wall response is assumed to be 0.5; it lies between 0.2 and 1 and can only be measured"
         yield Notice("wall_response_assumed", message, "heat.wall_response", rank="note")
 
 
@@ -84,8 +93,8 @@ def loss_notices(inputs: DriveTrainInputs, losses: TrainLosses) -> Iterator[Noti
     power = inputs.mesh.distribution.load.transmitted_power
     if losses.total is not None and 0.0 < power <= losses.total:
         message = (
-            f"the losses of {losses.total / 1e3:.4g} kW exceed the power of {power / 1e3:.4g} kW: there is no "
-            "efficiency, the driven machine has to help"
+            f"the losses of {losses.total / 1e3:.4g} kW exceed the power of {power / 1e3:.4g} kW. There is no "
+            "efficiency, because the driven machine has to supply power as well"
         )
         yield Notice("losses_exceed_power", message, "pinion_torque")
 
@@ -93,12 +102,19 @@ def loss_notices(inputs: DriveTrainInputs, losses: TrainLosses) -> Iterator[Noti
 def coupling_notices(
     inputs: DriveTrainInputs, couplings: tuple[CouplingResult, ...], of_model: list[tuple[Notice, ...]]
 ) -> Iterator[Notice]:
-    """Tell of hubs that stick, and pass on the warnings of the coupling model, `of_model`, each code once."""
+    """Report hubs that stick, and pass on the warnings of the coupling model.
+
+    `of_model` holds the warnings of the coupling model for each coupling. If a coupling has several warnings with the
+    same code, only one of these warnings is passed on.
+    """
     for k, (coupling, notices) in enumerate(zip(couplings, of_model, strict=True)):
         field = f"couplings.{k}"
         for name, stuck, share in zip(("unit", "machine"), coupling.stuck, coupling.friction_share, strict=True):
             if stuck and inputs.coupling_friction == "elastic_plastic":
-                message = f"the {name}'s hub sticks; its friction moment is {share:.2f} times that of full sliding"
+                message = (
+                    f"the hub on the side of the {name} sticks; "
+                    f"its friction moment is {share:.2f} times the moment of full sliding"
+                )
                 yield Notice("hub_sticks", message, f"{field}.friction", rank="note")
         for notice in {notice.code: notice for notice in notices}.values():
             code = "misalignment_limit" if notice.code == "sliding_velocity" else notice.code
@@ -107,7 +123,7 @@ def coupling_notices(
 
 
 def unusual_values(inputs: DriveTrainInputs, result: DriveTrainResult) -> Iterator[Notice]:
-    """Tell of unusual values of oils, temperatures, ambient, couplings, gears, modifications and load."""
+    """Report unusual values of oils, temperatures, ambient pressure, couplings, gears, modifications and load."""
     derived, mesh, load = result.derived, inputs.mesh.distribution, result.load
     yield from thick_oil(derived.lubricant.viscosity if derived.lubricant else None)
     for name, shaft in zip(NAMES, (derived.pinion_shaft, derived.wheel_shaft), strict=True):

@@ -1,4 +1,4 @@
-"""The main results of a drive train without the thermal film, in a fraction of the time of all results."""
+"""The main results of a drive train. They do not need the thermal film, so they take little time."""
 
 from dataclasses import dataclass, replace
 
@@ -19,8 +19,9 @@ from solvers.scuffing.thermal.temperatures import in_force
 class Outcome:
     """Main results of a unit: pressure [Pa], line load [N/m], slopes of the gap and transmission error [m].
 
-    `safety` is Blok's over the flank: it compares his contact `temperature` [profile, face] [K] with `limit` [K].
-    `shares` is the load along the face over its mean. The calculation of a similar unit can start from `gap` [m].
+    `safety` is the safety factor over the flank by Blok's method. It compares Blok's contact temperature `temperature`
+    [profile, face] [K] with the scuffing temperature `limit` [K]. `shares` is the load along the face divided by the
+    mean load. The calculation of a similar unit can start from `gap` [m].
     """
 
     face_load_factor: float | None
@@ -37,9 +38,9 @@ class Outcome:
 
 
 def outcome(inputs: DriveTrainInputs, start: FloatArray | None = None) -> Outcome:
-    """Compute the main results of a unit; the iteration starts from the gap of a similar unit, `start`, if given.
+    """Compute the main results of a unit.
 
-    Raises the errors of `model.solve`.
+    If `start` is given, the iteration starts from this gap of a similar unit [m]. Raises the errors of `model.solve`.
     """
     if asks_for_balance(inputs):
         warm = warm_unit(

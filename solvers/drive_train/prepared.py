@@ -1,4 +1,4 @@
-"""The parts of a unit, prepared for the iteration on the common gap, and that iteration."""
+"""Preparation of the parts of a unit for the iteration on their common gap, and the call of this iteration."""
 
 from dataclasses import dataclass, replace
 
@@ -13,12 +13,16 @@ from solvers.drive_train.inputs import DriveTrainInputs
 from solvers.drive_train.shafts.influence import Unit, unit
 from solvers.scuffing.model import mesh_of
 
-LEAST_POINTS = 400  # of the gap over the face; the stations are among them
+LEAST_POINTS = 400  # least number of points of the gap over the face; the stations are among these points
 
 
 @dataclass(frozen=True, slots=True)
 class Prepared:
-    """A unit before its gap is known: shafts and couplings as one system, the heated mesh, the gap by heat."""
+    """The parts of a unit whose gap is not known yet.
+
+    `unit` holds shafts, bearings and couplings as one elastic system, `mesh` holds the mesh of the heated gears, and
+    `thermal` holds the gap by heat.
+    """
 
     unit: Unit
     mesh: LoadedMesh
@@ -54,9 +58,10 @@ def prepare(inputs: DriveTrainInputs) -> Prepared:
 
 
 def settle(inputs: DriveTrainInputs, prepared: Prepared, start: FloatArray | None = None) -> Equilibrium:
-    """Find the gap on which mesh, shafts and couplings agree; the shafts do not move if their effect is switched off.
+    """Find the gap at which mesh, shafts and couplings are in equilibrium.
 
-    Raises NoSolution `drive_train`, `load_balance` or `journal`.
+    If the effect of the shafts is switched off, the gap by the shafts is zero. Raises NoSolution `drive_train`,
+    `load_balance` or `journal`.
     """
     if inputs.effects.shafts:
         return equilibrium(prepared.unit, prepared.mesh, start)

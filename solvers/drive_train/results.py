@@ -1,4 +1,7 @@
-"""Results of a drive train; SI units, read-only arrays. Vectors are (X, Y), gaps are positive where the flanks part."""
+"""Results of a drive train in SI units, with read-only arrays.
+
+Vectors are (X, Y). A gap is positive where it moves the flanks apart.
+"""
 
 from collections.abc import Callable
 
@@ -18,10 +21,11 @@ from solvers.sources import ISO_6336, OCVIRK
 
 @record
 class Parts:
-    """Slope of the shafts' gap over the face by its causes, under the load in equilibrium.
+    """Parts of the slope of the shafts' gap over the face, one for each cause, under the load in equilibrium.
 
-    Bending, torsion and tilting moment are elastic and caused by the mesh force. `films` is the yielding of all
-    bearings under all loads. Coupling, collar and weight are the elastic bending by these loads.
+    `bending`, `torsion` and `tilting_moment` are elastic deformations by the mesh force. `films` is the part of the
+    displacements in all bearings under all loads. `coupling`, `collar` and `weight` are the elastic bending by the
+    loads of the couplings, of the thrust collar and of the weight.
     """
 
     bending: float = quantity("slope by bending", "f_b", unit="um", text="of the mesh's transverse force")
@@ -44,9 +48,9 @@ class Parts:
 
 @record
 class GapCurves:
-    """Gaps and force over the face, at stations from the end that meshes first.
+    """Gaps and force at stations of the face; the first station is at the end that meshes first.
 
-    `total` is the sum of the gaps by the shafts, by heat and by the modification's lead part.
+    `total` is the sum of the gaps by the shafts, by heat and by the lead part of the modification.
     """
 
     position: FloatArray = quantity("position on the face", "y", unit="mm", text="from the end that meshes first")
@@ -66,8 +70,9 @@ class GapCurves:
 class Misalignment:
     """Slope, crown and range of the gap by shafts and heat, and the modifications that compensate both.
 
-    The recommended modifications replace the present ones and are not added to them. They are minus slope and crown of
-    the gap under a load spread evenly over the face, because a corrected flank carries such a load.
+    The recommended modifications replace the present modifications and are not added to them. They are the negative
+    slope and the negative crown of the gap under a load that is spread evenly over the face, because a corrected flank
+    carries such a load.
     """
 
     shaft_slope: float = quantity("mesh misalignment", "f_sh", unit="um", text="slope of the gap by the shafts")
@@ -95,7 +100,7 @@ class Misalignment:
 
 @record
 class FaceLoad:
-    """How the load spreads over the face, with its maxima and the peak-to-peak transmission error."""
+    """The load over the face: face load factor, largest values, and the peak-to-peak transmission error."""
 
     face_load_factor: float | None = quantity(
         "face load factor", "K_Hβ", ISO_6336, text="largest over mean load across the face"
@@ -149,9 +154,9 @@ class ShaftResult:
 
 @record
 class CouplingResult:
-    """Tilts and friction of both hubs of a coupling, and its loads on the unit's hub.
+    """Tilts and friction of both hubs of a coupling, and the loads of the coupling on the unit's hub.
 
-    Pairs are of hub A on the unit's shaft and of hub B on the machine's shaft.
+    In a pair of values, the first belongs to hub A on the unit's shaft, the second to hub B on the machine's shaft.
     """
 
     tilt: Vector2 = quantity(
@@ -182,7 +187,7 @@ class CouplingResult:
 
 @record
 class FlashPlaces:
-    """Largest flash temperatures by Blok; None if the contact reaches a base circle.
+    """Largest flash temperatures by Blok; they are None if the contact reaches a base circle.
 
     `contact_max` is the largest sum of bulk and flash temperature at one place.
     """
@@ -230,9 +235,9 @@ class TrainSafety:
 class TrainLosses:
     """Power losses of the unit, their total and the efficiency.
 
-    If the mesh's coefficient of friction is not known, its loss, the total and the efficiency are None. With a heat
-    balance, the loss of the mesh is that at the temperature of the flanks, and the total contains the losses by
-    acceleration of the oil, by windage and in other parts.
+    If the coefficient of friction of the mesh is not known, the loss of the mesh, the total and the efficiency are
+    None. With a heat balance, the loss of the mesh is calculated at the temperature of the flanks. The total then also
+    contains the losses by acceleration of the oil, by windage and in other parts.
     """
 
     coupling: float = quantity("loss of the couplings", "P_C", unit="w")
@@ -252,7 +257,10 @@ class TrainLosses:
 
 @record
 class ForceBalance:
-    """Largest unbalanced force on a shaft over F_bt, and largest unbalanced moment over F_bt b; None without load."""
+    """Largest unbalanced force on a shaft divided by F_bt, and largest unbalanced moment divided by F_bt b.
+
+    Both are None without load.
+    """
 
     force_error: float | None = quantity("unbalanced force", "ΣF/F_bt", text="largest of a shaft, over the tooth force")
     moment_error: float | None = quantity(
@@ -306,7 +314,7 @@ class FlankMaps:
 
 @record
 class States:
-    """The unit in other states; None if the state has no solution."""
+    """The unit in states other than the hot state; a state without a solution is None."""
 
     cold: "DriveTrainResult | None" = quantity("cold unit", text="as drawn, at the reference temperature")
 

@@ -1,4 +1,4 @@
-"""Scuffing over the whole flank of a unit: bulk temperature along the face, flash temperature, safety."""
+"""Scuffing over the whole flank of a unit: bulk temperature along the face, flash temperature and safety factors."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -30,7 +30,10 @@ from solvers.scuffing.thermal.verdict import hotter_surface, unknown_points
 
 @dataclass(frozen=True, slots=True)
 class FlankHeat:
-    """Blok's contact temperature over the flank [profile, face] [K], and the results at its maxima."""
+    """Blok's contact temperature over the flank [profile, face] [K], and the results at the hottest places.
+
+    `unsolved_points` is the number of points without a solution of the thermal EHL.
+    """
 
     temperature: FloatArray
     flash: FlashPlaces
@@ -41,7 +44,10 @@ class FlankHeat:
 
 
 def contact_of(inputs: DriveTrainInputs) -> ScuffingInputs:
-    """Return the mesh with its bulk temperature; the mean of the tooth temperatures if none is given nor estimated."""
+    """Return the inputs of the mesh with a bulk temperature.
+
+    If the bulk temperature is neither given nor to be calculated, it is the mean of the tooth temperatures.
+    """
     temperatures = inputs.mesh.temperatures
     if temperatures.bulk is not None or temperatures.bulk_method != "given":
         return inputs.mesh
@@ -50,14 +56,14 @@ def contact_of(inputs: DriveTrainInputs) -> ScuffingInputs:
 
 
 def flank_heat(inputs: DriveTrainInputs, mesh: LoadDistribution, flash: FlashMap, thermal: ThermalLead) -> FlankHeat:
-    """Compute Blok's temperatures on the feature line and over the flank, and thermal EHL on two lines.
+    """Compute Blok's temperatures on the feature line and over the flank, and solve the thermal EHL on two lines.
 
     Parameters
     ----------
     inputs : DriveTrainInputs
         The unit.
     mesh : LoadDistribution
-        The load distribution of its mesh.
+        Load distribution of the mesh of the unit.
     flash : FlashMap
         Blok's flash temperature over the flank.
     thermal : ThermalLead
@@ -116,10 +122,10 @@ def flank_heat(inputs: DriveTrainInputs, mesh: LoadDistribution, flash: FlashMap
 
 
 def _feature_points(inputs: DriveTrainInputs, mesh: LoadDistribution, bulk: FaceFunction) -> FloatArray:
-    """Return psi of the points on the feature line.
+    """Return the positions psi of the points on the feature line.
 
-    The points are equidistant. To them are added the places of the largest flash and of the largest contact
-    temperature by Blok; without these two the maxima would depend on the number of points.
+    The points are equidistant. Two further points are the places of the largest flash temperature and of the largest
+    contact temperature by Blok. Without these two points the maxima would depend on the number of points.
     """
     given, plane, psi = inputs.mesh.distribution, mesh.path_of_contact.plane, np.linspace(0.0, 1.0, SURVEY_POINTS)
     across = psi * plane.face_width
@@ -129,7 +135,7 @@ def _feature_points(inputs: DriveTrainInputs, mesh: LoadDistribution, bulk: Face
 
 
 def _with_line(peak: Peak | None, along: FloatArray, across: FloatArray, on_line: FloatArray) -> Peak | None:
-    """Return the higher of two peaks, over the flank and on the feature line; None if one of them is unknown."""
+    """Return the higher of the peaks over the flank and on the feature line; None if one of the two is unknown."""
     if peak is None or np.isnan(on_line).any():
         return None
     top = int(np.argmax(on_line))
@@ -146,9 +152,9 @@ def _place(mesh: LoadDistribution, peak: Peak) -> Place:
 
 
 def _bulk(inputs: DriveTrainInputs, thermal: ThermalLead, y: FloatArray) -> FloatArray:
-    """Return the bulk temperature of the contact at y [K], or NaN without one.
+    """Return the bulk temperature of the contact [K] at the positions y [m], or NaN if there is no bulk temperature.
 
-    If `local_bulk` is on, add the temperature rise by pumping, as the mean of pinion and wheel.
+    If `local_bulk` is on, add the temperature rise by pumping. This rise is the mean of pinion and wheel.
     """
     temperature = inputs.mesh.temperatures.bulk
     bulk = np.full(y.shape, np.nan if temperature is None else temperature)
@@ -179,7 +185,7 @@ def _thermal_lines(
 
 
 def _of_both_surfaces(inputs: DriveTrainInputs, bulk: FloatArray) -> FloatArray:
-    """Return the bulk temperatures of pinion and wheel, two rows [K], from their mean at points [K]."""
+    """Return the bulk temperatures of pinion and wheel in two rows [K]; `bulk` is the mean of both at points [K]."""
     surfaces, mean = inputs.mesh.temperatures.surfaces, inputs.mesh.temperatures.bulk
     assert surfaces is not None
     assert mean is not None
@@ -187,14 +193,20 @@ def _of_both_surfaces(inputs: DriveTrainInputs, bulk: FloatArray) -> FloatArray:
 
 
 def _hottest_surface(path: ThermalPath, bulk: FloatArray) -> float | None:
-    """Return the hottest flank surface [K] along a line by thermal EHL; None if an unsolved point may be hotter."""
+    """Return the temperature of the hottest flank surface on a line [K], by thermal EHL.
+
+    Return None if no point of the line is loaded, or if an unsolved point may be hotter.
+    """
     if set(path.status) == {"unloaded"} or unknown_points([path], [bulk]):
         return None
     return float(np.nanmax(hotter_surface(path, bulk)))
 
 
 def _thinnest_film(paths: Sequence[ThermalPath], bulks: Sequence[FloatArray]) -> float | None:
-    """Return the thinnest film of all lines by thermal EHL [m]; None if an unsolved point may be thinner."""
+    """Return the thinnest film on all lines [m], by thermal EHL.
+
+    Return None if no point has a film, or if the film may be thinner at an unsolved point.
+    """
     films = np.concatenate([path.minimum_film for path in paths])
     return None if np.isnan(films).all() or unknown_points(paths, bulks) else float(np.nanmin(films))
 

@@ -1,4 +1,4 @@
-"""The hot unit as described, and the cold unit on request."""
+"""Calculation of the hot unit as the inputs describe it, and of the cold unit on request."""
 
 from dataclasses import replace
 
@@ -19,13 +19,14 @@ def solve(inputs: DriveTrainInputs, start: FloatArray | None = None) -> DriveTra
     inputs : DriveTrainInputs
         The unit.
     start : FloatArray of shape (stations,), optional
-        The shafts' gap of a similar unit, from which the iteration starts [m].
+        Gap by the shafts of a similar unit; the iteration starts from this gap [m].
 
     Returns
     -------
     DriveTrainResult
-        The hot unit. Its warnings include those of the cold unit that the hot unit does not have. If the cold unit has
-        no solution, or its oil is out of range at the reference temperature, a warning says so.
+        Results of the hot unit, and of the cold unit if requested. Warnings that only the cold unit has are added to
+        the warnings of the hot unit. If the cold unit has no solution, or if the oil is out of range at the reference
+        temperature, a warning says so.
 
     Raises
     ------
@@ -49,9 +50,11 @@ def solve(inputs: DriveTrainInputs, start: FloatArray | None = None) -> DriveTra
 
 
 def cool_down(inputs: DriveTrainInputs) -> DriveTrainInputs:
-    """Return the cold unit: teeth at the reference temperature, no heat of pumping, supports without growth.
+    """Return the inputs of the cold unit.
 
-    The bulk temperature of the contact is the reference temperature too, unless it is given. There is no heat balance.
+    The teeth have the reference temperature, pumping does not heat the teeth, and the supports of the shafts do not
+    grow. The bulk temperature of the contact is the reference temperature too, unless the inputs give a bulk
+    temperature. There is no heat balance.
     """
     heat, reference = inputs.heat, inputs.heat.reference
     mesh = replace(inputs.mesh, cooling=Cooling())

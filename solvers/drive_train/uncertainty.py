@@ -10,10 +10,10 @@ from solvers.drive_train.inputs import DriveTrainInputs, JournalBearing, Shaft
 from solvers.notices import Notice
 
 MOST_CORNERS = 256  # eight uncertainties with two values each
-FRICTION = (0.05, 0.25)  # the best mixed lubrication; the coefficient behind the customary thrust 0.25 T/D
-THRUST = (0.0, 1.0)  # share of the coupling's limit
-RESPONSE = (0.3, 1.0)  # of the wall to the gas; chosen: cooled by oil, or as warm as the gas
-CLEARANCE = 0.1  # share of the clearance, up and down
+FRICTION = (0.05, 0.25)  # coefficients of the best mixed lubrication and of the customary thrust 0.25 T/D
+THRUST = (0.0, 1.0)  # thrust as a share of the friction limit of the coupling
+RESPONSE = (0.3, 1.0)  # wall response; chosen for a wall cooled by oil, and for a wall as warm as the gas
+CLEARANCE = 0.1  # relative change of the clearance, up and down
 QUARTERS: tuple[Callable[[float, float], tuple[float, float]], ...] = (
     lambda x, y: (x, y),
     lambda x, y: (-y, x),
@@ -34,10 +34,10 @@ class Range:
 def uncertain_inputs(inputs: DriveTrainInputs) -> tuple[Range, ...]:
     """Return the ranges of the uncertain inputs of a unit.
 
-    Uncertain are the wall response, the clearances of each shaft, and friction, direction of the offset and thrust of
-    the couplings. The clearances of a shaft's two bearings change by 10 % in opposite senses, because a change common
-    to both bearings does not tilt the shaft. All couplings change together: if they varied apart, two couplings would
-    need 2,048 runs.
+    These inputs are uncertain: the wall response, the bearing clearances of each shaft, and friction, direction of the
+    offset and thrust of the couplings. The clearances of a shaft's two bearings change by 10 % in opposite senses,
+    because a change common to both bearings does not tilt the shaft. All couplings change together. If they varied
+    independently, two couplings would need 2,048 runs.
     """
     ranges = (
         [Range("wall response", ("heat.wall_response",), tuple((value,) for value in RESPONSE))]
@@ -56,7 +56,7 @@ def uncertain_inputs(inputs: DriveTrainInputs) -> tuple[Range, ...]:
 
 
 def _clearances(gear: str, shaft: Shaft) -> Range:
-    """Return the clearances of a shaft: larger at the first bearing and smaller at the second, and the reverse."""
+    """Return the clearances of a shaft: larger at the first bearing and smaller at the second, and vice versa."""
     plain = [(k, bearing.clearance) for k, bearing in enumerate(shaft.bearings) if isinstance(bearing, JournalBearing)]
     return Range(
         f"{gear} clearance",
@@ -72,7 +72,7 @@ def _together(inputs: DriveTrainInputs, quantity: str, name: str, values: tuple[
 
 
 def _offsets(inputs: DriveTrainInputs) -> Range:
-    """Return the offsets of all couplings that have one, turned by quarters of a revolution."""
+    """Return the range of the coupling offsets: the offsets other than zero, turned by quarters of a revolution."""
     given = [(k, coupling.offset) for k, coupling in enumerate(inputs.acting_couplings) if any(coupling.offset)]
     names = tuple(f"couplings.{k}.offset.{axis}" for k, _ in given for axis in range(2))
     turned = ([pair for _, (x, y) in given for pair in turn(x, y)] for turn in QUARTERS)
@@ -83,6 +83,6 @@ def no_convergence(failed: int) -> Notice:
     """Return the warning about corners without a solution."""
     return Notice(
         "no_convergence_of_corner",
-        f"{failed} corners have no solution; the extremes are those of the other corners",
+        f"{failed} corners have no solution; the extreme values are those of the other corners",
         "ranges",
     )

@@ -1,8 +1,8 @@
-"""The heat balance of a unit, solved in turn with the loads of its bearings and flanks.
+"""The heat balance of a unit, solved alternately with the loads of bearings and flanks.
 
-The heat of the gear bodies deforms the flanks. The temperature of the flanks is the bulk temperature of the contact.
-The films of plain bearings in the gears' oil have the temperature of the balance. Losses and loads of the bearings
-follow.
+The temperatures of the gear bodies deform the flanks. The temperature of the flanks is the bulk temperature of the
+contact. The films of plain bearings that run in the gears' oil have the temperatures of the balance. The losses and
+loads of the bearings follow from these temperatures and enter the next balance.
 """
 
 from collections.abc import Iterator
@@ -31,16 +31,19 @@ from solvers.scuffing.thermal.flank import map_flash
 from solvers.scuffing.thermal.pair_heat import balance_inputs, with_backlash_loss
 from solvers.scuffing.thermal.temperatures import estimated_bulk, with_friction
 
-CLOSE = 0.05  # K; largest change of a temperature from one pass to the next
+CLOSE = 0.05  # K; the passes end if every temperature changes by less from one pass to the next
 MOST_PASSES = 10
 FIRST_RISE = 25.0  # K; rise of flanks, bodies and films above the oil in the first pass
 SHAFT_CONDUCTIVITY = 46.0  # W/(m K), of steel
-SHORTEST_ROD = 1e-3  # m; length of a shaft between gear and bearing
+SHORTEST_ROD = 1e-3  # m; least length of the shaft between gear and bearing
 
 
 @dataclass(frozen=True, slots=True)
 class WarmUnit:
-    """A unit at the temperatures of its balance: inputs, parts, gap, and the balance with its inputs."""
+    """A unit at the temperatures of its heat balance.
+
+    `heat` is the result of the heat balance, `balance` holds the inputs of the heat balance.
+    """
 
     inputs: DriveTrainInputs
     prepared: Prepared
@@ -50,7 +53,10 @@ class WarmUnit:
 
 
 def asks_for_balance(inputs: DriveTrainInputs) -> bool:
-    """Return True if the bulk temperature has to come from a heat balance that is not solved yet, with a known oil."""
+    """Return True if the bulk temperature has to come from a heat balance that has not been solved yet.
+
+    A heat balance needs a known oil. Without a known oil, return False.
+    """
     temperatures = inputs.mesh.temperatures
     unknown = temperatures.bulk_method == "heat_balance" and temperatures.flanks is None
     return unknown and inputs.mesh.known_oil is not None
@@ -64,12 +70,12 @@ def warm_unit(inputs: DriveTrainInputs, start: FloatArray | None = None) -> Warm
     inputs : DriveTrainInputs
         The unit with a known oil and its cooling.
     start : FloatArray, optional
-        The shafts' gap of a similar unit, from which the iteration starts [m].
+        Gap by the shafts of a similar unit; the iteration starts from this gap [m].
 
     Returns
     -------
     WarmUnit
-        The unit at the temperatures of its balance.
+        The unit at the temperatures of its heat balance.
 
     Raises
     ------
@@ -95,20 +101,20 @@ def warm_unit(inputs: DriveTrainInputs, start: FloatArray | None = None) -> Warm
             heat = with_backlash_loss(heat, prepared.mesh.prepared.path.pair)
             return WarmUnit(warm, prepared, equilibrium, heat, balance)
     message = (
-        f"temperatures and alignment of the unit do not settle: they still change by {change:.3g} K after "
-        f"{MOST_PASSES} passes; give more oil or larger bearings"
+        f"temperatures and alignment of the unit do not settle; the temperatures still change by {change:.3g} K after "
+        f"{MOST_PASSES} passes. Give more oil or larger bearings"
     )
     raise NoSolution("heat_balance", message, {"change_k": change})
 
 
 def _first_guess(inputs: DriveTrainInputs) -> DriveTrainInputs:
-    """Return the unit with the same temperature of flanks, bodies and films, from which the passes start."""
+    """Return the unit for the first pass, in which flanks, bodies and films all have the same temperature."""
     guess = inputs.mesh.temperatures.oil + FIRST_RISE
     return at_temperatures(inputs, (guess, guess), (guess, guess), [guess] * 4, None)
 
 
 def with_balance(inputs: DriveTrainInputs, heat: Heat) -> DriveTrainInputs:
-    """Return the unit with flanks, bodies, bearing films and supports at the temperatures of a balance."""
+    """Return the unit with flanks, bodies, bearing films and supports at the temperatures of a heat balance."""
     films, journals = list[float](), iter(heat.bearings)
     for bearing in _bearings(inputs):
         films.append(next(journals).film if isinstance(bearing, JournalBearing) else np.nan)
@@ -144,8 +150,8 @@ def at_temperatures(
     Returns
     -------
     DriveTrainInputs
-        The unit with these bulk temperatures, the viscosities in bearings that run in the gears' oil, and the
-        temperature rise of the supports.
+        The unit at these temperatures. Bearings that run in the gears' oil have the viscosities at their film
+        temperatures, and the supports of the unit have the temperature rise of the casing.
     """
     mesh = inputs.mesh
     return replace(
@@ -159,7 +165,7 @@ def at_temperatures(
 
 
 def _with_films(mesh: ScuffingInputs, shaft: Shaft, films: list[float]) -> Shaft:
-    """Return the shaft with the oil's viscosity at the film temperatures, in bearings that run in the gears' oil."""
+    """Return the shaft. Bearings in the gears' oil have the viscosity of this oil at their film temperatures."""
     assert mesh.known_oil is not None
     oil = heat_balance.cooling_oil(mesh.known_oil, mesh.temperatures.oil)
     bearings = tuple(
@@ -172,7 +178,7 @@ def _with_films(mesh: ScuffingInputs, shaft: Shaft, films: list[float]) -> Shaft
 
 
 def _with_rise(coupling: UnitCoupling, casing: float | None, reference: float) -> UnitCoupling:
-    """Return the coupling with the temperature rise of the casing for the unit's supports, unless that is given."""
+    """Return the coupling. The unit's supports have the temperature rise of the casing, unless their rise is given."""
     alignment = coupling.alignment
     if casing is None or alignment is None or alignment.unit_rise is not None:
         return coupling
@@ -227,7 +233,7 @@ def _journals(system: Unit, equilibrium: Equilibrium, face: tuple[float, float])
 def _operate(bearing: JournalBearing, load: float, speed: float, viscosity: float) -> tuple[float, float]:
     """Return friction power [W] and eccentricity ratio of a bearing.
 
-    `viscosity` [Pa s] is that of the gears' oil; a bearing that does not run in this oil keeps its own viscosity.
+    `viscosity` [Pa s] is the viscosity of the gears' oil. A bearing in another oil keeps its own viscosity.
     """
     film = replace(bearing, viscosity=viscosity) if bearing.in_gear_oil else bearing
     return friction_and_eccentricity(film, load, speed)
@@ -264,7 +270,7 @@ def _radii_beside(shaft: Shaft, face: tuple[float, float]) -> tuple[float, float
 
 
 def _temperatures(heat: Heat) -> FloatArray:
-    """Return all temperatures of a balance [K]."""
+    """Return all temperatures of a heat balance [K]."""
     casing = [] if heat.casing is None else [heat.casing]
     films = [bearing.film for bearing in heat.bearings]
     gears = [heat.pinion.flank, heat.pinion.body, heat.wheel.flank, heat.wheel.body, heat.mist]
@@ -272,9 +278,9 @@ def _temperatures(heat: Heat) -> FloatArray:
 
 
 def with_safety_band(inputs: DriveTrainInputs, heat: Heat, safety: TrainSafety | None) -> Heat:
-    """Return the balance with the safety factors at both ends of its band.
+    """Return the heat balance with the safety factors at both ends of its uncertainty band.
 
-    The band changes only the bulk temperature; the flash temperature stays.
+    Only the bulk temperature varies within the band; the flash temperature stays the same.
     """
     temperatures = inputs.mesh.temperatures
     if heat.band is None or safety is None or not safety.minimum or temperatures.scuffing is None:

@@ -1,4 +1,4 @@
-"""The warm-up of a unit: the heat balance over time, and the alignment of its flanks at five times."""
+"""The warm-up of a unit: the heat balance over time, and the alignment of the flanks at five points in time."""
 
 from collections.abc import Iterator
 from dataclasses import replace
@@ -61,7 +61,7 @@ class WarmUpInputs:
 
 @record
 class AlignmentOverTime:
-    """Load and safety at five times of the warm-up, at the temperatures of these times."""
+    """Load and safety at five points in time of the warm-up, calculated with the temperatures at these points."""
 
     time: FloatArray = quantity("times of the alignment", "t", unit="s")
     face_load_factor: FloatArray = quantity("face load factor over time", "K_Hβ", ISO_6336, axis="time", gaps=True)
@@ -77,7 +77,7 @@ class AlignmentOverTime:
 
 @record(kw_only=True)
 class UnitWarmUp:
-    """A warm-up: temperatures, the alignment at five times, its worst values, and the balance at the end."""
+    """A warm-up: temperatures, alignment at five points in time, worst values, and the heat balance at the end."""
 
     warm_up: WarmUp = quantity("warm-up")
     least_safety: float | None = quantity(
@@ -110,26 +110,32 @@ def solve(inputs: WarmUpInputs) -> UnitWarmUp:
     Returns
     -------
     UnitWarmUp
-        Temperatures over time [K], load and safety at five times, the least backlash [m].
+        Temperatures over time [K], load and safety at five points in time, and the least backlash [m].
 
     Raises
     ------
     InvalidInput
-        `not_asked` without a heat balance, `missing_mass` if the casing has no mass; the errors of `warm_unit`.
+        `not_asked` if the unit has no heat balance, `missing_mass` if the casing has no mass, and the errors of
+        `warm_unit`.
     NoSolution
         `warm_up` if the integration fails; the errors of `warm_unit`.
 
     Notes
     -----
-    The losses are those of the warm unit; during the warm-up only the viscosity changes them (Eq. H24).
+    The losses are those of the warm unit, except that they follow the viscosity during the warm-up (Eq. H24).
     """
     unit = inputs.unit
     if not asks_for_balance(unit):
-        message = "a warm-up needs the heat balance: jets of a known oil, and a bulk temperature that is not given"
+        message = (
+            "a warm-up needs the heat balance; cool the gears by jets of a known oil, and do not give a bulk "
+            "temperature"
+        )
         raise InvalidInput("not_asked", message, "temperatures.bulk_method")
     walls = unit.mesh.cooling.casing
     if walls.area and walls.mass is None:
-        raise InvalidInput("missing_mass", "a casing that warms up needs its mass", "cooling.casing.mass")
+        raise InvalidInput(
+            "missing_mass", "a casing that warms up needs a mass; give the mass of the casing", "cooling.casing.mass"
+        )
     warm = warm_unit(unit)
     balance = warm.balance
     network = heat_balance.calibrated(heat_balance.network_of(balance), balance.cooling)
@@ -156,12 +162,12 @@ def solve(inputs: WarmUpInputs) -> UnitWarmUp:
 
 
 def unusual_values(inputs: WarmUpInputs, _: UnitWarmUp) -> Iterator[Notice]:
-    """Tell of an unusual temperature of the oil."""
+    """Warn of an unusual temperature of the oil."""
     yield from oil_temperature(inputs.unit.mesh.temperatures.oil)
 
 
 def _derived(warm: WarmUnit) -> Derived:
-    """Return the values that the inputs left open, as the warm unit uses them."""
+    """Return the values that the warm unit uses for inputs that were left open."""
     spread = distribution(warm.inputs.mesh.distribution, warm.prepared.mesh.prepared, warm.equilibrium.balance)
     contact, spread, *_ = in_force(contact_of(warm.inputs), spread)
     return derived(replace(warm.inputs, mesh=contact), spread, warm.heat)
@@ -194,8 +200,8 @@ def _capacities(unit: DriveTrainInputs, warm: WarmUnit) -> Capacities:
 def _rotor(shaft: Shaft, material: Solid, solid: float, reference: float) -> float:
     """Return the heat capacity of a rotor [J/K].
 
-    Sections at least as thick as `solid` [m] carry the teeth. Teeth and tooth spaces together have the capacity of a
-    cylinder with the `reference` diameter [m].
+    A section whose outer diameter is at least `solid` [m] carries the teeth. Such a section counts as a cylinder with
+    at least the diameter `reference` [m]. This cylinder has the heat capacity of the toothed section.
     """
     sections = tuple(
         (
@@ -209,10 +215,11 @@ def _rotor(shaft: Shaft, material: Solid, solid: float, reference: float) -> flo
 
 
 def _times(course: WarmUp) -> FloatArray:
-    """Return the five times of the alignment.
+    """Return the five points in time of the alignment.
 
-    These are the start, the end, the time of the greatest temperature difference between the gear bodies, and one time
-    before and one after it. Without such a time they are equidistant.
+    They are the start, the end, the time of the greatest temperature difference between the gear bodies, one time
+    before this greatest difference and one time after it. If the difference is greatest at the start or at the end, the
+    five points are equidistant.
     """
     end = float(course.curves.time[-1])
     greatest = course.greatest_difference_at
@@ -222,7 +229,7 @@ def _times(course: WarmUp) -> FloatArray:
 
 
 def _outcome_at(unit: DriveTrainInputs, network: Network, course: WarmUp, time: float) -> Outcome:
-    """Solve the alignment of the unit at the temperatures of a time [s]."""
+    """Solve the alignment of the unit with the temperatures at a time [s]."""
     curves = course.curves
     now = np.array([np.interp(time, curves.time, curve) for curve in curves.temperature.T])
     outlets = iter(now[MIST + 1 :])
@@ -248,7 +255,7 @@ def _least_backlash(unit: DriveTrainInputs, warm: WarmUnit, course: WarmUp) -> f
     unit : DriveTrainInputs
         The unit.
     warm : WarmUnit
-        The unit at the temperatures of its balance.
+        The unit at the temperatures of its heat balance.
     course : WarmUp
         Temperatures over time [K].
 

@@ -31,10 +31,13 @@ def check_teeth(gear: Gear, name: str) -> None:
         `no_involute` or `pointed_tooth`.
     """
     if gear.root_radius <= 0.0 or gear.tip_radius <= gear.base_radius:
-        message = f"the {name}'s teeth have no involute above the base circle"
+        message = (
+            f"the teeth of the {name} have no involute above the base circle; increase the profile shift or the number "
+            "of teeth"
+        )
         raise InvalidInput("no_involute", message, f"{name}.profile_shift")
     if gear.tip_thickness <= 0.0:
-        message = f"the {name}'s teeth are pointed; reduce its addendum or profile shift"
+        message = f"the teeth of the {name} are pointed; reduce the addendum or the profile shift of the {name}"
         raise InvalidInput("pointed_tooth", message, f"{name}.addendum")
 
 
@@ -47,7 +50,11 @@ def check_working_involute(value: float) -> None:
         `flank_interference`.
     """
     if value <= 0.0:
-        raise InvalidInput("flank_interference", "the sum of profile shifts is too negative to mesh", "profile_shift")
+        raise InvalidInput(
+            "flank_interference",
+            "the sum of the profile shifts is so negative that the gears cannot mesh; increase the profile shifts",
+            "profile_shift",
+        )
 
 
 def centre_distance_in_use(given: float | None, backlash_free: float) -> float:
@@ -61,7 +68,10 @@ def centre_distance_in_use(given: float | None, backlash_free: float) -> float:
     if given is None:
         return backlash_free
     if given < backlash_free * (1.0 - PRINTED):
-        message = f"the centre distance is below the backlash-free value of {backlash_free * 1e3:.4f} mm"
+        message = (
+            f"the centre distance is below the value without backlash, {backlash_free * 1e3:.4f} mm; increase the "
+            "centre distance or reduce the profile shifts"
+        )
         raise InvalidInput("flank_interference", message, "centre_distance")
     return max(given, backlash_free)
 
@@ -81,7 +91,8 @@ def check_tips(pinion: Gear, wheel: Gear, centre_distance: float) -> None:
         if clearance <= 0.0:
             raise InvalidInput(
                 "no_tip_clearance",
-                f"the mate's tip reaches {-clearance * 1e3:.4f} mm into the {name}'s root; enlarge the centre distance",
+                f"the tip of the mating gear reaches {-clearance * 1e3:.4f} mm into the root of the {name}; increase "
+                f"the centre distance or the dedendum of the {name}",
                 f"{name}.dedendum",
             )
 
@@ -95,7 +106,7 @@ def check_usable_flank(gear: Gear, name: str) -> None:
         `form_diameter`.
     """
     if gear.usable_roll_length >= gear.tip_roll_length:
-        message = f"the {name}'s fillet reaches its tip; no involute is left"
+        message = f"the fillet of the {name} reaches the tip, so that no involute is left; increase the profile shift"
         raise InvalidInput("form_diameter", message, f"{name}.profile_shift")
 
 
@@ -110,7 +121,13 @@ def check_path(tip_start: float, tip_end: float, start: float, end: float) -> No
         `no_contact` or `involute_interference`.
     """
     if tip_end <= tip_start:
-        raise InvalidInput("no_contact", "the tips do not reach the line of action", "centre_distance")
+        raise InvalidInput(
+            "no_contact",
+            "the tips of the teeth do not reach the line of action; reduce the centre distance",
+            "centre_distance",
+        )
     if end <= start:
-        message = "the tips meet fillets only; no path of contact is left"
+        message = (
+            "the tips of the teeth meet only fillets, so that no path of contact is left; change the profile shifts"
+        )
         raise InvalidInput("involute_interference", message, "profile_shift")

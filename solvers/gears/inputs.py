@@ -97,7 +97,10 @@ class GearPairInputs:
         le=45,
         tolerance=0.05,
         text="helix angle at the reference circle; the hand does not matter",
-        if_negative="give the amount; the hand matters in the drive train only and is `gears.hand` there",
+        if_negative=(
+            "give the angle without a sign; the hand of the helix matters only in the drive train and is `gears.hand` "
+            "there"
+        ),
     )
     face_width: float = quantity(
         "face width", "b", ISO_21771, unit="mm", ge=0.01, le=5000, tolerance=0.1, text="common face width"
@@ -152,9 +155,9 @@ class GearPairInputs:
         declared = quantities(GearTeeth)["addendum"].bounds
         if not declared["ge"] <= addendum <= declared["le"]:
             message = (
-                f"a tip diameter of {teeth.tip_diameter * 1e3:.6g} mm makes an addendum coefficient of {addendum:.4g}; "
-                f"permissible {declared['ge']:g} to {declared['le']:g}: check the tip diameter, the module and the "
-                "profile shift"
+                f"a tip diameter of {teeth.tip_diameter * 1e3:.6g} mm corresponds to an addendum coefficient of "
+                f"{addendum:.4g}, but permissible are {declared['ge']:g} to {declared['le']:g}; check the tip "
+                "diameter, the module and the profile shift"
             )
             raise InvalidInput("tip_diameter", message, f"{name}.tip_diameter")
         return addendum

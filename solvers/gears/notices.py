@@ -27,14 +27,16 @@ def pair_notices(path: PathOfContact) -> list[Notice]:
     ):
         used = rack_tip_radius(inputs, teeth)
         if used < inputs.rack_tip_radius:
-            message = f"the {name}'s rack has room for a tip radius of {used:.3f} modules only; this radius is used"
+            message = (
+                f"the rack of the {name} has room for a tip radius of only {used:.3f} modules; this radius is used"
+            )
             notices.append(Notice("rack_tip_radius", message, "rack_tip_radius", rank="note"))
         notices += _tooth_notices(gear, inputs.normal_module, name)
     notices += [
         Notice(
             "path_shortened",
-            f"the tip of the mate reaches below the usable involute of the {name}; the path of contact starts at "
-            "this involute",
+            f"the tip of the mating gear reaches below the usable involute of the {name}; the path of contact starts "
+            "at the lower end of this involute",
             f"{name}.dedendum",
             rank="note",
         )
@@ -47,14 +49,14 @@ def _tooth_notices(gear: Gear, module: float, name: str) -> list[Notice]:
     notices = []
     if gear.undercut:
         message = (
-            f"the {name} is undercut; its involute is computed from the base circle up, so that near the base circle "
-            "there is less contact than computed"
+            f"the {name} is undercut, but its involute is computed down to the base circle; the real contact near the "
+            "base circle is smaller than computed"
         )
         notices.append(Notice("undercut", message, f"{name}.profile_shift"))
     if gear.tip_thickness < THIN_TIP * module:
         message = (
-            f"the {name}'s tip is {gear.tip_thickness / module:.2f} modules thick; at least {THIN_TIP:g} is usual, 0.4 "
-            "case-hardened"
+            f"the tips of the {name} are {gear.tip_thickness / module:.2f} modules thick; at least {THIN_TIP:g} "
+            "modules are usual, and 0.4 modules for case-hardened teeth"
         )
         notices.append(Notice("thin_tip", message, f"{name}.addendum"))
     return notices
@@ -64,13 +66,20 @@ def unusual_gears(pair: GearPairInputs, pinion_speed: float | None = None) -> It
     """Warn of an unusual face width, and of an unusual pitch-line velocity at this speed of the pinion [rad/s]."""
     diameter, width = pitch_diameter(pair), pair.face_width
     if width > WIDEST_FACE * diameter:
-        message = f"{width * 1e3:g} mm is beyond {WIDEST_FACE:g} pitch diameters of the pinion; was cm meant?"
+        message = (
+            f"the face width of {width * 1e3:g} mm exceeds {WIDEST_FACE:g} pitch diameters of the pinion; was a value "
+            "entered in the wrong unit (cm)?"
+        )
         yield unusual_value("gears.face_width", message)
     if width < NARROWEST_FACE * pair.module:
-        yield unusual_value("gears.face_width", f"{width * 1e3:g} mm is below half a module; were cm or inches meant?")
+        yield unusual_value(
+            "gears.face_width",
+            f"the face width of {width * 1e3:g} mm is less than half a module; was a value entered in the wrong unit "
+            "(cm or inches)?",
+        )
     if pinion_speed is not None and (velocity := pinion_speed * diameter / 2) > FASTEST:
-        message = f"the pitch-line velocity is {velocity:.4g} m/s, beyond {FASTEST:g}"
-        message += "; is it the speed of another shaft?"
+        message = f"the pitch-line velocity of {velocity:.4g} m/s exceeds {FASTEST:g} m/s"
+        message += "; was the speed of another shaft entered?"
         yield unusual_value("pinion_speed", message)
 
 
@@ -78,11 +87,14 @@ def tooth_load(pair: GearPairInputs, torque: float, line_load: float) -> Iterato
     """Warn of a torque of the pinion [N m] or a largest line load [N/m] that is unusual for the teeth."""
     root = 2 * torque / pitch_diameter(pair) / (pair.face_width * pair.module)
     if root > HIGHEST_ROOT_LOAD:
-        message = f"the tooth force of {root / 1e6:.4g} N per mm of face and module breaks a tooth of steel"
-        message += "; were W or N mm meant?"
+        message = f"the tooth force of {root / 1e6:.4g} N per mm of face width and mm of module breaks a steel tooth"
+        message += "; was a value entered in the wrong unit (W or N mm)?"
         yield unusual_value("pinion_torque", message)
     if 0.0 < line_load < LEAST_LOAD:
-        message = f"the line load is {line_load / 1e3:.3g} N/mm at most; were kW or kN m meant?"
+        message = (
+            f"the largest line load is only {line_load / 1e3:.3g} N/mm, which is implausible; was a value entered in "
+            "the wrong unit (kW or kN m)?"
+        )
         yield unusual_value("pinion_torque", message)
 
 

@@ -76,7 +76,10 @@ def with_drain(network: Network, drain: float) -> Network:
     """
     wanted = drain - network.oil.inlet
     if wanted <= 0.0:
-        message = f"the oil is supplied at {network.oil.inlet - 273.15:.4g} °C; the drain must be warmer"
+        message = (
+            "the measured drain temperature must be above the supply temperature of the oil, "
+            f"{network.oil.inlet - 273.15:.4g} °C"
+        )
         raise InvalidInput("measured_unreachable", message, "cooling.measured.drain")
 
     def excess(other: float) -> float:
@@ -205,9 +208,9 @@ def _fitted(network: Network, place: int, wanted: float, drain: float | None) ->
 def _unreachable(node: str, temperature: float, reached: list[float]) -> InvalidInput:
     low, high = (min(reached) - 273.15, max(reached) - 273.15) if reached else (np.nan, np.nan)
     message = (
-        f"no wetting share from 0.02 to 1 gives {node.replace('_', ' ')} {temperature - 273.15:.4g} °C; "
-        f"{low:.4g} to {high:.4g} °C can be reached: check losses, oil flow and the measured temperature"
+        f"no wetting share from 0.02 to 1 brings the {node.replace('_', ' ')} to {temperature - 273.15:.4g} °C; only "
+        f"{low:.4g} to {high:.4g} °C can be reached. Check losses, oil flow and the measured temperature"
     )
     if not reached:
-        message = "the heat balance has no solution at any wetting share; check losses and oil flow"
+        message = "the heat balance has no solution at any wetting share; check the losses and the oil flow"
     return InvalidInput("measured_unreachable", message, f"cooling.measured.{node}")

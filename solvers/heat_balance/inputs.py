@@ -323,11 +323,20 @@ class Cooling:
         measured = self.measured
         for gear in ("pinion", "wheel"):
             if {f"{gear}_flank", f"{gear}_body"} <= set(measured.rotors):
-                message = f"flank and body of the {gear} are both measured; keep one"
+                message = (
+                    f"measured temperatures are given for both the flank and the body of the {gear}; give only one of "
+                    "them"
+                )
                 raise InvalidInput("exclusive", message, f"cooling.measured.{gear}_body")
         if measured.rotors and self.wetting_share is not None:
-            message = "a measured temperature of a gear fixes the wetting share; leave one of them out"
+            message = (
+                "the wetting share follows from the measured temperature of a gear; give either the measured "
+                "temperature or the wetting share, not both"
+            )
             raise InvalidInput("exclusive", message, "cooling.wetting_share")
         if measured.drain is not None and self.other is not None:
-            message = "the measured drain fixes the other losses; leave one of them out"
+            message = (
+                "the other losses follow from the measured drain temperature; give either the drain temperature or the "
+                "other losses, not both"
+            )
             raise InvalidInput("exclusive", message, "cooling.other")

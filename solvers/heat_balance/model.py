@@ -212,7 +212,7 @@ def _cases(
     try:
         return flank_cases(network, cooling, state.rises), ()
     except NoSolution as failure:
-        message = f"there is no band, because with little oil on the flanks {failure.message}"
+        message = f"no band of temperatures is stated, because with little oil on the flanks {failure.message}"
         return nominal, (Notice("band_unsolved", message, "cooling.wetting_share"),)
 
 

@@ -20,23 +20,23 @@ def heat_notices(network: Network, rises: FloatArray, cooling: Cooling) -> Itera
     """Return warnings about speed, oil, films and measured temperatures for which the balance is doubtful."""
     if network.spray.velocity < SLOW:
         message = (
-            f"the heat balance considers the oil of the jets only; at {network.spray.velocity:.4g} m/s, below "
-            f"{SLOW:g}, oil that runs down and is picked up again cools the teeth as well: with little oil the "
-            "flanks are cooler than computed"
+            f"the heat balance considers only the oil of the jets. At {network.spray.velocity:.4g} m/s, below {SLOW:g} "
+            "m/s, oil that runs down and is picked up again also cools the teeth; with little oil the flanks are "
+            "cooler than computed"
         )
         yield Notice("low_speed", message, "cooling")
     yield from _oil_notices(network, rises)
     if network.other < 0.0:
         message = (
-            f"with the measured drain temperature the other losses are {network.other:.4g} W; the losses are "
-            "overestimated, or the oil flow is underestimated"
+            f"the measured drain temperature would require the other losses to be negative ({network.other:.4g} W); "
+            "either the calculated losses are too high or the stated oil flow is too low"
         )
         yield Notice("losses_overestimated", message, "cooling.measured.drain")
     if not cooling.measured.rotors:
         message = (
-            "the heat balance has not been compared with measurements above 50 m/s; flank temperatures are uncertain "
-            f"by about ±{KNOWN_WITHIN:g} K, differences between gears, oils and oil flows by less: a measured "
-            "temperature of a gear reduces the uncertainty"
+            "above 50 m/s the heat balance has not been compared with measurements. Flank temperatures are uncertain "
+            f"by about ±{KNOWN_WITHIN:g} K. Differences between gears, oils or oil flows are less uncertain. A "
+            "measured gear temperature reduces the uncertainty"
         )
         yield Notice("not_validated", message, "cooling.measured", rank="note")
 
@@ -46,7 +46,7 @@ def _oil_notices(network: Network, rises: FloatArray) -> Iterator[Notice]:
     for gear, name in enumerate(("pinion", "wheel")):
         if network.cooling(gear, rises).limited:
             message = (
-                f"all oil on the {name} reaches the temperature of its flanks; the cooling is limited by the oil flow"
+                f"all oil on the {name} reaches the temperature of the flanks; the cooling is limited by the oil flow"
             )
             yield Notice("oil_limited", message, "cooling.gear_flow", rank="note")
     for number, journal in enumerate(network.journals):
@@ -55,8 +55,8 @@ def _oil_notices(network: Network, rises: FloatArray) -> Iterator[Notice]:
         limit = TURBULENT * sqrt(journal.diameter / 2 / journal.clearance)
         if reynolds > limit:
             message = (
-                f"the film of bearing {number + 1} is turbulent (Reynolds number {reynolds:.3g}, beyond {limit:.3g}); "
-                "its friction is higher than stated"
+                f"the film of bearing {number + 1} is turbulent, because its Reynolds number of {reynolds:.3g} exceeds "
+                f"{limit:.3g}; the friction is higher than stated"
             )
             yield Notice("turbulent_film", message, "cooling")
 
@@ -68,8 +68,8 @@ def unusual_flow(gear_flow: float | None, heat: Heat, oil: CoolingOil) -> Iterat
     losses = heat.losses.mesh + heat.losses.pumping + heat.losses.windage + heat.losses.other
     rise, (least, most) = losses / (oil.heat_capacity * gear_flow), USUAL_RISE
     if rise < least:
-        message = f"the losses warm the oil of the gears by {rise:.3g} K only; is the oil flow in l/min?"
+        message = f"the losses warm the oil of the gears by only {rise:.3g} K; is the oil flow really in l/min?"
         yield unusual_value("cooling.gear_flow", message)
     elif rise > most:
-        message = f"the losses warm the oil of the gears by {rise:.4g} K; is the oil flow in l/min?"
+        message = f"the losses warm the oil of the gears by {rise:.4g} K; is the oil flow really in l/min?"
         yield unusual_value("cooling.gear_flow", message)

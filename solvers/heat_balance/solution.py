@@ -107,8 +107,8 @@ def _check_stability(network: Network, slopes: FloatArray) -> None:
     if float(response.min()) <= 0.0:
         node = network.nodes[int(np.argmin(response))]
         message = (
-            f"the losses at '{node}' grow faster with temperature than the cooling; the temperatures run away: give "
-            "more oil or a larger wetting share"
+            f"the losses at '{node}' grow faster with temperature than the cooling, so that the temperatures rise "
+            "without limit; give more oil or a larger wetting share"
         )
         raise NoSolution("thermal_runaway", message, {"response_k_per_w": float(response.min())})
 
@@ -116,7 +116,7 @@ def _check_stability(network: Network, slopes: FloatArray) -> None:
 def _unsolved(residual: FloatArray) -> NoSolution:
     largest = float(np.abs(residual).max())
     message = (
-        f"the heat balance does not converge; {largest:.3g} W remain at a node: with less heat or more oil "
+        f"the heat balance does not converge; {largest:.3g} W remain unbalanced at a node. With less heat or more oil "
         "there may be an equilibrium"
     )
     return NoSolution("heat_balance", message, {"residual_w": largest})

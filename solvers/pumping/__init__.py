@@ -1,9 +1,9 @@
 """Air and mist pumped by meshing teeth.
 
-Data flows inputs, checks -> space (tooth space, its section, the stroke table; the face between grooves) -> flow (gas,
-duct, record) -> one of gas, chain and incompressible -> resolution, lead_correction, pulsation (all called by
-`model.solve`). `spaces` prepares everything that does not depend on the speed, and calls the flow model. `model`,
-`choking` and `speed_scan` build on it.
+Data pass through the modules in this order: inputs, checks -> space (shape, section and stroke of a tooth space; the
+face between grooves) -> flow (gas, duct, record) -> one of the flow models gas, chain and incompressible -> resolution,
+lead_correction, pulsation. `spaces` prepares everything that does not depend on the speed, and calls the flow model.
+`model`, `choking` and `speed_scan` use `spaces`.
 """
 
 from solvers.guards import guarded

@@ -10,7 +10,7 @@ from solvers.pumping.space.face import Stretch
 
 LEAST_TEETH = 5  # chosen: gears of fewer teeth are not in use
 LEAST_SPEED = 1e-100  # rad/s; at lower speeds the duration of a stroke overflows
-NARROW = 0.5  # of the widest slice; if a slice is narrower, the grooves are the reason for short steps
+NARROW = 0.5  # share of the widest slice; if a slice is narrower, the grooves are the reason for short steps
 
 
 def check_setup(setup: PumpingSetup) -> None:
@@ -49,25 +49,44 @@ def _check_slices(setup: PumpingSetup) -> None:
 
 def _check_incompressible(setup: PumpingSetup) -> None:
     if setup.gears.helix_angle != 0.0:
-        raise InvalidInput("helix_incompressible", "the incompressible model takes spur gears only", "helix_angle")
+        raise InvalidInput(
+            "helix_incompressible",
+            "the incompressible model supports only spur gears; give a helix angle of 0 or choose another flow model",
+            "helix_angle",
+        )
     if setup.grooves:
-        raise InvalidInput("grooves_incompressible", "the incompressible model takes no grooves", "grooves")
+        raise InvalidInput(
+            "grooves_incompressible",
+            "the incompressible model does not support grooves; leave them out or choose another flow model",
+            "grooves",
+        )
     if setup.model.slice_count != 1:
-        raise InvalidInput("slices_incompressible", "the incompressible model is a single pocket", "slices")
+        raise InvalidInput(
+            "slices_incompressible",
+            "the incompressible model treats the tooth space as a single pocket; it cannot be combined with a pocket "
+            "chain or slices",
+            "slices",
+        )
     if setup.model.discharge_coefficient == 0.0:
-        message = "without discharge, incompressible gas cannot leave a shrinking space"
+        message = (
+            "with a discharge coefficient of 0, incompressible gas cannot leave a shrinking tooth space; give a "
+            "coefficient above 0"
+        )
         raise InvalidInput("discharge_coefficient", message, "discharge_coefficient")
 
 
 def check_speed(pinion_speed: float) -> None:
     """Raise InvalidInput (speed_not_positive) at standstill."""
     if pinion_speed < LEAST_SPEED:
-        message = "the speed must be positive; towards standstill power vanishes and pressure is ambient"
+        message = (
+            "the speed must be positive; at standstill there is no pumping power, and the pressure equals the ambient "
+            "pressure"
+        )
         raise InvalidInput("speed_not_positive", message, "pinion_speed")
 
 
 def refuse_cost(pinion_speed: float, parts: list[Stretch], excess: float) -> NoReturn:
-    """Refuse a march that needs `excess` times the permitted steps; the message says what would fit.
+    """Refuse a march that needs `excess` times the permitted number of steps; the message says what would be permitted.
 
     Raises InvalidInput: narrow_land (a stretch between grooves is so short that its slices are the reason) or
     too_many_steps.
@@ -76,16 +95,17 @@ def refuse_cost(pinion_speed: float, parts: list[Stretch], excess: float) -> NoR
     if narrowest < NARROW * widest:
         land = min(part.width * part.cells for part in parts)
         message = (
-            f"the grooves leave a stretch of {1e3 * land:.3g} mm of the face, whose thin slices need too many steps: "
-            f"leave no stretch there, or at least {1e3 * LEAST_SLICES * NARROW * widest:.3g} mm"
+            f"the grooves leave a part of the face that is only {1e3 * land:.3g} mm wide; the slices there are so thin "
+            "that too many steps are needed. Extend the grooves over this part, or make it at least "
+            f"{1e3 * LEAST_SLICES * NARROW * widest:.3g} mm wide"
         )
         raise InvalidInput("narrow_land", message, "grooves")
     slices = sum(part.cells for part in parts)
-    message = f"{slices} slices need too many steps at this speed: use a higher speed or the pocket chain"
+    message = f"{slices} slices need too many steps at this speed; use a higher speed or the pocket chain"
     if isfinite(needed := rpm(pinion_speed) * excess):
         message = (
-            f"{slices} slices need too many steps at this speed: use at least {_rounded_up(needed):g} rpm of the "
-            f"pinion, or at most {int(slices / sqrt(excess))} slices, or the pocket chain"
+            f"{slices} slices need too many steps at this speed; use either at least {_rounded_up(needed):g} rpm of "
+            f"the pinion, or at most {int(slices / sqrt(excess))} slices, or the pocket chain"
         )
     raise InvalidInput("too_many_steps", message, "pinion_speed")
 

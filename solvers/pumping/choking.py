@@ -16,11 +16,11 @@ from solvers.pumping.inputs import ChokingInputs, Flow, rpm
 from solvers.pumping.results import ChokingCurves, ChokingSpeeds
 from solvers.pumping.spaces import CELL_STEP_LIMIT, Mesh, Space, derived, flow_at, prepare
 
-_COARSENING = 4  # factor by which the slices are fewer while the speeds are bracketed
-_BRACKET = log(1.1)  # half width around the coarse speed; all speeds here are logarithms
-_ACCURACY = 1e-4  # of the logarithm of the speed: 0.01 %
-_STEP_DOWN, _STEPS_DOWN = log(sqrt(2.0)), 24  # of the scan, down to 1/4096 of the search limit
-_SOLVES = 8  # number of solutions that together may cost as much as the most expensive single one
+_COARSENING = 4  # the number of slices is divided by this factor while the speeds are bracketed
+_BRACKET = log(1.1)  # half width of the bracket around the coarse speed; all speeds here are logarithms
+_ACCURACY = 1e-4  # of the logarithm of the speed, or 0.01 % of the speed
+_STEP_DOWN, _STEPS_DOWN = log(sqrt(2.0)), 24  # size and number of the steps of a scan down to 1/4096 of the limit
+_SOLVES = 8  # number of solutions that together may cost as much as the most expensive single solution
 
 Excess = Callable[[float], float]
 
@@ -47,13 +47,15 @@ def choking_speeds(inputs: ChokingInputs) -> ChokingSpeeds:
 
     Notes
     -----
-    Eq. P11. Radial gaps choke if the largest pressure over the ambient pressure reaches the inverse of the critical
-    ratio, exits if the gas would expand to Mach 1 at ambient pressure. Speeds are bracketed on a coarse grid and found
-    on the full one.
+    Eq. P11. A radial gap chokes if the largest pressure over the ambient pressure reaches the inverse of the critical
+    ratio. An exit chokes if the gas would reach Mach 1 by an expansion to ambient pressure. Speeds are bracketed on a
+    coarse grid and refined on the full grid.
     """
     setup, top = inputs.setup, log(inputs.search_limit)
     if setup.model.flow is Flow.INCOMPRESSIBLE:
-        raise InvalidInput("choking_not_modelled", "incompressible flow cannot choke", "flow")
+        raise InvalidInput(
+            "choking_not_modelled", "incompressible flow cannot choke; choose another flow model", "flow"
+        )
     mesh = prepare(setup)
     check_speed(inputs.search_limit)
     slices = setup.model.slice_count
@@ -66,7 +68,7 @@ def choking_speeds(inputs: ChokingInputs) -> ChokingSpeeds:
     notices = [
         Notice(
             "beyond_search_limit",
-            f"the {name} stays below sonic flow up to {rpm(exp(top)):.6g} rpm",
+            f"the flow through the {name} stays below the speed of sound up to {rpm(exp(top)):.6g} rpm",
             "search_limit",
             rank="note",
         )
@@ -77,9 +79,9 @@ def choking_speeds(inputs: ChokingInputs) -> ChokingSpeeds:
 
 
 class _Demand:
-    """Excess of pressure and exit Mach number of a space over their choking limits, as logarithms.
+    """Logarithms of the pressure and of the exit Mach number of a space, both relative to their choking limits.
 
-    Speeds are logarithms as well. Every speed is computed once.
+    Speeds are logarithms as well. The flow at a speed is computed only once.
     """
 
     def __init__(self, mesh: Mesh, space: Space, slices: int) -> None:
@@ -114,12 +116,15 @@ def _scan(demands: list[_Demand], top: float) -> list[float]:
 
 
 def _refuse_sealed(speed: float) -> NoReturn:
-    message = f"the spaces are still choked at {rpm(speed):.3g} rpm of the pinion: their openings are too small"
+    message = (
+        f"the tooth spaces are still choked at {rpm(speed):.3g} rpm of the pinion, because their openings are too "
+        "small; increase the openings"
+    )
     raise InvalidInput("always_choked", message, "discharge_coefficient")
 
 
 def _find_lowest(demands: list[tuple[Excess, Excess]], scan: list[float]) -> float | None:
-    """Find the lowest speed at which a space chokes: bracket it on the coarse grid, refine it on the fine grid."""
+    """Find the lowest speed at which a space chokes: bracketed on the coarse grid, then refined on the fine grid."""
     roots = [(root, fine) for rough, fine in demands if (root := _find_coarse_root(rough, scan)) is not None]
     if not roots:
         return None
@@ -146,7 +151,7 @@ def _refine(excess: Excess, root: float, top: float) -> float | None:
 
 
 def _curves(mesh: Mesh, demands: list[_Demand], scan: list[float]) -> ChokingCurves:
-    """Return the curves of the coarse scan, the largest values over the spaces."""
+    """Return the curves of the coarse scan; a value is the largest of all spaces."""
     return ChokingCurves(
         pinion_speed=frozen([exp(speed) for speed in scan]),
         peak_pressure_ratio=frozen(

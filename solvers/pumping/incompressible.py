@@ -36,13 +36,13 @@ def incompressible(
     Returns
     -------
     SpaceFlow
-        The flow at the middle of each interval of the table. Temperatures are None: the model gives the work, but not
-        the place that it heats.
+        The flow at the middle of each interval of the table. Temperatures are None, because the model gives the work,
+        but not the place at which the work heats the gas.
 
     Raises
     ------
     InvalidInput
-        incompressible_vacuum: the suction would exceed the ambient pressure.
+        incompressible_vacuum, if the suction would exceed the ambient pressure.
 
     Notes
     -----
@@ -61,7 +61,8 @@ def incompressible(
     if pressure.min() <= 0.0:
         slower = rpm(pinion_speed) * float(np.sqrt(-gas.pressure / gauge.min()))
         message = (
-            f"suction exceeds the ambient pressure: stay below {slower:.6g} rpm of the pinion, or use gas dynamics"
+            "the suction of a growing tooth space would exceed the ambient pressure, which is impossible; stay below "
+            f"{slower:.6g} rpm of the pinion, or use gas dynamics"
         )
         raise InvalidInput("incompressible_vacuum", message, "pinion_speed")
     out = gas.density * velocity * discharge * step

@@ -19,14 +19,14 @@ class Flow(StrEnum):
 
 
 class Closure(StrEnum):
-    """The second quantity that a pocket of the chain conserves, beside mass."""
+    """The quantity that a pocket of the chain conserves in addition to mass."""
 
     ENERGY = "energy"
     ISENTROPIC = "isentropic"
 
 
 class Gap(StrEnum):
-    """Place of the radial clearances: the narrowest sections between the flanks, or the mate's tip corners."""
+    """Place of the radial clearances: at the narrowest sections between the flanks, or at the mate's tip corners."""
 
     CONTACT = "contact"
     TIP = "tip"
@@ -42,7 +42,10 @@ class Spaces(StrEnum):
 
 @record
 class Groove:
-    """A circumferential groove of full tooth depth; its centre is at `position` from the end that meshes first [m]."""
+    """A circumferential groove of full tooth depth.
+
+    `position` is the distance from the end that meshes first to the centre of the groove [m].
+    """
 
     position: float = quantity(
         "groove position",
@@ -59,7 +62,7 @@ class Groove:
 
 @record
 class Ambient:
-    """The mist around the mesh, taken as a perfect gas; pressure [Pa], temperature [K], molar mass [kg/mol]."""
+    """The mist around the mesh, modelled as a perfect gas; pressure [Pa], temperature [K], molar mass [kg/mol]."""
 
     pressure: float = quantity(
         "ambient pressure",
@@ -107,9 +110,9 @@ class Ambient:
 class PumpingModel:
     """Options of the flow model.
 
-    `closure` acts in the pocket chain only, `wall_transport` in gas dynamics with contact gaps only.
-    `discharge_coefficient` acts on every opening of the pocket chain and of the incompressible model, and on the radial
-    gaps of gas dynamics.
+    `closure` has an effect in the pocket chain only. `wall_transport` has an effect in gas dynamics with contact gaps
+    only. `discharge_coefficient` applies to every opening of the pocket chain and of the incompressible model; in gas
+    dynamics it applies to the radial gaps only.
     """
 
     flow: Flow = quantity(
@@ -192,7 +195,7 @@ class PumpingModel:
 
     @property
     def slice_count(self) -> int:
-        """Number of slices over the face width: `slices`, or the default of the flow model if it is None."""
+        """Number of slices over the face width: `slices`, or the default of the flow model if `slices` is None."""
         if self.slices is not None:
             return self.slices
         return {Flow.GAS_DYNAMICS: 100, Flow.POCKET_CHAIN: 10, Flow.INCOMPRESSIBLE: 1}[self.flow]
@@ -200,7 +203,7 @@ class PumpingModel:
 
 @record
 class PumpingSetup:
-    """All inputs but the speed; `normal_backlash` [m] is added to the backlash of the centre distance."""
+    """All inputs except the speed; `normal_backlash` [m] is added to the backlash of the centre distance."""
 
     gears: GearPairInputs = quantity("gear pair")
     normal_backlash: float = quantity(

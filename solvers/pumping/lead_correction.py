@@ -1,11 +1,11 @@
 """Thermal growth of the pinion's flanks along the face, and the lead correction that compensates it (own derivation).
 
-A heated body grows in proportion: a point moves by eps times its distances from the axis and from the end z = 0, and no
-angle changes. Along the transverse line of action a flank moves by
+A heated body keeps its shape and grows. A point moves radially by eps times its distance from the axis, and axially by
+eps times its distance from the end z = 0; no angle changes. Along the transverse line of action a flank moves by
 
  d(z) = eps(z) s_C + tan(beta_b) integral_0^z eps dz',    eps = alpha_L dT,    s_C = r_w sin(alpha_wt).
 
-The first term is the growth of the radius, the second the growth in length, which shifts the helix.
+The first term is the growth of the radius. The second term is the growth in length, which shifts the helix.
 """
 
 from math import sin, tan
@@ -16,7 +16,7 @@ from solvers.arrays import FloatArray, frozen
 from solvers.gears.pair import GearPair
 from solvers.quantity import quantity, record
 
-EXPANSION = 12e-6  # of steel, 1/K
+EXPANSION = 12e-6  # thermal expansion of steel, 1/K
 
 
 @record
@@ -39,10 +39,10 @@ class LeadCurves:
 
 @record
 class LeadCorrection:
-    """Range of the growth, and slope and crown of the parabola fitted to the correction by least squares [m].
+    """Range of the thermal growth, and slope and crown of the correction [m].
 
-    The slope is the rise of the parabola from the end that meshes first to the other end. The crown is the height of
-    its middle above its ends.
+    A parabola is fitted to the correction by least squares. The slope is the rise of the parabola from the end that
+    meshes first to the other end. The crown is the height of the parabola in the middle of the face above the ends.
     """
 
     range: float = quantity("range of the thermal growth", "C_r", unit="um")
@@ -74,8 +74,8 @@ def lead_correction(pair: GearPair, position: FloatArray, temperature_rise: Floa
 
     Notes
     -----
-    Eq. P12. If the teeth warm by a share of the temperature rise of the gas, the correction is multiplied by this
-    share; only measurements give it.
+    Eq. P12. If the teeth warm by only a share of the temperature rise of the gas, the correction must be multiplied by
+    this share. The share is known from measurements only.
     """
     strain = EXPANSION * temperature_rise
     radial = strain * pair.pinion_working_radius * sin(pair.working_pressure_angle)
@@ -95,8 +95,8 @@ def lead_correction(pair: GearPair, position: FloatArray, temperature_rise: Floa
 def _elongation(position: FloatArray, strain: FloatArray) -> FloatArray:
     """Integrate the strain from the end of the face to the positions [m].
 
-    The strain is linear between two positions, also across a groove. From the end of the face to the first position it
-    is that of the first position.
+    The strain is linear between two positions, even if a groove lies between them. From the end of the face to the
+    first position, the strain is that of the first position.
     """
     parts = 0.5 * (strain[1:] + strain[:-1]) * np.diff(position)
     elongation: FloatArray = strain[0] * position[0] + np.concatenate([[0.0], np.cumsum(parts)])

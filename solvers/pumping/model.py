@@ -49,9 +49,9 @@ def solve(inputs: PumpingInputs) -> PumpingResult:
     Raises
     ------
     InvalidInput
-        With the codes of `spaces.prepare` and of `spaces.flow_at`, speed_not_positive, incompressible_vacuum.
+        With the codes of `spaces.prepare` and of `spaces.flow_at`, and speed_not_positive or incompressible_vacuum.
     NoSolution
-        unphysical_state (gas dynamics) or newton_not_converged (chain of pockets).
+        unphysical_state (gas dynamics) or newton_not_converged (pocket chain).
 
     Notes
     -----
@@ -113,21 +113,21 @@ def _geometry(mesh: Mesh) -> MeshGeometry:
 
 
 def _on_grids(mesh: Mesh, space: Space, speed: float, slices: int) -> Grids:
-    """Compute one stroke at the given resolution, and at half and a quarter of it to estimate its error."""
-    flow = flow_at(mesh, space, speed, slices)  # first, because it refuses a march that would take too long
+    """Compute one stroke at the given resolution, and at half and a quarter of it to estimate the errors."""
+    flow = flow_at(mesh, space, speed, slices)  # called first, because it refuses a march that would take too long
     half, quarter = (coarser_flow_at(mesh, space, speed, slices, times) for times in (2, 4))
     return Grids(flow, half, quarter, _lead(mesh, space, speed))
 
 
 def _lead(mesh: Mesh, space: Space, speed: float) -> float:
-    """Compute `Grids.lead`; infinite without gas dynamics, because only gas dynamics has waves."""
+    """Compute `Grids.lead`; infinite for the other flow models, because only gas dynamics has waves."""
     if mesh.setup.model.flow is not Flow.GAS_DYNAMICS:
         return inf
     return abs(mesh.gas.sound_speed * space.lag / (speed * space.speed_ratio) - 1.0)
 
 
 def _spaces_result(gas: Gas, space: Space, grids: Grids, frequency: float) -> SpacesResult:
-    """Refer one stroke to the ambient state, and its masses and work to the mesh period."""
+    """Convert one stroke to results: values relative to the ambient state, mass flow and power."""
     flow = grids.flow
     profile = FaceProfile(
         position=flow.position,
@@ -167,7 +167,7 @@ def _rise(gas: Gas, temperature: FloatArray | None) -> FloatArray | None:
 
 
 def _hottest(position: FloatArray, rise: FloatArray | None) -> tuple[float | None, float | None]:
-    """Find position [m] and value [K] of the largest rise by a parabola through the highest three slices."""
+    """Find position [m] and value [K] of the largest temperature rise by a parabola through three slices."""
     if rise is None:
         return None, None
     top = int(np.argmax(rise))
@@ -234,17 +234,20 @@ def _pulsation(mesh: Mesh, flows: list[SpaceFlow], speed: float, frequency: floa
 
 
 def _missing(result: SpacesResult, total: Totals, correction: LeadCorrection | None) -> list[Notice]:
-    """Return notices of the values that are null with these gears and options."""
+    """Return notices that explain which results are missing or uncertain with these gears and options."""
     notices = []
     if total.axial_meshing_speed is None:
-        message = "a spur gear meshes over its whole face at once: no meshing point moves along the face"
+        message = "a spur gear meshes over its whole face at once; there is no meshing point that moves along the face"
         notices.append(Notice("spur_gear", message, "helix_angle", rank="note"))
     if result.max_temperature_rise is None:
         notices.append(
             Notice("no_temperature", "the incompressible model gives no temperature rise", "flow", rank="note")
         )
     elif result.balance.energy_error is None:
-        message = "the isentropic closure loses energy: temperature rises are about half of those of the energy closure"
+        message = (
+            "the isentropic closure does not conserve energy; its temperature rises are about half of those of the "
+            "energy closure"
+        )
         notices.append(Notice("no_energy_balance", message, "closure"))
     if correction is None:
         message = "a lead correction needs the temperatures of the pinion's spaces"

@@ -11,20 +11,20 @@ from solvers.pumping.inputs import ChokingInputs, Flow, PumpingInputs, PumpingSe
 from solvers.pumping.results import MassFlow, Resolution
 from solvers.pumping.space.stroke import StrokeTable
 
-FEW_TEETH = 12  # chosen: gears of the paper and of all comparisons have more teeth
-TIP_SPEED_SHARE = 0.8  # of the ambient speed of sound
-PITCH_LINE_SPEED = 250.0  # m/s
+FEW_TEETH = 12  # chosen: the gears of the paper and of all comparisons have more teeth
+TIP_SPEED_SHARE = 0.8  # share of the ambient speed of sound at which published checks end
+PITCH_LINE_SPEED = 250.0  # m/s, at which published checks end
 FEW_SLICES = 20  # number of slices in the stroke at one time
-INCOMPRESSIBLE_MACH = 0.3  # usual limit: density changes by 5 %
+INCOMPRESSIBLE_MACH = 0.3  # usual limit, at which the density changes by 5 %
 RESOLVED = 0.06  # largest relative uncertainty of a result without a warning
 NET_UNCERTAINTY = 0.3  # largest uncertainty of a net flow without a warning, relative to the net flow
-NEGLIGIBLE = 1e-3  # of the gross flow; a smaller uncertainty of the net flow is not worth a warning
-LEAST_GAUGE_PRESSURE = 1e-6  # of the ambient pressure
+NEGLIGIBLE = 1e-3  # share of the gross flow; a smaller uncertainty of the net flow is not worth a warning
+LEAST_GAUGE_PRESSURE = 1e-6  # share of the ambient pressure; the pocket chain does not resolve less
 THIN_AIR = 20e3  # Pa, chosen; nearly a vacuum
 
 
 def setup_notices(setup: PumpingSetup, path: PathOfContact, active_slices: float) -> list[Notice]:
-    """Return the warnings about the gear pair, few teeth, a small contact ratio and few slices.
+    """Return the warnings about the gear pair, a small contact ratio, a small number of teeth and too few slices.
 
     `active_slices` is the number of slices in the stroke at one time.
     """
@@ -32,55 +32,66 @@ def setup_notices(setup: PumpingSetup, path: PathOfContact, active_slices: float
     ratio = path.transverse_contact_ratio
     if ratio < 1.0:
         message = (
-            f"the transverse contact ratio is {ratio:.3f}: below 1 no flanks in contact seal the spaces between two "
-            "pairs of teeth"
+            f"the transverse contact ratio of {ratio:.3f} is below 1; between two pairs of teeth there are no flanks "
+            "in contact that seal the spaces"
         )
         notices.append(Notice("contact_ratio_below_one", message, "addendum", rank="invalid"))
     for gear, name in ((setup.gears.pinion, "pinion"), (setup.gears.wheel, "wheel")):
         if gear.teeth < FEW_TEETH:
-            message = f"the {name} has {gear.teeth} teeth: the model was never checked below {FEW_TEETH}"
+            message = (
+                f"the {name} has {gear.teeth} teeth; the model has never been checked with fewer than {FEW_TEETH} teeth"
+            )
             notices.append(Notice("few_teeth", message, f"{name}.teeth"))
     if setup.model.slice_count == 1 and setup.gears.helix_angle != 0.0:
-        message = "a single pocket ignores the helix angle; 10 slices are usual"
+        message = "a single slice ignores the helix angle; 10 slices are usual"
         notices.append(Notice("single_slice", message, "slices"))
     if setup.model.flow is Flow.GAS_DYNAMICS and active_slices < FEW_SLICES:
         message = (
-            f"{active_slices:.0f} slices are in the stroke at one time: below {FEW_SLICES} the dissipation of the grid "
-            "raises the power at low speed by tens of percent; use more slices"
+            f"only {active_slices:.0f} slices are in the stroke at one time. Below {FEW_SLICES} slices the dissipation "
+            "of the numerical grid raises the power at low speed by tens of percent; use more slices"
         )
         notices.append(Notice("few_slices", message, "slices"))
     return notices
 
 
 def jump_notices(tables: Sequence[StrokeTable]) -> list[Notice]:
-    """Return a warning if the area of a space jumps: the gas is then compressed without motion of the teeth."""
+    """Return a warning if the area of a space jumps, because the gas is then compressed without motion of the teeth."""
     share, angle = max(table.jump for table in tables)
     if share == 0.0:
         return []
     message = (
-        f"the area of a tooth space jumps by {100 * expm1(share):.0f} % at {degrees(angle):.2f} deg, where the point "
-        "nearest to a tip corner jumps from the flank to the root: pressures are wrong from this angle on; use contact "
-        "gaps, which have no such jump"
+        f"at {degrees(angle):.2f} deg the area of a tooth space jumps by {100 * expm1(share):.0f} %, because the point "
+        "nearest to a tip corner changes from the flank to the root. Pressures are wrong from this angle on. Use the "
+        "option of contact gaps, which avoids this jump"
     )
     return [Notice("area_jump", message, "gap", rank="invalid")]
 
 
 def flow_notices(flow: Flow, largest_mach: float, largest_gauge_pressure: float) -> list[Notice]:
-    """Return a warning if the model does not resolve the flow; the pressure is relative to the ambient pressure."""
+    """Return a warning if the model does not resolve the flow.
+
+    `largest_gauge_pressure` is relative to the ambient pressure.
+    """
     if flow is Flow.INCOMPRESSIBLE and largest_mach > INCOMPRESSIBLE_MACH:
-        message = f"the Mach number is {largest_mach:.2f}: above {INCOMPRESSIBLE_MACH:g} the gas is not incompressible"
+        message = (
+            f"the Mach number is {largest_mach:.2f}; above {INCOMPRESSIBLE_MACH:g} the gas cannot be treated as "
+            "incompressible"
+        )
         return [Notice("incompressible_mach", message, "flow", rank="invalid")]
     if flow is Flow.POCKET_CHAIN and largest_gauge_pressure < LEAST_GAUGE_PRESSURE:
         message = (
-            f"the pressure differs from the ambient pressure by less than {LEAST_GAUGE_PRESSURE:g} of it, which the "
-            "pocket chain does not resolve; at low speed, power is in proportion to the cube of the speed"
+            f"the pressure differs from the ambient pressure by a share of less than {LEAST_GAUGE_PRESSURE:g}, which "
+            "the pocket chain does not resolve; at low speed the power is proportional to the cube of the speed"
         )
         return [Notice("pressure_not_resolved", message, "pinion_speed")]
     return []
 
 
 def net_flow_notices(model: Flow, flows: list[MassFlow]) -> list[Notice]:
-    """Return a warning about the least certain net flow out of an end, a small difference of outflow and inflow."""
+    """Return a warning about the most uncertain net flow out of an end, if its uncertainty exceeds the limit.
+
+    The net flow is uncertain if it is a small difference between outflow and inflow.
+    """
     shares = [
         (flow.net_uncertainty / abs(net) if net else inf, net, flow)
         for flow in flows
@@ -91,8 +102,8 @@ def net_flow_notices(model: Flow, flows: list[MassFlow]) -> list[Notice]:
     if flow is None or share <= NET_UNCERTAINTY:
         return []
     message = (
-        f"a net flow of {1e3 * net:.3g} g/s out of an end is uncertain by {1e3 * flow.net_uncertainty:.2g} g/s: it is "
-        "a small difference of outflow and inflow"
+        f"a net flow of {1e3 * net:.3g} g/s out of an end is uncertain by {1e3 * flow.net_uncertainty:.2g} g/s, "
+        "because it is a small difference between outflow and inflow"
     )
     if model is Flow.GAS_DYNAMICS:
         message += "; use more slices"
@@ -115,17 +126,24 @@ def resolution_notices(flow: Flow, uncertain: Resolution) -> list[Notice]:
     )
     if flow is not Flow.GAS_DYNAMICS or not shares:
         return []
-    return [Notice("not_resolved", f"with these slices the results are uncertain: {shares}; use more slices", "slices")]
+    return [
+        Notice(
+            "not_resolved",
+            f"with this number of slices these results are uncertain: {shares}. Use more slices",
+            "slices",
+        )
+    ]
 
 
 def speed_notices(pair: GearPair, gas: Gas, pinion_speed: float) -> list[Notice]:
-    """Return a warning if the speed is beyond every published check."""
+    """Return a warning if the speed is higher than in any published check."""
     tip = max(pair.pinion.tip_radius, pair.wheel.tip_radius * pair.pinion.teeth / pair.wheel.teeth) * pinion_speed
     pitch_line = pair.pinion_working_radius * pinion_speed
     if tip > TIP_SPEED_SHARE * gas.sound_speed or pitch_line > PITCH_LINE_SPEED:
         message = (
-            f"the tip speed is {tip:.0f} m/s and the pitch line speed {pitch_line:.0f} m/s: published checks end at "
-            f"{TIP_SPEED_SHARE:g} of the speed of sound and at {PITCH_LINE_SPEED:g} m/s, which the pitch line has at "
+            f"the tip speed is {tip:.0f} m/s and the pitch-line velocity {pitch_line:.0f} m/s. Published checks end at "
+            f"a tip speed of {TIP_SPEED_SHARE:g} times the speed of sound and at a pitch-line velocity of "
+            f"{PITCH_LINE_SPEED:g} m/s, which is reached at "
             f"{PITCH_LINE_SPEED / pair.pinion_working_radius * 30 / pi:.0f} rpm of the pinion"
         )
         return [Notice("high_speed", message, "pinion_speed")]
@@ -142,4 +160,8 @@ def unusual_values(inputs: PumpingInputs | ChokingInputs, _result: object) -> It
 def thin_air(pressure: float) -> Iterator[Notice]:
     """Warn of an ambient pressure [Pa] that is nearly a vacuum."""
     if pressure < THIN_AIR:
-        yield unusual_value("ambient.pressure", f"{pressure / 1e3:g} kPa is nearly a vacuum; was bar meant?")
+        yield unusual_value(
+            "ambient.pressure",
+            f"an ambient pressure of {pressure / 1e3:g} kPa is nearly a vacuum; was a value entered in the wrong unit "
+            "(bar)?",
+        )

@@ -6,7 +6,7 @@ from solvers.arrays import FloatArray, frozen
 from solvers.pumping.flow.space_flow import SpaceFlow
 from solvers.quantity import quantity, record
 
-HARMONICS = 8  # number of them, chosen
+HARMONICS = 8  # number of harmonics, chosen
 
 
 @record
@@ -30,8 +30,8 @@ def pulsation(meshing_frequency: float, flows: list[tuple[SpaceFlow, float, floa
     meshing_frequency : float
         Meshing frequency f_m [Hz].
     flows : list of tuple
-        For the spaces of one gear: the flow of one stroke; the speed of the gear [rad/s]; the share of a mesh period
-        by which its spaces reach the line of centres later than those of the pinion.
+        For each gear: the flow of one stroke of its spaces; the speed of the gear [rad/s]; the share of a mesh period
+        by which the spaces reach the line of centres later than the pinion's spaces.
 
     Returns
     -------

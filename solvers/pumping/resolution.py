@@ -1,18 +1,20 @@
 """Errors of discretisation, estimated from the same flow at half and a quarter of the resolution.
 
-A stroke has kinks, so errors are of first order in the width of the slices. For two grids and first order, Roache's
-grid convergence index takes three times the difference of the grids as the uncertainty of the finer grid (J. Fluids
-Eng. 116, 1994, 405).
+The flow has kinks during a stroke, so errors are of first order in the width of the slices. For two grids and first
+order, Roache's grid convergence index takes three times the difference of the grids as the uncertainty of the finer
+grid (J. Fluids Eng. 116, 1994, 405).
 
-Extremes need more care. Their places move between the slices, and two grids may agree on an extreme by chance.
-Therefore a third grid with a quarter of the resolution is compared as well, a fifth is added to the estimate, and
-places are included whose value is not the highest yet but rises with the resolution. In a test on 800 random pairs with
-twice the slices, one result then changed by more than its uncertainty, by a hundredth more.
+Extremes need more care. The place of an extreme moves between the slices, and two grids may agree on an extreme by
+chance. Therefore three things are added. A third grid with a quarter of the resolution is compared as well. The
+uncertainty of an extreme is increased by a fifth. Places are included whose value is not the highest yet, but rises
+with the resolution. In a test, 800 random gear pairs were computed again with twice the number of slices. Only one
+result changed by more than its uncertainty; the change exceeded the uncertainty by a hundredth.
 
-Two grids may also agree on an extreme but not on the pressure around it, because both damp its waves alike. Therefore
-the difference of the pressures close to an extreme is included. If the meshing line moves along the face about as fast
-as sound, the waves ahead of it are confined to a layer thinner than the slices of the coarser grids. The coarser grids
-then agree with each other although they do not resolve the waves, and the order of convergence is not used.
+Two grids may also agree on an extreme but not on the pressure around it, because both grids damp the waves alike.
+Therefore the difference of the pressures close to an extreme is included. If the meshing line moves along the face
+about as fast as sound, the waves ahead of this line are confined to a layer that is thinner than the slices of the
+coarser grids. The coarser grids then agree with each other although they do not resolve the waves. In this case the
+estimate does not assume an order of convergence.
 """
 
 from math import expm1
@@ -28,16 +30,17 @@ from solvers.pumping.results import Resolution
 SAFETY = 3.0  # factor on the difference of two grids, as in the grid convergence index (Roache 1994)
 OF_EXTREMES = 1.2  # further factor on the uncertainty of extremes
 RISE = 2.0  # a value may rise further by this factor times its rise from half the resolution to the full one
-NEAR = 0.97  # of the Mach number at the end of the face: above it a slice may overtake the end on a finer grid
-CLOSE = 0.9  # of an extreme gauge pressure; larger pressures count as close to the extreme
+NEAR = 0.97  # share of the Mach number of an end; a slice with a higher one may exceed the end on a finer grid
+CLOSE = 0.9  # share of an extreme gauge pressure; larger pressures count as close to the extreme
 SPREAD = 4.0  # number of slices over which a grid spreads a wave
-LOST = 1.0  # relative uncertainty of a pressure at which no result is certain: a finer grid may give another flow
+LOST = 1.0  # relative uncertainty of a pressure from which on no result is certain: a finer grid may give another flow
 
 
 class Grids(NamedTuple):
-    """One stroke at the full resolution, at half and at a quarter of it.
+    """One stroke at the full resolution, at half and at a quarter of this resolution.
 
-    `lead`: distance along the face between sound and the meshing line, relative to the way of the meshing line.
+    `lead` is the distance along the face that sound runs ahead of or behind the meshing line, relative to the distance
+    that the meshing line covers.
     """
 
     flow: SpaceFlow
@@ -85,10 +88,10 @@ def resolution(gas: Gas, spaces: list[Grids]) -> Resolution:
 
 
 def behind_jumps(resolved: Resolution, gas: Gas, flows: list[SpaceFlow], jumps: list[float]) -> Resolution:
-    """Raise the uncertainties to the effect of the jumps of the area, which does not decrease with the resolution.
+    """Raise the uncertainties to at least the effect of jumps of the area, which a higher resolution does not reduce.
 
-    A jump of the logarithm of the area compresses the gas by a share of its pressure, and it changes the Mach number as
-    a wave of this pressure does. If the compression is as large as the gauge pressure, no result is certain.
+    A jump of the logarithm of the area raises the pressure of the gas by a share, and changes the Mach number as much
+    as a wave of this pressure rise does. If the pressure rise is as large as the gauge pressure, no result is certain.
     """
     peak, low, mach = resolved.peak_pressure, resolved.min_pressure, resolved.axial_mach
     shares = [compressed(gas, jump) for jump in jumps]
@@ -109,16 +112,16 @@ def behind_jumps(resolved: Resolution, gas: Gas, flows: list[SpaceFlow], jumps: 
 
 
 def compressed(gas: Gas, jump: float) -> float:
-    """Compute the relative change of the pressure by a jump of the logarithm of the area."""
+    """Compute the relative change of the pressure that a jump of the logarithm of the area causes."""
     return expm1(gas.exponent * jump)
 
 
 def net_uncertainty(grids: Grids, jumped: float) -> float:
     """Estimate the uncertainty of the net mass through an end in a stroke [kg] from the grid of half the resolution.
 
-    It is at least the sum of the changes of outflow and inflow, because their difference may change less by chance. If
-    a jump of the area changes the pressure by the share `jumped`, it is at least this share of all that passes the
-    ends.
+    The uncertainty is at least the sum of the changes of outflow and inflow, because the net mass, their difference,
+    may change less by chance. If jumps of the area change the pressure by the share `jumped`, the uncertainty is also
+    at least this share of all mass that passes the ends.
     """
     here, there = grids.flow.ends, grids.halved.ends
     ends = ((here.front, there.front), (here.rear, there.rear))
@@ -129,7 +132,7 @@ def net_uncertainty(grids: Grids, jumped: float) -> float:
 
 
 def radial_uncertainty(grids: Grids, jumped: float) -> float:
-    """Estimate the uncertainty of the net radial mass in a stroke [kg], at least that of the net masses of the ends."""
+    """Estimate the uncertainty of the net radial mass in a stroke [kg]; it is at least `net_uncertainty`."""
     radial = SAFETY * abs(grids.flow.masses.radial - grids.halved.masses.radial)
     return max(radial, net_uncertainty(grids, jumped))
 
@@ -151,14 +154,14 @@ def _shares(gas: Gas, grids: Grids) -> dict[str, float]:
 
 
 def _side_by_side(gas: Gas, fine: SpaceFlow, coarse: SpaceFlow) -> tuple[FloatArray, FloatArray]:
-    """Interpolate the gauge pressures [Pa] of two grids at the angles of the coarse, the positions of the fine grid."""
+    """Interpolate the gauge pressures [Pa] of two grids to the angles of the coarse and positions of the fine grid."""
     here = [np.interp(coarse.angle, fine.angle, column) for column in fine.pressure.T]
     there = [np.interp(fine.position, coarse.position, row) for row in coarse.pressure]
     return np.transpose(here) - gas.pressure, np.array(there) - gas.pressure
 
 
 def _difference(here: FloatArray, there: FloatArray) -> float:
-    """Compute the root mean square difference of two pressures, of the points at which both are near their maximum."""
+    """Compute the root mean square difference of two pressure fields at points where both are near their maxima."""
     close = (here >= CLOSE * here.max()) & (there >= CLOSE * there.max())
     return float(np.sqrt(np.mean((here - there)[close] ** 2))) if close.any() else 0.0
 
@@ -180,7 +183,7 @@ def _summary(gas: Gas, flow: SpaceFlow) -> dict[str, float]:
 
 
 def _reaches(gas: Gas, grids: Grids) -> dict[str, float]:
-    """Estimate the values that extremes over the face may reach with more slices."""
+    """Estimate the values that the extremes over the face may reach with more slices."""
     fine, half = grids.flow, grids.halved
     here, there = _profiles(gas, fine), _profiles(gas, half)
     reaches = {name: _reach(fine.position, here[name], half.position, there[name]) for name in here}
@@ -189,10 +192,10 @@ def _reaches(gas: Gas, grids: Grids) -> dict[str, float]:
 
 
 def _mach_reach(fine: SpaceFlow, half: SpaceFlow) -> float:
-    """Estimate the value that the largest Mach number may reach with more slices; it is that of an end or of a slice.
+    """Estimate the value that the largest Mach number, that of an end or of a slice, may reach with more slices.
 
-    The Mach number of a choked end is 1 on every grid. As slices get shorter, the Mach number of the slices beside an
-    end tends to that of the end; a value above that of the end is included.
+    The Mach number of a choked end is 1 on every grid. As the slices get shorter, the Mach number of the slices beside
+    an end tends to the Mach number of the end. The estimate includes slices that may exceed the Mach number of the end.
     """
     slices, end = float(fine.peak_mach.max()), fine.largest_mach
     if slices == end:
@@ -205,7 +208,7 @@ def _mach_reach(fine: SpaceFlow, half: SpaceFlow) -> float:
 
 
 def _profiles(gas: Gas, flow: SpaceFlow) -> dict[str, FloatArray]:
-    """Return the extremes of the slices over the face, in the quantities of the summary."""
+    """Return the extremes of each slice over the stroke, expressed like the values of `_summary`."""
     profiles = {
         "peak_pressure": flow.peak_pressure - gas.pressure,
         "min_pressure": gas.pressure - flow.lowest_pressure,
@@ -216,7 +219,10 @@ def _profiles(gas: Gas, flow: SpaceFlow) -> dict[str, FloatArray]:
 
 
 def _reach(position: FloatArray, here: FloatArray, coarse: FloatArray, there: FloatArray, times: float = RISE) -> float:
-    """Compute the largest value that a local maximum reaches if it rises further by `times` its last rise."""
+    """Compute the largest value of the local maxima over the face if each rises further by `times` its last rise.
+
+    The last rise is the rise from the coarse to the fine grid.
+    """
     edged = np.pad(here, 1, constant_values=-np.inf)
     tops = (here >= edged[:-2]) & (here >= edged[2:])
     around = np.pad(np.interp(position, coarse, there), 1, mode="edge")
@@ -225,15 +231,16 @@ def _reach(position: FloatArray, here: FloatArray, coarse: FloatArray, there: Fl
 
 
 def _relative(value: float, half: float, quarter: float) -> float:
-    """Estimate the relative uncertainty: three times the difference of half the resolution, or once that of a quarter.
+    """Estimate the relative uncertainty of a value from the values at half and a quarter of the resolution.
 
-    With an error of first order both are three times the error.
+    It is the larger of two estimates: three times the difference from the value at half the resolution, and the
+    difference from the value at a quarter. If the error is of first order, both estimates are three times the error.
     """
     return max(SAFETY * abs(half / value - 1.0), abs(quarter / value - 1.0)) if value != 0.0 else 0.0
 
 
 def _of(error: float, value: float) -> float:
-    """Return an error relative to a positive value, 0 for other values."""
+    """Return an error relative to `value`, or 0 if `value` is not positive."""
     return error / value if value > 0.0 else 0.0
 
 

@@ -12,7 +12,7 @@ from solvers.sources import MILIAN
 
 @record
 class MeshGeometry(Diameters):
-    """The gear pair at its centre distance; lengths [m], angle [rad]."""
+    """Geometry of the gear pair at its centre distance; lengths [m], angles [rad]."""
 
     centre_distance: float = quantity("centre distance", "a", unit="mm", text="centre distance in use")
     backlash_free_centre_distance: float = quantity("centre distance without backlash", "a_0", unit="mm")
@@ -43,9 +43,10 @@ class Stroke:
 class MassFlow:
     """Mass flow out of the spaces of one gear [kg/s].
 
-    The first five are net flows by exit; they add up to 0, see `ExitMasses`. The next four are the outflow and the
-    inflow at each end. The last two are uncertainties by the resolution: the net flow of an end is a small difference
-    of its outflow and inflow.
+    The first five values are the net flows through the different exits; they add up to 0, see `ExitMasses`. The next
+    four values are the outflow and the inflow at each end. The last two values are the uncertainties of net flows that
+    are due to the resolution. They can be large, because the net flow of an end is a small difference between outflow
+    and inflow.
     """
 
     front: float = quantity("net mass flow at the front", "m_f", unit="g_per_s", text="at the end that meshes first")
@@ -93,11 +94,12 @@ class Balance:
 
 @record
 class Resolution:
-    """Relative uncertainties of the results by the resolution, of pressures relative to the gauge pressure.
+    """Relative uncertainties of the results due to the resolution.
 
-    The resolution is the number of slices of gas dynamics, of steps of the chain, of positions of the single pocket.
-    Uncertainties are at least the relative change of the pressure by a jump of the area. `temperature_rise` is None if
-    the flow model gives none. Uncertainties of the net flows are in `MassFlow`.
+    Uncertainties of pressures are relative to the gauge pressure. The resolution is the number of slices in gas
+    dynamics, the number of steps in the pocket chain, and the number of positions in the incompressible model. An
+    uncertainty is at least the relative change of the pressure that a jump of the area causes. `temperature_rise` is
+    None if the flow model gives no temperatures. Uncertainties of the net flows are in `MassFlow`.
     """
 
     peak_pressure: float = quantity("uncertainty of the peak pressure", text="of the largest gauge pressure")
@@ -114,7 +116,7 @@ class Resolution:
 
 @record
 class FaceProfile:
-    """Curves over the face, (slices,): means of temperature rises over the stroke [K], peak pressures."""
+    """Curves over the face, (slices,): temperature rises averaged over the stroke [K], and peak pressures."""
 
     position: FloatArray = quantity("position", "z", unit="mm", text="from the end that meshes first")
     temperature_rise: FloatArray | None = quantity(
@@ -139,7 +141,10 @@ class FaceProfile:
 
 @record
 class GasField:
-    """Fields of the gas over angle [rad] and position [m], (angles, slices); `temperature_rise` [K]: of stagnation."""
+    """Fields of the gas over angle [rad] and position [m], (angles, slices).
+
+    `temperature_rise` is that of the stagnation temperature [K].
+    """
 
     angle: FloatArray = quantity(
         "angle of the gear",
@@ -159,10 +164,10 @@ class GasField:
 
 @record
 class SpacesResult:
-    """The spaces of one gear: power [W], work per space and stroke [J], `mass_flow` [kg/s], temperatures [K].
+    """Results of the spaces of one gear: power [W], work per space and stroke [J], mass flow [kg/s], temperatures [K].
 
-    Pressures are relative to the ambient pressure. A value is None if the flow model does not give it; a notice then
-    says so.
+    Pressures are relative to the ambient pressure. A value is None if the flow model does not give this value; a notice
+    then says so.
     """
 
     stroke: Stroke = quantity("stroke", text="one stroke")
@@ -193,10 +198,10 @@ class SpacesResult:
 
 @record
 class Totals:
-    """Power of the selected spaces [W], meshing frequency [Hz], speed of the meshing point along the face [m/s].
+    """Power of the selected spaces [W], meshing frequency [Hz], and speed of the meshing point along the face [m/s].
 
-    `axial_meshing_mach` is this speed over the ambient speed of sound. Both are None for spur gears, whose whole face
-    meshes at once.
+    `axial_meshing_mach` is `axial_meshing_speed` divided by the ambient speed of sound. Both are None for spur gears,
+    because their whole face meshes at once.
     """
 
     pumping_power: float = quantity("pumping power", "P", unit="w")
@@ -214,9 +219,10 @@ class Totals:
 
 @record
 class Derived:
-    """Values derived from the inputs: centre distance [m], number of slices with those in the grooves.
+    """Values derived from the inputs: centre distance [m], and number of slices over the whole face with its grooves.
 
-    `rack_tip_radius` is limited to the value that both racks have room for; it is in normal modules.
+    `rack_tip_radius` is the tip radius of the rack in normal modules, limited to the value for which both racks have
+    room.
     """
 
     centre_distance: float = quantity("centre distance used", "a", unit="mm")
@@ -228,9 +234,9 @@ class Derived:
 
 @record
 class PumpingResult:
-    """One operating point.
+    """Results of a pumping calculation at one operating point.
 
-    `slices` is the number of slices outside the grooves. `lead_correction` is for a pinion that warms as much as the
+    `slices` is the number of slices outside the grooves. `lead_correction` holds for a pinion that warms as much as the
     gas.
     """
 
@@ -252,7 +258,7 @@ class PumpingResult:
 
 @record
 class ChokingCurves:
-    """Peak pressure ratio and exit Mach number over the pinion speed [rad/s] of the coarse scan, (speeds,)."""
+    """Curves of the coarse scan over the pinion speed [rad/s]: peak pressure ratio and exit Mach number, (speeds,)."""
 
     pinion_speed: FloatArray = quantity("pinion speed scanned", "n_1", unit="rpm")
     peak_pressure_ratio: FloatArray = quantity(
@@ -268,7 +274,7 @@ class ChokingCurves:
 
 @record
 class ChokingSpeeds:
-    """Lowest pinion speeds [rad/s] at which the flow becomes sonic, None above the search limit."""
+    """Lowest pinion speeds [rad/s] at which the flow becomes sonic; None if the speed is above the search limit."""
 
     radial_choking_speed: float | None = quantity(
         "radial choking speed",

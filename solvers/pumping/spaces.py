@@ -31,8 +31,8 @@ _ANGLES = 201  # number of angles at which fields are recorded, enough for figur
 class Space:
     """The tooth spaces of one gear.
 
-    `speed_ratio`: speed of the gear over that of the pinion; `lag`: angle of the gear by which the stroke comes later
-    per metre of face [rad/m].
+    `speed_ratio` is the speed of the gear divided by the speed of the pinion. `lag` is the angle of the gear by which
+    the stroke comes later per metre of face [rad/m].
     """
 
     of_pinion: bool
@@ -57,7 +57,7 @@ class Mesh:
 
 
 def prepare(setup: PumpingSetup) -> Mesh:
-    """Compute geometry and stroke tables, with warnings about them.
+    """Compute geometry and stroke tables, and warnings about both.
 
     Raises InvalidInput with the codes of `check_setup`, `meshing_path`, `tooth_space`, `stroke_table` and `stretches`.
     """
@@ -75,14 +75,14 @@ def prepare(setup: PumpingSetup) -> Mesh:
 
 
 def derived(mesh: Mesh) -> Derived:
-    """Return the values derived from the inputs, with defaults for values that are not given."""
+    """Return the values that are derived from the inputs or are defaults of inputs that are not given."""
     gears = mesh.setup.gears
     room = min(rack_tip_radius(gears, teeth) for teeth in (gears.pinion, gears.wheel))
     return Derived(mesh.pair.centre_distance, mesh.setup.model.slice_count, room)
 
 
 def _active_share(space: Space, face_width: float) -> float:
-    """Compute the largest share of the face that is in its stroke at one time."""
+    """Compute the largest share of the face in which spaces are in their stroke at one time."""
     limits, lag = space.table.limits, space.lag * face_width
     return min((limits.end - limits.start) / lag, 1.0) if lag > 0.0 else 1.0
 
@@ -121,11 +121,11 @@ def flow_at(
 
 
 def coarser_flow_at(mesh: Mesh, space: Space, pinion_speed: float, slices: int, times: int) -> SpaceFlow:
-    """Compute the same stroke at a resolution that is `times` times lower.
+    """Compute the stroke of `flow_at` at a resolution that is `times` times lower.
 
-    Gas dynamics gets fewer slices, and fewer recorded angles, because a step never passes a recorded angle. The chain
-    of pockets gets fewer steps: its number of pockets is a constant of the model. The single pocket gets fewer
-    positions. Raises the errors of `flow_at` except those about the number of steps.
+    Gas dynamics gets fewer slices. It also gets fewer recorded angles, because a step never passes a recorded angle.
+    The pocket chain gets fewer steps, because the number of pockets is a constant of the model. The single pocket gets
+    fewer positions. Raises the errors of `flow_at` except those about the number of steps.
     """
     if mesh.setup.model.flow is Flow.INCOMPRESSIBLE:
         return _single_pocket(mesh, space, pinion_speed, space.table.coarser(times))
@@ -155,7 +155,7 @@ def _gas_ducts(mesh: Mesh, space: Space, pinion_speed: float, parts: list[Stretc
 
 
 def _check_cost(mesh: Mesh, pinion_speed: float, parts: list[Stretch], limit: int) -> None:
-    """Refuse a speed at which the march of one of the spaces would take too many steps."""
+    """Refuse a speed at which the march would take too many steps in the spaces of one gear."""
     largest_cost = max(
         cell_steps(mesh.gas, _gas_ducts(mesh, space, pinion_speed, parts), _angles(mesh, space))
         for space in mesh.spaces
@@ -206,6 +206,9 @@ def space_duct(mesh: Mesh, space: Space, pinion_speed: float, part: Stretch, *, 
 
 
 def _angles(mesh: Mesh, space: Space) -> FloatArray:
-    """Return the recorded angles of the owner [rad], from the start of the first stroke on the face to the last end."""
+    """Return the recorded angles of the owner [rad].
+
+    They reach from the start of the first stroke on the face to the end of the last stroke.
+    """
     limits = space.table.limits
     return np.linspace(limits.start, limits.end + space.lag * mesh.setup.gears.face_width, _ANGLES)

@@ -1,6 +1,7 @@
 """Peak pressure and exit Mach number over the pinion speed.
 
-A scan takes no longer than the longest permitted single solution: low speeds, which need more steps, get fewer slices.
+A scan takes no longer than the longest permitted single solution, because low speeds, which need more steps, get fewer
+slices.
 """
 
 import numpy as np
@@ -11,7 +12,7 @@ from solvers.pumping.inputs import Flow, PumpingSetup
 from solvers.pumping.results import ChokingCurves
 from solvers.pumping.spaces import CELL_STEP_LIMIT, Mesh, flow_at, prepare
 
-_COARSENINGS = {Flow.GAS_DYNAMICS: (1, 2, 4)}  # the pockets of the chain are a constant of that model
+_COARSENINGS = {Flow.GAS_DYNAMICS: (1, 2, 4)}  # in the pocket chain the number of pockets is a constant of the model
 
 
 def speed_scan(setup: PumpingSetup, speeds: FloatArray) -> ChokingCurves:

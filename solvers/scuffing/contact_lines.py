@@ -12,13 +12,13 @@ from solvers.errors import InvalidInput
 from solvers.gears.pair import ContactPlane, PathOfContact
 from solvers.scuffing.modification import Gap, gap_at
 
-COINCIDENT = 1e-9  # base pitches; breakpoints that are nearer count as one
-LEAST_STEPS = 8  # between two breakpoints, however close
-MOST_LINES = 100  # in contact at the same time; no gear has a tenth of that
-MOST_ZONES = 12  # of one line; further zones are joined to the last
+COINCIDENT = 1e-9  # base pitches; breakpoints closer to each other than this count as one
+LEAST_STEPS = 8  # between two breakpoints, even if they are close to each other
+MOST_LINES = 100  # in contact at the same time; no gear has a tenth of this number
+MOST_ZONES = 12  # of one line; further zones are joined to the last zone
 LEAST_SAMPLES = 8  # per smooth part
-BISECTIONS = 45  # 2^-45 of a sample: beyond the digits of a gap
-GOLDEN_STEPS = 30  # 0.618^30 of a sample: 5e-7, and the gap at a minimum is flat
+BISECTIONS = 45  # they reduce the step between samples to 2^-45, below the rounding of a gap
+GOLDEN_STEPS = 30  # they reduce the step between samples to 5e-7; the gap is flat at its minimum
 GOLDEN = 0.6180339887498949  # (sqrt(5) - 1) / 2, the golden section
 
 
@@ -32,7 +32,7 @@ class ContactLengths:
 
     @property
     def ratio(self) -> float:
-        """L_min / L_max."""
+        """Contact length ratio L_min / L_max [-]."""
         return self.minimum / self.maximum
 
 
@@ -57,9 +57,9 @@ def contact_lengths(path: PathOfContact) -> ContactLengths:
 
     Notes
     -----
-    Replaces the paper's lost Eq. 4, which has the mean L = eps_alpha b / cos beta_b. The length over the roll position
-    is the periodic convolution of two rectangles of lengths eps_alpha = n_a + f_a and eps_beta = n_b + f_b. With the
-    unit u = b / (eps_beta cos beta_b)
+    These formulas replace Eq. 4 of the paper, which is lost; its mean is L = eps_alpha b / cos beta_b. The length as a
+    function of the roll position is the periodic convolution of two rectangles of the lengths eps_alpha = n_a + f_a and
+    eps_beta = n_b + f_b. With the unit u = b / (eps_beta cos beta_b):
 
     L_min = u [n_a eps_beta + n_b f_a + max(0, f_a + f_b - 1)],  L_max = u [n_a eps_beta + n_b f_a + min(f_a, f_b)].
     """
@@ -76,13 +76,16 @@ def contact_lengths(path: PathOfContact) -> ContactLengths:
     if least <= 0.0:
         raise InvalidInput(
             "no_contact",
-            f"no pair of teeth is in contact at some roll positions (transverse contact ratio {transverse:.3f}, "
-            f"overlap ratio {overlap:.3f})",
+            f"at some roll positions no pair of teeth is in contact (transverse contact ratio {transverse:.3f}, "
+            f"overlap ratio {overlap:.3f}); increase the addendum",
             "addendum",
         )
     if path.total_contact_ratio > MOST_LINES:
         raise InvalidInput(
-            "overlap_range", f"the face is too wide for its helix: more than {MOST_LINES} lines at once", "face_width"
+            "overlap_range",
+            f"the face is too wide for the helix angle, because more than {MOST_LINES} contact lines would exist "
+            "at once; reduce the face width",
+            "face_width",
         )
     return ContactLengths(least * length, most * length, transverse * length)
 
@@ -91,8 +94,8 @@ class RollPositions(NamedTuple):
     """Roll positions in one base pitch [m], ascending.
 
     `corner` marks the roll positions whose line meets a corner of the plane or of the gap; loads may change abruptly
-    there. `side` is 0 for helical gears. The contact length of spur gears jumps at corners: every corner then occurs
-    twice, as the limit from below (-1) and from above (+1).
+    there. `side` is 0 for helical gears. The contact length of spur gears jumps at corners. Every corner therefore
+    occurs twice: with side -1 for the limit from below, and with side +1 for the limit from above.
     """
 
     phase: FloatArray
@@ -103,10 +106,11 @@ class RollPositions(NamedTuple):
 def roll_positions(
     plane: ContactPlane, count: int, along_path: tuple[float, ...] = (), along_face: tuple[float, ...] = ()
 ) -> RollPositions:
-    """Return at least `count` roll positions, equidistant between the corners (x + y tan beta_b) mod p_bt.
+    """Return at least `count` roll positions, equidistant between the corners.
 
-    The corners are those of the plane, {0, g, b tan, g + b tan} mod p_bt, and those of kinks of the gap along path and
-    face.
+    A corner is the roll position (x + y tan beta_b) mod p_bt at which a contact line passes the point (x, y). These
+    points are the corners of the plane, and the points at which kinks of the gap cross each other or an edge of the
+    plane.
     """
     pitch = plane.base_pitch
     x = np.array([0.0, plane.path_length, *along_path])
@@ -115,8 +119,8 @@ def roll_positions(
     corners = corners[np.append(np.diff(corners) > COINCIDENT * pitch, True)]
     corners[0] = 0.0
     steps = np.maximum(LEAST_STEPS, np.ceil(count * np.diff(corners) / pitch)).astype(int)
-    part = np.repeat(np.arange(steps.size), steps + 1)  # between two corners, both included
-    number = np.arange(part.size) - (np.cumsum(steps + 1) - steps - 1)[part]  # of the position in its part
+    part = np.repeat(np.arange(steps.size), steps + 1)  # index of the part between two corners, both included
+    number = np.arange(part.size) - (np.cumsum(steps + 1) - steps - 1)[part]  # index of the position within its part
     phase = number * (np.diff(corners) / steps)[part] + corners[part]
     first, last = number == 0, number == steps[part]
     phase[last] = corners[1:]
@@ -137,7 +141,7 @@ def line_ends(plane: ContactPlane, phase: float, side: float) -> tuple[float, fl
     phase : float
         Place of the line at y = 0 [m].
     side : float
-        The limit of a spur line at the end of the path: 1 from above, -1 from below, 0 elsewhere.
+        For a spur line at an end of the path, 1 for the limit from above and -1 for the limit from below; 0 elsewhere.
 
     Returns
     -------
@@ -148,9 +152,9 @@ def line_ends(plane: ContactPlane, phase: float, side: float) -> tuple[float, fl
 
     Notes
     -----
-    Eq. L3: the line is x = phase - y tan beta_b. A spur line at the end of the path is in contact on the `side` that
-    lies inside. A helical line that only meets a corner of the rectangle is not in contact; otherwise rounding would
-    decide whether this line has the least gap of the unloaded teeth.
+    Eq. L3: the line is x = phase - y tan beta_b. A spur line at an end of the path is in contact if `side` is the limit
+    from inside the path. A helical line that only meets a corner of the rectangle is not in contact; otherwise rounding
+    would decide whether this line has the least gap of the unloaded teeth.
     """
     if plane.tan_base_helix == 0.0:
         nudged = phase + side * COINCIDENT * plane.base_pitch
@@ -191,7 +195,7 @@ def gap_on_line(form: Gap, plane: ContactPlane, line: float, y: float) -> float:
 
 @kernel
 def valley(form: Gap, plane: ContactPlane, line: float, low: float, high: float) -> float:
-    """Find y [m] of the least gap between two points of a line with one valley between them, by golden section."""
+    """Find y [m] of the least gap between two points of a line by golden section; the gap has one valley there."""
     inner, outer = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
     at_inner, at_outer = gap_on_line(form, plane, line, inner), gap_on_line(form, plane, line, outer)
     for _ in range(GOLDEN_STEPS):
@@ -208,7 +212,7 @@ def valley(form: Gap, plane: ContactPlane, line: float, low: float, high: float)
 
 @kernel
 def _edge(form: Gap, plane: ContactPlane, line: float, inside: float, outside: float, reach: float) -> float:
-    """Find y [m] between a loaded and an unloaded point of a line at which the gap equals the approach `reach` [m]."""
+    """Find y [m] at which the gap equals the approach `reach` [m], between a loaded and an unloaded point of a line."""
     for _ in range(BISECTIONS):
         middle = 0.5 * (inside + outside)
         if gap_on_line(form, plane, line, middle) < reach:
@@ -240,7 +244,10 @@ def loaded_zones(
     reach: float,
     zones: FloatArray,
 ) -> int:
-    """Write the loaded stretches of a smooth part of a line, rows of first and last y [m], and return their number."""
+    """Write the loaded stretches of a smooth part of a line to `zones`, and return the number of stretches.
+
+    A row of `zones` contains the first and the last y [m] of a stretch.
+    """
     low, high = part
     step, count = (high - low) / samples, 0
     before, least_gap, least_at = low, gap_on_line(form, plane, line, low), low

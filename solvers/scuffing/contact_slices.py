@@ -1,4 +1,4 @@
-"""Slices of all contact lines at one roll position, and their sums and largest values: friction, forces, pressure."""
+"""Slices of all contact lines at one roll position, and results from them: friction, forces, largest pressure."""
 
 from dataclasses import dataclass
 from math import ceil
@@ -22,12 +22,12 @@ from solvers.scuffing.contact_lines import (
 from solvers.scuffing.modification import MOST_EDGES, Gap, gap_at, smooth_parts
 from solvers.scuffing.tooth_stiffness import PairCompliance, compliance_at, line_load
 
-NUDGE = 1e-3  # of a slice: distance from an end at which the slope of the gap is tested, well inside the slice
-EQUAL = 1e-9  # relative: peaks that are nearer differ only by rounding, as along the line of a spur gear's pair
+NUDGE = 1e-3  # of a slice; distance from the end of a stretch at which the slope of the gap is tested
+EQUAL = 1e-9  # relative; peaks that differ by less differ only by rounding, for example on a line of a spur gear
 
 
 class Mesh(NamedTuple):
-    """The unloaded mesh: plane of action, compliance of a pair of teeth, gap."""
+    """The unloaded mesh: plane of action, compliance of a pair of teeth, and gap between the flanks."""
 
     plane: ContactPlane
     compliance: PairCompliance
@@ -35,7 +35,7 @@ class Mesh(NamedTuple):
 
 
 class Cover(NamedTuple):
-    """Number of slices that cover the lines, their total length, and the least and largest gap on them [m]."""
+    """Number of slices that cover the lines, their total length [m], and least and largest gap on the slices [m]."""
 
     slices: int
     length: float
@@ -44,12 +44,12 @@ class Cover(NamedTuple):
 
 
 class Slices(NamedTuple):
-    """Slices of the contact lines, arrays with room for the slices of every line.
+    """Slices of the contact lines; the arrays have room for the slices of all lines.
 
-    `x` and `y` are the place of the middle, `length` is the length along the line, `gap` the gap at the middle [m].
-    `constant` and `limit` describe the compliance of the pair (`tooth_stiffness.compliance_at`). `load` is the line
-    load [N/m], `log_load` its logarithm, which is the guess for the next solution, and `stiffness` its derivative by
-    the approach [N/m^2]. `line` is the number of the line.
+    `x` and `y` are the place of the middle of a slice [m], `length` is the length of the slice along the line [m], and
+    `gap` is the gap at the middle [m]. `constant` and `limit` describe the compliance of the pair of teeth
+    (`tooth_stiffness.compliance_at`). `load` is the line load w [N/m]. `log_load` is ln w, the guess for the next
+    solution. `stiffness` is the derivative of w by the approach [N/m^2]. `line` is the number of the line.
     """
 
     x: FloatArray
@@ -65,7 +65,7 @@ class Slices(NamedTuple):
 
 
 class Peaks(NamedTuple):
-    """Largest value and its place at every roll position, arrays (positions,); see `Peak`."""
+    """Largest value at every roll position and the place of this value, arrays (positions,); see `Peak`."""
 
     value: FloatArray
     x: FloatArray
@@ -92,7 +92,10 @@ def slice_table(mesh: Mesh, slices: int) -> Slices:
 
 @inlined_kernel
 def _cut(mesh: Mesh, line: float, j: int, zone: FloatArray, slices: int, table: Slices, count: int) -> int:
-    """Cut a stretch of line j, `zone` from its first to its last y [m], into equal slices and add them to the table."""
+    """Cut a stretch of line j into equal slices, add the slices to the table, and return the new number of slices.
+
+    `zone` contains the first and the last y [m] of the stretch.
+    """
     low, high = zone
     step = (high - low) / slices
     for i in range(slices):
@@ -110,7 +113,7 @@ def _cut(mesh: Mesh, line: float, j: int, zone: FloatArray, slices: int, table: 
 def _parts(
     mesh: Mesh, line: float, ends: tuple[float, float], slices: int, reach: float, zones: FloatArray
 ) -> tuple[int, float]:
-    """Write the loaded stretches of a line to `zones`; return their number and their length in y [m].
+    """Write the loaded stretches of a line to `zones`; return the number of stretches and their total length in y [m].
 
     No stretch contains a kink of the gap.
     """
@@ -127,7 +130,8 @@ def _parts(
         else:
             pieces = ceil(slices * (high - low) / (last_y - first_y) - 1e-9)
             least = max(LEAST_SAMPLES, ceil(stations * (high - low)))
-            samples = 2 * pieces * ceil(least / (2 * pieces))  # middles of whole lines' slices are among them
+            # The middles of the slices of a whole line are among the samples.
+            samples = 2 * pieces * ceil(least / (2 * pieces))
             added = loaded_zones(mesh.gap, mesh.plane, line, (low, high), samples, reach, zones[count:])
         for start, end in zones[count : count + added]:
             length += end - start
@@ -137,10 +141,10 @@ def _parts(
 
 @kernel
 def gather(mesh: Mesh, phase: float, side: float, slices: int, reach: float, table: Slices) -> Cover:
-    """Fill the table with the slices of all lines at a roll position where the gap is below `reach` [m].
+    """Fill the table with slices of all lines at a roll position.
 
-    A line has `slices` slices, and more only if it has stretches shorter than a slice. No slice contains a kink of the
-    gap.
+    The slices cover the stretches of the lines where the gap is below `reach` [m]. A line has `slices` slices, or more
+    because the number of slices of every stretch is rounded up. No slice contains a kink of the gap.
     """
     plane, zones = mesh.plane, np.empty((MOST_EDGES * MOST_ZONES, 2))
     count, length, least, most = 0, 0.0, np.inf, -np.inf
@@ -162,7 +166,7 @@ def gather(mesh: Mesh, phase: float, side: float, slices: int, reach: float, tab
 
 @inlined_kernel
 def _range(mesh: Mesh, line: float, zone: FloatArray, table: Slices, first: int, last: int) -> tuple[float, float]:
-    """Return the least and the largest gap [m] on a stretch that is covered by the slices `first` to `last`."""
+    """Return the least and the largest gap [m] on a stretch with the slices from `first` up to but without `last`."""
     low, high = zone
     at_low, at_high = gap_on_line(mesh.gap, mesh.plane, line, low), gap_on_line(mesh.gap, mesh.plane, line, high)
     least, most = min(at_low, at_high), max(at_low, at_high)
@@ -184,7 +188,10 @@ def _range(mesh: Mesh, line: float, zone: FloatArray, table: Slices, first: int,
 def _beside(
     mesh: Mesh, line: float, table: Slices, end: tuple[float, float], at_end: float, middle: int, following: int
 ) -> float:
-    """Return the least gap [m] between the end of a stretch (y, step inwards) and the middle of its slice."""
+    """Return the least gap [m] between an end of a stretch and the middle of the slice at this end.
+
+    `end` contains y of the end and the step to the other end of the slice [m].
+    """
     y, step = end
     if table.gap[middle] > table.gap[following]:
         return at_end
@@ -196,7 +203,10 @@ def _beside(
 
 @inlined_kernel
 def load_under(compliance: PairCompliance, approach: float, x: float, log_load: float) -> tuple[float, float]:
-    """Return the line load w [N/m] of a pair under an `approach` [m] at x [m], and ln w; `log_load` guesses ln w."""
+    """Return the line load w [N/m] of a pair under an `approach` [m] at x [m], and ln w.
+
+    `log_load` is a guess of ln w.
+    """
     constant, limit = compliance_at(compliance, x)
     load, _, log_load = line_load(approach, constant, compliance.logarithmic, limit, log_load)
     return load, log_load
@@ -205,10 +215,11 @@ def load_under(compliance: PairCompliance, approach: float, x: float, log_load: 
 class Survey(NamedTuple):
     """Sums and largest values over the roll positions.
 
-    `friction_moment` is int w |s - s_C| dl [N m]; `loaded_length` and `length` are those of the lines [m]. `held` is
-    the number of slices pressed beyond the half-space, `undefined` the number of loaded points too near a base circle
-    for a pressure. `peak_load` is the largest w [N/m], `peak_pressure` the largest w / R_n [N/m^2]. `line_forces`
-    (positions, lines) are the forces on the lines [N].
+    `friction_moment` is int w |s - s_C| dl [N m]. `loaded_length` and `length` are the loaded and the total length of
+    the contact lines [m]. `held` is the number of slices whose approach exceeds the limit of the half-space.
+    `undefined` is the number of loaded points that are too near a base circle to have a pressure. `peak_load` is the
+    largest w [N/m], and `peak_pressure` is the largest w / R_n [N/m^2]. `line_forces` (positions, lines) are the forces
+    on the lines [N].
     """
 
     friction_moment: FloatArray
@@ -277,7 +288,10 @@ def survey_slices(mesh: Mesh, table: Slices, count: int, error: float, survey: S
 
 @kernel
 def survey_ends(mesh: Mesh, phase: float, side: float, error: float, survey: Survey, i: int) -> None:
-    """Add the peaks at the ends of the lines and at the kinks of the gap; a corner is a line without length."""
+    """Add the peaks at the ends of the lines and at the kinks of the gap.
+
+    A line that only meets a corner of the plane has no length; its point at the corner counts as an end.
+    """
     plane, edges, log_load = mesh.plane, np.empty(MOST_EDGES), 0.0
     overlap = plane.face_width * plane.tan_base_helix
     for j in range(line_count(plane)):
@@ -298,7 +312,7 @@ def reaches_base_circle(survey: Survey) -> bool:
 
 
 def largest(peaks: Peaks) -> Peak | None:
-    """Return the largest of the peaks of all roll positions, the first of equal ones; None without load."""
+    """Return the largest peak of all roll positions, or the first of several equal peaks; None without load."""
     values = peaks.value
     first = int(np.argmax(values >= values.max() * (1.0 - EQUAL)))
     if values[first] <= 0.0:

@@ -1,7 +1,8 @@
-"""Load over the face as a function of the gap over the face, with its derivative, to couple mesh and shafts.
+"""Load over the face as a function of the gap over the face, and the derivative of this function.
 
-Load and gap are given at equidistant stations over the face; between stations the gap is linear. The share of a station
-in a force is weighted by its hat function, which is linear, 1 at the station and 0 at its neighbours.
+They couple the mesh and the shafts. Load and gap are given at equidistant stations over the face; between stations the
+gap is linear. A force on the face is distributed over the stations by hat functions. The hat function of a station is 1
+at the station, 0 at the neighbouring stations, and linear in between.
 """
 
 from dataclasses import dataclass
@@ -18,11 +19,11 @@ from solvers.scuffing.load_balance import TOLERANCE, solve_near
 
 @dataclass(frozen=True, slots=True)
 class FaceResponse:
-    """Transverse `force` [N] at the stations, mean over a base pitch, and its `derivative` [N/m] by the gaps.
+    """Transverse `force` [N] at the stations, as mean over a base pitch, and its `derivative` [N/m] by the gaps.
 
-    The force over the whole face is the same at every roll position; the rows and the columns of the derivative
-    therefore add up to 0. `error` is the approach of the flanks and `log_load` ln w of the slices at every roll
-    position. Both start the next response of the same mesh under a gap that differs little.
+    The force over the whole face is the same at every roll position. Therefore every row and every column of the
+    derivative adds up to 0. `error` is the approach of the flanks [m], and `log_load` is ln w of the slices, both at
+    every roll position. They are the start values for the next response of the same mesh under a similar gap.
     """
 
     force: FloatArray
@@ -49,7 +50,7 @@ def face_response(
     stations : int
         Number of equidistant stations from y = 0 to b, both included.
     start : FaceResponse, optional
-        Response of the same mesh under a similar gap.
+        Response of the same mesh under a similar gap; gives the start values.
 
     Returns
     -------
@@ -95,9 +96,11 @@ def _respond(
     spread: FloatArray,
     derivative: FloatArray,
 ) -> float:
-    """Add to `spread` the sums of w dl hat and to `derivative` those of k k^T / (1^T k) - P over the roll positions.
+    """Add the forces of all roll positions to `spread`, and their derivatives to `derivative`.
 
-    Here P_ab = sum (dw/ddelta) dl hat_a hat_b and k = P 1. Returns the largest relative residual of the balance.
+    At every roll position the force at station a is the sum of w dl hat_a over the slices. The derivative is
+    k k^T / (1^T k) - P, where P_ab = sum (dw/ddelta) dl hat_a hat_b, k = P 1, and 1 is the vector of ones. Both are
+    multiplied by the share of the roll position. Returns the largest relative residual of the balance.
     """
     table, worst = slice_table(mesh, slices), 0.0
     springs = np.zeros(spread.size)
@@ -128,7 +131,7 @@ def _spread(
     derivative: FloatArray,
     springs: FloatArray,
 ) -> None:
-    """Add loads and stiffness of the slices of a balanced roll position to the stations."""
+    """Distribute the loads and the stiffness of the slices of a balanced roll position over the stations."""
     steps_per_metre = (spread.size - 1) / mesh.plane.face_width
     for n in range(count):
         if table.load[n] <= 0.0:

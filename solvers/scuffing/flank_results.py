@@ -14,13 +14,13 @@ from solvers.scuffing.modification import kinks_along_face, lead_gaps, profile_g
 from solvers.scuffing.results import ContactPoints, FeatureLine, Flank
 from solvers.scuffing.tooth_stiffness import compliance_at, line_load
 
-SUBSTEPS = 4  # per step between roll positions, if lines are loaded in part
+SUBSTEPS = 4  # per step between roll positions, if lines are loaded over a part of their length only
 FACE_POINTS = 101  # every percent of the face
-NEARLY = 0.98  # of the largest value: lower tops cannot become the largest by refinement
-TOPS = 3  # number of tops that are refined, the highest
-ZOOMS = 3  # a zoom narrows the place of the maximum by a factor of 3
+NEARLY = 0.98  # of the largest value; a lower top cannot become the largest by refinement
+TOPS = 3  # number of the highest tops, which are refined
+ZOOMS = 3  # number of zooms; each narrows the place of the maximum by a factor of 3
 ZOOM_POINTS = 7  # per zoom, between the neighbours of a top
-SAME = 1e-6  # of the range of places, or of a length
+SAME = 1e-6  # of the range of places, or of a length; smaller differences are rounding
 
 
 def face_load_factor(balance: LoadBalance, y: float) -> float:
@@ -40,10 +40,11 @@ def face_load_factor(balance: LoadBalance, y: float) -> float:
 
     Notes
     -----
-    Eq. L17: K_Hbeta is the largest over the mean value of q(y) = int w dx / p_bt, the idea of ISO 6336-1, annex E. The
-    mean is the force in the balance over the face width. The largest value is searched at equidistant places, at kinks
-    of the gap and at `y`, and then refined around the highest of them. This first search takes no substeps between roll
-    positions, which is inexact for lines loaded in part; then several places with nearly the largest value are refined.
+    Eq. L17: K_Hbeta is the largest value of q(y) = int w dx / p_bt divided by the mean value of q, which is the idea of
+    ISO 6336-1, annex E. The mean value follows from the force in the balance and the face width. The search first
+    computes q at equidistant places, at kinks of the gap and at `y`, and then refines the place with the largest q. The
+    first step takes no substeps between roll positions. If lines are loaded over a part of their length only, this is
+    inexact; then several places with nearly the largest q are refined.
     """
     plane = balance.mesh.plane
     evenly = np.linspace(0.0, plane.face_width, FACE_POINTS)
@@ -51,23 +52,23 @@ def face_load_factor(balance: LoadBalance, y: float) -> float:
     highest = tops(face_loads(balance, places, 1))[-TOPS if _in_part(balance) else -1 :]
     largest = max(_largest_around(balance, places, top) for top in highest)
     factor = largest * plane.face_width / (balance.force * plane.cos_base_helix)
-    return max(factor, 1.0)  # a largest value below the mean is the error of the trapezia
+    return max(factor, 1.0)  # a largest value below the mean is an error of the trapezoidal rule
 
 
 def _in_part(balance: LoadBalance) -> bool:
-    """Return True if any line is loaded in part."""
+    """Return True if any line is loaded over a part of its length only."""
     return bool(np.any(balance.survey.loaded_length < (1 - SAME) * balance.survey.length))
 
 
 def tops(values: FloatArray) -> list[int]:
-    """Return the local maxima that are nearly as large as the largest, in ascending order of their values."""
+    """Return the indices of local maxima that are nearly as large as the largest value, in ascending order of value."""
     edged = np.concatenate([[-np.inf], values, [-np.inf]])
     local = np.flatnonzero((values > edged[:-2]) & (values >= edged[2:]) & (values >= NEARLY * values.max()))
     return sorted(local.tolist(), key=lambda k: float(values[k]))
 
 
 def _largest_around(balance: LoadBalance, places: FloatArray, top: int) -> float:
-    """Return the largest force per face width [N/m] between the neighbours of a place."""
+    """Return the largest force per face width [N/m] between both neighbours of the place with the index `top`."""
     for _ in range(ZOOMS):
         low, high = places[max(top - 1, 0)], places[min(top + 1, places.size - 1)]
         places = _apart(np.append(np.linspace(low, high, ZOOM_POINTS), places[top]))
@@ -77,7 +78,7 @@ def _largest_around(balance: LoadBalance, places: FloatArray, top: int) -> float
 
 
 def _apart(places: FloatArray) -> FloatArray:
-    """Return the places in ascending order, without those that only rounding separates from the next place."""
+    """Return the places in ascending order, without places that differ from the next place only by rounding."""
     ascending = np.sort(places)
     return np.asarray(ascending[np.append(np.diff(ascending) > SAME * (ascending[-1] - ascending[0]), True)])
 
@@ -92,8 +93,8 @@ def face_loads(balance: LoadBalance, y: FloatArray, substeps: int = SUBSTEPS) ->
     y : ndarray
         Distances from the end that meshes first [m].
     substeps : int, optional
-        Number of substeps per step between roll positions, used only if lines are loaded in part: their load then
-        begins or ends between roll positions.
+        Number of substeps per step between roll positions. Substeps are used only if lines are loaded over a part of
+        their length, because the load at a place then begins or ends between roll positions.
 
     Returns
     -------
@@ -110,10 +111,11 @@ def face_loads(balance: LoadBalance, y: FloatArray, substeps: int = SUBSTEPS) ->
 
 @kernel
 def _face_loads(mesh: Mesh, phase: FloatArray, error: FloatArray, substeps: int, y: FloatArray) -> FloatArray:
-    """Integrate along the path from A to E by the trapezoidal rule, at all places of the face together.
+    """Integrate the load along the path from A to E by the trapezoidal rule, for all places of the face at once.
 
-    The points of a place are those at which the lines of the roll positions pass it. A step between roll positions
-    begins where the step before ends, unless TE jumps there.
+    The integral for a place of the face uses the points at which the contact lines of the roll positions pass this
+    place. A step between roll positions begins at the point where the previous step ends. If TE jumps there, this point
+    is used again with the new TE.
     """
     plane, compliance, form = mesh.plane, mesh.compliance, mesh.gap
     across = lead_gaps(form, y)
@@ -142,7 +144,10 @@ def _face_loads(mesh: Mesh, phase: FloatArray, error: FloatArray, substeps: int,
 def contact_points(
     path: PathOfContact, x: FloatArray, load: FloatArray, pinion_speed: float, modulus: float
 ) -> ContactPoints:
-    """Return the contacts at points x [m] of the path under line loads [N/m], arrays of one shape; modulus E' [Pa]."""
+    """Return the contacts at distances x [m] from A under line loads [N/m]; `modulus` is the reduced modulus E' [Pa].
+
+    Distances and loads are arrays of one shape.
+    """
     radius = reduced_radius(path.plane, x)
     half_width = hertz.half_width(load, np.where(radius < path.plane.least_radius, 0.0, radius), modulus)
     return ContactPoints(load, half_width, radius, *path.surface_speeds(x, pinion_speed))
@@ -201,12 +206,15 @@ def feature_line(
 
 
 def _load_sharing(path: PathOfContact, load: FloatArray, tangential_force: float) -> FloatArray:
-    """Return X = w b / F_bt, to be compared with the standard's load-sharing factor."""
+    """Return X = w b / F_bt, which can be compared with the load-sharing factor of the standard."""
     return load * path.plane.face_width / tangential_force
 
 
 def flank(balance: LoadBalance, modulus: float, profile_points: int, face_points: int) -> Flank:
-    """Compute the maps [profile, face] from A to E and from the end that meshes first; `modulus` is E' [Pa]."""
+    """Compute the maps over the flank; `modulus` is the reduced modulus E' [Pa].
+
+    The maps [profile, face] run from A to E along the path, and from the end that meshes first over the face.
+    """
     plane = balance.mesh.plane
     profile, face = np.linspace(0.0, 1.0, profile_points), np.linspace(0.0, 1.0, face_points)
     x, y = profile * plane.path_length, face * plane.face_width
@@ -226,8 +234,8 @@ def _maps(
 ) -> tuple[FloatArray, FloatArray]:
     """Return gap Delta [m] and line load w [N/m] over a grid.
 
-    The load of a point starts from the load in the row before, not from its neighbour in the row: the points of a row
-    then do not wait for each other.
+    The iteration for the load at a point starts from the load at the same place of the face in the previous row. If it
+    started from the neighbouring point of the same row, the processor would have to compute these points one by one.
     """
     plane, compliance, form = mesh.plane, mesh.compliance, mesh.gap
     gaps, loads = np.empty((x.size, y.size)), np.zeros((x.size, y.size))
@@ -263,12 +271,12 @@ def contact_pressure(plane: ContactPlane, radius: FloatArray, load: FloatArray, 
     Returns
     -------
     ndarray
-        Pressure p_H [Pa]; 0 without load. NaN near a base circle, towards which the reduced radius vanishes and the
-        pressure has no limit.
+        Pressure p_H [Pa]; 0 without load. NaN near a base circle, because the reduced radius vanishes towards the base
+        circle and the pressure has no limit.
 
     Notes
     -----
-    Eq. 14 prints pi/4 of this value, which is the mean pressure, and calls it the maximum.
+    Eq. 14 of the paper is pi/4 of this value, which is the mean pressure; the paper calls it the maximum pressure.
     """
     defined = radius >= plane.least_radius
     pressure = hertz.maximum_pressure(load, np.where(defined, radius, 1.0), modulus)

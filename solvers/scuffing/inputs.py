@@ -35,7 +35,7 @@ FlankSurface = Literal[
 
 @record
 class Load:
-    """Torque or power, and speed of the driving pinion; if both are given, the torque is used.
+    """Torque or power, and speed of the driving pinion; if torque and power are both given, the torque is used.
 
     The factors K_A, K_v and K_gamma multiply the load of the contacts, not the transmitted power.
     """
@@ -68,7 +68,7 @@ class Load:
 
     @property
     def contact_factor(self) -> float:
-        """K_A K_v K_gamma."""
+        """Load factor of the contacts, K_A K_v K_gamma [-]."""
         return self.application_factor * self.dynamic_factor * self.mesh_load_factor
 
     @property
@@ -78,7 +78,7 @@ class Load:
 
     @property
     def torque(self) -> float:
-        """Transmitted torque of the pinion [N m]; from a power it is the paper's 9549 P/n.
+        """Transmitted torque of the pinion [N m]; if only the power is given, it is P/omega, the paper's 9549 P/n.
 
         Raises InvalidInput torque_or_power if neither torque nor power is given.
         """
@@ -95,7 +95,7 @@ class Load:
 
 
 def angular_speed(revolutions_per_minute: float) -> float:
-    """Return the angular speed [rad/s]."""
+    """Return the angular speed [rad/s] of a speed in revolutions per minute."""
     return revolutions_per_minute * pi / 30
 
 
@@ -103,7 +103,8 @@ def angular_speed(revolutions_per_minute: float) -> float:
 class LeadCurve:
     """A gap [m] over the face along the transverse line of action, positive where material is missing.
 
-    The gap is linear between the positions [m], which ascend from the end that meshes first, and constant outside them.
+    The positions [m] are distances from the end that meshes first, in ascending order. The gap is linear between the
+    positions, and constant outside them.
     """
 
     position: tuple[float, ...] = quantity(
@@ -134,11 +135,12 @@ class LeadCurve:
 class Modifications:
     """Gaps [m] along the transverse line of action; positive where material is missing.
 
-    `profile_slope` opens the gap towards E (pinion tip), `helix_slope` towards E2, the end that leaves the mesh last.
-    Shaft deviations over the face, in the plane of the shafts and out of it, act as `helix_slope` does. `tip_relief`
-    acts at E and is the sum of the reliefs of pinion tip and wheel root; `root_relief` acts at A. Relief lengths run
-    along the line of action, the end relief length along the face [m]; for None see `modification.gap`. `lead_curve`
-    adds any further gap over the face.
+    A positive `profile_slope` opens the gap towards E (pinion tip). A positive `helix_slope` opens the gap towards E2,
+    the end that leaves the mesh last. Shaft deviations over the face, in the plane of the shafts and out of this plane,
+    act like a helix slope. `tip_relief` acts at E and is the sum of the reliefs of pinion tip and wheel root.
+    `root_relief` acts at A and is the sum of the reliefs of pinion root and wheel tip. The lengths of tip and root
+    relief are measured along the line of action [m], the length of the end relief along the face [m]. If a length is
+    None, the default in `modification.gap` is used. `lead_curve` adds any further gap over the face.
     """
 
     profile_crowning: float = quantity(
@@ -273,10 +275,11 @@ class Modifications:
 class Model:
     """Options of the physical model.
 
-    `tooth_stiffness` is "ishikawa", or "parabola" through Ishikawa's maximum with `parabola_end_ratio` at A and E; the
-    parabola is calibrated to the paper's load maxima. `contact` is "hertzian" for half-spaces (Weber, Johnson), or
-    "linear" for the paper's term. `section` is the section of the tooth for its compliance. `load_convention` is
-    "exact" for F_bn in the balance, or "paper" for F_bt (Eq. 1).
+    `tooth_stiffness` is "ishikawa" for Ishikawa's tooth, or "parabola" for a parabola over the path whose maximum is
+    that of Ishikawa's tooth. The parabola is calibrated to the paper's load maxima; `parabola_end_ratio` is the
+    stiffness at A and E over the maximum. `contact` is "hertzian" for half-spaces (Weber, Johnson), or "linear" for the
+    paper's linear term. `section` is the section in which the tooth is cut to compute its compliance. `load_convention`
+    is "exact" to use F_bn in the load balance, or "paper" to use F_bt (Eq. 1).
     """
 
     tooth_stiffness: ToothModel = quantity(
@@ -336,7 +339,7 @@ class Resolution:
 
 @record
 class LoadDistributionInputs:
-    """A loaded pair of modified, misaligned gears; without a coefficient of friction its loss is unknown."""
+    """A loaded pair of modified, misaligned gears; without a coefficient of friction the friction loss is unknown."""
 
     gears: GearPairInputs
     load: Load
@@ -359,7 +362,10 @@ class LoadDistributionInputs:
 
 @record
 class ScuffingTest:
-    """The FZG A/8.3/90 load stage at which the oil fails, X_W of the steel, and X_L of the oil (None: X_L at 90 C)."""
+    """The load stage at which the oil fails in the FZG test A/8.3/90, X_W of the steel, and X_L of the oil.
+
+    If X_L is None, the X_L of the oil at 90 C is used.
+    """
 
     fzg_stage: int = quantity(
         "failure load stage",
@@ -368,8 +374,10 @@ class ScuffingTest:
         ge=1,
         le=14,
         text="stage at which the oil fails; 13 if a data sheet says above 12",
-        if_above='"above 12" on a data sheet means that stage 12 was passed: enter 13 for the limit that this proves '
-        "at least, or the failing stage if it is known",
+        if_above=(
+            '"above 12" on a data sheet means that the oil passed stage 12; enter 13 as a lower limit, or the stage at '
+            "which the oil failed if you know it"
+        ),
     )
     test: Literal["A/8.3/90"] = quantity("scuffing test", None, FZG, kw_only=True, default="A/8.3/90")
     structure_factor: float = quantity(
@@ -396,13 +404,14 @@ class ScuffingTest:
 
 @record
 class Temperatures:
-    """Bulk temperature of the teeth, at which the oil enters, oil temperature and scuffing temperature [K].
+    """Bulk temperature of the teeth, oil temperature and scuffing temperature [K].
 
-    If `bulk_method` is "estimated", the bulk temperature follows from the oil, its supply and Blok's flash temperature,
-    and `bulk` is None before. If it is "heat_balance", the bulk temperature is the mean of both `flanks` [K] by the
-    balance of losses and oil. A given bulk temperature needs the method "given". The scuffing temperature is a property
-    of oil and material that the paper does not give; it is a number or follows from a test. Without both there is no
-    safety.
+    The oil enters the contact at the bulk temperature. If `bulk_method` is "estimated", the bulk temperature follows
+    from the oil, the oil supply and Blok's flash temperature; `bulk` is None before this estimate. If `bulk_method` is
+    "heat_balance", the bulk temperature is the mean of `flanks`, the temperatures of both flanks [K] from the balance
+    of losses and oil. If a bulk temperature is given, `bulk_method` must be "given". The scuffing temperature is a
+    property of oil and material, and the paper does not give it. It is given as a number, or it follows from a test.
+    Without a scuffing temperature there is no safety factor.
     """
 
     bulk: float | None = quantity(
@@ -467,7 +476,7 @@ class Temperatures:
 
     @property
     def surfaces(self) -> tuple[float, float] | None:
-        """Bulk temperatures of pinion and wheel [K]: those of both flanks by a heat balance, else `bulk` for both."""
+        """Bulk temperatures of pinion and wheel [K]: `flanks` if a heat balance gives them, else twice `bulk`."""
         if self.flanks is not None or self.bulk is None:
             return self.flanks
         return self.bulk, self.bulk
@@ -480,7 +489,7 @@ class Temperatures:
 
 @record
 class FlankSurfaces:
-    """How the flanks are hardened; retained austenite counts above 25 %."""
+    """How the flanks are hardened; retained austenite counts only if its share exceeds 25 %."""
 
     pinion: FlankSurface = quantity(
         "surface of the pinion", "W_W1", ISO_TR_15144, default="case_hardened", assumed="case-hardened flanks"
@@ -492,11 +501,12 @@ class FlankSurfaces:
 
 @record
 class MicropittingCheck:
-    """Inputs of micropitting and wear beside the film: the oil's test, surfaces and quality of the flanks.
+    """Inputs of the checks against micropitting and wear: micropitting test of the oil, surfaces and quality of flanks.
 
-    A `permissible_ratio` replaces the test. A `material_factor` replaces the factors of the surfaces, of which the
-    smaller is used. Without a failure load stage and without a permissible ratio there is a film but no safety.
-    `quality_grade` is only used for the load sharing of the standard.
+    `permissible_ratio` is given instead of the test. `material_factor` replaces the factors of the surfaces; without
+    it, the smaller factor of the two surfaces is used. If neither a failure load stage nor a permissible ratio is
+    given, the film is computed, but no safety factor. `quality_grade` is only used for the load sharing of the
+    standard.
     """
 
     failure_load_stage: int | None = quantity(
@@ -561,13 +571,14 @@ class MicropittingCheck:
 class ScuffingInputs:
     """Inputs of a scuffing check.
 
-    `oil` replaces `lubricant`, which then is the oil at the bulk temperature. Without both there are no film, contact
-    temperature and safety. `friction` is "given" for the coefficient of the distribution, or "iso_tr_13989" for the
-    mean coefficient of that report for Blok and Schlenk's coefficient for the losses. `lubrication` is "thermal_ehl" to
-    solve the film under the local load by the model `film`, or "closed_form" for the formulas of Blok and of Dowson and
-    Higginson alone; the formulas are computed in either case. `line` is "flank" to check the whole flank, or
-    "feature_line" for the paper's diagonal from A1 to E2 alone; every line has `path_points` points. `cooling` is only
-    used for the bulk temperature by heat balance.
+    If `oil` is given, `lubricant` becomes this oil at the bulk temperature. If neither is given, film, contact
+    temperature and safety factor are not computed. `friction` is "given" to use the coefficient of `distribution`. It
+    is "iso_tr_13989" to use the mean coefficient of ISO/TR 13989-1 for Blok's flash temperature, and Schlenk's
+    coefficient for the losses. `lubrication` is "thermal_ehl" to solve the film under the local load with the model
+    `film`, or "closed_form" to use only the formulas of Blok and of Dowson and Higginson. These formulas are evaluated
+    in either case. `line` is "flank" to check the whole flank, or "feature_line" to check only the paper's diagonal
+    from A1 to E2. Each checked line has `path_points` equidistant points. `cooling` is only used if the bulk
+    temperature follows from the heat balance.
     """
 
     distribution: LoadDistributionInputs
@@ -620,5 +631,5 @@ class ScuffingInputs:
 
     @property
     def known_oil(self) -> OilSheet | Lubricant | None:
-        """The oil, described by `oil` or `lubricant`; None without both."""
+        """The oil, described by `oil` or `lubricant`; None if neither is given."""
         return self.lubricant if self.oil is None else self.oil

@@ -1,11 +1,12 @@
-"""Load balance over the contact lines: the approach TE of the flanks at every roll position, and the loads under it.
+"""Load balance over the contact lines: the approach TE of the flanks at every roll position, and the loads at this TE.
 
-Every line is cut into slices, and w = k max(TE - Delta, 0) is summed at their middles (Eq. 9 with one TE for all points
-of a roll position). The slices are dl = dy / cos beta_b long, and w is the load per length of contact line, so that the
-sum is F_bn. Lines that are loaded in part are cut again where the last TE loads them, until TE settles: all slices
-cover the contact, however small the contact is. Roll positions are added where TE is not linear between them. The
-paper's iteration (Eq. 10) converges only while the mean relief in contact is below TE/2; here F(TE), which is convex
-and increasing, is solved by Newton steps. With linear contact a finite number of steps reaches the exact solution.
+Every line is cut into slices of the length dl = dy / cos beta_b. The line load w = k max(TE - Delta, 0), a load per
+length of contact line, is computed at the middle of every slice. The sum of w dl over the slices is F_bn (Eq. 9 with
+one TE for all points of a roll position). If a line is loaded over a part of its length only, the part that is loaded
+at the last TE is cut into slices again, until TE no longer changes. The slices then cover exactly the contact, even if
+the contact is small. Roll positions are added where TE is not linear between them. The paper's iteration (Eq. 10)
+converges only while the mean relief in contact is below TE/2. Here Newton's method is used, because the force F(TE) is
+convex and increasing. With linear contact it reaches the exact solution in a finite number of steps.
 """
 
 from dataclasses import dataclass, replace
@@ -33,30 +34,31 @@ from solvers.scuffing.contact_slices import (
 from solvers.scuffing.modification import gap_at
 from solvers.scuffing.tooth_stiffness import LEAST_OMEGA, line_load_near
 
-MAX_STEPS = 60  # limit; a roll position that has not converged after them never does
-ROUNDING = 1e-14  # relative force below which a Newton step gains nothing
-NEAR_ROUNDING = 1e-12  # relative force that is accepted once the residual no longer falls
-TOLERANCE = 1e-10  # largest relative force of a solution
+MAX_STEPS = 60  # limit; a roll position that has not converged after these steps never does
+ROUNDING = 1e-14  # relative residual of the force; if it is smaller, a Newton step gains nothing
+NEAR_ROUNDING = 1e-12  # relative residual of the force; accepted if a step does not reduce it
+TOLERANCE = 1e-10  # largest relative residual of the force in a solution
 MAX_COVERS = 20  # number of times that the lines of one roll position are cut into slices
-SETTLED = 1e-6  # change of the approach between two covers
-STRAIGHT = 2e-3  # of the approach; distance of TE from the straight line between its neighbours that is still linear
-MAX_HALVINGS = 8  # of the steps between roll positions
-MOST_ADDED = 1000  # roll positions per halving
-LEAST_LINE_LOAD = 0.1  # N/m, mean; under it the approach is near the rounding of large gaps
-LEAST_SPREAD = 1e-12  # m, of a kinematic error
-BESIDE = 1e-12  # of the path: distance of both sides from a jump of the load, above rounding
+SETTLED = 1e-6  # relative change of the approach between two covers; if it is smaller, the last cover is used
+STRAIGHT = 2e-3  # of the approach; largest distance of TE from the line through its neighbours that counts as linear
+MAX_HALVINGS = 8  # largest number of times that a step between roll positions is halved
+MOST_ADDED = 1000  # largest number of roll positions that are added per halving
+LEAST_LINE_LOAD = 0.1  # N/m, mean line load; below it the approach is as small as the rounding of large gaps
+LEAST_SPREAD = 1e-12  # m, least range of a kinematic error that is tested for linearity
+BESIDE = 1e-12  # of the path; distance from a jump of the load at which its two sides are computed, above rounding
 
 
 Start = tuple[FloatArray, FloatArray]
-"""TE [m] by roll position, and ln w [N/m] by roll position and slice."""
+"""TE [m] at every roll position, and ln w (w in N/m) of every slice at every roll position."""
 
 
 @kernel
 def _secant_start(table: Slices, count: int, logarithmic: float, force: float) -> float:
-    """Return the exact TE of the linear problem; a half-space has its secant compliance at the mean load.
+    """Return the exact TE of the linear problem; half-spaces have the secant compliance at the mean load.
 
-    If slices could pull, a common TE of all slices would reach the force to the right of the root of the convex F(TE).
-    Newton's steps descend from there through smaller and smaller contact sets.
+    The first step treats all slices as if they were in contact and could also pull. The TE of this step is too large,
+    because slices that pull reduce the force. The next steps of Newton's method reduce TE, with fewer and fewer slices
+    in contact.
     """
     log_mean = 0.0
     if logarithmic > 0.0:
@@ -83,11 +85,12 @@ def _secant_start(table: Slices, count: int, logarithmic: float, force: float) -
 
 @kernel
 def _press(table: Slices, count: int, logarithmic: float, error: float) -> tuple[float, float, float, float]:
-    """Take one step of every slice towards its load at an approach [m].
+    """Take one iteration step of every slice towards the load of the slice at the approach `error` [m].
 
-    Returns the force [N], its derivative [N/m], the error of the force because slices have not settled [N], and the
-    distance to the nearest kink of a slice [m]. The load of a slice has a kink where the slice comes into contact, and
-    where its compliance is held.
+    Returns the force [N], the derivative of the force by the approach [N/m], the error of the force that remains
+    because the loads of slices have not converged [N], and the distance of the approach from the nearest kink [m]. The
+    load of a slice has a kink at the approach at which the slice comes into contact, and at the approach beyond which
+    its compliance is held constant.
     """
     force, slope, unsettled, nearest = 0.0, 0.0, 0.0, np.inf
     for i in range(count):
@@ -107,7 +110,7 @@ def _press(table: Slices, count: int, logarithmic: float, error: float) -> tuple
 
 @kernel
 def _follow(table: Slices, count: int, change: float) -> float:
-    """Change the loads by a change of TE [m] along their derivatives, and return the force [N]."""
+    """Add to every load its derivative times a change of TE [m], and return the force [N]."""
     force = 0.0
     for i in range(count):
         table.load[i] += table.stiffness[i] * change
@@ -117,12 +120,12 @@ def _follow(table: Slices, count: int, change: float) -> float:
 
 @kernel
 def newton(table: Slices, count: int, logarithmic: float, force: float, error: float) -> tuple[float, float, float]:
-    """Solve the balance of one roll position from a start by Newton's method.
+    """Solve the balance of one roll position by Newton's method, from a start value of TE.
 
     Parameters
     ----------
     table : Slices
-        Slices of the lines; their loads are those of the solution afterwards.
+        Slices of the lines; afterwards the table contains the loads of the solution.
     count : int
         Number of slices.
     logarithmic : float
@@ -130,22 +133,23 @@ def newton(table: Slices, count: int, logarithmic: float, force: float, error: f
     force : float
         Force in the balance [N].
     error : float
-        Start of the approach TE [m].
+        Start value of the approach TE [m].
 
     Returns
     -------
     error : float
         Approach TE [m].
     residual : float
-        Residual over the force [-].
+        Residual divided by the force [-].
     steps : float
         Number of steps.
 
     Notes
     -----
-    Eq. L13. One iteration serves both levels: with every step of TE, every slice takes one step of its own. A step is
-    the last if it crosses no kink and its square is below rounding; the loads then follow their derivatives. With
-    linear contact every step that crosses no kink is the last.
+    Eq. L13. TE and the loads of the slices are iterated together: with every step of TE, every slice takes one step
+    towards its load. A step is the last step if it crosses no kink and if its error, which is of the order of its
+    square, is below rounding. The loads then change by their derivatives times this step. With linear contact every
+    step that crosses no kink is the last step.
     """
     residual, steps = np.inf, 0.0
     while steps < MAX_STEPS:
@@ -170,9 +174,10 @@ def solve_position(table: Slices, count: int, logarithmic: float, force: float) 
 
 @kernel
 def solve_near(table: Slices, count: int, logarithmic: float, force: float, error: float) -> tuple[float, float, float]:
-    """Solve the balance from TE [m] of a similar position and the table's ln w; without a start if TE is NaN or fails.
+    """Solve the balance, starting from `error`, the TE [m] of a similar position, and from ln w in the table.
 
-    Returns what `newton` returns.
+    If TE is NaN, or if the iteration from this TE fails, the balance is solved without a start value. Returns what
+    `newton` returns.
     """
     if not np.isnan(error):
         error, residual, steps = newton(table, count, logarithmic, force, error)
@@ -185,10 +190,10 @@ def solve_near(table: Slices, count: int, logarithmic: float, force: float, erro
 class LoadBalance:
     """Loaded state of a mesh over one base pitch; arrays over the roll positions.
 
-    `force` is the force in the balance [N], 0 without load. `transmission_error` and `unloaded_error`, the least gap
-    over the lines, run along the transverse line of action [m]. `residual` is the residual of the balance over the
-    force, `steps` the number of iterations. `bent_steps` is the number of steps between roll positions across which TE
-    is not linear.
+    `force` is the force in the balance [N], 0 without load. `transmission_error` is TE, and `unloaded_error` is TE
+    without load, which is the least gap over the lines. Both are measured along the transverse line of action [m].
+    `residual` is the residual of the balance divided by the force, and `steps` is the number of iterations.
+    `bent_steps` is the number of steps between roll positions across which TE is not linear.
     """
 
     mesh: Mesh
@@ -205,7 +210,7 @@ class LoadBalance:
 def balance_load(
     mesh: Mesh, rolls: RollPositions, force: float, slices: int, start: Start | None = None
 ) -> LoadBalance:
-    """Balance the load at the roll positions and at those that are added between.
+    """Balance the load at the roll positions, and at roll positions that are added between them.
 
     Parameters
     ----------
@@ -214,16 +219,16 @@ def balance_load(
     rolls : RollPositions
         Roll positions of one base pitch.
     force : float
-        Force in the balance [N]; 0 if its mean line load is below `LEAST_LINE_LOAD`.
+        Force in the balance [N]; treated as 0 if the mean line load is below `LEAST_LINE_LOAD`.
     slices : int
         Number of slices per line.
     start : tuple, optional
-        TE and ln w of the slices of the same mesh under a similar gap.
+        Start values: TE and ln w of the slices of the same mesh under a similar gap.
 
     Returns
     -------
     LoadBalance
-        TE and loads at all roll positions; without a force the kinematic error.
+        TE and loads at all roll positions; if the force is 0, the kinematic error.
 
     Raises
     ------
@@ -249,7 +254,7 @@ def balance_load(
 
 
 def _nothing(rolls: RollPositions) -> Start:
-    """Return a start without values."""
+    """Return start values that are all missing."""
     return np.full(rolls.phase.size, np.nan), np.zeros((rolls.phase.size, 0))
 
 
@@ -264,7 +269,8 @@ def _balanced(mesh: Mesh, rolls: RollPositions, force: float, slices: int, start
 def _bent_steps(balance: LoadBalance) -> IntArray:
     """Return the indices of the steps between roll positions across which TE is not linear, in ascending order.
 
-    The measure is the distance of TE at a position from the line through its neighbours; corners are left out.
+    The measure is the distance of TE at a position from the straight line through TE at both neighbouring positions.
+    Corners are left out.
     """
     phase, error = balance.rolls.phase, balance.transmission_error
     spread = np.full(error.size, max(float(np.ptp(error)), LEAST_SPREAD))
@@ -279,7 +285,7 @@ def _bent_steps(balance: LoadBalance) -> IntArray:
 
 
 def _merged(balance: LoadBalance, added: LoadBalance, places: IntArray) -> LoadBalance:
-    """Merge two balances of one mesh, with the added roll positions at their places among the others."""
+    """Merge two balances of one mesh; `places` are the indices at which the added roll positions are inserted."""
 
     def together(old: Any, new: Any) -> Any:
         """Merge two arrays over the roll positions, or tuples of such arrays."""
@@ -303,10 +309,12 @@ def _merged(balance: LoadBalance, added: LoadBalance, places: IntArray) -> LoadB
 def _settle(
     mesh: Mesh, at: tuple[float, float], slices: int, force: float, least: float, error: float, table: Slices
 ) -> tuple[Cover, float, float, float]:
-    """Solve a roll position (phase, side) whose lines are loaded in part, from the TE of whole lines.
+    """Solve a roll position (phase, side) at which lines are loaded over a part of their length only.
 
-    Returns the cover, TE [m], the relative residual and the number of steps. The load vanishes at the ends of the
-    loaded parts; an error of TE therefore changes the next TE in second order only.
+    The iteration starts from `error`, which is TE [m] of slices that cover whole lines. Every step cuts the parts that
+    are loaded at the last TE into slices and solves the balance again. The load is zero at the ends of the loaded
+    parts; an error of TE therefore changes the next TE in second order only. Returns the cover, TE [m], the relative
+    residual and the number of steps.
     """
     covers, steps, settled = 0, 0.0, False
     phase, side = at
@@ -336,7 +344,7 @@ def _balance(
             near = start[i]
             if not np.isnan(near):
                 table.log_load[: cover.slices] = log_load[i, : cover.slices]
-            elif i > 1:  # the table still holds the slices of the position before
+            elif i > 1:  # the table still contains ln w of the previous position
                 near = 2.0 * error[i - 1] - error[i - 2]
             error[i], residual[i], steps[i] = solve_near(table, cover.slices, mesh.compliance.logarithmic, force, near)
             if error[i] < cover.most:
@@ -354,8 +362,7 @@ def error_at(
 ) -> tuple[float, int]:
     """Return TE at the roll position whose line passes through (x, y), and the index of its step.
 
-    The search starts from step `index`. The end of the path belongs to the roll position that leaves it, not to the
-    next.
+    The search starts from step `index`. At the end of the path, TE is the value just before the line leaves the path.
     """
     line = min(x, plane.path_length * (1.0 - BESIDE)) + y * plane.tan_base_helix
     position = line - int(line / plane.base_pitch) * plane.base_pitch
@@ -369,7 +376,7 @@ def error_at(
 
 @kernel
 def loads_at(mesh: Mesh, phase: FloatArray, error: FloatArray, x: FloatArray, y: FloatArray) -> FloatArray:
-    """Return the line load w [N/m] at points (x, y) of a balanced plane."""
+    """Return the line load w [N/m] at points (x, y) of the plane of action of a balanced mesh."""
     loads, log_load, index = np.empty(x.size), 0.0, 0
     for i in range(x.size):
         approach, index = error_at(mesh.plane, phase, error, x[i], y[i], index)
@@ -378,7 +385,10 @@ def loads_at(mesh: Mesh, phase: FloatArray, error: FloatArray, x: FloatArray, y:
 
 
 def line_loads(balance: LoadBalance, x: FloatArray, y: FloatArray) -> FloatArray:
-    """Return the line load w [N/m] at points (x, y) of the plane, arrays of one shape; 0 where the flanks separate."""
+    """Return the line load w [N/m] at points x, y [m] of the plane of action; 0 where the flanks are apart.
+
+    x and y are arrays of one shape.
+    """
     if balance.force == 0.0:
         return np.zeros(np.shape(x))
     points = np.ravel(x).astype(float), np.ravel(y).astype(float)

@@ -1,7 +1,7 @@
 """Results for the mesh from the balanced load: load sharing, stiffness, transmission error, friction loss.
 
-Eq. 15 is in the paper. The load sharing X_Gamma and the buttressing factor X_but are quoted from general knowledge of
-the standard and were not compared with it.
+Eq. 15 is given in the paper. The load sharing X_Gamma and the buttressing factor X_but are quoted from general
+knowledge of the standard and were not compared with the standard.
 """
 
 from dataclasses import dataclass
@@ -17,7 +17,7 @@ from solvers.scuffing.load_balance import LoadBalance
 from solvers.scuffing.results import ErrorCurves, FrictionLoss, Stiffness, StiffnessCurves, TransmissionError
 from solvers.scuffing.tooth_stiffness import single_stiffness
 
-CURVE_POINTS = 101  # every percent of the path, for the curve
+CURVE_POINTS = 101  # of the stiffness curve: every percent of the path
 REFERENCE_LOAD = 100e3  # N/m, for which ISO 6336-1 states c'; used if there is no load
 STEEL = 206e9  # Pa, for which ISO 6336-1 states c'
 DISC_FACTOR = 1.0  # C_R: solid discs
@@ -28,8 +28,8 @@ HARMONICS = 5  # chosen
 def iso_load_sharing(path: PathOfContact, x: FloatArray) -> FloatArray | None:
     """Return X_Gamma X_but at distances x [m] from A; None if the standard has no diagram for the pair.
 
-    Narrow gears (eps_gamma < 2) have the load sharing of spur gears of quality 7 or better, wide gears 1 / eps_alpha.
-    There is no diagram below eps_alpha = 1, nor for spur gears from eps_alpha = 2.
+    Narrow gears (eps_gamma < 2) have the load sharing of spur gears of quality 7 or better. Wide gears have the load
+    sharing 1 / eps_alpha. The standard has no diagram for eps_alpha < 1, and none for spur gears with eps_alpha >= 2.
     """
     ratio = path.transverse_contact_ratio
     if ratio < 1.0 or (path.overlap_ratio == 0.0 and ratio >= 2.0):
@@ -51,7 +51,8 @@ def _narrow(x: FloatArray, length: float, double: float) -> FloatArray:
 def _buttressing(path: PathOfContact, x: FloatArray) -> FloatArray:
     """Return the factor by which helical teeth carry more at their ends; 1 for spur gears.
 
-    The factor is 1 + 0.3 min(eps_beta, 1) at A and E and falls to 1 over 0.2 sin beta_b of Gamma (Eq. 15).
+    The factor is 1 + 0.3 min(eps_beta, 1) at A and E. It falls to 1 within a distance of 0.2 sin beta_b in Gamma
+    (Eq. 15).
     """
     plane = path.plane
     ramp = 0.2 * plane.tan_base_helix * plane.cos_base_helix * path.pitch_point
@@ -63,7 +64,7 @@ def _buttressing(path: PathOfContact, x: FloatArray) -> FloatArray:
 
 @dataclass(frozen=True, slots=True)
 class StandardStiffness:
-    """ISO 6336-1 method B: theoretical c'_th, single c', mesh c_gamma_alpha and c_gamma_beta [Pa]."""
+    """Stiffness by ISO 6336-1, method B [Pa]: c'_th, c', c_gamma_alpha and c_gamma_beta, in this order."""
 
     theoretical: float
     single: float
@@ -97,9 +98,9 @@ def standard_stiffness(
     1/c'_th = 0.04723 + 0.15551/z_n1 + 0.25791/z_n2 - 0.00635 x1 - 0.11654 x1/z_n1 - 0.00193 x2 - 0.24188 x2/z_n2
               + 0.00529 x1^2 + 0.00182 x2^2 [mm um/N] and C_B of the basic rack.
 
-    Gear 1 is the gear with fewer teeth, whichever drives; if both have the same number of teeth, the gear with the
-    larger profile shift (chosen). For other materials than steel c' is multiplied by E/206 GPa. Below a line load of
-    100 N/mm c' falls with the fourth root of the line load.
+    Gear 1 is the gear with fewer teeth, even if the other gear drives. If both gears have the same number of teeth,
+    gear 1 is the gear with the larger profile shift (our choice). For materials other than steel, c' is multiplied by
+    E/206 GPa. Below a line load of 100 N/mm, c' falls with the fourth root of the line load.
     """
     inputs = path.pair.inputs
     virtual = cos(path.pair.base_helix_angle) ** 2 * cos(inputs.helix_angle)
@@ -118,13 +119,16 @@ def standard_stiffness(
 
 
 def _standard_line_load(path: PathOfContact, load: Load) -> float:
-    """Return F_t K_A/b [N/m] with F_t at the reference circle; without load the line load for which c' is stated."""
+    """Return the line load F_t K_A/b [N/m], with F_t at the reference circle.
+
+    Without load, return the line load for which ISO 6336-1 states c'.
+    """
     tangential = load.application_factor * load.torque / path.pair.pinion.reference_radius
     return tangential / path.plane.face_width if tangential > 0.0 else REFERENCE_LOAD
 
 
 def _rack_factor(pair: GearPair) -> float:
-    """Return C_B = [1 + 0.5 (1.2 - h_fP)][1 - 0.02 (20 - alpha_n)] with the mean dedendum of both gears."""
+    """Return C_B = [1 + 0.5 (1.2 - h_fP)][1 - 0.02 (20 - alpha_n)]; h_fP is the mean dedendum of both gears."""
     dedendum = (pair.inputs.pinion.dedendum + pair.inputs.wheel.dedendum) / 2
     return (1 + 0.5 * (1.2 - dedendum)) * (1 - 0.02 * (20 - degrees(pair.inputs.normal_pressure_angle)))
 
@@ -157,7 +161,10 @@ def mesh_stiffness(balance: LoadBalance, tangential_force: float) -> FloatArray 
 def stiffness(
     path: PathOfContact, balance: LoadBalance, inputs: LoadDistributionInputs, mean_load: float, tangential_force: float
 ) -> Stiffness:
-    """Return the stiffness of the mesh, and of one pair along the path, secant at the mean line load [N/m] if any."""
+    """Return the stiffness of the mesh, and the stiffness of one pair of teeth along the path.
+
+    The stiffness of one pair is the secant stiffness at the mean line load [N/m]; without load, at `REFERENCE_LOAD`.
+    """
     secant_load = mean_load if mean_load > 0.0 else REFERENCE_LOAD
     single = single_stiffness(balance.mesh.compliance, secant_load)
     x = np.linspace(0.0, path.length, single.size)
@@ -195,8 +202,8 @@ def transmission_error(balance: LoadBalance) -> TransmissionError:
 
     Notes
     -----
-    Eq. L18. Mean and harmonics are integrals by the trapezoidal rule over the roll positions. The jumps of spur gears
-    are exact, because a roll position with a jump occurs twice, with both limits.
+    Eq. L18. Mean and harmonics are integrals by the trapezoidal rule over the roll positions. Jumps of spur gears
+    cause no error, because a roll position with a jump occurs twice: with the value before and after the jump.
     """
     error, phase = balance.transmission_error, balance.rolls.phase
     return TransmissionError(
@@ -210,13 +217,13 @@ def transmission_error(balance: LoadBalance) -> TransmissionError:
 
 
 def period_mean(values: FloatArray, phase: FloatArray) -> float:
-    """Return the mean over one base pitch."""
+    """Return the mean of values at roll positions over one base pitch."""
     return float(np.trapezoid(values, phase) / phase[-1])
 
 
 def _fourier(values: FloatArray, phase: FloatArray) -> NDArray[np.complex128]:
     """Return the complex Fourier coefficients c_1, c_2, ... of a function of the roll position."""
-    # wave k is the first to the power k
+    # wave k is the first wave to the power k
     waves = np.cumprod(np.tile(np.exp(-2j * np.pi * phase / phase[-1]), (HARMONICS, 1)), axis=0)
     return np.asarray(np.trapezoid((values - values.mean()) * waves, phase) / phase[-1])
 

@@ -33,9 +33,10 @@ from solvers.scuffing.tooth_stiffness import pair_compliance
 
 @dataclass(frozen=True, slots=True)
 class PreparedMesh:
-    """The values of a load distribution that do not depend on the gap: path and lengths of contact, roll positions.
+    """Values of a mesh before the load balance: path and lengths of contact, roll positions, forces.
 
-    `mesh` has the gap of the inputs. `tangential_force` is F_bt, `force` the force in the balance [N].
+    `mesh` has the gap of the inputs; the other values do not depend on the gap. `tangential_force` is F_bt [N], and
+    `force` is the force in the balance [N].
     """
 
     path: PathOfContact
@@ -62,7 +63,7 @@ def mesh_of(inputs: LoadDistributionInputs) -> PreparedMesh:
     Raises
     ------
     InvalidInput
-        If the pair cannot mesh (see `gear_pair`, `path_of_contact`, `contact_lengths`) or two options exclude each
+        If the pair cannot mesh (see `gear_pair`, `path_of_contact`, `contact_lengths`), or if two options exclude each
         other (see `pair_compliance`).
 
     Notes
@@ -112,7 +113,7 @@ def solve(inputs: LoadDistributionInputs) -> LoadDistribution:
 
 
 def distribution(inputs: LoadDistributionInputs, prepared: PreparedMesh, balance: LoadBalance) -> LoadDistribution:
-    """Return the results of a load balance, which may have another gap than the inputs."""
+    """Return the results of a load balance; the balance may have another gap than the inputs."""
     path, lengths, resolution = prepared.path, prepared.lengths, inputs.resolution
     modulus = reduced_modulus(inputs.pinion_material, inputs.wheel_material)
     tangential_force = prepared.tangential_force
@@ -163,7 +164,7 @@ def _geometry(path: PathOfContact) -> Geometry:
 
 
 def _derived(path: PathOfContact, form: Gap, load: Load) -> Derived:
-    """Return the values derived from the inputs, with the defaults used for inputs that are not given."""
+    """Return the values that follow from the inputs, including defaults of inputs that are not given."""
     pair = path.pair.inputs
     return Derived(
         pinion_torque=load.torque,
@@ -177,7 +178,7 @@ def _derived(path: PathOfContact, form: Gap, load: Load) -> Derived:
 
 
 def _contact_lines(lengths: ContactLengths, balance: LoadBalance) -> ContactLines:
-    """Return the contact lengths: extremes in closed form, and the curve over the roll positions."""
+    """Return the extremes of the contact length in closed form, and the curve of the length over the roll positions."""
     phase = balance.rolls.phase
     return ContactLines(
         min_length=lengths.minimum,

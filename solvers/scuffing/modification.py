@@ -11,13 +11,16 @@ from solvers.errors import InvalidInput
 from solvers.gears.pair import PathOfContact
 from solvers.scuffing.inputs import LeadCurve, Modifications
 
-LEAD_POINTS = 401  # every 0.25 % of the face; between them lead curves are linear
+LEAD_POINTS = 401  # every 0.25 % of the face; between these points lead curves are linear
 MOST_EDGES = 6  # two ends, two end reliefs, two reliefs along the path
 
 
 @kernel
 def place_of(x: float, points_per_metre: float, points: int) -> tuple[int, float]:
-    """Return the index of the point before x among equidistant points from 0, and the share of the step beyond it."""
+    """Return the index of the point before x, and the distance of x from this point as a share of the step.
+
+    The points are equidistant and start at 0.
+    """
     position = x * points_per_metre
     index = min(max(int(position), 0), points - 2)
     return index, position - index
@@ -32,7 +35,7 @@ def interpolated(table: FloatArray, place: tuple[int, float]) -> float:
 
 
 class Gap(NamedTuple):
-    """Gap Delta(x, y) along the transverse line of action; amplitudes and lengths [m], none of them None.
+    """Gap Delta(x, y) along the transverse line of action; all amplitudes and lengths are numbers [m].
 
     `lead` is the gap [m] of the lead curve at equidistant points of the face, from end to end.
     """
@@ -54,10 +57,11 @@ class Gap(NamedTuple):
 
 
 def gap(modifications: Modifications, path: PathOfContact) -> Gap:
-    """Return the gap with its relief lengths.
+    """Return the gap, with default lengths for reliefs whose length is not given.
 
-    The paper gives no lengths. By default tip and root relief are g_alpha - p_bt long, the long relief to D and B, but
-    at least a tenth and at most half of the path; end relief is a tenth of the face long.
+    The paper gives no lengths. By default tip and root relief are g_alpha - p_bt long, so that they end at D and B
+    (long relief). This length is limited to at least a tenth and at most half of the path. End relief is a tenth of the
+    face long.
     """
     width = path.pair.inputs.face_width
     long_relief = min(max(path.length - path.pair.transverse_base_pitch, 0.1 * path.length), 0.5 * path.length)
@@ -82,16 +86,18 @@ def gap(modifications: Modifications, path: PathOfContact) -> Gap:
 
 
 def lead_table(curve: LeadCurve, face_width: float) -> FloatArray:
-    """Return the curve at equidistant points of the face.
+    """Return the gap of a lead curve at equidistant points of the face [m].
 
-    Raises InvalidInput lead_curve if the curve has fewer than two points, or positions that do not ascend within the
-    face.
+    Raises InvalidInput lead_curve if the curve has fewer than two points, if the number of gaps differs from the number
+    of positions, or if the positions do not ascend within the face.
     """
     position, value = np.asarray(curve.position), np.asarray(curve.gap)
     rising = position.size >= 2 and bool(np.all(np.diff(position) > 0.0))
     if not rising or position.size != value.size or position[0] < 0.0 or position[-1] > face_width * (1 + 1e-9):
         raise InvalidInput(
-            "lead_curve", "give two points or more, rising from 0 to the face width, and one gap each", "lead_curve"
+            "lead_curve",
+            "give at least two positions, in rising order from 0 to the face width, and one gap for each position",
+            "lead_curve",
         )
     return np.asarray(np.interp(np.linspace(0.0, face_width, LEAD_POINTS), position, value))
 
@@ -114,7 +120,7 @@ def kinks_along_face(form: Gap) -> tuple[float, ...]:
 
 
 def misalignment_slope(in_plane: float, out_of_plane: float, working_pressure_angle: float) -> float:
-    """Compute the helix slope of shaft deviations.
+    """Compute the helix slope that has the same effect as shaft deviations.
 
     Parameters
     ----------
@@ -139,7 +145,7 @@ def misalignment_slope(in_plane: float, out_of_plane: float, working_pressure_an
 
 @kernel
 def _relief(amplitude: float, length: float, distance: float, exponent: float) -> float:
-    """Return amplitude (1 - distance / length)_+^exponent."""
+    """Return amplitude (1 - distance / length)^exponent; 0 if the distance exceeds the length."""
     if amplitude == 0.0 or distance >= length:
         return 0.0
     rest = 1.0 - distance / length
@@ -200,7 +206,10 @@ def lead_gap(form: Gap, y: float) -> float:
 
 @kernel
 def lead_gaps(form: Gap, y: FloatArray) -> FloatArray:
-    """Return the part of Delta [m] that depends on the face, at distances y [m] from the end that meshes first."""
+    """Return the part of Delta [m] that depends on the place on the face.
+
+    The places y [m] are distances from the end that meshes first.
+    """
     gaps = np.empty(y.size)
     for i in range(y.size):
         gaps[i] = lead_gap(form, y[i])
@@ -215,7 +224,7 @@ def gap_at(form: Gap, x: float, y: float) -> float:
 
 @kernel
 def _insert(edges: FloatArray, count: int, y: float) -> int:
-    """Insert y into the `count` ascending edges if it lies between them, and return their new number."""
+    """Insert y into the `count` ascending edges if y lies between their ends; return the new number of edges."""
     if not edges[0] < y < edges[count - 1]:
         return count
     place = count
@@ -228,9 +237,11 @@ def _insert(edges: FloatArray, count: int, y: float) -> int:
 
 @kernel
 def smooth_parts(form: Gap, line: float, tan_base_helix: float, ends: tuple[float, float], edges: FloatArray) -> int:
-    """Write the ends of the contact line x = line - y tan_base_helix and its kinks to `edges`, in ascending order of y.
+    """Write y of the ends and of the kinks of a contact line to `edges`, in ascending order.
 
-    Returns their number, at most `MOST_EDGES`. The kinks of a lead curve at its stations are not counted.
+    The contact line is x = line - y tan_base_helix. A kink is a place at which a relief begins, or at which both end
+    reliefs meet. The kinks of a lead curve at its points are left out. Returns the number of edges, at most
+    `MOST_EDGES`.
     """
     length = min(form.end_relief_length, 0.5 * form.face_width)
     edges[0], edges[1] = ends
@@ -255,5 +266,5 @@ def _gaps(form: Gap, x: FloatArray, y: FloatArray) -> FloatArray:
 
 
 def gaps_at(form: Gap, x: FloatArray, y: FloatArray) -> FloatArray:
-    """Return Delta [m] at points x, y [m], arrays of one shape."""
+    """Return Delta [m] at points x, y [m]; x and y are arrays of one shape."""
     return _gaps(form, np.ravel(x), np.ravel(y)).reshape(np.shape(x))

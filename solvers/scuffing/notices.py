@@ -1,4 +1,4 @@
-"""Warnings of a load distribution."""
+"""Warnings of a load distribution and of a scuffing check."""
 
 from collections.abc import Iterator
 from math import degrees
@@ -19,11 +19,11 @@ from solvers.scuffing.load_balance import LoadBalance
 from solvers.scuffing.results import LoadDistribution
 from solvers.scuffing.safety_results import Scuffing
 
-LEAST_TEETH = 8  # chosen: gears of fewer teeth are not in use
+LEAST_TEETH = 8  # chosen: gears with fewer teeth are not in use
 PRESSURE_ANGLES = (14.5, 30.0)  # degrees
 LARGEST_HELIX = 45.0  # degrees
 TRANSVERSE_HELIX = 15.0  # degrees
-LEAST_MODIFICATION = 0.5e-6  # m, chosen; less cannot be ground
+LEAST_MODIFICATION = 0.5e-6  # m, chosen; smaller modifications cannot be ground
 LEAST_LENGTH_RATIO = 0.2  # chosen: below it the total length of the lines nearly vanishes once per base pitch
 
 
@@ -40,7 +40,8 @@ def geometry_notices(path: PathOfContact, lengths: ContactLengths) -> list[Notic
         notices.append(
             Notice(
                 "uneven_contact_length",
-                f"the contact length falls to {lengths.ratio:.2f} of its maximum (below 0.2); line loads peak there",
+                f"the total length of the contact lines falls to {lengths.ratio:.2f} of its maximum, below 0.2; the "
+                "line loads are highest at these positions",
                 "face_width",
             )
         )
@@ -52,7 +53,7 @@ def _range_notices(inputs: GearPairInputs) -> list[Notice]:
     notices = []
     for teeth, name in ((inputs.pinion, "pinion"), (inputs.wheel, "wheel")):
         if teeth.teeth < LEAST_TEETH:
-            notices.append(Notice("teeth_range", "the model is meant for 8 teeth and more", f"{name}.teeth"))
+            notices.append(Notice("teeth_range", "the model is meant for gears with at least 8 teeth", f"{name}.teeth"))
     pressure_angle, helix_angle = degrees(inputs.normal_pressure_angle), degrees(abs(inputs.helix_angle))
     if not PRESSURE_ANGLES[0] - 1e-9 <= pressure_angle <= PRESSURE_ANGLES[1] + 1e-9:
         notices.append(
@@ -76,7 +77,7 @@ def model_notices(path: PathOfContact, model: Model) -> list[Notice]:
         notices.append(
             Notice(
                 "calibrated_stiffness",
-                "the parabola is calibrated to the load maxima of Xue, Zhang and Wang, not derived",
+                "the parabolic tooth stiffness is not derived but calibrated to the load maxima of Xue, Zhang and Wang",
                 "tooth_stiffness",
                 rank="note",
             )
@@ -85,7 +86,8 @@ def model_notices(path: PathOfContact, model: Model) -> list[Notice]:
         notices.append(
             Notice(
                 "transverse_section",
-                "teeth cut in the transverse section are too stiff above 15 degrees of helix (16 % at 20, 40 % at 30)",
+                "above a helix angle of 15 degrees, teeth in the transverse section are too stiff (by 16 % at 20 "
+                "degrees, by 40 % at 30 degrees)",
                 "section",
             )
         )
@@ -103,7 +105,8 @@ def relief_notices(path: PathOfContact, modifications: Modifications) -> list[No
     return [
         Notice(
             "unusual_value",
-            f"the relief is {length * 1e3:.4g} mm long, the {place} {whole * 1e3:.4g} mm; is that a radius?",
+            f"the relief is {length * 1e3:.4g} mm long, but the {place} is only {whole * 1e3:.4g} mm long; was a "
+            "radius entered instead of a length?",
             f"{name}_length",
         )
         for name, amplitude, length, whole, place in reliefs
@@ -112,20 +115,20 @@ def relief_notices(path: PathOfContact, modifications: Modifications) -> list[No
 
 
 def load_notices(balance: LoadBalance) -> list[Notice]:
-    """Return warnings about a missing or light load, contact beyond the half-space, and pressures without a limit."""
+    """Return warnings about a missing or light load, a too wide contact, and pressures without a limit."""
     notices = []
     if balance.force == 0.0:
-        message = "without a torque that presses the flanks only the kinematic transmission error is computed"
+        message = "no torque presses the flanks together; only the kinematic transmission error is computed"
         notices.append(Notice("no_load", message, "pinion_torque", rank="note"))
     if balance.bent_steps:
         message = (
-            f"the contact is so light that between {balance.bent_steps} roll positions loads are interpolated roughly: "
-            "curves over the flank and the face load factor may be off by percents"
+            f"the contact is so light that loads are interpolated only roughly in {balance.bent_steps} intervals "
+            "between roll positions; curves over the flank and the face load factor may be wrong by several percent"
         )
         notices.append(Notice("light_contact", message, "pinion_torque"))
     if reaches_base_circle(balance.survey):
         message = (
-            "the loaded path reaches a base circle, towards which the reduced radius vanishes: pressure and flash "
+            "the loaded path of contact reaches a base circle, where the reduced radius vanishes; pressure and flash "
             "temperature have no maximum there, and no safety is stated"
         )
         notices.append(Notice("path_reaches_base_circle", message, "profile_shift", rank="invalid"))
@@ -133,7 +136,8 @@ def load_notices(balance: LoadBalance) -> list[Notice]:
         notices.append(
             Notice(
                 "half_space",
-                "somewhere the contact is wider than half the tooth thickness behind it; its compliance is held there",
+                "at some points the contact is wider than half the tooth thickness behind it; beyond this width the "
+                "compliance of the contact is kept constant",
                 "pinion_torque",
             )
         )
@@ -157,16 +161,22 @@ def unusual_modifications(modifications: Modifications) -> Iterator[Notice]:
     }
     for name, value in depths.items():
         if 0.0 < abs(value) < LEAST_MODIFICATION:
-            message = f"{value * 1e6:g} µm is less than can be ground; was mm meant?"
+            message = (
+                f"a modification of {value * 1e6:g} µm is too small to be ground; was a value entered in the wrong "
+                "unit (mm)?"
+            )
             yield unusual_value(f"modifications.{name}", message)
     highest = max(map(abs, modifications.lead_curve.gap), default=0.0)
     if 0.0 < highest < LEAST_MODIFICATION:
-        message = f"{highest * 1e6:g} µm is less than can be ground; was mm meant?"
+        message = (
+            f"a largest gap of {highest * 1e6:g} µm is too small to be ground; was a value entered in the wrong unit "
+            "(mm)?"
+        )
         yield unusual_value("modifications.lead_curve.gap", message)
 
 
 def unusual_temperatures(temperatures: Temperatures) -> Iterator[Notice]:
-    """Warn of temperatures of the oil, and of given temperatures of the teeth, that gears in service do not have."""
+    """Warn of oil temperatures that gears in service do not have, and of such bulk temperatures if they are given."""
     yield from oil_temperature(temperatures.oil)
     if temperatures.bulk_method == "given":
         yield from tooth_temperature(temperatures.bulk)

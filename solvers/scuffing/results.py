@@ -18,7 +18,10 @@ from solvers.sources import ISO_6336, SCHLENK, XUE
 
 @record
 class Place:
-    """A point of the flank: gamma, fraction of the path from A, fraction of the face from the end that meshes first."""
+    """A point of the flank: profile parameter, fraction of the path from A, fraction of the face.
+
+    The face is measured from the end that meshes first.
+    """
 
     gamma: float = quantity("profile parameter", "Γ", text="profile parameter, 0 at the pitch point")
     profile_fraction: float = quantity("profile position", "ξ", text="fraction of the path from A to E")
@@ -27,7 +30,7 @@ class Place:
 
 @record
 class Geometry(Diameters):
-    """The mesh: lengths [m], angles [rad]; undercut is true if either gear is."""
+    """Geometry of the mesh: lengths [m], angles [rad]; `undercut` is True if either gear is undercut."""
 
     centre_distance: float = quantity("centre distance", "a", unit="mm", text="centre distance in use")
     working_pressure_angle: float = quantity(
@@ -44,9 +47,10 @@ class Geometry(Diameters):
 
 @record
 class LengthCurves:
-    """Total contact length [m] over the roll position, a fraction of the base pitch.
+    """Total contact length [m] as a function of the roll position, which is a fraction of the base pitch.
 
-    A roll position at which the length of a spur gear jumps occurs twice, with both limits.
+    If the contact length of a spur gear jumps at a roll position, this position occurs twice: with the length before
+    the jump and with the length after it.
     """
 
     roll_position: FloatArray = quantity(
@@ -59,7 +63,7 @@ class LengthCurves:
 
 @record
 class ContactLines:
-    """Total length of the contact lines [m], extremes and mean in closed form."""
+    """Total length of the contact lines [m]; extremes and mean are computed in closed form."""
 
     min_length: float = quantity("shortest contact length", "L_min", XUE, unit="mm")
     max_length: float = quantity("longest contact length", "L_max", XUE, unit="mm")
@@ -70,7 +74,7 @@ class ContactLines:
 
 @record
 class StiffnessCurves:
-    """Stiffness of one pair over gamma [Pa]."""
+    """Stiffness of one pair of teeth [Pa] as a function of the profile parameter gamma."""
 
     gamma: FloatArray = quantity(
         "profile parameter of the stiffness", "Γ", text="profile parameter, 0 at the pitch point"
@@ -80,10 +84,11 @@ class StiffnessCurves:
 
 @record
 class Stiffness:
-    """Stiffness per face width [Pa]: of one pair, secant at secant_load [N/m], and of the mesh.
+    """Stiffness per face width [Pa] of one pair of teeth and of the mesh.
 
-    `pitch` is None if the pitch point lies outside the path, `mean_mesh` without load. `standard_...` is the stiffness
-    by ISO 6336-1, method B.
+    The stiffness of one pair is the secant stiffness at the line load `secant_load` [N/m]. `pitch` is None if the pitch
+    point lies outside the path. `mean_mesh` is None without load. `standard_...` is the stiffness by ISO 6336-1, method
+    B.
     """
 
     max: float = quantity("largest stiffness of one pair", "k_max", f"{XUE}, Fig. 8", unit="n_per_mm_um")
@@ -114,9 +119,10 @@ class Stiffness:
 
 @record
 class ErrorCurves:
-    """Transmission error [m] over the roll position, a fraction of the base pitch.
+    """Transmission error [m] as a function of the roll position, which is a fraction of the base pitch.
 
-    A roll position at which the error of a spur gear jumps occurs twice, with both limits.
+    If the error of a spur gear jumps at a roll position, this position occurs twice: with the error before the jump and
+    with the error after it.
     """
 
     roll_position: FloatArray = quantity(
@@ -134,7 +140,7 @@ class ErrorCurves:
 
 @record
 class TransmissionError:
-    """Transmission error along the transverse line of action [m]; harmonics are amplitudes 2 |c_k| from order 1."""
+    """Transmission error along the transverse line of action [m]; `harmonics` are amplitudes 2 |c_k| from order 1."""
 
     peak_to_peak: float = quantity("peak-to-peak transmission error", "PPTE", f"{XUE}, Fig. 12", unit="um")
     mean: float = quantity("mean transmission error", "TE_m", unit="um", text="mean over the base pitch")
@@ -152,11 +158,11 @@ class TransmissionError:
 
 @record
 class LoadOnFlank:
-    """Forces [N], torque [N m], largest line load [N/m] and its place, loaded share of the contact length.
+    """Forces [N], torque [N m], largest line load [N/m] and its place, and loaded share of the contact length.
 
-    `pinion_torque` is the transmitted torque; the forces are those of this torque times `contact_factor`.
-    `normal_force` is the force in the balance, `tangential_force` always F_bt. `pair_share` [line, roll position] is
-    the force on a line over the force in the balance.
+    `pinion_torque` is the transmitted torque; the forces follow from this torque times `contact_factor`. `normal_force`
+    is the force in the balance; `tangential_force` is always F_bt. `pair_share` [line, roll position] is the force on a
+    line divided by the force in the balance.
     """
 
     pinion_torque: float = quantity("pinion torque", "T_1", unit="n_m", text="the transmitted one")
@@ -191,7 +197,7 @@ class LoadOnFlank:
 class Pressure:
     """Largest Hertzian pressure [Pa] over all roll positions, and its place.
 
-    Both are None if the loaded path reaches a base circle, towards which the pressure has no limit.
+    Both are None if the loaded path reaches a base circle, because the pressure has no limit towards a base circle.
     """
 
     max: float | None = quantity(
@@ -236,12 +242,12 @@ class ContactPoints:
 
     @property
     def in_contact(self) -> BoolArray:
-        """True at points at which the flanks touch and move, so that film and flash temperature have a meaning."""
+        """True at points at which the flanks touch and move; film and flash temperature have a meaning only there."""
         return (self.line_load > 0.0) & (self.half_width > 0.0) & (self.pinion_speed + self.wheel_speed > 0.0)
 
     @property
     def undefined(self) -> BoolArray:
-        """True at loaded points too near a base circle for a width of contact, a pressure or a flash temperature."""
+        """True at loaded points too near a base circle to have a contact width, a pressure or a flash temperature."""
         return (self.line_load > 0.0) & (self.half_width <= 0.0)
 
 
@@ -249,8 +255,8 @@ class ContactPoints:
 class FeatureLine:
     """Points along the feature line.
 
-    `load_sharing` is None without load, `iso_load_sharing` if the standard has no diagram for the pair. The pressure is
-    NaN at points where the reduced radius vanishes.
+    `load_sharing` is None without load. `iso_load_sharing` is None if the standard has no diagram for the pair. The
+    pressure is NaN at points where the reduced radius vanishes.
     """
 
     gamma: FloatArray = quantity("profile parameter along the feature line", "Γ", axis="psi")
@@ -303,7 +309,7 @@ class FeatureLine:
 
 @record
 class Flank:
-    """Maps [profile, face]: modification [m], line load [N/m], pressure [Pa] (NaN where R_n vanishes)."""
+    """Maps [profile, face] of modification [m], line load [N/m] and pressure [Pa] (NaN where R_n vanishes)."""
 
     profile_fraction: FloatArray = quantity("profile position of the map", "ξ", text="fraction of the path from A to E")
     face_fraction: FloatArray = quantity(
@@ -335,7 +341,7 @@ class Flank:
 class Derived:
     """Values that follow directly from the inputs: torque [N m], power [W], lengths [m].
 
-    `rack_tip_radius` is the fillet radius in normal modules, at most the radius for which both racks have room.
+    `rack_tip_radius` is the fillet radius in normal modules, limited to the largest radius that fits both racks.
     """
 
     pinion_torque: float = quantity("pinion torque used", "T_1", unit="n_m")
@@ -351,9 +357,10 @@ class Derived:
 
 @record(slots=False)
 class LoadDistribution:
-    """How a pair of gears carries its load; further checks use `path_of_contact` and `balance`.
+    """Load distribution of a pair of gears; further checks use `path_of_contact` and `balance`.
 
-    `feature` computes the curves along the feature line, `maps` the maps over the flank, when they are first used.
+    `feature` is the function that computes the curves along the feature line, and `maps` is the function that computes
+    the maps over the flank. Each function is called when its result is first used.
     """
 
     path_of_contact: PathOfContact
@@ -373,11 +380,11 @@ class LoadDistribution:
     @cached_property
     @computed("along the feature line", detail="curves")
     def feature_line(self) -> FeatureLine:
-        """Along the feature line."""
+        """Curves along the feature line."""
         return self.feature()
 
     @cached_property
     @computed("over the flank", detail="fields")
     def flank(self) -> Flank:
-        """Over the flank."""
+        """Maps over the flank."""
         return self.maps()

@@ -1,4 +1,4 @@
-"""Scuffing of a loaded pair over the whole flank: contact temperature and film thickness against their limits.
+"""Scuffing of a loaded pair over the whole flank: contact temperature and film thickness, compared with limits.
 
 The closed forms are Blok's flash temperature (Eq. 25) and Dowson and Higginson's film (Eq. 27). The thermal EHL
 solution is computed along two lines: the paper's feature line, and the profile line through the hottest point.
@@ -55,7 +55,7 @@ from solvers.scuffing.thermal.verdict import (
     without_thermal,
 )
 
-AS_HOT = 0.02  # of the flash temperature: the hottest point must exceed the feature line by it to get its profile line
+AS_HOT = 0.02  # of the flash temperature; a profile line is checked if it is hotter than the feature line by more
 
 
 def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
@@ -85,7 +85,10 @@ def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
     Eq. 16.
     """
     if inputs.temperatures.bulk_method == "estimated" and inputs.temperatures.bulk is not None:
-        message = "a bulk temperature is given, but its method is estimated; set the method to given or leave it out"
+        message = (
+            "a bulk temperature is given, but bulk_method is 'estimated'; set bulk_method to 'given', or leave the "
+            "bulk temperature out"
+        )
         raise InvalidInput("exclusive", message, "temperatures.bulk_method")
     inputs, distribution, flash_map, heat = in_force(inputs, solve(inputs.distribution))
     given, bulk = inputs.distribution, inputs.temperatures.bulk
@@ -159,7 +162,7 @@ def _line_at(
     psi: FloatArray,
     face: float | None = None,
 ) -> _Line:
-    """Return the profile line at a face position [m], or the feature line."""
+    """Return the profile line at the face position `face` [m], or the feature line if `face` is None."""
     plane = distribution.path_of_contact.plane
     across = psi * plane.face_width if face is None else np.full(psi.size, face)
     points = contact_at_points(given, distribution, psi * plane.path_length, across)
@@ -169,11 +172,12 @@ def _line_at(
 def _lines(
     inputs: ScuffingInputs, distribution: LoadDistribution, hottest: Peak | None, film_at: ContactFunction
 ) -> tuple[list[_Line], _Line | None]:
-    """Return the lines to check, and the profile line through the hottest point even if it is not checked.
+    """Return the lines to check, and the profile line through the hottest point even if this line is not checked.
 
-    The lines are the feature line, and the profile line if that is hotter. Their points are equidistant; added are the
-    places at which Blok's flash temperature is largest and the film of the formula is thinnest. Without these places, a
-    maximum would depend on the number of points.
+    The feature line is always checked. The profile line is checked if it is hotter than the feature line. The points of
+    a line are equidistant. The hottest point of each line is added, and on the feature line also the point with the
+    thinnest film of the formula. Without these points, a largest value would depend on the number of points. The
+    profile line is None if `hottest` is None.
     """
     line_at = partial(_line_at, inputs.distribution, distribution, film_at)
     even = np.linspace(0.0, 1.0, inputs.path_points)
@@ -198,10 +202,11 @@ def _lines(
 
 
 def _or_along(distribution: LoadDistribution, line: _Line, thinnest: Peak) -> Peak:
-    """Return the thinnest film by the formula, or the thinnest film of a profile line if that is thinner.
+    """Return `thinnest`, or the thinnest film of the formula on a profile line if this film is thinner.
 
-    Whether the profile line is checked depends on the feature line, and a spur pair and its mirror image have different
-    feature lines. The points of the profile line always count, so that both have the same thinnest film.
+    A spur pair and its mirror image have different feature lines, so that the profile line may be checked for only one
+    of them. Here the points of the profile line always count. The pair and its mirror image then have the same thinnest
+    film.
     """
     if np.isnan(line.film).all():
         return thinnest
@@ -211,14 +216,17 @@ def _or_along(distribution: LoadDistribution, line: _Line, thinnest: Peak) -> Pe
 
 
 def _surfaces(temperatures: Temperatures, line: _Line) -> FloatArray:
-    """Return the bulk temperatures of pinion and wheel at the points of a line, two rows [K]."""
+    """Return the bulk temperatures at the points of a line [K], one row for the pinion and one for the wheel."""
     return np.broadcast_to(np.array(temperatures.surfaces)[:, None], (2, line.face.size))
 
 
 def _contact_temperature(
     temperatures: Temperatures, bulk: float, flash: Flash, lines: Sequence[CheckedLine]
 ) -> ContactTemperature:
-    """Add the flash temperatures to the bulk temperature [K]; by thermal EHL to that of the surface."""
+    """Add the largest flash temperatures to the bulk temperature [K].
+
+    A flash temperature by thermal EHL is added to the bulk temperature of the same surface.
+    """
     thermal = None
     if flash.thermal_ehl_max is not None:
         surfaces = np.array(temperatures.surfaces)[:, None]
@@ -232,7 +240,7 @@ def _contact_temperature(
 def _with_band(
     temperatures: Temperatures, heat: Heat, flash: Flash, safety: Safety | None
 ) -> tuple[Heat, Safety | None]:
-    """Add the safety at both ends of its band to the balance, and take the verdict from the lower end."""
+    """Add the range of the safety factor to the band of the heat balance, and take the verdict from its lower end."""
     if safety is None or safety.blok_factor is None or flash.blok_max is None or heat.band is None:
         return heat, safety
     contacts = [sum(flanks) / 2 + flash.blok_max for flanks in heat.flank_cases]
@@ -282,7 +290,7 @@ def safety_factor(scuffing: float, oil: float, contact: float) -> float | None:
 
 
 def _safety(temperatures: Temperatures, contact: ContactTemperature, flash: Flash) -> Safety | None:
-    """Return the factors of the flank, of the feature line and by thermal EHL; None without a scuffing temperature."""
+    """Return the safety factors of flank, feature line and thermal EHL; None without a scuffing temperature."""
     if temperatures.scuffing is None:
         return None
     limit, oil = temperatures.scuffing, temperatures.oil
@@ -303,7 +311,8 @@ def _safety(temperatures: Temperatures, contact: ContactTemperature, flash: Flas
 def _closed_form_path(inputs: ScuffingInputs, line: _Line) -> ScuffingPath:
     """Return flash temperature (Eq. 25) and film (Eqs. 27, 28) along a line.
 
-    A loaded point too near a base circle has neither; its status is "refused". Without an oil there is no film.
+    A loaded point that is too near a base circle has neither flash temperature nor film; its status is "refused".
+    Without an oil there is no film.
     """
     pinion, wheel, points = inputs.distribution.pinion_material, inputs.distribution.wheel_material, line.points
     return ScuffingPath(
@@ -316,7 +325,7 @@ def _closed_form_path(inputs: ScuffingInputs, line: _Line) -> ScuffingPath:
 
 
 def _with_thermal(inputs: ScuffingInputs, path: ScuffingPath, thermal: ThermalPath) -> ScuffingPath:
-    """Add the thermal EHL solution to a path; the thickness ratio is then that of its film."""
+    """Add the thermal EHL solution to a path; the thickness ratio becomes that of the film by thermal EHL."""
     given = inputs.distribution
     ratio = thickness_ratio(thermal.minimum_film, given.pinion_material.roughness, given.wheel_material.roughness)
     status = tuple(
@@ -327,7 +336,7 @@ def _with_thermal(inputs: ScuffingInputs, path: ScuffingPath, thermal: ThermalPa
 
 
 def _with_film_ratio(flank: CheckedFlank, path: ScuffingPath, line: _Line) -> ScuffingPath:
-    """Add the film ratio of micropitting to a path, if the check has one."""
+    """Add the film ratio against micropitting to a path, if the micropitting check has computed a film."""
     if flank.film is None:
         return path
     return replace(path, micropitting_ratio=frozen(flank.film.ratio(line.points, line.face)))

@@ -1,4 +1,4 @@
-"""Results of the scuffing check beside those of the load distribution; SI units, arrays read-only."""
+"""Results of the scuffing check, without those of the load distribution; SI units, arrays read-only."""
 
 from typing import Literal
 
@@ -19,11 +19,12 @@ PointStatus = Literal["ok", "ok_with_warnings", "no_solution", "refused", "unloa
 
 @record
 class Flash:
-    """Largest flash temperatures [K] and their places; no place without load, no thermal EHL value in closed form.
+    """Largest flash temperatures [K] and their places.
 
-    `..._at_psi` is the place of the largest value on the feature line, `..._at_profile` and `..._at_face` [m] are the
-    place of the largest value on the flank. Neither value nor place is stated if a loaded point without a value may be
-    the hottest.
+    The places are None without load. The values by thermal EHL are None in closed form, that is if only the formulas
+    are evaluated. `..._at_psi` is the place of the largest value on the feature line; `..._at_profile` and
+    `..._at_face` [m] are the place of the largest value on the flank. A value and its places are None if a loaded point
+    without a value may be the hottest point.
     """
 
     blok_max: float | None = quantity(
@@ -92,9 +93,10 @@ class Flash:
 
 @record
 class ContactTemperature:
-    """Bulk temperature t_M and largest contact temperature t_B = t_M + t_f [K] (Eq. 16); t_B is None if t_f is None.
+    """Bulk temperature t_M and largest contact temperature t_B = t_M + t_f [K] (Eq. 16).
 
-    By thermal EHL t_M is the bulk temperature of the surface: a heat balance gives pinion and wheel different ones.
+    t_f is the flash temperature; t_B is None if t_f is None. A t_f by thermal EHL is added to the bulk temperature of
+    the same surface, because a heat balance gives pinion and wheel different bulk temperatures.
     """
 
     bulk: float = quantity(
@@ -124,10 +126,11 @@ class ContactTemperature:
 class Film:
     """Thinnest film [m], its place and its ratio to the roughness.
 
-    The values are None if no point is loaded, or if a point without a film may have the thinnest. The film of the
-    formula is the thinnest over the flank, the film by thermal EHL the thinnest on the solved lines. The film by
-    thermal EHL is judged if there is one, whichever is thinner. `min_at_psi` is the place of the thinnest film on the
-    feature line; `min_at_profile` and `min_at_face` are the place of the judged film.
+    The values are None if no point is loaded. If an unsolved point may have the thinnest film, only the film of the
+    formula is stated. The film of the formula is the thinnest over the flank; the film by thermal EHL is the thinnest
+    on the solved lines. Place, ratio and regime are those of the film by thermal EHL if there is one, even if the film
+    of the formula is thinner. `min_at_psi` is the place of the thinnest film on the feature line. `min_at_profile` and
+    `min_at_face` [m] are the place of the thinnest film on all lines or over the flank.
     """
 
     dowson_higginson_min: float | None = quantity(
@@ -170,9 +173,9 @@ class Film:
 
 @record
 class Safety:
-    """Safety factors against scuffing (Eq. 26); None if the teeth stay as cool as the oil.
+    """Safety factors against scuffing (Eq. 26); a factor is None if the teeth are not hotter than the oil.
 
-    `scuffing` is the scuffing temperature [K], `verdict` the standard's risk for Blok's factor.
+    `scuffing` is the scuffing temperature [K]. `verdict` is the risk class of the standard for Blok's factor.
     """
 
     scuffing: float = quantity("scuffing temperature used", "θ_S", unit="c", text="given or by the scuffing test")
@@ -207,9 +210,10 @@ class Safety:
 
 @record
 class ScuffingDerived:
-    """Values of mesh, oil and cooling that follow from the inputs; the oil as it enters the contact.
+    """Values of mesh, oil and cooling that follow from the inputs; `oil` is the oil at the bulk temperature.
 
-    `kinematic_viscosity_100` [m^2/s] and `density_15` [kg/m^3] are None unless a grade or data sheet gives the oil.
+    `kinematic_viscosity_100` [m^2/s] and `density_15` [kg/m^3] are None unless the oil is given by a grade or a data
+    sheet.
     """
 
     mesh: Derived
@@ -230,8 +234,9 @@ class ScuffingDerived:
 class ThermalPath:
     """The thermal EHL solution at the points of a line; temperatures [K], films [m], pressure [Pa], friction [-].
 
-    Unsolved points are NaN. A point that is refused because its load is too light has bounds instead: it is no hotter
-    (`flash_bound` [K]) and its film no thinner (`film_bound` [m]) than under the lightest load that the solver accepts.
+    The values are NaN at unsolved points. A point that the solver refuses because its load is too light has bounds
+    instead. `flash_bound` [K] and `film_bound` [m] are the flash temperature and the film of this point under the
+    lightest load that the solver accepts. The point is not hotter, and its film is not thinner.
     """
 
     status: tuple[PointStatus, ...]
@@ -252,14 +257,15 @@ class ThermalPath:
 
 @record
 class ScuffingPath:
-    """Along a line from A to E: Blok's flash temperature [K], film [m] and its ratio to roughness.
+    """Results along a line from A to E: Blok's flash temperature [K], film [m] and ratio of the film to the roughness.
 
-    The feature line runs diagonally, y = psi b; the profile line lies at the face position of the hottest point. The
-    points are equidistant; added are the places at which Blok's flash temperature is largest and the film of the
-    formula is thinnest. A point without load or motion has the status "unloaded"; its film and ratio are NaN, and its
-    flash temperature by Blok is 0. A loaded point at which the reduced radius vanishes is "refused"; all its values are
-    NaN. `thermal` is None in closed form. Points that the thermal EHL solver did not solve are "no_solution", points
-    that it does not accept "refused". The thickness ratio is that of the film by thermal EHL if there is one.
+    The feature line is the diagonal y = psi b; the profile line lies at the face position of the hottest point. The
+    points of a line are equidistant. Further points are added at the places where Blok's flash temperature is largest
+    and where the film of the formula is thinnest. A point without load or motion has the status "unloaded"; its film
+    and its ratio are NaN, and its flash temperature by Blok is 0. A loaded point at which the reduced radius vanishes
+    has the status "refused"; all its values are NaN. `thermal` is None in closed form. If it is not None, points that
+    the thermal EHL solver could not solve have the status "no_solution", and points that the solver does not accept
+    have the status "refused". The thickness ratio is that of the film by thermal EHL if there is one.
     """
 
     psi: FloatArray = quantity(
@@ -313,7 +319,7 @@ class ScuffingPath:
 class HeatedFlank(Flank):
     """Maps [profile, face] of the load distribution, of Blok's flash temperature [K] and of the film ratio.
 
-    The flash temperature is NaN at points where it has no limit, the film ratio at points without contact.
+    The flash temperature is NaN at points where it has no limit. The film ratio is NaN at points without contact.
     """
 
     flash_temperature: FloatArray = quantity(
@@ -338,10 +344,10 @@ class HeatedFlank(Flank):
 
 @record(kw_only=True)
 class Scuffing:
-    """The scuffing check on a load distribution; `safety` is None without a scuffing temperature.
+    """Results of a scuffing check, with the load distribution on which the check is based.
 
-    Without an oil, contact temperature, film and safety are None. `warnings` are those of the load distribution and of
-    the check.
+    `safety` is None without a scuffing temperature. Contact temperature, film and safety are None without an oil.
+    `warnings` are the warnings of the load distribution and of the check.
     """
 
     distribution: LoadDistribution
@@ -380,7 +386,7 @@ class Scuffing:
     @property
     @computed("over the flank", detail="fields")
     def flank(self) -> HeatedFlank:
-        """Over the flank."""
+        """Maps over the flank."""
         flank = self.distribution.flank
         return HeatedFlank(
             flank.profile_fraction,

@@ -1,10 +1,11 @@
-"""Stiffness of a pair of teeth: bending of each tooth (Ishikawa, Eqs. 5-6) and the flattening of their contact.
+"""Stiffness of a pair of teeth: bending of each tooth (Ishikawa, Eqs. 5-6), and flattening of the contact.
 
-The flanks at a slice of contact line approach by delta along the transverse line of action and carry the line load w:
+At a slice of a contact line, the flanks approach each other by delta along the transverse line of action and carry the
+line load w. There are two contact models:
     linear contact      delta = C w
     half-space contact  delta = a w omega,  omega = A/a - ln w      (w in N/m)
 The half-space contact has the closed form w = delta / (a omega) with omega - ln omega = A/a + ln(a / delta), a branch
-of Lambert's function. `PairCompliance` contains C or A over the path of contact, and a.
+of Lambert's function. `PairCompliance` contains a, and C or A at points of the path of contact.
 """
 
 from dataclasses import dataclass, replace
@@ -26,16 +27,18 @@ from solvers.scuffing.inputs import Model
 from solvers.scuffing.modification import interpolated, place_of
 
 TABLE_POINTS = 801  # every 0.125 % of the path, chosen
-LEAST_RADIUS = 1e-6  # normal modules; on a base circle the reduced radius and the half width vanish
-SHALLOWEST = 2.0  # half-space depth over contact half width
+LEAST_RADIUS = 1e-6  # normal modules; on a base circle the reduced radius vanishes, and with it the half width
+SHALLOWEST = 2.0  # least ratio of the depth of the half-space to the half width of the contact
 OMEGA_STEPS = 12  # limit of Newton's method for the branch of Lambert's function
-LEAST_OMEGA = 2.0  # of a guess; omega is larger where the compliance is not held, and has no meaning below 1
-LAST_STEP = 1e-3  # of omega; the error after it is below a tenth of its fourth power, so the next step is rounding
+LEAST_OMEGA = 2.0  # lower limit of a guess; omega is larger unless the compliance is held, and has no meaning below 1
+# Relative step of omega. The error after a smaller step is below a tenth of the fourth power of this step, so that the
+# next step would only be rounding.
+LAST_STEP = 1e-3
 
 
 @dataclass(frozen=True, slots=True)
 class LoadPoints:
-    """Points at which a tooth is loaded, arrays over the points.
+    """Points at which a tooth is loaded; the fields are arrays over these points.
 
     `height` is the height above the root chord [m], `angle` the angle between the load and the normal of the centre
     line [rad], `depth` the distance from the flank to the centre line along the load [m].
@@ -48,7 +51,10 @@ class LoadPoints:
 
 @dataclass(frozen=True, slots=True)
 class ToothShape:
-    """Rectangle (root_width, rectangle_height) below a trapezium that narrows to tip_width at `height` [m]."""
+    """Shape of a tooth: a rectangle at the root, and a trapezium on top of the rectangle; lengths in [m].
+
+    The rectangle is `root_width` wide and `rectangle_height` high. The trapezium narrows to `tip_width` at `height`.
+    """
 
     root_width: float
     tip_width: float
@@ -57,16 +63,21 @@ class ToothShape:
 
 
 def section_gear(pair: GearPair, gear: Gear, teeth: GearTeeth, section: Literal["normal", "transverse"]) -> Gear:
-    """Return the gear whose teeth bend: itself, or the virtual spur gear of z / (cos^2 beta_b cos beta) teeth."""
+    """Return the gear whose teeth are used to compute the bending.
+
+    In the transverse section this is the gear itself. In the normal section it is the virtual spur gear with
+    z / (cos^2 beta_b cos beta) teeth.
+    """
     return gear if section == "transverse" else virtual_gear(pair.inputs, teeth, pair.base_helix_angle)
 
 
 def tooth_shape(gear: Gear) -> ToothShape:
     """Return the rectangle and the trapezium of a tooth.
 
-    Heights run along the centre line from the chord of width S_F on the root circle. A tooth that is as wide at the tip
-    as at the root, or wider, is a single rectangle. Raises InvalidInput pointed_tooth if the tooth ends in a point: the
-    virtual tooth of the normal section may do so even if the tooth itself does not.
+    Heights are measured along the centre line from the root chord, which is the chord of width S_F on the root circle.
+    A tooth that is at least as wide at the tip as at the root is a single rectangle. Raises InvalidInput pointed_tooth
+    if the tooth ends in a point. The virtual tooth of the normal section may end in a point even if the tooth itself
+    does not.
     """
     root_angle, tip_angle = gear.half_tooth_angle(gear.form_radius), gear.half_tooth_angle(gear.tip_radius)
     root_width = 2 * gear.form_radius * sin(root_angle)
@@ -74,7 +85,8 @@ def tooth_shape(gear: Gear) -> ToothShape:
     if tip_width <= 0.0:
         raise InvalidInput(
             "pointed_tooth",
-            "a tooth is pointed in its normal section; choose transverse, or reduce addendum or profile shift",
+            "a tooth is pointed in its normal section; choose the transverse section, or reduce addendum or profile "
+            "shift",
             "section",
         )
     height = gear.tip_radius * cos(tip_angle) - _chord_height(gear, root_width)
@@ -88,8 +100,8 @@ def tooth_shape(gear: Gear) -> ToothShape:
 def load_points(gear: Gear, radius: FloatArray) -> LoadPoints:
     """Return the load points at radii [m].
 
-    The load angle is alpha_x - g_x, the pressure angle of the flank less the half tooth angle. The paper calls it
-    pressure angle; the arm of the bending moment follows from the load angle.
+    The load angle is alpha_x - g_x, the pressure angle of the flank minus the half tooth angle. The paper calls the
+    load angle a pressure angle; but the arm of the bending moment follows from the load angle.
     """
     pressure_angle = np.arccos(np.minimum(gear.base_radius / radius, 1.0))
     half_angle = gear.reference_half_angle + gear.reference_involute - np.tan(pressure_angle) + pressure_angle
@@ -108,20 +120,23 @@ def _chord_height(gear: Gear, root_width: float) -> float:
     Raises InvalidInput root_circle if the chord does not fit into the root circle.
     """
     if gear.root_radius <= root_width / 2:
-        message = "a gear's root circle is narrower than the root of its teeth; reduce the dedendum or take more teeth"
+        message = (
+            "the roots of the teeth do not fit on the root circle of a gear; reduce the dedendum or increase the "
+            "number of teeth"
+        )
         raise InvalidInput("root_circle", message, "gears")
     return sqrt(gear.root_radius**2 - root_width**2 / 4)
 
 
 def bending_rectangle(shape: ToothShape, points: LoadPoints, material: Solid) -> FloatArray:
-    """Compute the bending of the rectangle of a tooth.
+    """Compute the deflection by bending of the rectangle of a tooth.
 
     Parameters
     ----------
     shape : ToothShape
         Rectangle and trapezium of the tooth.
     points : LoadPoints
-        Where the tooth is loaded.
+        Points at which the tooth is loaded.
     material : Solid
         Material of the tooth.
 
@@ -132,7 +147,7 @@ def bending_rectangle(shape: ToothShape, points: LoadPoints, material: Solid) ->
 
     Notes
     -----
-    Eq. L4: delta_Br / w, for load heights above or inside the rectangle.
+    Eq. L4: delta_Br / w. The load acts above the rectangle or on the rectangle.
     """
     h_x, s_f = points.height, shape.root_width
     h_r = np.minimum(shape.rectangle_height, h_x)
@@ -141,14 +156,14 @@ def bending_rectangle(shape: ToothShape, points: LoadPoints, material: Solid) ->
 
 
 def bending_trapezium(shape: ToothShape, points: LoadPoints, material: Solid) -> FloatArray:
-    """Compute the bending of the trapezium of a tooth.
+    """Compute the deflection by bending of the trapezium of a tooth.
 
     Parameters
     ----------
     shape : ToothShape
         Rectangle and trapezium of the tooth.
     points : LoadPoints
-        Where the tooth is loaded.
+        Points at which the tooth is loaded.
     material : Solid
         Material of the tooth.
 
@@ -160,8 +175,8 @@ def bending_trapezium(shape: ToothShape, points: LoadPoints, material: Solid) ->
     Notes
     -----
     Eq. L5: delta_Bt / w = 6 cos^2 w / (E S_F^3) [q (4 - q) - 2 ln q - 3] (h_i - h_r)^3 with
-    q = (h_i - h_x)/(h_i - h_r). The sign of the logarithm is right as printed; with the other sign the compliance is
-    negative. E is the modulus of the gear itself; the paper prints E_1.
+    q = (h_i - h_x)/(h_i - h_r). The sign of the logarithm is right as printed; with the other sign the compliance
+    would be negative. E is the modulus of the gear itself; the paper prints E_1.
     """
     if shape.tip_width == shape.root_width:
         return np.zeros_like(points.height)
@@ -171,14 +186,14 @@ def bending_trapezium(shape: ToothShape, points: LoadPoints, material: Solid) ->
 
 
 def shear(shape: ToothShape, points: LoadPoints, material: Solid) -> FloatArray:
-    """Compute the shear of a tooth.
+    """Compute the deflection by shear of a tooth.
 
     Parameters
     ----------
     shape : ToothShape
         Rectangle and trapezium of the tooth.
     points : LoadPoints
-        Where the tooth is loaded.
+        Points at which the tooth is loaded.
     material : Solid
         Material of the tooth.
 
@@ -200,14 +215,14 @@ def shear(shape: ToothShape, points: LoadPoints, material: Solid) -> FloatArray:
 
 
 def root_rotation(shape: ToothShape, points: LoadPoints, material: Solid) -> FloatArray:
-    """Compute the deflection by the rotation of a tooth at its root.
+    """Compute the deflection of a tooth by the rotation of its root.
 
     Parameters
     ----------
     shape : ToothShape
         Rectangle and trapezium of the tooth.
     points : LoadPoints
-        Where the tooth is loaded.
+        Points at which the tooth is loaded.
     material : Solid
         Material of the tooth.
 
@@ -218,22 +233,23 @@ def root_rotation(shape: ToothShape, points: LoadPoints, material: Solid) -> Flo
 
     Notes
     -----
-    Eq. L7: delta_G / w = 24 h_x^2 cos^2 w / (pi E S_F^2). The paper prints h_x instead of h_x^2; the rotation
-    M/(E S_F^2) times the arm h_x gives the square, which the unit also needs.
+    Eq. L7: delta_G / w = 24 h_x^2 cos^2 w / (pi E S_F^2). The paper prints h_x instead of h_x^2. The rotation is
+    proportional to M/(E S_F^2), and M contains the arm h_x. The rotation times the arm h_x therefore gives h_x^2, and
+    only h_x^2 gives the right unit.
     """
     arm = points.height * np.cos(points.angle)
     return np.asarray(24 * arm**2 / (pi * material.youngs_modulus * shape.root_width**2))
 
 
 def bending_compliance(shape: ToothShape, points: LoadPoints, material: Solid) -> FloatArray:
-    """Compute the deflection of one tooth along the load.
+    """Compute the deflection of one tooth in the direction of the load.
 
     Parameters
     ----------
     shape : ToothShape
         Rectangle and trapezium of the tooth.
     points : LoadPoints
-        Where the tooth is loaded.
+        Points at which the tooth is loaded.
     material : Solid
         Material of the tooth.
 
@@ -265,8 +281,9 @@ def _apex_fraction(shape: ToothShape, points: LoadPoints) -> FloatArray:
 class PairCompliance(NamedTuple):
     """Compliance over equidistant points from A to E.
 
-    `constant` [1/Pa] is C, and `logarithmic` 0, for linear contact; for half-spaces they are A and a. At the approach
-    `limit` [m] the half width reaches half the depth of the half-space; beyond it the compliance is held.
+    For linear contact `constant` [1/Pa] is C and `logarithmic` is 0; for half-spaces they are A and a. At the approach
+    `limit` [m] the half width of the contact reaches half the depth of the half-space. Beyond this approach the
+    compliance is held constant.
     """
 
     constant: FloatArray
@@ -277,7 +294,7 @@ class PairCompliance(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Member:
-    """One gear of the pair, over the table points: radii at which it is loaded [m], bending [1/Pa]."""
+    """One gear of the pair; loaded radii [m] and bending compliance [1/Pa] are arrays over the table points."""
 
     gear: Gear
     material: Solid
@@ -286,7 +303,7 @@ class Member:
 
 
 def pair_compliance(path: PathOfContact, pinion: Solid, wheel: Solid, model: Model) -> PairCompliance:
-    """Compute the compliance of a pair of teeth along the path; it is kept for the next load of the same teeth.
+    """Compute the compliance of a pair of teeth along the path; the result is kept for further loads of the same teeth.
 
     Parameters
     ----------
@@ -307,7 +324,7 @@ def pair_compliance(path: PathOfContact, pinion: Solid, wheel: Solid, model: Mod
     Raises
     ------
     InvalidInput
-        `contact_law` for the parabola with the half-space: the parabola is scaled to linear contact.
+        `contact_law` if the parabola is combined with the half-space, because the parabola is scaled to linear contact.
 
     Notes
     -----
@@ -320,7 +337,9 @@ def pair_compliance(path: PathOfContact, pinion: Solid, wheel: Solid, model: Mod
 def _pair_compliance(path: PathOfContact, pinion: Solid, wheel: Solid, model: Model) -> PairCompliance:
     if model.tooth_stiffness == "parabola" and model.contact != "linear":
         raise InvalidInput(
-            "contact_law", "the parabola is scaled to Ishikawa's maximum with linear contact; choose linear", "contact"
+            "contact_law",
+            "the parabolic tooth stiffness is scaled to Ishikawa's maximum with linear contact; choose linear contact",
+            "contact",
         )
     x = np.linspace(0.0, path.length, TABLE_POINTS)
     roll_lengths = (path.start + x, path.pair.line_of_action - path.start - x)
@@ -329,9 +348,9 @@ def _pair_compliance(path: PathOfContact, pinion: Solid, wheel: Solid, model: Mo
         _member(gear, section_gear(path.pair, gear, one, model.section), roll, material)
         for gear, one, roll, material in zip(gears, teeth, roll_lengths, (pinion, wheel), strict=True)
     ]
-    # In the transverse plane a slice dy carries w dl cos(beta_b) = w dy, so that a tooth bent in this plane yields to w
-    # itself. The contact, and a tooth bent in its normal section, yield along the normal; along the transverse line of
-    # action this is more by 1 / cos(beta_b).
+    # In the transverse plane a slice dy carries w dl cos(beta_b) = w dy. If the tooth bends in this plane, its load is
+    # therefore w itself. The contact, and a tooth that bends in its normal section, deflect along the normal. Along the
+    # transverse line of action this deflection is larger by the factor 1 / cos(beta_b).
     inclination = cos(path.pair.base_helix_angle)
     bending = (members[0].bending + members[1].bending) / (inclination if model.section == "normal" else 1.0)
     points_per_metre = (TABLE_POINTS - 1) / path.length
@@ -348,7 +367,7 @@ def _pair_compliance(path: PathOfContact, pinion: Solid, wheel: Solid, model: Mo
 
 
 def linear_contact_compliance(pinion: Solid, wheel: Solid) -> float:
-    """Compute the linear compliance of the contact.
+    """Compute the compliance of the linear contact.
 
     Parameters
     ----------
@@ -370,20 +389,24 @@ def linear_contact_compliance(pinion: Solid, wheel: Solid) -> float:
 
 
 def _member(gear: Gear, section: Gear, roll_length: FloatArray, material: Solid) -> Member:
-    """Return a gear of the pair with its bending in the section, at the same height above the reference circle."""
+    """Return a gear of the pair with the bending compliance of its section.
+
+    The section is loaded at the same heights above its reference circle as the gear.
+    """
     radius = np.hypot(gear.base_radius, roll_length)
     points = load_points(section, section.reference_radius + radius - gear.reference_radius)
     return Member(gear, material, radius, bending_compliance(tooth_shape(section), points, material))
 
 
 def _half_space(path: PathOfContact, x: FloatArray, members: list[Member]) -> tuple[FloatArray, float, float]:
-    """Return offset [1/Pa], slope [1/Pa] and least contact part of omega of the half-space (Johnson 1985; Weber).
+    """Return offset [1/Pa] and slope [1/Pa] of the half-space, and the least part of omega that is due to the contact.
 
+    The compliance of the half-spaces is (Johnson 1985; Weber)
     delta_H / w = sum_i (1 - nu_i^2)/(pi E_i) [2 ln(2 d_i / b_H) - nu_i/(1 - nu_i)],  b_H^2 = 8 w R_n/(pi E').
     """
     modulus = reduced_modulus(members[0].material, members[1].material)
     radius = np.maximum(reduced_radius(path.plane, x), LEAST_RADIUS * path.pair.inputs.normal_module)
-    log_square = np.log(8 * radius / (pi * modulus))  # of b_H at 1 N/m
+    log_square = np.log(8 * radius / (pi * modulus))  # ln b_H^2 at 1 N/m
     slope = sum(plane_strain_compliance(member.material) for member in members) / pi
     offset, least = np.zeros_like(x), 0.0
     for member in members:
@@ -396,13 +419,13 @@ def _half_space(path: PathOfContact, x: FloatArray, members: list[Member]) -> tu
 
 
 def _parabola(fraction: FloatArray, end_ratio: float) -> FloatArray:
-    """Return 1 - (1 - r)(2 xi - 1)^2, calibrated to the paper's load maxima with r = 0.757."""
+    """Return 1 - (1 - r)(2 xi - 1)^2; r = 0.757 is calibrated to the paper's load maxima."""
     return np.asarray(1 - (1 - end_ratio) * (2 * fraction - 1) ** 2)
 
 
 @inlined_kernel
 def compliance_at(compliance: PairCompliance, x: float) -> tuple[float, float]:
-    """Return `constant` [1/Pa] and `limit` [m] at x [m] from A; linear contact has no limit."""
+    """Return `constant` [1/Pa] and `limit` [m] at x [m] from A; the limit is infinite for linear contact."""
     place = place_of(x, compliance.points_per_metre, compliance.constant.size)
     constant = interpolated(compliance.constant, place)
     return constant, np.inf if compliance.logarithmic == 0.0 else interpolated(compliance.limit, place)
@@ -423,7 +446,7 @@ def line_load(
     logarithmic : float
         Logarithmic part of the compliance [1/Pa].
     limit : float
-        Approach beyond which the compliance is held [m].
+        Approach beyond which the compliance is held constant [m].
     log_load : float
         Guess of ln w.
 
@@ -434,7 +457,7 @@ def line_load(
     stiffness : float
         Derivative of the line load by the approach [Pa].
     log_load : float
-        Ln w, the guess for a similar approach.
+        Logarithm ln w, a guess for a similar approach.
 
     Notes
     -----
@@ -452,12 +475,13 @@ def line_load(
 def line_load_near(
     approach: float, constant: float, logarithmic: float, limit: float, log_load: float
 ) -> tuple[float, float, float, float]:
-    """Take one step of omega from the guess `log_load`; return what `line_load` returns and the relative step.
+    """Take one step of omega from the guess `log_load`; return what `line_load` returns, and the relative step.
 
-    The remaining error of omega is of the order of the fourth power of the step. omega - ln omega = A/a + ln(a / delta)
-    is solved by the iteration of Fritsch, Shafer and Crowley (1973) for Lambert's function, which takes one logarithm
-    per step and converges from any guess; dw/d(delta) = 1 / (a (omega - 1)). The guess is passed as ln w, because ln w
-    changes less than omega from one position to the next. Its largest value is ln w at the limit.
+    The equation omega - ln omega = A/a + ln(a / delta) is solved by the iteration of Fritsch, Shafer and Crowley (1973)
+    for Lambert's function. It takes one logarithm per step and converges from any guess. After a step, the error of
+    omega is of the order of the fourth power of the step. The derivative is dw/d(delta) = 1 / (a (omega - 1)). The
+    guess is passed as ln w, because ln w changes less than omega from one position to the next. The returned ln w is at
+    most the ln w at the limit.
     """
     if approach <= 0.0:
         return 0.0, 0.0, log_load, 0.0
@@ -470,14 +494,14 @@ def line_load_near(
     scale = 2.0 * slope * (slope - excess * (2.0 / 3.0))
     step = -excess * (scale - excess) / (slope * (scale - 2.0 * excess))
     omega *= 1.0 + step
-    common = per_slope / (omega * (omega - 1.0))  # of the load and its derivative
+    common = per_slope / (omega * (omega - 1.0))  # common factor of the load and its derivative
     rising = omega - 1.0 if approach > limit else omega
     return approach * (omega - 1.0) * common, rising * common, offset - omega, step
 
 
 @kernel
 def _secants(constant: FloatArray, limit: FloatArray, logarithmic: float, load: float) -> FloatArray:
-    """Return 1 / (a omega) at a line load [N/m], with omega of the load or, beyond the limit, of the limit."""
+    """Return 1 / (a omega) at a line load [N/m]; if the load is beyond the limit, omega is that of the limit."""
     stiffness = np.empty(constant.size)
     for i in range(constant.size):
         _, _, log_limit = line_load(limit[i], constant[i], logarithmic, limit[i], np.log(load))

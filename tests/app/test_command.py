@@ -119,7 +119,7 @@ def test_the_exit_status_tells_warnings() -> None:
     [
         ("/v1/coupling", "{", "the body is not valid JSON"),
         ("/v1/coupling", '{"coupling": {}}', "/operation: operation is required"),
-        ("/v1/couplings", "{}", "there is no /v1/couplings"),
+        ("/v1/couplings", "{}", "there is no endpoint /v1/couplings"),
     ],
 )
 def test_what_is_refused_says_why(endpoint: str, text: str, message: str) -> None:

@@ -462,7 +462,10 @@ def test_the_gears_oil_is_told_and_a_thick_one_is_named(post: Post) -> None:
     oil = found["derived"]["lubricant"]
     assert oil["viscosity_pa_s"] == pytest.approx(13.24, abs=0.01)
     assert oil["reference_temperature_c"] == pytest.approx(5)
-    message = "13.24 Pa s at operating temperature is very thick; was mPa s meant?"
+    message = (
+        "a viscosity of 13.24 Pa s at operating temperature is unusually high; "
+        "was a value entered in the wrong unit (mPa s)?"
+    )
     warning = {"rank": "doubtful", "code": "unusual_value", "message": message, "field": "lubricant.iso_vg"}
     assert warning in found["warnings"]
     for name in ("pressure_viscosity_per_gpa", "temperature_viscosity_per_k", "specific_heat_j_per_kg_k"):

@@ -39,10 +39,10 @@ def test_what_is_wrong_with_a_field(path: str, value: Any, message: str) -> None
 
 
 ABOVE = (
-    '"above 12" on a data sheet means that stage 12 was passed: enter 13 for the limit that this proves at least, or '
-    "the failing stage if it is known"
+    '"above 12" on a data sheet means that the oil passed stage 12; enter 13 as a lower limit, or the stage at which '
+    "the oil failed if you know it"
 )
-HAND = "give the amount; the hand matters in the drive train only and is `gears.hand` there"
+HAND = "give the angle without a sign; the hand of the helix matters only in the drive train and is `gears.hand` there"
 
 
 @pytest.mark.parametrize(
@@ -64,7 +64,7 @@ def test_a_refused_value_that_has_a_known_cause_says_what_to_give(path: str, val
 
 def test_solvers_say_the_same_of_inputs_built_in_python() -> None:
     inputs = FZG_A
-    with pytest.raises(InvalidInput, match="permissible 0 to 45 °; give the amount"):
+    with pytest.raises(InvalidInput, match="permissible 0 to 45 °; give the angle without a sign"):
         checked(replace(inputs, helix_angle=-0.2))
     with pytest.raises(InvalidInput, match="internal gears are not modelled"):
         checked(replace(inputs, wheel=GearTeeth(-61)))

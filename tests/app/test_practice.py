@@ -247,50 +247,63 @@ def test_what_excludes_what(endpoint: str, changes: dict[str, Any], message: str
 
 
 SCUFFING, LOAD_DISTRIBUTION, TRAIN = "/v1/scuffing", "/v1/scuffing/load-distribution", "/v1/drive-train"
-THICK = "Pa s at operating temperature is very thick; was mPa s meant?"
-VACUUM = "1.01 kPa is nearly a vacuum; was bar meant?"
-EXCHANGED = "°C; are they exchanged?"
-GROUND = "µm is less than can be ground; was mm meant?"
-NARROW = "mm is below half a module; were cm or inches meant?"
-DIAMETER = "13 mm is beyond 4 modules; is it a diameter?"
-FAST = "m/s, beyond 250; is it the speed of another shaft?"
-FAHRENHEIT = "°C is hotter than gears are in service; were degrees Fahrenheit meant?"
-COLD = "°C is colder than oils are in service; is the sign right?"
+THICK = (
+    "a viscosity of {} Pa s at operating temperature is unusually high; was a value entered in the wrong unit (mPa s)?"
+)
+VACUUM = "an ambient pressure of 1.01 kPa is nearly a vacuum; was a value entered in the wrong unit (bar)?"
+EXCHANGED = "°C; were the two temperatures exchanged?"
+GROUND = "a modification of {} µm is too small to be ground; was a value entered in the wrong unit (mm)?"
+NARROW = "the face width of {} mm is less than half a module; was a value entered in the wrong unit (cm or inches)?"
+RELIEF = (
+    "the relief is {} mm long, but the path of contact is only {} mm long; was a radius entered instead of a length?"
+)
+DIAMETER = "the tooth height of 13 mm exceeds 4 modules; was a diameter entered instead of a height?"
+FAST = "the pitch-line velocity of {} m/s exceeds 250 m/s; was the speed of another shaft entered?"
+FAHRENHEIT = "a temperature of {} °C is unusually high for gears in service; was a value entered in degrees Fahrenheit?"
+COLD = "a temperature of {} °C is unusually low for an oil in service; is the sign right?"
 WARM = {"iso_vg": 220}
-SLACK = "N/mm at most; were kW or kN m meant?"
+SLACK = (
+    "the largest line load is only {} N/mm, which is implausible; was a value entered in the wrong unit (kW or kN m)?"
+)
 
 
 @pytest.mark.parametrize(
     ("endpoint", "changes", "message"),
     [
-        (SCUFFING, {"lubricant.viscosity_pa_s": 25}, f"25 {THICK}"),
-        (TRAIN, {"lubricant.viscosity_pa_s": 9.5}, f"9.5 {THICK}"),
-        (TRAIN, {"pinion_shaft.bearings.0.viscosity_pa_s": 14}, f"14 {THICK}"),
-        (TRAIN, {"wheel_shaft.bearings.1.viscosity_pa_s": 18}, f"18 {THICK}"),
-        (TRAIN, {"couplings.0.lubricant.viscosity_pa_s": 25}, f"25 {THICK}"),
+        (SCUFFING, {"lubricant.viscosity_pa_s": 25}, THICK.format(25)),
+        (TRAIN, {"lubricant.viscosity_pa_s": 9.5}, THICK.format(9.5)),
+        (TRAIN, {"pinion_shaft.bearings.0.viscosity_pa_s": 14}, THICK.format(14)),
+        (TRAIN, {"wheel_shaft.bearings.1.viscosity_pa_s": 18}, THICK.format(18)),
+        (TRAIN, {"couplings.0.lubricant.viscosity_pa_s": 25}, THICK.format(25)),
         ("/v1/pumping", {"ambient.pressure_kpa": 1.01}, VACUUM),
         (TRAIN, {"ambient.pressure_kpa": 1.01}, VACUUM),
-        (LOAD_DISTRIBUTION, {"modifications.tip_relief_um": 0.03}, f"0.03 {GROUND}"),
-        (TRAIN, {"modifications.helix_slope_um": 0.05}, f"0.05 {GROUND}"),
-        (LOAD_DISTRIBUTION, {"gears.face_width_mm": 1.2}, f"1.2 {NARROW}"),
-        (TRAIN, {"gears.face_width_mm": 2}, f"2 {NARROW}"),
+        (LOAD_DISTRIBUTION, {"modifications.tip_relief_um": 0.03}, GROUND.format(0.03)),
+        (TRAIN, {"modifications.helix_slope_um": 0.05}, GROUND.format(0.05)),
+        (LOAD_DISTRIBUTION, {"gears.face_width_mm": 1.2}, NARROW.format(1.2)),
+        (TRAIN, {"gears.face_width_mm": 2}, NARROW.format(2)),
         (
             LOAD_DISTRIBUTION,
             {"gears.face_width_mm": 250},
-            "250 mm is beyond 3 pitch diameters of the pinion; was cm meant?",
+            (
+                "the face width of 250 mm exceeds 3 pitch diameters of the pinion; "
+                "was a value entered in the wrong unit (cm)?"
+            ),
         ),
         (
             LOAD_DISTRIBUTION,
             {"load.power_kw": 900},
-            "the Hertzian pressure of 5917 MPa is beyond what steel carries; is the load too high?",
+            "the Hertzian pressure of 5917 MPa exceeds the strength of steel; was the load entered too high?",
         ),
         (
             TRAIN,
             {"operation.power_kw": 120e3},
-            "the tooth force of 799.8 N per mm of face and module breaks a tooth of steel; were W or N mm meant?",
+            (
+                "the tooth force of 799.8 N per mm of face width and mm of module breaks a steel tooth; "
+                "was a value entered in the wrong unit (W or N mm)?"
+            ),
         ),
-        (LOAD_DISTRIBUTION, {"load.power_kw": 0.05}, f"the line load is 0.367 {SLACK}"),
-        (TRAIN, {"operation.power_kw": 0.01}, f"the line load is 0.605 {SLACK}"),
+        (LOAD_DISTRIBUTION, {"load.power_kw": 0.05}, SLACK.format(0.367)),
+        (TRAIN, {"operation.power_kw": 0.01}, SLACK.format(0.605)),
         ("/v1/coupling", {"coupling.tooth_height_mm": 13}, DIAMETER),
         (TRAIN, {"couplings.0.coupling.tooth_height_mm": 13}, DIAMETER),
         (
@@ -299,27 +312,31 @@ SLACK = "N/mm at most; were kW or kN m meant?"
             f"the oil at 95 °C is hotter than the teeth at 86.85 {EXCHANGED}",
         ),
         (TRAIN, {"temperatures.oil_c": 120}, f"the oil at 120 °C is hotter than the teeth at 95 {EXCHANGED}"),
-        (SCUFFING, {"lubricant": {"iso_vg": 220}, "temperatures.oil_c": 180}, f"180 {FAHRENHEIT}"),
-        (SCUFFING, {"lubricant": {"iso_vg": 220}, "temperatures.bulk_c": 250}, f"250 {FAHRENHEIT}"),
-        (SCUFFING, {"lubricant": {"iso_vg": 32}, "temperatures.oil_c": -31}, f"-31 {COLD}"),
-        (TRAIN, {"temperatures.oil_c": 140}, f"140 {FAHRENHEIT}"),
-        (TRAIN, {"temperatures.bulk_c": 140}, f"140 {FAHRENHEIT}"),
-        (TRAIN, {"thermal.pinion_bulk_c": 200}, f"200 {FAHRENHEIT}"),
-        (TRAIN, {"temperatures.oil_c": -31}, f"-31 {COLD}"),
-        (TRAIN, {"couplings.0.lubricant": dict(WARM), "couplings.0.lubricant.temperature_c": 140}, f"140 {FAHRENHEIT}"),
-        ("/v1/coupling", {"lubricant": dict(WARM), "lubricant.temperature_c": 140}, f"140 {FAHRENHEIT}"),
-        ("/v1/scuffing/line-contact", {"lubricant": dict(WARM), "temperatures.inlet_c": 140}, f"140 {FAHRENHEIT}"),
-        (LOAD_DISTRIBUTION, {"load.pinion_speed_rpm": 100000}, f"the pitch-line velocity is 366.6 {FAST}"),
-        (TRAIN, {"operation.pinion_speed_rpm": 25000}, f"the pitch-line velocity is 312.6 {FAST}"),
+        (SCUFFING, {"lubricant": {"iso_vg": 220}, "temperatures.oil_c": 180}, FAHRENHEIT.format(180)),
+        (SCUFFING, {"lubricant": {"iso_vg": 220}, "temperatures.bulk_c": 250}, FAHRENHEIT.format(250)),
+        (SCUFFING, {"lubricant": {"iso_vg": 32}, "temperatures.oil_c": -31}, COLD.format(-31)),
+        (TRAIN, {"temperatures.oil_c": 140}, FAHRENHEIT.format(140)),
+        (TRAIN, {"temperatures.bulk_c": 140}, FAHRENHEIT.format(140)),
+        (TRAIN, {"thermal.pinion_bulk_c": 200}, FAHRENHEIT.format(200)),
+        (TRAIN, {"temperatures.oil_c": -31}, COLD.format(-31)),
+        (
+            TRAIN,
+            {"couplings.0.lubricant": dict(WARM), "couplings.0.lubricant.temperature_c": 140},
+            FAHRENHEIT.format(140),
+        ),
+        ("/v1/coupling", {"lubricant": dict(WARM), "lubricant.temperature_c": 140}, FAHRENHEIT.format(140)),
+        ("/v1/scuffing/line-contact", {"lubricant": dict(WARM), "temperatures.inlet_c": 140}, FAHRENHEIT.format(140)),
+        (LOAD_DISTRIBUTION, {"load.pinion_speed_rpm": 100000}, FAST.format(366.6)),
+        (TRAIN, {"operation.pinion_speed_rpm": 25000}, FAST.format(312.6)),
         (
             LOAD_DISTRIBUTION,
             {"modifications.tip_relief_um": 20, "modifications.tip_relief_length_mm": 30},
-            "the relief is 30 mm long, the path of contact 14.28 mm; is that a radius?",
+            RELIEF.format(30, 14.28),
         ),
         (
             TRAIN,
             {"modifications.tip_relief_length_mm": 60},
-            "the relief is 60 mm long, the path of contact 31.36 mm; is that a radius?",
+            RELIEF.format(60, 31.36),
         ),
     ],
 )
@@ -361,7 +378,7 @@ def test_one_of_tip_diameter_and_addendum_is_given() -> None:
     assert refused(LOAD_DISTRIBUTION, LOADS, both) == "addendum and tip_diameter_mm are both given; keep one"
     neither = {"gears.wheel.addendum": None}
     assert refused(LOAD_DISTRIBUTION, LOADS, neither) == "give addendum or tip_diameter_mm"
-    with pytest.raises(Unprocessable, match="makes an addendum coefficient of") as refusal:
+    with pytest.raises(Unprocessable, match="corresponds to an addendum coefficient of") as refusal:
         solved(LOAD_DISTRIBUTION, LOADS, {"gears.wheel.tip_diameter_mm": 300})
     assert (refusal.value.code, refusal.value.path) == ("tip_diameter", "gears.wheel.tip_diameter_mm")
 

@@ -56,7 +56,7 @@ def test_a_table_as_a_spreadsheet_copies_it() -> None:
 
 @pytest.mark.parametrize(
     ("text", "message"),
-    [("name\nfull\t1", "line 2 has more columns"), ("share\nmuch", "line 2: the share is no number")],
+    [("name\nfull\t1", "line 2 has more columns"), ("share\nmuch", "line 2: the share is not a number")],
 )
 def test_a_table_that_cannot_be_read(text: str, message: str) -> None:
     with pytest.raises(Unprocessable) as caught:
@@ -248,7 +248,7 @@ def test_what_is_wrong_stands_at_its_control(client: httpx.Client, said: dict[st
 def test_names_that_contradict_each_other_are_a_fault_on_the_page(client: httpx.Client) -> None:
     page = client.get("/coupling/spectrum?a.b=3&a=x&cases=name")
     assert page.status_code == 400
-    assert "<li>A field stands twice</li>" in page.text
+    assert "<li>A field occurs twice</li>" in page.text
     assert '<form id="study"' in page.text
 
 

@@ -156,7 +156,7 @@ def test_viscosities_that_no_oil_has_are_refused(viscosity_40: float, viscosity_
 
 
 def test_oil_that_does_not_thin_is_refused() -> None:
-    with pytest.raises(InvalidInput, match="thinner at 100") as refusal:
+    with pytest.raises(InvalidInput, match="must be lower than its viscosity at 40") as refusal:
         OilSheet(10e-6, 10e-6)
     assert (refusal.value.code, refusal.value.field) == ("viscosity_order", "lubricant.kinematic_viscosity_100")
 

@@ -381,7 +381,7 @@ def test_an_attribute_becomes_its_field(
     found = value_at(stage["requests"][endpoint], path)
     assert found == (pytest.approx(expected, rel=1e-6) if isinstance(expected, float) else expected)
     unused = {
-        each["attribute"] for each in stage["ignored"] if each["reason"] != "another value of the file counts before it"
+        each["attribute"] for each in stage["ignored"] if each["reason"] != "another value of the file is used instead"
     }
     assert name not in unused
 

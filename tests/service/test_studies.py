@@ -277,7 +277,7 @@ def test_the_deadline_of_a_study_ends_it_with_a_line(short_of_time: tuple[str, P
     assert last["code"] == "study_deadline"
     assert last["done"] == len(numbers(points)) < 2500
     table = httpx.post(address + SWEEP + "?format=csv", json=loads(2500), timeout=60).text.splitlines()
-    assert table[-1] == ",,error,,,study_deadline: the study took longer than 1 s; make it smaller"
+    assert table[-1] == ",,error,,,study_deadline: the study took longer than 1 s; make the study smaller"
     assert metric(address, "tribodrive_studies_unfinished_total") == 2
     assert "Traceback" not in log.read_text("utf-8")
 

@@ -14,7 +14,11 @@ TALL = CouplingInputs(
     coupling=Coupling(teeth=52, module=3e-3, face_width=24e-3, tooth_height=13e-3, crowning_ratio=2.0),
     operation=Operation(torque=2000.0, speed=100.0, misalignment=0.005),
 )
-SAID = Notice("unusual_value", "13 mm is beyond 4 modules; is it a diameter?", "coupling.tooth_height")
+SAID = Notice(
+    "unusual_value",
+    "the tooth height of 13 mm exceeds 4 modules; was a diameter entered instead of a height?",
+    "coupling.tooth_height",
+)
 
 
 def test_a_solver_says_it_once() -> None:
@@ -40,6 +44,8 @@ def test_limits_hold_at_their_ends() -> None:
     assert [each.field for each in unusual_gears(replace(pair, face_width=0.3001))] == ["gears.face_width"]
     assert [each.field for each in unusual_gears(replace(pair, face_width=1.9e-3))] == ["gears.face_width"]
     assert [each.field for each in unusual_gears(pair, 5001.0)] == ["pinion_speed"]
-    assert [each.message for each in thin_air(1e3)] == ["1 kPa is nearly a vacuum; was bar meant?"]
+    assert [each.message for each in thin_air(1e3)] == [
+        "an ambient pressure of 1 kPa is nearly a vacuum; was a value entered in the wrong unit (bar)?"
+    ]
     assert [each.field for each in hot_oil(350.1, 350.0)] == ["temperatures.oil"]
     assert [each.field for each in thick_oil(1.01)] == ["lubricant.viscosity"]

@@ -330,7 +330,7 @@ def test_what_holds_no_number_says_what_it_is() -> None:
     told = {
         "gears.hand": "gears.hand is an option (right, left), not a number",
         "effects.shafts": "effects.shafts is either true or false, not a number",
-        "gears.pinion.teeth": "gears.pinion.teeth takes whole numbers; the search needs a continuous one",
+        "gears.pinion.teeth": "gears.pinion.teeth takes only whole numbers; the search needs a continuous field",
     }
     for path, message in told.items():
         planner, parts = search_over(path=path)

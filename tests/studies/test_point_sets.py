@@ -246,7 +246,7 @@ def test_inputs_of_a_sensitivity(inputs: list[str], pointer: str, code: str) -> 
         ("model.kinematics", "model.kinematics is an option (tangential, spatial), not a number"),
         (
             "coupling.pitch_errors_um",
-            "is a list, not a single value; name one of its places, coupling.pitch_errors_um.0",
+            "is a list, not a single value; name one of its values, such as coupling.pitch_errors_um.0",
         ),
         ("coupling", "coupling is a section, not a single value"),
     ],

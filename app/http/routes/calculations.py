@@ -1,4 +1,4 @@
-"""A POST endpoint for each row of the table of calculations, and one for its figures as images or numbers."""
+"""A POST endpoint for each row of the table of calculations, and an endpoint for the figures of each row."""
 
 from collections.abc import Callable
 from functools import partial

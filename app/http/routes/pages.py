@@ -1,4 +1,4 @@
-"""Start page, manual, and the pages of cases with other views of a case under the same query."""
+"""Start page, manual and pages of cases. Other views of a case have the same query as the page."""
 
 import json
 from collections.abc import Callable
@@ -147,7 +147,7 @@ def _add(calculation: Calculation) -> None:
 async def _answer(
     http: Request, calculation: Calculation, media: str, view: Callable[..., views.Shown], *arguments: Any
 ) -> Response:
-    """Send a view of the case in the query or the form; redirect a query with empty fields to one without."""
+    """Send a view of the case in the query or form. Redirect a query with empty fields to a query without them."""
     asked, clean = await asked_of(http, calculation)
     if not clean and http.scope["method"] == "GET" and (asked.pairs or not asked.pressed):
         return redirected(path_of(http), asked)
@@ -175,7 +175,7 @@ async def asked_of(http: Request, calculation: Calculation) -> tuple[Asked, bool
 
 
 def _kept(http: Request, path: str) -> Asked:
-    """Return the case with the hash in the query, and its variant; raise status 410 if an answer is no longer kept."""
+    """Return the case and the variant with the hashes in the query. Raise 410 if an answer is no longer kept."""
     query, answers = http.query_params, http.app.state.answers
     kept, kept_ref = (answers.get(key_of(path, [("case", query.get(name, ""))])) for name in ("case", "ref_case"))
     if kept is None or (query.get("ref_case") and kept_ref is None):
@@ -184,7 +184,10 @@ def _kept(http: Request, path: str) -> Asked:
 
 
 async def _shown(http: Request, asked: Asked, view: Callable[..., views.Shown], *arguments: Any) -> views.Shown:
-    """Return a view of a case from a worker, and keep the answers that it needed for other views of the case."""
+    """Have a worker make a view of a case, and return the view.
+
+    Keep the answers used, so that other views of the case can reuse them.
+    """
     shown: views.Shown = await http.app.state.pool.calculate(http, view, asked, *arguments)
     for key, content in shown.keep.items():
         with suppress(ValueError):  # larger than all that may be kept
@@ -193,7 +196,10 @@ async def _shown(http: Request, asked: Asked, view: Callable[..., views.Shown], 
 
 
 def failed(http: Request, error: Exception) -> Response:
-    """Return an error as a page if the route has pages or a browser asks for an unknown address, else as a document."""
+    """Return an error as a page or as a problem document.
+
+    It is a page if the route sends pages, or if a browser asks for an unknown address.
+    """
     if isinstance(error, HTTPException):
         if "text/html" not in http.headers.get("accept", "") or path_of(http).startswith("/v1/"):
             return answer(http, error)
@@ -209,7 +215,10 @@ def failed(http: Request, error: Exception) -> Response:
 def problem_page(
     http: Request, status: int, title: str, detail: str, headers: dict[str, str] | None = None
 ) -> Response:
-    """Return a page that states why a request was not answered; after a file, with a field for another file."""
+    """Return a page that states why a request was not answered.
+
+    If the request sent a file, the page has a field for another file.
+    """
     place = path_of(http).split("/")[1]
     return html(rendered("problem.html", root_of(http), title=title, detail=detail, place=place), status, headers)
 
@@ -227,7 +236,7 @@ def path_of(http: Request) -> str:
 
 
 def printed_host(http: Request) -> str:
-    """Return scheme and host for printed reports: a host of the settings or this machine, else an empty text.
+    """Return scheme and host for printed reports if the host is in the settings or is this machine, else an empty text.
 
     A host that only the client names is not printed, because it could lead the reader of a report to another service.
     """

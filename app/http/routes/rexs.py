@@ -1,4 +1,4 @@
-"""Gear units from REXS files: read, shown as a page, and sent back with results."""
+"""Routes for gear units from REXS files: read a file, show it as a page, and send it back with results."""
 
 from hashlib import sha256
 from pathlib import PurePath
@@ -23,7 +23,7 @@ FILE = {"type": "string", "format": "binary"}
 
 
 def _body(types: tuple[str, ...], **form: dict[str, str]) -> dict[str, Any]:
-    """Describe the body of an operation: a file of one of the types, or a form with the file and these parts."""
+    """Describe the body of an operation: a file of one of the types, or a form with the file and the parts `form`."""
     schema = {
         "type": "object",
         "required": ["file"],
@@ -39,7 +39,7 @@ UPLOAD_WITH_REQUEST = _body((), request={"type": "string", "description": "the s
 
 
 class Upload(NamedTuple):
-    """A file as it was sent: its content, its name where a form has one, and the request beside it."""
+    """A file as it was sent: its content, its name if a form states one, and the request that was sent with it."""
 
     content: bytes
     name: str = ""
@@ -125,12 +125,12 @@ async def show_unit(http: Request, name: str) -> Response:
 
 
 def _key(root: str, name: str) -> str:
-    """Return the key of a unit's page; its links depend on the prefix of a proxy."""
+    """Return the key of the page of a unit. The links of the page depend on the prefix of a proxy."""
     return f"unit {name} {root}"
 
 
 async def _upload(http: Request) -> Upload:
-    """Return what was sent; raises HTTPException for another media type, Unprocessable for a form without a file."""
+    """Return the file. Raises HTTPException for an unknown media type, Unprocessable for a form without a file."""
     media_type = http.headers.get("content-type", "").partition(";")[0].strip().lower()
     if media_type in TYPES:
         return Upload(await http.body())

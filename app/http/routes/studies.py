@@ -21,13 +21,13 @@ from app.studies.runner import PROGRESS_S, Clock, Lines, Study, encoded, guarded
 
 Format = Literal["ndjson", "csv"]
 MEDIA_TYPES: dict[Format, str] = {"ndjson": "application/x-ndjson", "csv": "text/csv"}
-READING_S = 10.0  # after the study's deadline, for a client that reads slowly
+READING_S = 10.0  # further time after the deadline of the study, for a client that reads slowly
 
 
 class StudyStream(StreamingResponse):
     """A response with the lines of a study as they come.
 
-    The study ends if the client leaves, or has not read all lines within a number of seconds.
+    The study ends if the client leaves, or if the client has not read all lines within `seconds`.
     """
 
     def __init__(self, pieces: AsyncGenerator[bytes, None], seconds: float, stack: ExitStack, **options: Any) -> None:
@@ -41,12 +41,15 @@ class StudyStream(StreamingResponse):
 
 
 async def planned(http: Request, planner: Callable[[int, float], Any], most: int) -> Any:
-    """Return the result of `planner` from a worker, for at most `most` points under the deadline of a calculation."""
+    """Run `planner` in a worker and return the result.
+
+    The study may have at most `most` points. The planner has the deadline of a calculation.
+    """
     return await http.app.state.pool.calculate(http, planner, most, http.app.state.settings.deadline_s)
 
 
 async def begun(http: Request, study: Study, progress_s: float = PROGRESS_S) -> tuple[Lines, Clock]:
-    """Return the lines of a study, which has its place among the running studies, and its clock."""
+    """Return the lines and the clock of a study that already has a place among the running studies."""
     clock = Clock(study.total)
     lines = study.lines(await http.app.state.studies.pool(), clock)
     return guarded(lines, clock, http.app.state.settings.study_deadline_s, progress_s), clock
@@ -60,7 +63,7 @@ async def streamed(
     headers: dict[str, str] | None = None,
     progress_s: float = PROGRESS_S,
 ) -> Response:
-    """Return the response with the lines of a study; the study has a place among the running ones until it ends."""
+    """Return the response with the lines of a study. The study has a place among the running studies until it ends."""
     with ExitStack() as stack:
         stack.enter_context(http.app.state.studies.place())
         content = pieces(*await begun(http, study, progress_s))
@@ -79,7 +82,7 @@ async def started(http: Request, kind: type[Study], body: BaseModel, written_as:
 
 
 def wanted_format(http: Request, named: Format) -> Format:
-    """Return the format in the query, else the first that the client accepts, else NDJSON."""
+    """Return the format in the query, else the first format that the client accepts, else NDJSON."""
     if "format" in http.query_params:
         return named
     accepted = [part.partition(";")[0].strip().lower() for part in http.headers.get("accept", "").split(",")]

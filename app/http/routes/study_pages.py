@@ -1,4 +1,4 @@
-"""Pages of studies, sent while the lines of the study arrive, and their files."""
+"""Pages of studies, which are sent while the lines of the study arrive, and the files of these pages."""
 
 import asyncio
 from collections.abc import Callable
@@ -26,7 +26,7 @@ from app.workers.pool import unless_gone
 
 LINE_TYPES = {str(name): media for name, media in MEDIA_TYPES.items()}
 IMAGE_TYPES = {str(name): media for name, media in figures.MEDIA_TYPES.items()}
-PROGRESS_S = 0.5  # between two looks at a study whose lines take longer
+PROGRESS_S = 0.5  # time without a line of the study after which its progress is reported
 
 
 def not_from_another_site(http: Request) -> None:
@@ -101,7 +101,7 @@ async def _made(http: Request, study: StudyPage, view: Callable[..., bytes | str
     """Run a study to its end and return a view of its lines from a worker.
 
     Raises StudyEnded if the study ends with an error, HTTPException with the reason if there is nothing to show, and
-    ClientGone if the client leaves; then the study ends too.
+    ClientGone if the client leaves. In this last case the study ends too.
     """
 
     async def work() -> bytes:

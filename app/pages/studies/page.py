@@ -190,7 +190,7 @@ class StudyPage(ABC):
         path = self.views.get("show") or self.usual_output.path
         output = scalar_at(self.calculation.response, path, "outputs.0", "unknown_output")
         if output.kind not in NUMBERS:
-            raise Unprocessable("unknown_output", f"{output.title} is no number", "outputs.0")
+            raise Unprocessable("unknown_output", f"{output.title} is not a number", "outputs.0")
         return output
 
     def menu(self, name: str, label: str, empty: str, choices: list[Choice]) -> Menu:

@@ -79,7 +79,11 @@ class Corners(Sweep):
         if ranges is None:
             ranges = list(usual_corners(base.checked({})).values())
         if not ranges:
-            raise Unprocessable("no_corners", "nothing is uncertain here; name what is", "ranges")
+            raise Unprocessable(
+                "no_corners",
+                "no input of this unit is uncertain; name the uncertain inputs in ranges",
+                "ranges",
+            )
         return grid(ranges, base, min(most, MOST_CORNERS), "ranges")
 
     def _closing(self, summary: Summary, end: Line) -> list[Line]:

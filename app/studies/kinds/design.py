@@ -112,7 +112,7 @@ class Design(Study):
         """Return the objective as the only output."""
         objective = base.output(self.body.objective, "objective")
         if objective.kind not in NUMBERS:
-            raise Unprocessable("unknown_output", f"{objective.path} is no number", "objective")
+            raise Unprocessable("unknown_output", f"{objective.path} is not a number", "objective")
         return (objective,)
 
     def _planned(self, base: BaseRequest, most: int) -> int:
@@ -121,7 +121,7 @@ class Design(Study):
         self.cases = _cases(body, base)
         case = base.checked(self.cases[0]).model_dump()
         if body.direction is None and objective.view.bound is None:
-            message = f"{objective.path} has no safe side of its own; say maximise or minimise"
+            message = f"{objective.path} has no safe side of its own; state whether to maximise or minimise it"
             raise Unprocessable("direction_missing", message, "direction")
         self.direction = body.direction or ("maximise" if objective.view.greatest_is_best else "minimise")
         self.start = [_share(variable, case) for variable in body.variables]  # of the ranges
@@ -211,7 +211,7 @@ def _unit(variable: Variable, base: BaseRequest, place: str) -> str | None:
     leaves = [base.leaf(path, f"{place}.path") for path in variable.paths]
     for leaf in leaves:
         if leaf.kind != "number":
-            message = not_a_number(leaf) or f"{leaf.path} takes whole numbers; the search needs a continuous one"
+            message = not_a_number(leaf) or f"{leaf.path} takes only whole numbers; the search needs a continuous field"
             raise Unprocessable("not_continuous", message, f"{place}.path")
         for name, end in {"min": variable.min, "max": variable.max}.items():
             check_value(leaf, end, f"{place}.{name}")

@@ -210,7 +210,7 @@ def _named(base: BaseRequest, case: dict[str, Any], paths: list[str]) -> list[Le
     for place, leaf in enumerate(named):
         message = not_a_number(leaf)
         if message is not None:
-            raise Unprocessable("not_scalar", f"{message}; a sweep compares its values", f"inputs.{place}")
+            raise Unprocessable("not_scalar", f"{message}; use a sweep to compare its values", f"inputs.{place}")
         if value_at(case, leaf.path) is None:
             raise Unprocessable("not_scalar", f"{leaf.path} has no number in this case", f"inputs.{place}")
     return named

@@ -66,8 +66,8 @@ ASSUMED_DEVIATION = (
 
 RARE = 0.005  # a probability below which the intervals contain the true value less often than stated
 RARE_NOTE = (
-    "a probability below 0.5 %: the means of the replicates are skewed, and a 90 % interval covers less, about 80 % at "
-    "0.1 % with 128 machines in each of 8 replicates; draw more machines"
+    "a probability is below 0.5 %. The means of the replicates are then skewed, and a 90 % interval covers less than "
+    "90 %, for example about 80 % at a probability of 0.1 % with 8 replicates of 128 machines; draw more machines"
 )
 NOT_USED = "not used"  # the first words of the reason of an assumption, if its value changes nothing
 
@@ -206,7 +206,7 @@ class Spectrum(Study):
             outputs[place] = base.output(limit.output, place)
         for place, leaf in outputs.items():
             if leaf.kind not in NUMBERS:
-                raise Unprocessable("unknown_output", f"{leaf.path} is no number", place)
+                raise Unprocessable("unknown_output", f"{leaf.path} is not a number", place)
         if body.limits is None and body.endpoint in SCUFFING:
             outputs["limits"] = base.output(SCUFFING[body.endpoint].contact, "limits")
         return tuple({leaf.path: leaf for leaf in outputs.values()}.values())
@@ -218,7 +218,7 @@ class Spectrum(Study):
         self.scattering = scattering(inputs, base, "tolerances.inputs")
         for place, leaf in enumerate(self.scattering):
             if leaf.path in set_by_cases:
-                message = f"{leaf.path} has a value in a case; a field either scatters or is set"
+                message = f"{leaf.path} has a value in a case and also scatters; give either the value or the tolerance"
                 raise Unprocessable("duplicate_path", message, f"tolerances.inputs.{place}.path")
         if body.limits is None and body.endpoint in SCUFFING:  # columns after those of the outputs
             columns = dict.fromkeys([*self.question.outputs, *SCUFFING[body.endpoint]])
@@ -341,15 +341,16 @@ def _limits(study: Spectrum, columns: dict[str, FloatArray]) -> tuple[list[Limit
         return [_limit(given) for given in study.body.limits or ()], [], []
     temperatures = columns[paths.limit][~np.isnan(columns[paths.limit])]
     if not temperatures.size:
-        return [], [], ["no limit is given, and the request has no scuffing temperature: give one of them"]
+        missing = "no limit is given, and the request has no scuffing temperature; give one of the two"
+        return [], [], [missing]
     first = columns[paths.limit][..., 0]
     mean = float(np.nanmedian(temperatures if np.isnan(first).all() else first))  # not of a single machine
     limit = Limit("above", mean, RELATIVE_DEVIATION * abs(mean), paths.contact)
     assumption = {"field": "limits", "value": limit.deviation, "reason": ASSUMED_DEVIATION}
     varies = np.ptp(temperatures) > LIMIT_VARIES * abs(mean)
     note = (
-        "the scuffing temperature differs between the cases or the machines; the limit is its median in the first "
-        f"case, {mean:.4g}; give limits"
+        "the scuffing temperature differs between the cases or the machines; its median in the first case, "
+        f"{mean:.4g}, is used as the limit. To judge by other values, give limits"
     )
     return [limit], [assumption], [note] if varies else []
 
@@ -408,7 +409,7 @@ def _with_shares(cases: Sequence[LoadCase]) -> list[LoadCase]:
     """Return the cases with their names and with shares of the operating time whose sum is 1; raises Unprocessable."""
     given = [case.share for case in cases if case.share is not None]
     if given and len(given) < len(cases):
-        raise Unprocessable("shares", "give every case its share, or none", "cases")
+        raise Unprocessable("shares", "give a share for every case, or for none of the cases", "cases")
     shares = given or [1.0] * len(cases)
     whole = sum(shares)
     if given and abs(whole - 1.0) > SHARES_OFF + 1e-12:
@@ -437,8 +438,8 @@ def _too_many(question: Question, overrides: Overrides, total: int, most: int) -
     solve_point(question, overrides)
     seconds = perf_counter() - started
     return (
-        f"cases x machines are {total} solutions; the limit is {most}. One takes some {seconds:.2g} s, "
-        f"all of them {total * seconds:,.0f} s on one core"
+        f"the number of cases times the number of machines is {total}; the limit is {most}. One solution takes about "
+        f"{seconds:.2g} s, and all solutions take {total * seconds:,.0f} s on one core"
     )
 
 
@@ -501,7 +502,7 @@ def _case(calculation: Calculation, columns: list[Column], row: list[str], line:
     A cell that its field does not accept is kept as text, so that the study reports it.
     """
     if any(cell.strip() for cell in row[len(columns) :]):
-        raise Unprocessable("table", f"line {line} has more columns than the first line names", "cases")
+        raise Unprocessable("table", f"line {line} has more columns than the first line", "cases")
     case: dict[str, Any] = {"set": {}}
     for (column, power), cell in zip(columns, map(str.strip, row), strict=False):
         leaf = leaf_at(calculation.request, column)
@@ -514,7 +515,7 @@ def _case(calculation: Calculation, columns: list[Column], row: list[str], line:
         elif column == SHARE:
             share = scaled(number_of(cell.removesuffix("%").strip()), -2 if cell.endswith("%") else power)
             if isinstance(share, str):
-                raise Unprocessable("table", f"line {line}: the share is no number", "cases")
+                raise Unprocessable("table", f"line {line}: the share is not a number", "cases")
             case[SHARE] = float(share)
         elif leaf is not None and leaf.kind == "boolean":
             case["set"][column] = {"true": True, "false": False}.get(cell, cell)
@@ -690,9 +691,9 @@ class SpectrumPage(StudyPage):
         leaf = scalar_at(self.calculation.request, given["path"], f"{where}.path", "unknown_path")
         about: Any = given.get("mean")
         by: Any = given.get("deviation")
-        for value, lacks in ((about, "around which value"), (by, "by how much")):
+        for value, lacks in ((about, "the value around which it scatters"), (by, "the amount by which it scatters")):
             if not is_number(value):
-                raise Unprocessable("missing", f"{leaf.title}: say {lacks}", where)
+                raise Unprocessable("missing", f"{leaf.title}: give {lacks}", where)
         law = given["distribution"]
         return {"path": leaf.path, "distribution": law, **_stated(law, about, by)}
 
@@ -711,7 +712,11 @@ class SpectrumPage(StudyPage):
         if value is None and view.bound and isinstance(view.limit, int | float) and not self._assumes_limit:
             value = view.limit
         if value is None and scatter is not None:
-            raise Unprocessable("missing", "give the limit whose deviation this is", "limits.0.above")
+            raise Unprocessable(
+                "missing",
+                "a deviation of the limit is given without the limit; give the limit as well",
+                "limits.0.above",
+            )
         if value is None:
             return None if self._assumes_limit else []
         side = given.get("side") or ("below" if view.greatest_is_best else "above")

@@ -171,7 +171,8 @@ class Sweep(Study):
         self.points = self._points(base, most)
         first: int = self.body.from_index
         if first >= self.points.total:
-            message = f"the study has {self.points.total} points, counted from 0"
+            total = self.points.total
+            message = f"this point does not exist; the study has {total} points, numbered from 0 to {total - 1}"
             raise Unprocessable("out_of_range", message, "from_index")
         base.checked(self.points.overrides(0))
         return self.points.total - first
@@ -282,7 +283,7 @@ def _check_best(best: Best, outputs: tuple[Leaf, ...]) -> None:
             message = f"{path} is not among the outputs of the sweep{did_you_mean(path, leaf_by_path)}"
             raise Unprocessable("unknown_output", message, place)
         if leaf_by_path[path].kind == "text":
-            raise Unprocessable("unknown_output", f"{path} is no number", place)
+            raise Unprocessable("unknown_output", f"{path} is not a number", place)
 
 
 AXES = ("x", "y")
@@ -371,14 +372,18 @@ class SweepPage(StudyPage):
         axis, choices = {"path": leaf.path}, choices_of(leaf)
         if not has_numbers(leaf):
             if where == FIRST or not choices:
-                message = f"{leaf.title} has no numbers; vary another field along it"
+                message = f"{leaf.title} has no numbers; vary another field along this axis"
                 raise Unprocessable("not_scalar", message, f"{where}.path")
             return {**axis, "values": choices}
         start, stop, count, scale = given.get("start"), given.get("stop"), given["count"], given["scale"]
         if start is None or stop is None:
-            raise Unprocessable("values_or_range", "the case has no value here to go from: give from and to", where)
+            raise Unprocessable(
+                "values_or_range",
+                "the case has no value of this field, from which a range could follow; give from and to",
+                where,
+            )
         if start == stop:
-            raise Unprocessable("values_or_range", "from and to are the same", where)
+            raise Unprocessable("values_or_range", "from and to must be different", where)
         if choices and is_plain_number(start) and is_plain_number(stop):
             return {**axis, "values": [choice for choice in choices if min(start, stop) <= choice <= max(start, stop)]}
         is_whole = leaf.kind == "integer" and all(isinstance(number, int) for number in (start, stop, count))

@@ -1,8 +1,9 @@
 """The lubricated line contact: pressure, film, temperature and friction, isothermal or thermal.
 
-Data flows inputs, checks -> problem, grid, linear_algebra -> shear -> rheology -> flow -> reynolds, heat -> state ->
-temperature -> newton -> continuation -> measures, refinement -> results, notices. `model.solve` solves one contact,
-`path.solve_path` many. `equations` is the specification of the kernels: the discrete problem in plain NumPy.
+Data pass through the modules in this order: inputs, checks -> problem, grid, linear_algebra -> shear -> rheology ->
+flow -> reynolds, heat -> state -> temperature -> newton -> continuation -> measures, refinement -> results, notices.
+`model.solve` solves one contact, and `path.solve_path` solves a sequence of contacts. `equations` contains the discrete
+problem in plain NumPy, as the specification of the compiled kernels.
 """
 
 from solvers.contact.ehl import model

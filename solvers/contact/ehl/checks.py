@@ -10,19 +10,19 @@ from solvers.contact.ehl.problem import expected_gap, groups
 from solvers.errors import InvalidInput
 from solvers.lubricants import HIGHEST_VISCOSITY, ROELANDS_POLE_TEMPERATURE, log_viscosity, pressure_part
 
-LOWEST_SPEED = 1e-9  # m/s, three centimetres a year
-LOWEST_VISCOSITY = 7e-5  # Pa s; Roelands' law ends at 6.31e-5
-HIGHEST_VISCOSITY_UNDER_PRESSURE = 1e100  # Pa s; glass begins at 1e12
-LOWEST_TEMPERATURE = ROELANDS_POLE_TEMPERATURE + 60.0  # K; no oil flows there
+LOWEST_SPEED = 1e-9  # m/s, three centimetres per year
+LOWEST_VISCOSITY = 7e-5  # Pa s; Roelands' law is not defined below 6.31e-5 Pa s
+HIGHEST_VISCOSITY_UNDER_PRESSURE = 1e100  # Pa s; a liquid of 1e12 Pa s or more counts as glass
+LOWEST_TEMPERATURE = ROELANDS_POLE_TEMPERATURE + 60.0  # K; no oil flows at lower temperatures
 HIGHEST_PRESSURE = 4e9  # Pa
 THICKEST_FILM = 1e4  # in b^2/R, the scale of the deformation of the surfaces
-THINNEST_FILM = 1e-9  # m, the length of an oil's molecule
+THINNEST_FILM = 1e-9  # m, the length of an oil molecule
 MIN_NODES = 41  # chosen: the coarsest mesh that is accepted
-MIN_FILM_NODES = 5  # three inside the film: the fewest that show a maximum of temperature between the surfaces
+MIN_FILM_NODES = 5  # three of them inside the film, which is the least number that shows a maximum of temperature
 
 
 def check(inputs: LineContactInputs) -> None:
-    """Refuse a contact that has no solution or lies outside the laws of the lubricant.
+    """Refuse a contact that has no solution or lies outside the range of the lubricant's laws.
 
     Parameters
     ----------
@@ -42,7 +42,7 @@ def check(inputs: LineContactInputs) -> None:
 
 
 def lightest(inputs: LineContactInputs) -> LineContactInputs:
-    """Find the same contact under the least load that `check` accepts.
+    """Raise the load of a contact to the least load that `check` accepts, unless its own load is accepted.
 
     Parameters
     ----------
@@ -52,7 +52,8 @@ def lightest(inputs: LineContactInputs) -> LineContactInputs:
     Returns
     -------
     LineContactInputs
-        The contact with the least line load that is not refused as `load_range`; its own load if that is accepted.
+        The contact with its own line load if this load is accepted, else with the least line load that is not refused
+        as `load_range`.
     """
 
     def excess(logarithm: float) -> float:
@@ -73,15 +74,15 @@ def _check_motion(inputs: LineContactInputs) -> None:
     if contact.entrainment_speed < LOWEST_SPEED:
         raise InvalidInput(
             "no_entrainment",
-            f"the mean surface speed must be positive, at least {LOWEST_SPEED:g} m/s: it draws the film in",
+            f"the mean surface speed must be at least {LOWEST_SPEED:g} m/s, because it draws the oil into the contact",
             "speed_1",
         )
     if inputs.model.thermal and min(contact.speed_1, contact.speed_2) <= 0.0:
         name = "speed_1" if contact.speed_1 <= contact.speed_2 else "speed_2"
         raise InvalidInput(
             "stationary_surface",
-            "a surface that does not move through the contact heats up without limit; both speeds must be positive "
-            "(or switch thermal off)",
+            "a surface that does not move through the contact heats up without limit; give positive speeds for both "
+            "surfaces, or switch thermal off",
             name,
         )
 
@@ -89,16 +90,21 @@ def _check_motion(inputs: LineContactInputs) -> None:
 def _check_resolution(inputs: LineContactInputs) -> None:
     if inputs.model.nodes < MIN_NODES or inputs.model.film_nodes < MIN_FILM_NODES:
         raise InvalidInput(
-            "resolution", f"at least {MIN_NODES} nodes along and {MIN_FILM_NODES} across the film are needed", "nodes"
+            "resolution",
+            f"the numerical grid needs at least {MIN_NODES} nodes along the film and {MIN_FILM_NODES} nodes across "
+            "the film",
+            "nodes",
         )
 
 
 def _check_oil(inputs: LineContactInputs) -> None:
-    """Check viscosity and temperatures; an isothermal film has the inlet temperature only."""
+    """Check viscosity and temperatures; in an isothermal film only the inlet temperature is used."""
     oil, temperatures = inputs.lubricant, inputs.temperatures
     if oil.viscosity < LOWEST_VISCOSITY:
         raise InvalidInput(
-            "viscosity_range", f"the viscosity must be at least {LOWEST_VISCOSITY:g} Pa s, Roelands' limit", "viscosity"
+            "viscosity_range",
+            f"the viscosity must be at least {LOWEST_VISCOSITY:g} Pa s, which is the limit of Roelands' law",
+            "viscosity",
         )
     used = [temperatures.inlet]
     if inputs.model.thermal:
@@ -110,9 +116,9 @@ def _check_oil(inputs: LineContactInputs) -> None:
         if not log(0.9 * LOWEST_VISCOSITY) < logarithm < log(HIGHEST_VISCOSITY):
             raise InvalidInput(
                 "viscosity_range",
-                f"the oil's laws give it a viscosity of 10^{logarithm / log(10.0):.2g} Pa s at {temperature:g} K, "
-                f"beyond {LOWEST_VISCOSITY:g} to {HIGHEST_VISCOSITY:g} Pa s; bring the temperatures nearer to "
-                "the reference temperature, or lower the temperature-viscosity coefficient",
+                f"at {temperature:g} K the laws of the oil give a viscosity of 10^{logarithm / log(10.0):.2g} Pa s, "
+                f"outside the range from {LOWEST_VISCOSITY:g} to {HIGHEST_VISCOSITY:g} Pa s; bring the temperatures "
+                "nearer to the reference temperature, or lower the temperature-viscosity coefficient",
                 "temperature_viscosity",
             )
 
@@ -124,30 +130,32 @@ def _check_load(inputs: LineContactInputs) -> None:
     """
     scales = groups(inputs)
     if scales.maximum_pressure > HIGHEST_PRESSURE:
-        raise InvalidInput("pressure_range", "the Hertzian pressure must not exceed 4 GPa", "line_load")
+        raise InvalidInput(
+            "pressure_range", "the Hertzian pressure must not exceed 4 GPa; lower the line load", "line_load"
+        )
     hottest = inputs.temperatures.inlet
     if _log_viscosity(inputs, scales.maximum_pressure, hottest) > log(HIGHEST_VISCOSITY_UNDER_PRESSURE):
         raise InvalidInput(
             "viscosity_range",
-            f"the oil's laws give it more than {HIGHEST_VISCOSITY_UNDER_PRESSURE:g} Pa s at the Hertzian pressure of "
-            f"{scales.maximum_pressure * 1e-9:.2g} GPa; lower the pressure-viscosity coefficient or the load, "
-            "or (Roelands) raise the viscosity",
+            f"at the Hertzian pressure of {scales.maximum_pressure * 1e-9:.2g} GPa the laws of the oil give a "
+            f"viscosity above {HIGHEST_VISCOSITY_UNDER_PRESSURE:g} Pa s; lower the pressure-viscosity coefficient or "
+            "the load, or (with Roelands' law) raise the viscosity",
             "pressure_viscosity",
         )
     gap = expected_gap(inputs)
     if gap > THICKEST_FILM:
         raise InvalidInput(
             "load_range",
-            f"the film would be more than {THICKEST_FILM:g} times as thick as the deformation of the surfaces "
-            f"(Moes' load parameter M = {scales.moes_m:.2g}): the surfaces are practically rigid, and the contact is "
-            "not elastic; raise the line load, or lower speed or viscosity",
+            f"the film would be more than {THICKEST_FILM:g} times as thick as the deformation of the surfaces (Moes' "
+            f"load parameter M = {scales.moes_m:.2g}), so that the surfaces are practically rigid; raise the line "
+            "load, or lower speed or viscosity",
             "line_load",
         )
     if gap * scales.gap_scale < THINNEST_FILM:
         raise InvalidInput(
             "film_range",
-            f"the film would be {gap * scales.gap_scale * 1e9:.2g} nm thin, less than a molecule of oil; raise speed "
-            "or viscosity",
+            f"the film would be only {gap * scales.gap_scale * 1e9:.2g} nm thick, which is less than a molecule of "
+            "oil; raise speed or viscosity",
             "speed_1",
         )
 

@@ -1,4 +1,4 @@
-"""Solution of a contact without a neighbour: resolution, limit of steps, nested meshes, retries after a failure."""
+"""Solution of a single contact from the dry contact: resolution, limit of steps, nested meshes, further attempts."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -16,26 +16,27 @@ from solvers.contact.ehl.rheology import softened
 from solvers.contact.ehl.state import State, Work, no_steps, work_arrays
 from solvers.contact.ehl.temperature import march_temperatures
 
-STEPS_A_SOLVE = 60  # limit of Newton steps; a solve that has not converged by then is tried in another way
-STEPS_IN_ALL = 500.0  # in Newton steps at 121 x 21 nodes, about a quarter of a second
-STEPS_ON_FINEST = 25  # least number of steps at the finest mesh, however fine it is
-STEPS_TO_REFINE = 100.0  # in the same units, per contact, for solves on finer meshes
+STEPS_A_SOLVE = 60  # limit of Newton steps on one mesh
+STEPS_IN_ALL = 500.0  # limit per contact, in Newton steps at 121 x 21 nodes; about a quarter of a second
+STEPS_ON_FINEST = 25  # least number of steps that a contact may take on its finest mesh, however fine this mesh is
+STEPS_TO_REFINE = 100.0  # limit per contact for solutions on finer meshes, in Newton steps at 121 x 21 nodes
 Stage = Literal["isothermal", "coupling"]
 
 COARSEST = 61  # nodes of the first of the nested meshes, chosen for speed
-TIGHT = (1e-5, 0.01)  # of P and of temperature [K]
-LOOSE = (1e-3, 1.0)  # of P and of temperature [K], for meshes that only give the start of the next mesh
-MARCH = 5  # steps that a march of temperatures costs at most
-# Shares of the speed, a factor of 3 apart, if the full speed does not converge at once
+TIGHT = (1e-5, 0.01)  # tolerances of P and of temperature [K]
+LOOSE = (1e-3, 1.0)  # tolerances of P and of temperature [K] on meshes that only give the start on the next mesh
+MARCH = 5  # largest cost of a march of temperatures, in Newton steps
+# Shares of the full speed, a factor of 3 apart, that are solved first if the full speed does not converge at once
 SPEED_STEPS = (1 / 27, 1 / 9, 1 / 3)
-SOFT_STRESSES = tuple(5e6 * 2.0**k for k in range(10))  # Pa
+SOFT_STRESSES = tuple(5e6 * 2.0**k for k in range(10))  # Pa, Eyring stresses that are solved one after the other
 
 
 @dataclass(frozen=True, slots=True)
 class Resolution:
-    """The meshes to use: graded for a film of `gap` (in b^2/R), `nodes` along, `film_nodes` across it.
+    """The finest mesh of a contact: `nodes` along the contact and `film_nodes` across the film.
 
-    A thermal film starts from an isothermal film at `entry_temperature` [K].
+    The nodes along the contact are graded for a film of thickness `gap` (in b^2/R). The iteration for a thermal film
+    starts from an isothermal film at `entry_temperature` [K].
     """
 
     gap: float
@@ -47,9 +48,10 @@ class Resolution:
 
 @dataclass(slots=True)
 class Budget:
-    """Remaining Newton steps, in units of a step at 121 x 21 nodes; they limit every solve.
+    """The cost of Newton steps that may still be taken, in units of a step at 121 x 21 nodes.
 
-    Steps that are spent from a part are also spent from the whole budget `of` which it is a part.
+    `spent` is the number of steps taken so far. If this budget is a part of another budget, `of` is that other budget,
+    and every cost is deducted from both budgets.
     """
 
     remaining: float
@@ -61,15 +63,15 @@ class Budget:
         return Budget(min(most, self.remaining), of=self)
 
     def steps(self, resolution: Resolution, nodes: int) -> int:
-        """Return the number of affordable steps at `nodes` nodes, at most that of one solve."""
+        """Return the number of steps at `nodes` nodes that the budget allows, at most `STEPS_A_SOLVE`."""
         return min(STEPS_A_SOLVE, int(self.remaining / price(resolution, nodes)))
 
     def charge(self, resolution: Resolution, nodes: int, steps: int) -> None:
-        """Pay for Newton steps."""
+        """Deduct the cost of Newton steps from the remaining budget."""
         self.pay(steps * price(resolution, nodes), steps)
 
     def pay(self, units: float, steps: int = 0) -> None:
-        """Pay for work, and count the Newton steps in it."""
+        """Deduct `units` from the remaining budget, and add `steps` to the number of Newton steps taken."""
         self.remaining -= units
         self.spent += steps
         if self.of is not None:
@@ -82,7 +84,7 @@ def budget_for(resolution: Resolution) -> Budget:
 
 
 def price(resolution: Resolution, nodes: int) -> float:
-    """Return the time of a step relative to that at 121 x 21 nodes: columns, dense products, dense factors (fitted)."""
+    """Return the time of a Newton step relative to a step at 121 x 21 nodes, by a formula fitted to measured times."""
     relative = nodes / 121
     if resolution.thermal:
         return relative**2 * (0.4 + 0.4 * resolution.film_nodes / 21 + 0.2 * relative)
@@ -91,7 +93,10 @@ def price(resolution: Resolution, nodes: int) -> float:
 
 @dataclass(slots=True)
 class Attempt:
-    """A state on its mesh and how far it got; `eyring_stress` [Pa] is None unless continuation stopped there."""
+    """A state on its mesh, whether the state has converged, and the stage that the solution reached.
+
+    If a continuation in the Eyring stress failed, `eyring_stress` [Pa] is the last stress that converged; else None.
+    """
 
     grid: Grid
     state: State
@@ -102,7 +107,10 @@ class Attempt:
 
 
 def solve_cold(problem: Problem, resolution: Resolution, budget: Budget) -> Attempt:
-    """Solve from the Hertzian pressure by several attempts in turn; if all fail, return the nearest one."""
+    """Solve from the Hertzian pressure by several attempts in turn, until one attempt converges.
+
+    If no attempt converges, return the attempt that is nearest to a solution.
+    """
     nearest: Attempt | None = None
     for attempt in _attempts(problem, resolution, budget):
         if attempt.converged:
@@ -116,13 +124,16 @@ def solve_cold(problem: Problem, resolution: Resolution, budget: Budget) -> Atte
 
 
 def _distance(attempt: Attempt) -> tuple[int, float]:
-    """Return the distance from a solution: by the mesh reached, then by the last change of pressure."""
+    """Return a key that orders attempts by their distance from a solution.
+
+    An attempt on a finer mesh is nearer to a solution. On equal meshes the last change of pressure decides.
+    """
     change = float(attempt.state.history[0].pressure_change)
     return -attempt.grid.x.size, change if np.isfinite(change) else np.inf
 
 
 def _attempts(problem: Problem, resolution: Resolution, budget: Budget) -> Iterator[Attempt]:
-    """Yield attempts in different ways, the cheapest first."""
+    """Yield attempts that are made in different ways, the cheapest way first."""
     coarse = _start(problem, resolution, budget)
     yield _climb(problem, resolution, coarse, _levels(resolution.nodes, 2.0), budget)
     yield _climb(problem, resolution, _start(problem, resolution, budget), _levels(resolution.nodes, 1.25), budget)
@@ -133,7 +144,10 @@ def _attempts(problem: Problem, resolution: Resolution, budget: Budget) -> Itera
 
 
 def _levels(nodes: int, ratio: float) -> list[int]:
-    """Return numbers of nodes from the coarsest mesh up, at most about `ratio` finer from one to the next."""
+    """Return the numbers of nodes of successive meshes, from the coarsest mesh to `nodes`.
+
+    A mesh has at most about `ratio` times as many nodes as the mesh before it.
+    """
     levels = [min(COARSEST, nodes)]
     while levels[-1] < nodes:
         finer = round((levels[-1] - 1) * ratio / 2) * 2 + 1
@@ -142,7 +156,7 @@ def _levels(nodes: int, ratio: float) -> list[int]:
 
 
 def _start(problem: Problem, resolution: Resolution, budget: Budget) -> Attempt:
-    """Return the isothermal solution on the coarsest mesh, with one march of temperatures."""
+    """Solve the isothermal contact on the coarsest mesh; for a thermal film, then march the temperatures once."""
     grid = grid_for(resolution.gap, min(COARSEST, resolution.nodes))
     work = work_arrays(grid.x.size, resolution.film_nodes)
     state = _dry_state(grid, resolution)
@@ -160,9 +174,10 @@ def _start(problem: Problem, resolution: Resolution, budget: Budget) -> Attempt:
 
 
 def _dry_state(grid: Grid, resolution: Resolution) -> State:
-    """Return Hertzian pressure, scaled to carry the load on this mesh, over a film of the expected thickness.
+    """Return a state with Hertzian pressure and a film of the expected thickness.
 
-    A thick film spreads the pressure over (2 R h)^1/2.
+    The pressure is scaled so that it carries the load on this mesh. If the film is thick, the pressure extends over the
+    length (2 R h)^1/2 instead of b.
     """
     width = max(1.0, sqrt(2.0 * resolution.gap))
     pressure = np.sqrt(np.maximum(1.0 - (grid.x / width) ** 2, 0.0))
@@ -178,7 +193,7 @@ def _dry_state(grid: Grid, resolution: Resolution) -> State:
 
 
 def _climb(problem: Problem, resolution: Resolution, start: Attempt, levels: Sequence[int], budget: Budget) -> Attempt:
-    """Solve on one mesh after the other; coarse meshes need not converge but only come near."""
+    """Solve on one mesh after the other; on the coarse meshes a solution that has nearly converged is enough."""
     attempt = start
     if not resolution.thermal and len(levels) == 1:
         return attempt
@@ -203,7 +218,7 @@ def polish(
     tolerances: tuple[float, float],
     budget: Budget,
 ) -> Attempt:
-    """Solve by Newton's method on one mesh from the given state, which is changed."""
+    """Solve by Newton's method on one mesh; `state` is the start and is changed in place."""
     work = work_arrays(grid.x.size, resolution.film_nodes)
     steps = budget.steps(resolution, grid.x.size)
     state.history[:] = no_steps()
@@ -218,7 +233,7 @@ def polish(
 
 
 def interpolate(state: State, x: FloatArray, onto: FloatArray) -> State:
-    """Return the state on another mesh, linear between nodes."""
+    """Interpolate a state linearly from the nodes `x` to the nodes `onto` of another mesh."""
     right = np.searchsorted(x, onto).clip(1, x.size - 1)
     share = ((onto - x[right - 1]) / (x[right] - x[right - 1])).clip(0.0, 1.0)[:, None]
     pressure = np.interp(onto, x, state.pressure)
@@ -232,7 +247,10 @@ def interpolate(state: State, x: FloatArray, onto: FloatArray) -> State:
 
 
 def _from_slow_film(problem: Problem, resolution: Resolution, budget: Budget) -> Attempt:
-    """Solve with both speeds raised in steps on the coarsest mesh: thin films converge easily."""
+    """Raise both speeds in steps to their given values on the coarsest mesh, then solve on the finer meshes.
+
+    At low speeds the film is thin, and the iteration for a thin film converges easily.
+    """
     attempt: Attempt | None = None
     for factor in (*SPEED_STEPS, 1.0):
         slower = problem._replace(
@@ -250,7 +268,7 @@ def _from_slow_film(problem: Problem, resolution: Resolution, budget: Budget) ->
 
 
 def _from_soft_film(problem: Problem, resolution: Resolution, budget: Budget) -> Attempt:
-    """Solve with the Eyring stress raised in steps on the coarsest mesh, up to the given one."""
+    """Raise the Eyring stress in steps to its given value on the coarsest mesh, then solve on the finer meshes."""
     attempt: Attempt | None = None
     reached = 0.0
     for stress in SOFT_STRESSES:

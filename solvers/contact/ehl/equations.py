@@ -1,11 +1,13 @@
-"""The discrete line contact in plain NumPy, equation by equation of the manual's chapter: the specification.
+"""The discrete line contact in plain NumPy, written equation by equation after the chapter of the manual.
 
-The compiled kernels solve `residual` = 0. Nothing here is shared with them or written for speed. The tests hold the
-kernels' residual to this module and the kernels' derivatives to its complex step: every function takes complex arrays
-as well, and none takes the absolute value or the larger of two unknowns.
+This module is the specification of the compiled kernels, which solve `residual` = 0. It has its own formulas and is not
+written for speed. The tests compare the kernels' residual with this module, and the kernels' derivatives with
+derivatives of this module by complex steps. Therefore every function also accepts complex arrays, and no function takes
+the absolute value of an unknown or the larger of two unknowns.
 
-n nodes lie along the contact, k = m + 1 nodes and m intervals of equal height across it. P = p/p_H, X = x/b and
-H = h R/b^2; zeta is z/h - 1/2 and G = h dp/dx [Pa]; `t` is the chapter's theta, `vartheta` its share of oil.
+n nodes lie along the contact; k = m + 1 nodes and m intervals of equal height lie across the film. P = p/p_H, X = x/b
+and H = h R/b^2; zeta is z/h - 1/2 and G is h dp/dx [Pa]. `t` is theta in the chapter, and `vartheta` is the chapter's
+share of oil in the gap.
 """
 
 from typing import Any, NamedTuple
@@ -26,9 +28,10 @@ Numbers = NDArray[Any]
 class Columns(NamedTuple):
     """The film across every node along the contact.
 
-    Density [kg/m^3], shear stress [Pa] and rate [1/s] of every interval (n, m); stress half way across [Pa], flow
-    coefficients A [s] and B [kg/(m^2 s)] (n,); stream functions (n, k) of the flow without pressure gradient
-    [kg/(s m)] and of the flow with it, from 0 to 1.
+    In every interval (n, m): density [kg/m^3], shear stress [Pa] and shear rate [1/s]. At every node along the contact
+    (n,): stress half way across the film [Pa], flow coefficients A [s] and B [kg/(m^2 s)]. At every node across the
+    film (n, k): stream function `couette` of the flow without pressure gradient [kg/(s m)], and profile `poiseuille` of
+    the flow due to the pressure gradient, which rises from 0 to 1.
     """
 
     density: Numbers
@@ -42,9 +45,10 @@ class Columns(NamedTuple):
 
 
 class Carried(NamedTuple):
-    """Carriers of heat: every Newton step holds them fixed, and they are renewed after it.
+    """Quantities that carry heat; a Newton step holds them fixed, and they are computed anew after the step.
 
-    Stream function psi [kg/(s m)] (n, k), share of oil (n,), density of the oil that is compressed [kg/m^3] (n, m).
+    Stream function psi (n, k) [kg/(s m)]; share of oil in the gap (n,); density in the heat of compression (n, m)
+    [kg/m^3].
     """
 
     psi: Numbers
@@ -53,10 +57,11 @@ class Carried(NamedTuple):
 
 
 class Residual(NamedTuple):
-    """Residuals of the equations of mass, divided by the flux scale (n,), of the load, and of heat (n, k).
+    """Residuals of the equations of mass (n,), of the load, and of heat (n, k).
 
-    Where the chapter prescribes P or a temperature, the residual is P or a temperature [K]. The other residuals of heat
-    are in W/m^2.
+    The residuals of mass are divided by the flux scale; where the chapter prescribes P, the residual is P. The
+    residuals of heat are in W/m^2; where the chapter prescribes a temperature, the residual is a difference of
+    temperatures [K].
     """
 
     mass: Numbers
@@ -72,7 +77,7 @@ def density(laws: FluidLaws, p: Numbers, t: Numbers) -> Numbers:
     laws : FluidLaws
         Constants of the oil's laws.
     p : (...) array
-        Pressure [Pa]; suction counts as no pressure.
+        Pressure [Pa]; a negative pressure counts as zero.
     t : (...) array
         Temperature [K].
 
@@ -87,14 +92,14 @@ def density(laws: FluidLaws, p: Numbers, t: Numbers) -> Numbers:
 
 
 def viscosity(laws: FluidLaws, p: Numbers, t: Numbers) -> Numbers:
-    """Return the viscosity of the oil after Roelands, or after Barus (Eq. 20).
+    """Return the viscosity of the oil after Roelands or Barus (Eq. 20).
 
     Parameters
     ----------
     laws : FluidLaws
         Constants of the oil's laws.
     p : (...) array
-        Pressure [Pa]; suction counts as no pressure.
+        Pressure [Pa]; a negative pressure counts as zero.
     t : (...) array
         Temperature [K].
 
@@ -115,7 +120,7 @@ def viscosity(laws: FluidLaws, p: Numbers, t: Numbers) -> Numbers:
 
 
 def effective_fluidity(problem: Problem, tau: Numbers, eta: Numbers) -> Numbers:
-    """Return 1/eta*, the shear rate over the stress, of the law of shear (Eqs. E4, E5).
+    """Return the effective fluidity 1/eta*, which is the shear rate divided by the stress (Eqs. E4, E5).
 
     Parameters
     ----------
@@ -137,7 +142,7 @@ def effective_fluidity(problem: Problem, tau: Numbers, eta: Numbers) -> Numbers:
 
 
 def mid_film_stress(problem: Problem, eta: Numbers, g: Numbers, h: Numbers) -> Numbers:
-    """Return the stress half way across at which the film slides at u2 - u1.
+    """Return the stress half way across the film for which the sliding speed is u2 - u1.
 
     Eq. E6; for a Newtonian oil the integral is linear in the stress.
 
@@ -171,9 +176,9 @@ def mid_film_stress(problem: Problem, eta: Numbers, g: Numbers, h: Numbers) -> N
 
 
 def columns(problem: Problem, p: Numbers, g: Numbers, h: Numbers, t: Numbers) -> Columns:
-    """Return the film across every node.
+    """Return shear and flow of the film across every node.
 
-    Eq. E7.1 with integrals by the middle of every interval, whose temperature is the mean of its nodes.
+    Eq. E7.1. The integrals use the middle of every interval, where the temperature is the mean of the two nodes.
 
     Parameters
     ----------
@@ -286,7 +291,7 @@ def face_fluxes(grid: Grid, pressure: Numbers, film: Numbers, a: Numbers, b: Num
 
 
 def balance_of_mass(pressure: Numbers, cavitated: BoolArray, flux: Numbers) -> Numbers:
-    """Return outflow minus inflow of every node, or P where the chapter prescribes it (Eq. E7).
+    """Return outflow minus inflow of every node, or P where the chapter prescribes the pressure (Eq. E7).
 
     Parameters
     ----------
@@ -331,7 +336,8 @@ def film_thickness(grid: Grid, pressure: Numbers, separation: Any) -> Numbers:
 def pressure_gradient(grid: Grid, pressure: Numbers, cavitated: BoolArray) -> Numbers:
     """Return dP/dX at the nodes.
 
-    Eq. E14: central; one-sided at the inlet and at the last node of the full film; zero in the broken film.
+    Eq. E14: the difference is one-sided at the inlet and at the last node of the full film, zero in the broken film,
+    and central at all other nodes.
 
     Parameters
     ----------
@@ -357,7 +363,7 @@ def pressure_gradient(grid: Grid, pressure: Numbers, cavitated: BoolArray) -> Nu
 
 
 def balance_of_load(grid: Grid, pressure: Numbers) -> Any:
-    """Return the integral of P minus pi/2, which carries the load (Eq. 22).
+    """Return the integral of P minus pi/2; pi/2 is the integral that carries the load (Eq. 22).
 
     Parameters
     ----------
@@ -377,7 +383,7 @@ def balance_of_load(grid: Grid, pressure: Numbers) -> Any:
 def carried_heat(
     problem: Problem, pressure: Numbers, film: Numbers, cavitated: BoolArray, flux: Numbers, at: Columns
 ) -> Carried:
-    """Return the carriers of heat: psi with one mass flow in all columns, and the share of oil (Eqs. E8.1, E8.2).
+    """Return the quantities that carry heat, for the same mass flow in all columns (Eqs. E8.1, E8.2).
 
     Parameters
     ----------
@@ -390,7 +396,7 @@ def carried_heat(
     cavitated : (n,) array of bool
         Nodes of broken film.
     flux : (n - 1,) array
-        Mass flux through the faces between nodes [kg/(s m)]; the one at the largest pressure is used.
+        Mass flux through the faces between nodes [kg/(s m)]; the flux at the largest pressure is used.
     at : Columns
         The film across every node.
 
@@ -410,10 +416,10 @@ def carried_heat(
 def balance_of_heat(
     problem: Problem, grid: Grid, g: Numbers, h: Numbers, t: Numbers, at: Columns, carried: Carried
 ) -> Numbers:
-    """Return the heat that every cell loses minus the heat that arises in it.
+    """Return the heat that every cell loses minus the heat generated in the cell.
 
-    Eqs. E8, E15. Cells reach half way to their neighbours along and across. The cells at the surfaces are half cells;
-    their residual is the heat that comes out of the solid.
+    Eqs. E8, E15. A cell reaches half way to the neighbouring nodes, along the contact and across the film. The cells at
+    the surfaces are half cells; the residual of a half cell is the heat that comes out of the solid.
 
     Parameters
     ----------
@@ -430,7 +436,7 @@ def balance_of_heat(
     at : Columns
         The film across every node.
     carried : Carried
-        Carriers of heat.
+        Quantities that carry heat.
 
     Returns
     -------
@@ -461,7 +467,7 @@ def balance_of_heat(
 
 
 def surface_temperatures(problem: Problem, grid: Grid, q_1: Numbers, q_2: Numbers) -> tuple[Numbers, Numbers]:
-    """Return the temperatures of both surfaces, moving line sources (Eq. 24).
+    """Return the temperatures of both surfaces by the formula for moving line sources of heat (Eq. 24).
 
     Parameters
     ----------
@@ -495,7 +501,7 @@ def inlet_temperatures(problem: Problem, h: float, t: Numbers, m_dot: float) -> 
     problem : Problem
         Constants of the contact.
     h : float
-        Film thickness there [m].
+        Film thickness at the first column [m].
     t : (n, k) array
         Temperature of all columns [K].
     m_dot : float
@@ -541,7 +547,7 @@ def residual(
     t : (n, k) array
         Temperature [K].
     carried : Carried, optional
-        Carriers of heat, which Newton's method holds fixed; by default they follow from the state.
+        Quantities that carry heat, which a Newton step holds fixed; by default they are computed from the state.
 
     Returns
     -------
@@ -604,7 +610,7 @@ def _intervals(m: int) -> tuple[Numbers, float]:
 
 
 def _half_way(layers: Numbers) -> Numbers:
-    """Return, for every layer (n, m), the sum of all layers below it and half of itself."""
+    """Return, for every layer (n, m), the sum of all layers below it plus half of the layer itself."""
     return np.asarray(np.cumsum(layers, axis=1) - 0.5 * layers)
 
 
@@ -614,29 +620,32 @@ def _from_surface_1(layers: Numbers) -> Numbers:
 
 
 def _to_nodes(intervals: Numbers) -> Numbers:
-    """Return the sums of what the intervals (n, m) on both sides give to every node (n, m + 1)."""
+    """Return, for every node (n, m + 1), the sum of the values of the intervals (n, m) on both sides of the node."""
     none = np.zeros_like(intervals[:, :1])
     return np.asarray(np.concatenate([intervals, none], axis=1) + np.concatenate([none, intervals], axis=1))
 
 
 def _layers(psi: Numbers) -> Numbers:
-    """Return the stream function between the cells of the nodes across, surfaces included (n, k + 1)."""
+    """Return the stream function at the edges of the cells across the film, including both surfaces (n, k + 1)."""
     return np.asarray(np.concatenate([psi[:, :1], 0.5 * (psi[:, 1:] + psi[:, :-1]), psi[:, -1:]], axis=1))
 
 
 def _edges(psi: Numbers) -> Numbers:
-    """Return the stream function between cells at the faces right of the columns; the last face is its column."""
+    """Return the stream function at the edges of the cells, at the face on the right of every column (n, k + 1).
+
+    At the last face, the stream function is that of the last column.
+    """
     layers = _layers(psi)
     return np.asarray(0.5 * (layers + np.concatenate([layers[1:], layers[-1:]])))
 
 
 def _log_mean(a: Numbers) -> Numbers:
-    """Return the logarithmic means of neighbours (n - 1,), exact for an exponential between them."""
+    """Return the logarithmic means of neighbouring values (n - 1,), exact if the values vary exponentially."""
     return np.asarray(np.sqrt(a[1:]) * np.sqrt(a[:-1]) * _sinh_ratio(0.5 * np.log(a[1:] / a[:-1])))
 
 
 def _sinh_ratio(s: Numbers) -> Numbers:
-    """Return sinh(s)/s, by its series where s is small."""
+    """Return sinh(s)/s, computed by a series if s is small."""
     near = np.abs(s) < 0.1
     far = np.where(near, 1.0, s)
     series = 1.0 + s**2 / 6.0 * (1.0 + s**2 / 20.0 * (1.0 + s**2 / 42.0 * (1.0 + s**2 / 72.0)))

@@ -1,6 +1,7 @@
 """Flow through the columns of the film: its coefficients A and B, its stream functions and their derivatives.
 
-Two passes run over the columns: `evaluate_columns` computes the values, `linearise_columns` their derivatives.
+Two passes run over the columns: `evaluate_columns` computes the values, and `linearise_columns` computes their
+derivatives.
 """
 
 from typing import NamedTuple
@@ -18,13 +19,14 @@ COEFFICIENT = floats("value", "by_p", "by_g", "by_h")
 """A coefficient with its derivatives by p, by G = h dp/dx and by h."""
 
 PLACE = floats("p", "g", "h")
-"""Pressure p [Pa], G = h dp/dx as far as its guard lets it [Pa] and film h [m] of a column."""
+"""Pressure p [Pa], G = h dp/dx after `rheology.limited_gradient` [Pa], and film thickness h [m] of a column."""
 
 
 class FlowCoefficients(NamedTuple):
-    """ln A and B of the mass flux m = B h - A h^3 dp/dx at all nodes (n,), of COEFFICIENT.
+    """Coefficients ln A and B of the mass flux m = B h - A h^3 dp/dx at all nodes (n,), of COEFFICIENT.
 
-    The derivatives are total ones: if the temperature is unknown, they include its response.
+    The derivatives are first those at fixed temperatures. In a thermal contact, `newton.include_temperature` adds the
+    response of the temperatures.
     """
 
     log_a: RecordArray
@@ -48,7 +50,7 @@ def evaluate_columns(
 ) -> None:
     """Compute viscosity, shear and flow of columns start..stop from their nodal temperatures (n, k) [K].
 
-    `at` holds p, G and h of all columns (n,), of PLACE.
+    `at` (n,) of PLACE holds p, G and h of all columns.
     """
     for i in range(start, stop):
         p, g, h = at[i].p, at[i].g, at[i].h
@@ -63,8 +65,8 @@ def evaluate_columns(
 def flow_moments(i: int, film: Film) -> None:
     """Compute the integrals across column i: F0 = int phi, F1 = int phi zeta, N0 = int phi R, N1 = int phi zeta R.
 
-    phi is rate/stress, and zeta is measured from the middle of the film. R(zeta) is the density integrated above zeta;
-    over the whole film it is the mean density.
+    phi is the shear rate divided by the stress. zeta is the height from the middle of the film, divided by h. R(zeta)
+    is the integral of the density from zeta to surface 2. The integral over the whole film is the mean density.
     """
     rho, effective, moments = film.shear.density, film.shear.effective, film.moments
     m = rho.shape[1]
@@ -99,9 +101,9 @@ def flow(problem: Problem, i: int, h: float, film: Film, coefficients: FlowCoeff
 
     Notes
     -----
-    Eqs. 17, E7.1, with a density that varies across the film as well: A = F1 N0/F0 - N1 and B = u1 R + du N0/F0. The
-    stream functions are the integrals up to each node of rho (u1 + du J0/F0) and of rho (F1 J0/F0 - J1)/A, where J0 and
-    J1 are the integrals of phi and phi zeta.
+    Eqs. 17, E7.1, for a density that varies across the film: A = F1 N0/F0 - N1 and B = u1 R + du N0/F0, where R is the
+    mean density. The stream functions are the integrals, from surface 1 to each node, of h rho (u1 + du J0/F0) and of
+    rho (F1 J0/F0 - J1)/A. In them, J0 and J1 are the integrals of phi and of phi zeta from surface 1.
     """
     rho, effective, moments, flows = film.shear.density, film.shear.effective, film.moments[i], film.flow
     m, u1, du = rho.shape[1], problem.speed_1, problem.speed_2 - problem.speed_1
@@ -130,7 +132,7 @@ def linearise_columns(
     film: Film,
     coefficients: FlowCoefficients,
 ) -> None:
-    """Compute the derivatives of tau_m, ln A and B of columns start..stop, which `evaluate_columns` has evaluated."""
+    """Compute the derivatives of tau_m, ln A and B of columns start..stop after `evaluate_columns`."""
     for i in range(start, stop):
         stress_response(problem, i, at[i].h, film)
         flow_slopes(problem, i, at[i].p, film, coefficients)
@@ -140,8 +142,8 @@ def linearise_columns(
 def flow_slopes(problem: Problem, i: int, p: float, film: Film, coefficients: FlowCoefficients) -> None:
     """Compute the derivatives of ln A and B of column i by p, G, h (at fixed temperatures) and by nodal temperature.
 
-    An interval contributes by its phi and by its density. phi depends on p and temperature directly, and through the
-    stress on everything that tau_m depends on.
+    An interval contributes by its density and by its phi, the shear rate divided by the stress. phi depends directly on
+    p and temperature. Through the stress, phi also depends on everything on which tau_m depends.
     """
     shear, moments, flows, mid = film.shear, film.moments[i], film.flow, film.mid
     m, u1, du = shear.density.shape[1], problem.speed_1, problem.speed_2 - problem.speed_1

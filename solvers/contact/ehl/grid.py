@@ -1,4 +1,4 @@
-"""The graded mesh of a contact with the matrices of elastic deflection and of surface temperature on it."""
+"""The graded mesh of a contact, with the matrices of elastic deflection and of surface temperature on this mesh."""
 
 from functools import lru_cache
 from math import log2, sqrt
@@ -9,7 +9,7 @@ import numpy as np
 from solvers.arrays import FloatArray, frozen
 from solvers.compiled import kernel
 
-SHORTEST_INLET = 4.0  # half widths of the contact upstream of its centre, chosen
+SHORTEST_INLET = 4.0  # least distance from the inlet to the centre of the contact, in half widths, chosen
 CLEARANCE = 40.0  # ratio of the undeformed gap at the inlet to the central film
 
 
@@ -27,7 +27,7 @@ def _log_moment(t: float) -> float:
 
 @kernel
 def deflection_matrix(x: FloatArray) -> FloatArray:
-    """Compute the matrix K of elastic deflection, with the film thickness H = H0 + X^2/2 + K P.
+    """Compute the matrix K of elastic deflection in the film thickness H = H0 + X^2/2 + K P.
 
     Parameters
     ----------
@@ -41,8 +41,8 @@ def deflection_matrix(x: FloatArray) -> FloatArray:
 
     Notes
     -----
-    K is the integral -(1/pi) int P ln|X - X'| dX' of Eq. 21. The E of the paper is the E' of Hertz, and its ln|x - s|
-    has an arbitrary unit of length, which H0 absorbs; here the unit is b.
+    K P is the integral -(1/pi) int P ln|X - X'| dX' of Eq. 21. The E of the paper is the E' of Hertz. The ln|x - s| of
+    the paper leaves the unit of length open; here the unit is b. Another unit would change H0 only.
     """
     n = x.size
     matrix = np.zeros((n, n))
@@ -62,7 +62,7 @@ def deflection_matrix(x: FloatArray) -> FloatArray:
 
 @kernel
 def heat_matrix(x: FloatArray) -> FloatArray:
-    """Compute the matrix Wt with int_{x_0}^{x_i} q(s) (x_i - s)^-1/2 ds = sum_j Wt[i, j] q_j.
+    """Compute the matrix Wt for which int_{x_0}^{x_i} q(s) (x_i - s)^-1/2 ds = sum_j Wt[i, j] q_j.
 
     Parameters
     ----------
@@ -93,9 +93,10 @@ def heat_matrix(x: FloatArray) -> FloatArray:
 
 
 class Grid(NamedTuple):
-    """Nodes x (n,) in half widths, with the matrices (n, n) and quadrature weights (n,) that depend on the nodes only.
+    """Nodes x (n,) in half widths, and matrices (n, n) and quadrature weights (n,) that depend on the nodes only.
 
-    `deflection` is K and `heat` is Wt. The trapezoidal weights of the nodes are also the widths of their cells.
+    `deflection` is the matrix K of `deflection_matrix`, and `heat` is the matrix Wt of `heat_matrix`. `weights` are
+    those of the trapezoidal rule; they are also the widths of the cells around the nodes.
     """
 
     x: FloatArray
@@ -105,12 +106,15 @@ class Grid(NamedTuple):
 
 
 def grid_for(gap: float, nodes: int) -> Grid:
-    """Return a mesh for a film of `gap` (in b^2/R), rounded to a power of sqrt(2) so that contacts share meshes."""
+    """Return a mesh for a film of thickness `gap` (in b^2/R).
+
+    The thickness is rounded to a power of sqrt(2), so that similar contacts share a mesh.
+    """
     return _grid(round(2.0 * log2(gap)), nodes)
 
 
 def inlet_length(gap: float) -> float:
-    """Return the distance of the inlet from the centre that a film of `gap` needs, in half widths."""
+    """Return the distance from the inlet to the centre, in half widths, that a film of thickness `gap` needs."""
     return max(SHORTEST_INLET, sqrt(2.0 * CLEARANCE * gap))
 
 
@@ -124,9 +128,10 @@ def _grid(half_octaves: int, nodes: int) -> Grid:
 
 
 def _graded(gap: float, nodes: int) -> FloatArray:
-    """Return nodes that equidistribute 1/spacing between inlet and outlet (n,).
+    """Return nodes (n,) between inlet and outlet whose distances are in proportion to a prescribed spacing.
 
-    A film much thicker than b^2/R has its pressure over (2 R h)^1/2 instead of b; the scale b then needs no resolution.
+    The pressure of a film much thicker than b^2/R extends over the length (2 R h)^1/2 instead of b. Then lengths of the
+    order of b need no resolution.
     """
     inlet = -inlet_length(gap)
     outlet = max(1.25, 1.0 + 1.2 * gap ** (2 / 3))

@@ -1,6 +1,7 @@
-"""Heat in the film: finite volumes across the columns, linearised and eliminated.
+"""Heat in the film: balances of finite volumes, their linearisation, and the elimination of the columns.
 
-Two passes run over the columns: `balance_columns` computes the residual, `linearise_balances` its derivatives.
+Two passes run over the columns: `balance_columns` computes the residuals, and `linearise_balances` computes their
+derivatives.
 """
 
 from typing import NamedTuple
@@ -16,9 +17,10 @@ from solvers.contact.ehl.shear import Film
 
 
 class Responses(NamedTuple):
-    """Derivative of the residual by the mid-film stress (n, k), and right-hand sides of the response to p, G, h.
+    """Right-hand sides of the systems of all columns, from which the responses of the temperatures follow, (n, k).
 
-    G is h dp/dx. After the columns are solved, these arrays hold the responses of the temperature.
+    `heating` is the derivative of the residual by the mid-film stress. `by_p`, `by_g` and `by_h` are the right-hand
+    sides for p, G = h dp/dx and h. `factor_columns` replaces all right-hand sides by the responses.
     """
 
     heating: FloatArray
@@ -28,10 +30,12 @@ class Responses(NamedTuple):
 
 
 class ColumnSystem(NamedTuple):
-    """The linear system of all columns: its factored tridiagonal part (pivot: inverse) and residual (n, k).
+    """The linear systems of all columns: tridiagonal part and residual (n, k), and rank-one part.
 
-    The rank-one part is the response to the mid-film stress; `sherman` is 1/(1 + v x) (n,). `squeeze` is the heat of
-    compression per kelvin and pascal [W/(m^2 K Pa)].
+    `lower`, `pivot` and `upper` are the tridiagonal part; `factor_columns` replaces them by factors, and `pivot` by the
+    inverse pivots. The rank-one part is the effect of the mid-film stress; `sherman` (n,) is the factor 1/(1 + v x) of
+    the Sherman-Morrison formula. `squeeze` (n, k) is the heat of compression per kelvin of temperature and per pascal
+    of h dp/dx [W/(m^2 K Pa)].
     """
 
     lower: FloatArray
@@ -46,8 +50,9 @@ class ColumnSystem(NamedTuple):
 class Convection(NamedTuple):
     """Inflow from the left and right columns (n, k), and the stream function at the edges of the cells (n, k + 1).
 
-    The edges of a column are those at the face on its right. Inflow has the unit of the row it enters: the rows of the
-    walls are temperatures.
+    The edges of a column are those at the face on the right of the column. The inflow is a heat capacity flux per area
+    [W/(m^2 K)]. In the rows of the walls, which are equations for temperatures, `linearise_balances` scales the inflow
+    to a number without unit.
     """
 
     from_left: FloatArray
@@ -56,11 +61,15 @@ class Convection(NamedTuple):
 
 
 WALLS = floats("history_1", "history_2", "change_1", "change_2", "gain_1", "gain_2")
-"""Flash temperature of both surfaces from upstream, its change in a step, and gain (own flux to own temperature)."""
+"""Flash temperatures of both surfaces at a column.
+
+`history`: flash temperature due to the heat fluxes upstream [K]; `change`: change of this temperature in a step [K];
+`gain`: temperature rise per heat flux at the column itself [K m^2/W].
+"""
 
 
 class Surfaces(NamedTuple):
-    """Heat flux into both surfaces at all columns (n,) [W/m^2], and its effect on their temperatures (of WALLS)."""
+    """Heat fluxes into both surfaces at all columns (n,) [W/m^2], and surface temperatures: `walls` (n,) of WALLS."""
 
     flux_1: FloatArray
     flux_2: FloatArray
@@ -70,7 +79,8 @@ class Surfaces(NamedTuple):
 class Heat(NamedTuple):
     """The linearised heat balance of n columns with k nodes across.
 
-    `fluid_fraction`, `generated` (heat of shear) and `compression` (heat of compression) [W/m^2] are per column (n,).
+    The columns' values (n,) are `fluid_fraction` [-], `generated` (heat of shear) [W/m^2] and `compression` (heat of
+    compression) [W/m^2].
     """
 
     column: ColumnSystem
@@ -99,8 +109,8 @@ def heat_arrays(nodes: int, film_nodes: int) -> Heat:
 def face_edges(stream: FloatArray, edges: FloatArray) -> None:
     """Compute the stream function at the edges of the cells (n, k + 1) from the stream function at the nodes (n, k).
 
-    An edge lies at the face between two columns, half way between two nodes across the film. The surfaces are the
-    outermost edges; the last face is the last column itself.
+    An edge lies at the face between two columns, half way between two nodes across the film. The outermost edges lie
+    on the surfaces. At the last face, the stream function is that of the last column.
     """
     n, nodes = stream.shape
     for i in range(n):
@@ -113,7 +123,7 @@ def face_edges(stream: FloatArray, edges: FloatArray) -> None:
 
 @inlined_kernel
 def surface_history(problem: Problem, i: int, surface_matrix: FloatArray, surfaces: Surfaces) -> None:
-    """Compute the flash temperatures of column i from upstream heat fluxes, and the gain of its own heat flux.
+    """Compute the flash temperatures of column i due to heat fluxes upstream, and the gain of the column itself.
 
     Parameters
     ----------
@@ -124,7 +134,7 @@ def surface_history(problem: Problem, i: int, surface_matrix: FloatArray, surfac
     surface_matrix : FloatArray
         Matrix Wt (n, n).
     surfaces : Surfaces
-        Heat fluxes; receives history and gain of column i.
+        Heat fluxes; receives `history` and `gain` of column i.
 
     Notes
     -----
@@ -147,7 +157,7 @@ def balance_columns(
     film: Film,
     heat: Heat,
 ) -> None:
-    """Compute the residual of the heat balance and the heat fluxes into both surfaces, column by column.
+    """Compute the residuals of the heat balance and the heat fluxes into both surfaces, column by column.
 
     Parameters
     ----------
@@ -166,14 +176,14 @@ def balance_columns(
     film : Film
         Shear and stream functions of the columns.
     heat : Heat
-        Receives the residual and the heat fluxes.
+        Receives the residuals and the heat fluxes.
 
     Notes
     -----
     c [d(psi_zeta t)/dx - d(psi_x t)/dzeta] = (lambda/h) t_zetazeta + h (tau rate + (0.00065 rho0/rho) t u p'), in cells
-    around the nodes (Eqs. E8, E15). The flow across the film follows from continuity; Eq. 23 of the paper leaves it
-    out. Half cells at the walls give the heat fluxes q1 = lambda t_z and q2 = -lambda t_z; Eq. 24 prints no sign, but
-    heat must flow into both solids. The rows of the half cells are the temperatures of the surfaces.
+    around the nodes (Eqs. E8, E15). The flow across the film follows from continuity; Eq. 23 of the paper leaves out
+    this flow. Half cells at the walls give the heat fluxes q1 = lambda t_z and q2 = -lambda t_z. Eq. 24 prints no sign,
+    but heat must flow into both solids. The residuals of the half cells are turned into differences of temperature.
     """
     surfaces, last = heat.surfaces, temperature.shape[1] - 1
     for i in range(start, stop):
@@ -190,9 +200,9 @@ def balance_columns(
 
 @inlined_kernel
 def exchange(problem: Problem, i: int, width: float, h: float, film: Film, heat: Heat) -> None:
-    """Compute the heat that the cells of column i exchange per kelvin [W/(m^2 K)], by convection and conduction.
+    """Compute the heat that the cells of column i exchange per kelvin, by convection and conduction [W/(m^2 K)].
 
-    Convection is upwind on all sides; `width` is the width of the column [m]. The heat of compression per kelvin and
+    Convection is upwind on all sides. `width` is the width of the column [m]. The heat of compression per kelvin and
     pascal, (0.00065 rho0/rho) u/h, is computed as well.
     """
     convection, column, edges, psi, rho = (
@@ -238,7 +248,7 @@ def column_residual(i: int, temperature: FloatArray, g: float, h: float, film: F
 
     Notes
     -----
-    Eq. E15. Both nodes of an interval receive half of the heat that shear generates in it.
+    Eq. E15. Half of the heat that shear generates in an interval goes to each of the two nodes of the interval.
     """
     n, last = temperature.shape[0], temperature.shape[1] - 1
     column, convection, tau, rate, t = heat.column, heat.convection, film.shear.stress, film.shear.rate, temperature
@@ -268,10 +278,10 @@ def linearise_balances(
     film: Film,
     heat: Heat,
 ) -> None:
-    """Compute the derivatives of the heat balances of columns start..stop, which `balance_columns` has evaluated.
+    """Compute the derivatives of the heat balances of columns start..stop after `balance_columns`.
 
-    These are the tridiagonal part and the responses to tau_m, p, G and h. `damping` adds heat capacity, in units of
-    conduction.
+    The derivatives are the tridiagonal part and the right-hand sides for tau_m, p, G and h. `damping` is an artificial
+    heat capacity, relative to the conduction across the film, that makes the temperature steps shorter.
     """
     m = temperature.shape[1] - 1
     for i in range(start, stop):
@@ -288,8 +298,8 @@ def column_slopes(
 ) -> None:
     """Compute the derivatives of `column_residual`: rows of the matrix, and right-hand sides of the responses.
 
-    The heat tau rate of an interval depends on its temperature and on p through the viscosity. It also depends on the
-    stress, which tau_m changes in all intervals.
+    The heat generated in an interval, stress times rate, depends on temperature and p through the viscosity. This heat
+    also depends on the stress, and a change of tau_m changes the stress in all intervals.
     """
     shear, mid, column, convection, last = film.shear, film.mid, heat.column, heat.convection, temperature.shape[1] - 1
     lower, upper, responses, t = column.lower, column.upper, column.responses, temperature
@@ -321,7 +331,10 @@ def column_slopes(
 
 @inlined_kernel
 def _scale_walls(i: int, inertia: float, heat: Heat) -> None:
-    """Turn the rows of both half cells into rows of their surface temperatures; half cells have half of the inertia."""
+    """Turn the rows of both half cells into equations for the surface temperatures.
+
+    Half cells have half of the inertia.
+    """
     column, convection, responses, walls = heat.column, heat.convection, heat.column.responses, heat.surfaces.walls[i]
     for side in range(2):
         k, gain = (0, walls.gain_1) if side == 0 else (column.pivot.shape[1] - 1, walls.gain_2)
@@ -338,11 +351,12 @@ def _scale_walls(i: int, inertia: float, heat: Heat) -> None:
 
 @kernel
 def factor_columns(start: int, stop: int, film: Film, heat: Heat) -> None:
-    """Factor columns start..stop by Thomas' algorithm, with four responses per column and the Sherman-Morrison term.
+    """Factor the systems of columns start..stop, and compute the four responses of each column.
 
-    All arrays are changed in place: `pivot` becomes the inverse pivots, and `lower` and `upper` become the factors by
-    which a row enters the next and the previous row. The rank-one part stabilises a sliding film: warmer oil shears at
-    a lower stress.
+    Thomas' algorithm factors the tridiagonal part, and the Sherman-Morrison formula adds the rank-one part. All arrays
+    are changed in place: `pivot` becomes the inverse pivots, and `lower` and `upper` become the factors by which a row
+    enters the next and the previous row. The rank-one part stabilises a sliding film, because warmer oil shears at a
+    lower stress.
     """
     column, by_temperature = heat.column, film.mid.by_temperature
     lower, pivot, upper, responses = column.lower, column.pivot, column.upper, column.responses
@@ -384,7 +398,7 @@ def factor_columns(start: int, stop: int, film: Film, heat: Heat) -> None:
 
 @inlined_kernel
 def solve_column(i: int, film: Film, heat: Heat, vector: FloatArray) -> None:
-    """Solve the linearised column i for row i of `vector` (n, k), in place."""
+    """Solve the linearised system of column i; row i of `vector` (n, k) is replaced by the solution."""
     column, by_temperature = heat.column, film.mid.by_temperature
     lower, pivot, upper, responses = column.lower, column.pivot, column.upper, column.responses
     m = vector.shape[1] - 1

@@ -13,7 +13,10 @@ Rheology = Literal["ree_eyring", "newtonian"]
 
 @record
 class Contact:
-    """Two cylinders that roll and slide on a film, which enters with the mean speed of the surfaces."""
+    """Two cylinders that roll and slide on an oil film.
+
+    The oil enters with the mean speed of the surfaces.
+    """
 
     line_load: float = quantity("line load", "w", XUE, unit="n_per_mm", gt=0, le=1e5, text="load per length of contact")
     radius: float = quantity(
@@ -103,8 +106,9 @@ class Temperatures:
 class Model:
     """Physics and resolution of the film.
 
-    `refine_mesh` adds nodes until the estimated error of the mesh, but for what spikes of pressure leave, is below 2 %.
-    The paper's film is Newtonian; near pure rolling its friction is not physical, so Ree-Eyring is the default.
+    `refine_mesh` adds nodes until the estimated error due to the mesh is below 2 %. Errors due to pressure spikes do
+    not count, because no mesh resolves the spikes. The film of the paper is Newtonian. Near pure rolling the friction
+    of a Newtonian film is not physical, so Ree-Eyring is the default.
     """
 
     thermal: bool = quantity("thermal film", None, XUE, default=True, text="whether the film heats up", advanced=True)

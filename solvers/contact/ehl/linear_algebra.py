@@ -1,7 +1,7 @@
 """Dense linear algebra for systems of about a hundred unknowns: LU decomposition, products, a few steps of GMRES.
 
 At this size a threaded BLAS can spend ten times as long on starting its threads as on the arithmetic. Functions take
-row indices instead of views of rows, because the reference counting of views takes as long as the arithmetic too.
+row indices instead of views of rows, because the reference counting of views also takes as long as the arithmetic.
 """
 
 import numpy as np
@@ -9,7 +9,7 @@ import numpy as np
 from solvers.arrays import FloatArray, IntArray
 from solvers.compiled import inlined_kernel, kernel
 
-PANEL = 8  # columns eliminated together, chosen for speed
+PANEL = 8  # number of columns that are eliminated together, chosen for speed
 
 
 @kernel
@@ -30,7 +30,10 @@ def add_scaled(factor: float, x: FloatArray, y: FloatArray) -> None:
 
 @inlined_kernel
 def row_product(matrix: FloatArray, i: int, start: int, stop: int, vector: FloatArray) -> float:
-    """Return the scalar product of columns start..stop of row i with the same part of a vector (n,), in four sums."""
+    """Return the scalar product of columns start..stop of row i with the same part of a vector (n,).
+
+    The product is computed as four partial sums, for speed.
+    """
     s0, s1, s2, s3 = 0.0, 0.0, 0.0, 0.0
     last = stop - (stop - start) % 4
     for j in range(start, last, 4):
@@ -45,7 +48,7 @@ def row_product(matrix: FloatArray, i: int, start: int, stop: int, vector: Float
 
 @inlined_kernel
 def _factor_panel(matrix: FloatArray, pivots: IntArray, start: int, stop: int) -> None:
-    """Eliminate within columns start..stop; whole rows are exchanged."""
+    """Eliminate within columns start..stop; pivoting exchanges whole rows."""
     n = pivots.size
     for k in range(start, stop):
         pivot = k
@@ -66,7 +69,7 @@ def _factor_panel(matrix: FloatArray, pivots: IntArray, start: int, stop: int) -
 
 @inlined_kernel
 def _subtract_panel(matrix: FloatArray, i: int, start: int, stop: int) -> None:
-    """Subtract the shares of the eight rows of a panel from row i, behind column `stop`, in one pass."""
+    """Subtract multiples of the eight rows of a panel from row i, in one pass over the columns from `stop` on."""
     k = start
     f0, f1, f2, f3 = matrix[i, k], matrix[i, k + 1], matrix[i, k + 2], matrix[i, k + 3]
     f4, f5, f6, f7 = matrix[i, k + 4], matrix[i, k + 5], matrix[i, k + 6], matrix[i, k + 7]
@@ -78,7 +81,10 @@ def _subtract_panel(matrix: FloatArray, i: int, start: int, stop: int) -> None:
 
 @kernel
 def factor(matrix: FloatArray, pivots: IntArray) -> None:
-    """Factor a matrix (n, n) by LU with row pivoting, in place, in panels of eight columns; `pivots` (n,)."""
+    """Replace a matrix (n, n) by its LU factors, computed in panels of eight columns with row pivoting.
+
+    Element k of `pivots` (n,) receives the number of the row with which row k is exchanged.
+    """
     n = pivots.size
     for start in range(0, n, PANEL):
         stop = min(start + PANEL, n)
@@ -94,7 +100,7 @@ def factor(matrix: FloatArray, pivots: IntArray) -> None:
 
 @kernel
 def substitute(factors: FloatArray, pivots: IntArray, vector: FloatArray) -> None:
-    """Solve for `vector` (n,) with the factors of `factor`, in place."""
+    """Replace the right-hand side `vector` (n,) by the solution of the system that `factor` has factored."""
     n = pivots.size
     for k in range(n):
         pivot = pivots[k]
@@ -107,7 +113,7 @@ def substitute(factors: FloatArray, pivots: IntArray, vector: FloatArray) -> Non
 
 @kernel
 def multiply(matrix: FloatArray, vector: FloatArray, product: FloatArray) -> None:
-    """Multiply a matrix (n, n) by a vector (n,), into `product`."""
+    """Multiply a matrix (n, n) by a vector (n,) and store the result in `product` (n,)."""
     n = vector.size
     for i in range(n):
         product[i] = row_product(matrix, i, 0, n, vector)
@@ -117,21 +123,22 @@ def multiply(matrix: FloatArray, vector: FloatArray, product: FloatArray) -> Non
 def solve_step(matrix: FloatArray, residual: FloatArray, step: FloatArray) -> bool:
     """Compute Newton's step (n,) for a residual (n,); return False if the system has no finite solution.
 
-    LAPACK is fastest for a single right-hand side. A caller from Python limits it to one thread (`blas_threads`).
+    LAPACK is fastest for a single right-hand side. A Python caller limits LAPACK to one thread (`blas_threads`).
     """
     try:
         step[:] = np.linalg.solve(matrix, -residual)
-    except Exception:  # noqa: BLE001  numba cannot catch a narrower one
+    except Exception:  # noqa: BLE001  numba cannot catch a narrower exception
         return False
     return bool(np.all(np.isfinite(step)))
 
 
 @kernel
 def extend_basis(basis: FloatArray, hessenberg: FloatArray, rotations: FloatArray, rhs: FloatArray, j: int) -> float:
-    """Orthogonalise basis[j + 1] (the operator's product with basis[j]) and return the norm of the residual.
+    """Orthogonalise basis[j + 1] to the vectors before it, and return the norm of the residual of GMRES.
 
-    The least-squares problem is updated by modified Gram-Schmidt and Givens rotations (Saad and Schultz, 1986). Shapes:
-    basis (m + 1, n), hessenberg (m, m) by columns in rows, rotations (m, 2), rhs (m + 1,).
+    Before the call, basis[j + 1] is the product of the operator and basis[j]. Modified Gram-Schmidt orthogonalises the
+    vector, and Givens rotations update the least-squares problem (Saad and Schultz, 1986). Shapes: basis (m + 1, n);
+    hessenberg (m, m), each row of which holds a column of the Hessenberg matrix; rotations (m, 2); rhs (m + 1,).
     """
     vector = basis[j + 1]
     column = hessenberg[j]
@@ -155,7 +162,7 @@ def extend_basis(basis: FloatArray, hessenberg: FloatArray, rotations: FloatArra
 
 @kernel
 def combine_basis(basis: FloatArray, hessenberg: FloatArray, rhs: FloatArray, count: int, solution: FloatArray) -> None:
-    """Add the least-squares solution from the first `count` basis vectors to `solution` (n,)."""
+    """Add the least-squares combination of the first `count` basis vectors to `solution` (n,)."""
     for j in range(count - 1, -1, -1):
         weight = rhs[j]
         for i in range(j + 1, count):

@@ -15,7 +15,7 @@ from solvers.contact.ehl.results import (
     ContactTemperature,
 )
 
-PEAK_ZONE = 0.1  # half widths behind the centre: a maximum before it is the Hertzian one
+PEAK_ZONE = 0.1  # half widths downstream of the centre; a pressure maximum before this place is the Hertzian maximum
 
 
 def load_error(attempt: Attempt) -> float:
@@ -31,18 +31,18 @@ def film_heights(problem: Problem, attempt: Attempt) -> FloatArray:
 def temperature_range(attempt: Attempt) -> float:
     """Return the difference between the highest and lowest temperature [K].
 
-    If it is within the tolerance of the temperatures, the heat balance cannot be checked.
+    If this difference is within the tolerance of the temperatures, the heat balance cannot be checked.
     """
     return float(np.ptp(attempt.state.temperature))
 
 
 def at_place(attempt: Attempt, values: FloatArray, place: float = 0.0) -> float:
-    """Return the value in the centre or at another place [half widths], linear between nodes."""
+    """Interpolate values linearly between the nodes at a place [half widths], by default at the centre."""
     return float(np.interp(place, attempt.grid.x, values))
 
 
 def pressure(problem: Problem, attempt: Attempt) -> ContactPressure:
-    """Return the centre, maximum and second maximum of the pressure."""
+    """Return the pressure in the centre, the largest pressure and the second maximum of the pressure."""
     x, p = attempt.grid.x, attempt.state.pressure
     peak = int(p.argmax())
     inner = np.flatnonzero((p[1:-1] > p[:-2]) & (p[1:-1] >= p[2:])) + 1
@@ -77,7 +77,7 @@ def temperature(problem: Problem, attempt: Attempt) -> ContactTemperature:
 
 
 def mid_film(t: FloatArray) -> FloatArray:
-    """Return the temperature half way between the surfaces (n,), of columns (n, k)."""
+    """Return the temperatures half way between the surfaces (n,) from those of the columns (n, k)."""
     middle = (t.shape[1] - 1) // 2
     return np.asarray(0.5 * (t[:, middle] + t[:, t.shape[1] // 2]))
 
@@ -122,7 +122,7 @@ def friction(problem: Problem, attempt: Attempt, inputs: LineContactInputs) -> C
 
 
 def friction_by_node(problem: Problem, attempt: Attempt, inputs: LineContactInputs) -> FloatArray:
-    """Return the contribution of the nodes to the coefficient of friction (n,), with the sign of the sliding."""
+    """Return the contribution of each node to the coefficient of friction (n,), with the sign of the shear stress."""
     return np.asarray(_share(problem, attempt, inputs) * attempt.work.film.mid.stress)
 
 
@@ -133,7 +133,7 @@ def _share(problem: Problem, attempt: Attempt, inputs: LineContactInputs) -> Flo
 
 
 def heat_by_node(problem: Problem, attempt: Attempt) -> FloatArray:
-    """Return the heat of shear in all columns (n,) [W/m]; 0 in the first, whose temperatures are given."""
+    """Return the heat of shear in each column (n,) [W/m]; 0 in the first column, whose temperatures are given."""
     heat = attempt.grid.weights * attempt.work.heat.generated * problem.half_width
     heat[0] = 0.0
     return np.asarray(heat)
@@ -180,7 +180,7 @@ def heat(problem: Problem, attempt: Attempt) -> ContactHeat:
 
 
 def _layer_edges(stream: FloatArray) -> FloatArray:
-    """Return the stream function between the cells of the nodes across the film (k + 1,)."""
+    """Return the stream function at the edges of the cells around the nodes across the film (k + 1,)."""
     return np.concatenate([stream[:1], 0.5 * (stream[1:] + stream[:-1]), stream[-1:]])
 
 

@@ -30,9 +30,9 @@ from solvers.contact.ehl.results import (
 )
 from solvers.lubricants import Lubricant, oil_in_use
 
-WORST_BALANCE = 1e-3  # of the heat: ten times the limit of the warning (`notices.BALANCE_ERROR`)
-WORST_LOAD = 1e-9  # of the load: far above rounding, far below the digits shown
-WORST_DEPARTURE = 0.1  # K
+WORST_BALANCE = 1e-3  # relative error of the heat balance; `notices.BALANCE_ERROR`, the limit of the warning, times ten
+WORST_LOAD = 1e-9  # relative error of the load; far above rounding errors, far below the displayed digits
+WORST_DEPARTURE = 0.1  # K, largest accepted result of `refinement.departure`
 
 
 def solve(inputs: LineContactInputs) -> LineContactResult:
@@ -51,7 +51,7 @@ def solve(inputs: LineContactInputs) -> LineContactResult:
     Raises
     ------
     InvalidInput
-        What `checks.check` raises.
+        With the codes of `checks.check`.
     """
     check(inputs)
     constants = problem(inputs, groups(inputs))
@@ -62,7 +62,7 @@ def solve(inputs: LineContactInputs) -> LineContactResult:
 
 
 def resolution_for(inputs: LineContactInputs) -> Resolution:
-    """Return the mesh of the contact, graded for the expected film."""
+    """Return the numbers of nodes of the contact, and the expected film for which the mesh is graded."""
     model = inputs.model
     return Resolution(
         gap=expected_gap(inputs),
@@ -80,8 +80,9 @@ def conclude(
     attempt: Attempt,
     iterations: int,
 ) -> LineContactResult:
-    """Return the results of an attempt, on a finer mesh if necessary; return the reason if it fails a criterion.
+    """Refine the mesh of an attempt if necessary, and return the results.
 
+    If the attempt has not converged or fails a check, the status is no_solution, and a warning states the reason.
     `iterations` is the number of iterations that led to the attempt.
     """
     scales = groups(inputs)
@@ -126,7 +127,7 @@ def conclude(
 def _read(
     inputs: LineContactInputs, constants: Problem, attempt: Attempt, unsolved: LineContactResult
 ) -> LineContactResult:
-    """Return the result with all quantities of a converged state."""
+    """Return `unsolved`, completed by the results of a converged state."""
     thermal = inputs.model.thermal
     curves = measures.curves(constants, attempt, thermal)
     field = measures.field(constants, attempt) if thermal else None
@@ -145,7 +146,10 @@ def _read(
 
 
 def _failed_criterion(attempt: Attempt, result: LineContactResult) -> Stage | None:
-    """Return the check that a converged state fails: load, heat balance or the solved equations; None if it passes."""
+    """Return the stage to report if a converged state fails a check, or None if the state passes all checks.
+
+    The checks concern the load, the heat balance and the temperatures (`refinement.departure`).
+    """
     convergence, heat = result.convergence, result.heat
     if convergence.load_error >= WORST_LOAD:
         return convergence.stage
@@ -196,7 +200,10 @@ def _film(inputs: LineContactInputs, constants: Problem, attempt: Attempt) -> Fi
 
 
 def warm_up() -> None:
-    """Compile every kernel by small solves, or load it from the cache; flags choose the laws, not other code."""
+    """Compile every kernel, or load it from the cache, by solving two small contacts.
+
+    The two contacts reach all kernels, because a kernel chooses the laws of the oil when it runs.
+    """
     contact = Contact(line_load=1e5, radius=0.01, speed_1=2.0, speed_2=1.5)
     for model in (Model(nodes=61), Model(nodes=61, thermal=False)):
         solve(LineContactInputs(contact, model=model, lubricant=Lubricant()))

@@ -1,4 +1,4 @@
-"""Newton's method for the isothermal contact with an active set, and for all unknowns of a thermal contact."""
+"""Newton's method for the isothermal contact, and for all unknowns of the thermal contact together."""
 
 import numpy as np
 
@@ -27,16 +27,16 @@ from solvers.contact.ehl.state import NEXT, State, Work, evaluate_state, fluid_f
 from solvers.contact.ehl.temperature import inlet_step, temperature_step
 from solvers.lubricants import density, log_viscosity, pressure_part
 
-EARLY = 5  # iterations with a tighter clip
-KRYLOV = 10  # steps of GMRES, chosen for speed
-KRYLOV_TOLERANCE = 0.01  # of the right-hand side; Newton's method corrects the rest
-LARGEST_PRESSURE_STEP = 0.3  # of the Hertzian pressure: viscosity is exponential in it
+EARLY = 5  # number of first iterations with a tighter limit of the pressure step
+KRYLOV = 10  # largest number of steps of GMRES, chosen for speed
+KRYLOV_TOLERANCE = 0.01  # relative to the right-hand side; Newton's method corrects the remaining error
+LARGEST_PRESSURE_STEP = 0.3  # share of the Hertzian pressure; the viscosity depends on the pressure exponentially
 LARGEST_TEMPERATURE_STEP = 40.0  # K
-LOWEST_TEMPERATURE = 200.0  # K, of iterates
-FIRST_DAMPING = 30.0  # of the temperatures, in units of their conduction across the film
+LOWEST_TEMPERATURE = 200.0  # K, lower limit of the temperatures during the iteration
+FIRST_DAMPING = 30.0  # first value of the damping of the temperatures, see `linearise_balances`
 FROZEN = 1e4  # more damping than this has no effect
-SHORT_STEP = 3e-3  # of P; the Jacobian still holds after such a step
-SHRINKING = 0.1  # ratio of a step to the step before, if the steps shrink
+SHORT_STEP = 3e-3  # largest change of P after which the Jacobian can be reused
+SHRINKING = 0.1  # steps count as shrinking if the ratio of a step to the step before is smaller
 
 
 @inlined_kernel
@@ -70,7 +70,7 @@ def uniform_film(problem: Problem, i: int, p: float, g: float, h: float, coeffic
     laws = problem.laws
     term, term_slope = pressure_part(laws, p)
     log_eta, eta_slope, _ = log_viscosity(laws, term, problem.inlet)
-    eta_by_p = eta_slope * term_slope  # of ln eta
+    eta_by_p = eta_slope * term_slope  # derivative of ln eta by p
     rho, rho_by_p, _ = density(laws, p, problem.inlet)
     sheared, by_eta, by_g, by_h, tau_m = uniform_shear(problem, log_eta, g, h)
     um = 0.5 * (problem.speed_1 + problem.speed_2)
@@ -83,9 +83,9 @@ def uniform_film(problem: Problem, i: int, p: float, g: float, h: float, coeffic
 
 @kernel
 def evaluate_isothermal(problem: Problem, grid: Grid, state: State, work: Work) -> None:
-    """Compute film, stress and flow of all columns at the inlet temperature.
+    """Compute film thickness, stress and flow of all columns at the inlet temperature.
 
-    The film stays broken up to the end of the mesh.
+    If the film is broken at the last node but one, it is broken at the last node as well.
     """
     state.cavitated[-1] = state.cavitated[-2]
     film_shape(grid, state.pressure, state.separation[0], work.height)
@@ -103,11 +103,11 @@ def evaluate_isothermal(problem: Problem, grid: Grid, state: State, work: Work) 
 def solve_isothermal(
     problem: Problem, grid: Grid, state: State, work: Work, max_iterations: int, tolerance: float
 ) -> bool:
-    """Solve for (P, H0) by Newton's method from the given pressures, in place; return whether it converged.
+    """Solve for (P, H0) by Newton's method from the given pressures, in place; return whether the iteration converged.
 
-    The solution is evaluated into `work`. Pressure changes are first clipped node by node, and later scaled as a whole.
-    A node behind the centre whose pressure falls below zero joins the broken film; it leaves the broken film when more
-    oil flows in than out.
+    `work` receives all quantities of the solution. In the first iterations the changes of pressure are limited node by
+    node; later the whole step is scaled. A node downstream of the centre whose pressure falls below zero joins the
+    broken film. The node leaves the broken film if more oil flows into the node than out of it.
     """
     n = grid.x.size
     jacobian, residual, step = np.empty((n + 1, n + 1)), np.empty(n + 1), np.empty(n + 1)
@@ -140,7 +140,7 @@ def solve_isothermal(
 
 @kernel
 def include_temperature(work: Work) -> None:
-    """Make the derivatives of A and B total ones, by adding the response of the temperature."""
+    """Turn the derivatives of A and B into total derivatives, by adding the response of the temperatures."""
     log_a, b, responses = work.coefficients.log_a, work.coefficients.b, work.heat.column.responses
     a_slopes, b_slopes = work.film.flow.log_a_by_temperature, work.film.flow.b_by_temperature
     n, nodes = a_slopes.shape
@@ -169,7 +169,8 @@ def add_temperature_changes(
 ) -> None:
     """Add to `residual` the effect of a temperature step on the balance of mass.
 
-    The part of the step that the responses `given` already contain is left out.
+    Only the difference between the step and `given` counts. `given` is the response of the temperatures to pressure,
+    which the derivatives of A and B already contain.
     """
     n, nodes = step.shape
     log_a, b = np.zeros(n), np.zeros(n)
@@ -215,10 +216,10 @@ def transport_response(
     step_t: FloatArray,
     change: FloatArray,
 ) -> None:
-    """Compute the correction `change` (n + 1,) of a step (n + 1,) in (P, H0) for heat transported downstream.
+    """Compute the effect `change` (n + 1,) of heat transport between columns on a step (n + 1,) in (P, H0).
 
-    The factored Jacobian contains the response of a column to its own pressure, but not the transport of heat from
-    column to column by oil and surfaces. `given` and `step_t` (n, k) are work arrays for temperatures.
+    The factored Jacobian contains the response of a column to its own pressure. It does not contain the transport of
+    heat from column to column by oil and surfaces. `given` and `step_t` (n, k) are work arrays for temperatures.
     """
     pressure_responses(problem, grid, work, cavitated, step, given)
     temperature_step(problem, grid, work.film, work.heat, given, 0.0, step_t)
@@ -241,9 +242,9 @@ def newton_step(
 ) -> None:
     """Compute the step (n + 1,) in (P, H0) and (n, k) in T from the linearised equations.
 
-    GMRES, preconditioned with the factored Jacobian, adds what the Jacobian leaves out. It corrects the step of the
-    Jacobian alone, so that the load is met after any number of corrections. If the square of the first correction is
-    within tolerance, that correction is enough.
+    The factored Jacobian leaves out the transport of heat between columns. GMRES, preconditioned with this Jacobian,
+    corrects the step of the Jacobian alone, so that the load is met after any number of corrections. If the square of
+    the first relative correction is within the tolerance, the first correction is enough.
     """
     n, nodes = step_t.shape
     given, change = np.zeros((n, nodes)), np.zeros(n + 1)
@@ -276,7 +277,7 @@ def newton_step(
 def factor_jacobian(
     problem: Problem, grid: Grid, state: State, work: Work, jacobian: FloatArray, pivots: IntArray
 ) -> None:
-    """Assemble and factor the system for (P, H0), with the responses of the columns."""
+    """Assemble and factor the system for (P, H0), including the response of each column's temperatures."""
     include_temperature(work)
     mass_flux_slopes(problem, grid, work.height, work.gradient, state.cavitated, work.coefficients, work.faces)
     assemble_jacobian(grid, state.cavitated, work.faces, jacobian)
@@ -285,7 +286,7 @@ def factor_jacobian(
 
 @kernel
 def take_step(grid: Grid, state: State, step: FloatArray, step_t: FloatArray, scale: float) -> tuple[float, bool]:
-    """Move all unknowns by `scale` times the step, or less if the film would close; see `apply_pressure_step`."""
+    """Change all unknowns by `scale` times the step, or by less if the film would close; see `apply_pressure_step`."""
     taken, joined = apply_pressure_step(grid, state.pressure, state.separation, state.cavitated, step, scale)
     n, nodes = step_t.shape
     for i in range(n):
@@ -304,13 +305,13 @@ def solve_coupled(
     pressure_tolerance: float,
     temperature_tolerance: float,
 ) -> bool:
-    """Solve for (T, P, H0) by one Newton iteration, in place; return whether it converged.
+    """Solve for (T, P, H0) together by Newton's method, in place; return whether the iteration converged.
 
-    The solution is evaluated into `work`. The iteration has converged if both steps are within tolerance and were not
-    shortened, the broken film has not changed and no guard has acted. A step that is too long is not taken; it is
-    computed again with damped temperatures (implicit pseudo-time). The damping decreases as the steps shrink. If the
-    steps stop shrinking, they are relaxed. After a small full step the Jacobian is reused, as long as the steps keep
-    shrinking fast.
+    `work` receives all quantities of the solution. The iteration has converged if four conditions hold: the steps of
+    pressure and temperature are within tolerance, the steps were not shortened, the broken film has not changed, and no
+    pressure gradient was limited. A step that is too long is not taken; it is computed again with damped temperatures
+    (implicit pseudo-time). The damping decreases as the steps shrink. If the steps stop shrinking, only a share of each
+    step is taken. After a small full step the Jacobian is reused, as long as the steps keep shrinking fast.
     """
     n, nodes = state.temperature.shape
     jacobian, residual = np.empty((n + 1, n + 1)), np.empty(n + 1)

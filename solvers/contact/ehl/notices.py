@@ -1,4 +1,4 @@
-"""Warnings of the line contact: one per exceeded range."""
+"""Warnings about a lubricated line contact, one for each exceeded range."""
 
 from collections.abc import Iterator
 
@@ -18,16 +18,16 @@ from solvers.lubricants import oil_temperature, thick_oil
 from solvers.notices import Notice
 
 LOWEST_PECLET = 5.0  # usual limit above which conduction along the surface is neglected
-NEWTONIAN_SLIDE_ROLL_RATIO = 0.3  # chosen: above it oils are usually no longer Newtonian
+NEWTONIAN_SLIDE_ROLL_RATIO = 0.3  # chosen; below it too little heat arises to limit the traction of a Newtonian oil
 TRACTION_RATIO = 0.1  # coefficients of friction of oils seldom exceed 0.1
 THIN_FILM = 0.05e-6  # m
-BALANCE_ERROR = 1e-4  # of the heat, chosen
-LARGEST_MESH_ERROR = 0.02  # chosen: the accuracy asked of film, friction and temperature
+BALANCE_ERROR = 1e-4  # relative error of the heat balance, chosen
+LARGEST_MESH_ERROR = 0.02  # chosen: required relative accuracy of film, friction and temperature
 FAILURES: dict[Stage, str] = {
     "isothermal": "the isothermal film did not converge",
     "coupling": "pressures and temperatures did not converge together",
-    "heat_balance": "the solution does not close the heat balance",
-    "verification": "the solution contradicts the heat that flows into its surfaces or the oil that enters",
+    "heat_balance": "the solution does not satisfy the heat balance",
+    "verification": "the solution contradicts the heat flow into the surfaces or the flow of oil into the contact",
 }
 
 
@@ -41,8 +41,9 @@ def input_notices(inputs: LineContactInputs, groups: Dimensionless) -> list[Noti
         notices.append(
             Notice(
                 "low_peclet",
-                f"surface {side} moves at a Peclet number of {slowest:.2g}, below {LOWEST_PECLET:g}: heat also spreads "
-                "along it, and its flash temperature is too high by 3 to 7 % at 4.5, 6 % at 1 and 19 % at 0.35",
+                f"the Peclet number of surface {side} is {slowest:.2g}, below {LOWEST_PECLET:g}. Heat then also "
+                "spreads along the surface, and the computed flash temperature is too high: by 3 to 7 % at a Peclet "
+                "number of 4.5, by 6 % at 1 and by 19 % at 0.35",
                 f"speed_{side}",
             )
         )
@@ -50,8 +51,8 @@ def input_notices(inputs: LineContactInputs, groups: Dimensionless) -> list[Noti
         notices.append(
             Notice(
                 "newtonian_low_slip",
-                "the traction of a Newtonian oil is not reliable for |slide-roll ratio| < 0.3, because no heat limits "
-                "it; use ree_eyring",
+                "for |slide-roll ratio| < 0.3 the traction of a Newtonian oil is not reliable, because there is too "
+                "little heating to limit the traction; use ree_eyring",
                 "rheology",
             )
         )
@@ -65,7 +66,8 @@ def result_notices(film: FilmThickness, friction: ContactFriction, heat: Contact
         notices.append(
             Notice(
                 "thin_film",
-                f"the film is {film.minimum * 1e6:.3f} um thin, below 0.05 um: roughness carries load there",
+                f"the film is only {film.minimum * 1e6:.3f} um thick; below 0.05 um the roughness of the surfaces "
+                "carries part of the load",
                 "viscosity",
             )
         )
@@ -73,14 +75,18 @@ def result_notices(film: FilmThickness, friction: ContactFriction, heat: Contact
         notices.append(
             Notice(
                 "high_traction",
-                f"shear stress reaches {friction.traction_ratio:.2g} of the pressure; oils shear at 0.05 to 0.08 of "
-                "the pressure",
+                f"the shear stress reaches {friction.traction_ratio:.2g} times the pressure, but oils shear at 0.05 to "
+                "0.08 times the pressure",
                 "rheology",
             )
         )
     if heat is not None and heat.balance_error > BALANCE_ERROR:
         notices.append(
-            Notice("heat_balance", f"the heat balance is open by {heat.balance_error:.1e}, above 1e-4", "nodes")
+            Notice(
+                "heat_balance",
+                f"the heat balance has a relative error of {heat.balance_error:.1e}; the limit is 1e-4",
+                "nodes",
+            )
         )
     return notices
 
@@ -88,23 +94,38 @@ def result_notices(film: FilmThickness, friction: ContactFriction, heat: Contact
 def mesh_notices(error: MeshError | None) -> list[Notice]:
     """Return the warnings about the accuracy of the mesh."""
     if error is None:
-        return [Notice("mesh_error", "the error of the mesh could not be estimated; compare with more nodes", "nodes")]
+        return [
+            Notice(
+                "mesh_error",
+                "the error of the numerical grid could not be estimated; compare the results with those of more nodes",
+                "nodes",
+            )
+        ]
     if error.largest <= LARGEST_MESH_ERROR:
         return []
     worst = [
         f"{name.replace('_', ' ')} {value:.1%}" for name, value in error.estimates.items() if value > LARGEST_MESH_ERROR
     ]
-    return [Notice("mesh_error", f"the mesh causes errors above 2 %: {', '.join(worst)}; raise nodes", "nodes")]
+    return [
+        Notice(
+            "mesh_error",
+            f"the numerical grid is too coarse; these results have errors above 2 %: {', '.join(worst)}. Increase the "
+            "number of nodes",
+            "nodes",
+        )
+    ]
 
 
 def failure_notice(convergence: Convergence) -> Notice:
     """Return the warning that says why there is no solution."""
-    message = f"{FAILURES[convergence.stage]} on {convergence.nodes} nodes; try other nodes or ree_eyring"
+    message = (
+        f"with {convergence.nodes} nodes {FAILURES[convergence.stage]}; try another number of nodes, or ree_eyring"
+    )
     return Notice("not_converged", message, "nodes", rank="invalid")
 
 
 def unusual_values(inputs: LineContactInputs, result: LineContactResult) -> Iterator[Notice]:
-    """Unusual values of oil, temperatures and load."""
+    """Yield the warnings about unusual values of oil, inlet temperature and load."""
     yield from oil_temperature(inputs.temperatures.inlet, "temperatures.inlet")
     yield from thick_oil(result.derived.viscosity)
     yield from high_pressure(result.hertz.max_pressure, "line_load")

@@ -1,4 +1,4 @@
-"""A sequence of contacts, as along the flank of a gear: the solution of a contact starts from its neighbours."""
+"""A sequence of contacts, as along the flank of a tooth, each of which is solved from the contacts before it."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
@@ -27,31 +27,32 @@ from solvers.contact.ehl.results import LineContactResult
 from solvers.contact.ehl.state import State, no_steps
 from solvers.errors import InvalidInput
 
-# Largest number of steps from a start that is extrapolated from the neighbours. If the pressure falls steeply between
-# two nodes, the discrete equations have one solution per pair of nodes between which the fall can lie. A start that
-# needs more steps often ends in the solution of a neighbouring pair, so the contact is solved again as if alone.
+# Largest number of Newton steps from a start that is extrapolated from the contacts before. If the pressure falls
+# steeply from one node to the next, the discrete equations have several solutions: one for each pair of nodes between
+# which the fall can lie. A start that needs more steps often ends in the solution for a neighbouring pair of nodes.
+# Therefore the contact is then solved as if it were alone.
 STEPS_FROM_NEIGHBOURS = 5.0
-MOST_STATES = 5  # states that are extrapolated: more states only add their remaining errors
-HOPELESS = 12  # consecutive failures, solves without a start included; the contacts after them rarely converge
-SHARE_WITHOUT_HOPE = 0.1  # share of the steps of a contact alone, after `HOPELESS` failures
+MOST_STATES = 5  # largest number of states that are extrapolated; further states only add their remaining errors
+HOPELESS = 12  # number of consecutive contacts without a solution, after which further contacts rarely converge
+SHARE_WITHOUT_HOPE = 0.1  # share of the usual number of steps that a contact gets after `HOPELESS` failures
 
 
 @dataclass(slots=True)
 class _Walk:
-    """The last solved states of the path, their mesh, and the number of consecutive failures."""
+    """The last solved states of the path, the mesh of these states, and the number of consecutive failures."""
 
     states: list[State] = field(default_factory=list)
     grid: Grid | None = None
     failures: int = 0
 
     def move_to(self, grid: Grid) -> None:
-        """Interpolate the states onto a mesh, unless they are on it."""
+        """Interpolate the states onto a mesh, unless they already lie on this mesh."""
         if self.grid is not None and self.grid is not grid:
             self.states = [interpolate(state, self.grid.x, grid.x) for state in self.states]
         self.grid = grid
 
     def arrive(self, state: State | None) -> None:
-        """Record the state of a solved contact, or a failure (None)."""
+        """Record the state of a solved contact, or a failure if `state` is None."""
         self.states = [] if state is None else [*self.states[1 - MOST_STATES :], state]
         self.failures = self.failures + 1 if state is None else 0
 
@@ -67,30 +68,30 @@ def solve_path(contacts: Sequence[LineContactInputs]) -> list[LineContactResult]
     Returns
     -------
     list of LineContactResult
-        Results of the contacts, as if each was solved alone.
+        Results of the contacts, as if each contact were solved alone.
 
     Raises
     ------
     InvalidInput
-        What `check` raises, and `mixed_models` if the contacts do not share one model.
+        With the codes of `check`, and `mixed_models` if the contacts do not share one model.
 
     Notes
     -----
     Every contact except the first starts from pressures, temperatures and separation that are extrapolated from the
-    contacts before it. If it does not converge from there within a few steps, it is solved as if it were alone. If this
-    fails as well, the contact has no result, and the others are still solved. After many consecutive failures a contact
-    is given fewer steps, until one converges.
+    contacts before it. If the contact does not converge from there within a few steps, it is solved as if it were
+    alone. If this fails as well, the contact has no result, and the next contacts are still solved. After many
+    consecutive failures each contact is given fewer steps, until a contact converges again.
     """
     for inputs in contacts:
         check(inputs)
         if inputs.model != contacts[0].model:
-            raise InvalidInput("mixed_models", "all contacts of a path must share one model", "model")
+            raise InvalidInput("mixed_models", "all contacts of a path must have the same model", "model")
     walk = _Walk()
     return [_solve_next(inputs, walk) for inputs in contacts]
 
 
 def _solve_next(inputs: LineContactInputs, walk: _Walk) -> LineContactResult:
-    """Solve a contact from its neighbours; without neighbours, or if this fails, solve it alone."""
+    """Solve a contact from the solutions before it; if there are none, or if this fails, solve the contact alone."""
     constants = problem(inputs, groups(inputs))
     resolution = resolution_for(inputs)
     spent = Budget(inf)
@@ -103,7 +104,7 @@ def _solve_next(inputs: LineContactInputs, walk: _Walk) -> LineContactResult:
 
 
 def _attempts(constants: Problem, resolution: Resolution, walk: _Walk, spent: Budget) -> Iterator[Attempt]:
-    """Yield an attempt from the neighbours, then one as for a contact alone."""
+    """Yield an attempt that starts from the contacts before, then an attempt as for a contact alone."""
     grid = grid_for(resolution.gap, resolution.nodes)
     walk.move_to(grid)
     if walk.states:
@@ -115,7 +116,10 @@ def _attempts(constants: Problem, resolution: Resolution, walk: _Walk, spent: Bu
 
 
 def _guess(states: Sequence[State]) -> State:
-    """Return the next state, extrapolated and made physical; nodes broken in the last state stay broken."""
+    """Extrapolate the states to the next contact, and limit the result to physical values.
+
+    Nodes at which the film is broken in the last state stay broken.
+    """
     last = states[-1]
     film = _extrapolated(np.array([np.append(state.pressure, state.separation) for state in states]))
     pressure = np.where(last.cavitated, 0.0, np.maximum(film[:-1], 0.0))
@@ -130,9 +134,10 @@ def _guess(states: Sequence[State]) -> State:
 
 
 def _extrapolated(rows: FloatArray) -> FloatArray:
-    """Return the next of `rows` (m, ...) by Newton's backward differences, of as many orders as keep shrinking.
+    """Extrapolate `rows` (m, ...) to the next row by Newton's backward differences.
 
-    The difference of an order is the error with which all lower orders extrapolate the last row.
+    The difference of an order is the error with which the lower orders extrapolate the last row. Therefore an order is
+    used only as long as the difference of the next order is smaller.
     """
     differences = [rows[-1]]
     while len(rows) > 1:

@@ -11,15 +11,16 @@ from solvers.contact.film import dowson_higginson_minimum
 from solvers.lubricants import FluidLaws
 from solvers.materials import Solid
 
-NO_LOAD = 1e-9  # of Moes' M; its films are 10^18 times b^2/R
+NO_LOAD = 1e-9  # smaller values of Moes' M count as no load; at this M the film is about 10^18 times as thick as b^2/R
 
 
 @dataclass(frozen=True, slots=True)
 class Groups:
-    """Hertz contact and similarity parameters; viscosity is that of the oil at the inlet, at zero pressure.
+    """Hertzian contact and similarity parameters.
 
-    Units: reduced_modulus, maximum_pressure [Pa], half_width, gap_scale (b^2/R) [m], viscosity [Pa s]; moes_m
-    (load), moes_l (lubricant), speed_parameter U = eta (u1 + u2)/(E' R) [-].
+    `reduced_modulus` and `maximum_pressure` [Pa]; `half_width` and `gap_scale` (b^2/R) [m]; `viscosity` of the oil at
+    zero pressure [Pa s]; `moes_m` (load parameter), `moes_l` (lubricant parameter) and `speed_parameter`
+    U = eta (u1 + u2)/(E' R) [-].
     """
 
     reduced_modulus: float
@@ -41,12 +42,12 @@ def groups(inputs: LineContactInputs, temperature: float | None = None) -> Group
     inputs : LineContactInputs
         The contact.
     temperature : float, optional
-        Temperature of the viscosity; None: the inlet temperature [K].
+        Temperature at which the viscosity is taken; by default the inlet temperature [K].
 
     Returns
     -------
     Groups
-        Half width, pressure, scales and parameters M = W U^-1/2 and L = alpha E' U^1/4.
+        Half width, pressure, scales and the parameters M = W U^-1/2 and L = alpha E' U^1/4, where W is w/(E' R).
 
     Notes
     -----
@@ -73,8 +74,8 @@ def groups(inputs: LineContactInputs, temperature: float | None = None) -> Group
 def entry_temperature(inputs: LineContactInputs) -> float:
     """Return the temperature [K] that the oil is expected to have where the film forms.
 
-    It lies between the temperatures of the surfaces and of the inlet, by the Peclet number rho c um h^2/(lambda b) of
-    the film.
+    This temperature lies between the mean bulk temperature of the surfaces and the inlet temperature. The larger the
+    Peclet number rho c um h^2/(lambda b) of the film, the nearer the result is to the inlet temperature.
     """
     temperatures, oil = inputs.temperatures, inputs.lubricant
     if not inputs.model.thermal:
@@ -91,7 +92,7 @@ def entry_temperature(inputs: LineContactInputs) -> float:
 
 
 def moes_central_film(m: float, l: float) -> float:
-    """Compute the central film thickness of the isothermal, incompressible line contact (Nijenbanning and others).
+    """Compute the central film thickness of an isothermal, incompressible line contact (Nijenbanning and others).
 
     Parameters
     ----------
@@ -113,7 +114,7 @@ def moes_central_film(m: float, l: float) -> float:
 
 
 def moes_minimum_film(m: float, l: float) -> float:
-    """Compute the minimum film thickness of the isothermal, incompressible line contact (Nijenbanning and others).
+    """Compute the minimum film thickness of an isothermal, incompressible line contact (Nijenbanning and others).
 
     Parameters
     ----------
@@ -135,7 +136,7 @@ def moes_minimum_film(m: float, l: float) -> float:
 
 
 def _moes_film(l: float, asymptotes: tuple[float, float, float, float]) -> float:
-    """Blend the rigid and elastic, isoviscous and piezoviscous asymptotes (RI, EI, RP, EP)."""
+    """Blend four asymptotes: rigid isoviscous, elastic isoviscous, rigid piezoviscous, elastic piezoviscous."""
     rigid_isoviscous, elastic_isoviscous, rigid_piezoviscous, elastic_piezoviscous = asymptotes
     s = (7.0 + 8.0 * exp(-2.0 * elastic_isoviscous / rigid_isoviscous)) / 5.0
     isoviscous = rigid_isoviscous ** (7 / 3) + elastic_isoviscous ** (7 / 3)
@@ -146,9 +147,9 @@ def _moes_film(l: float, asymptotes: tuple[float, float, float, float]) -> float
 
 
 def moes_gap(contact: Groups) -> float:
-    """Return the central film thickness of Moes in units of b^2/R; infinite without load.
+    """Return the film thickness of `moes_central_film` in units of b^2/R; infinite without load.
 
-    The mesh is graded by it.
+    The grading of the mesh depends on this film thickness.
     """
     if contact.moes_m < NO_LOAD:
         return inf
@@ -156,7 +157,7 @@ def moes_gap(contact: Groups) -> float:
 
 
 def expected_gap(inputs: LineContactInputs) -> float:
-    """Return the expected central film at the temperature at which the film forms, in b^2/R."""
+    """Return the expected central film thickness in units of b^2/R, with the viscosity at the entry temperature."""
     return moes_gap(groups(inputs, entry_temperature(inputs)))
 
 
@@ -176,8 +177,9 @@ def dowson_higginson_film(inputs: LineContactInputs) -> float:
 class Problem(NamedTuple):
     """Constants of a contact for the kernels, in SI units.
 
-    surface_heating_i = (b/(pi rho_i c_i u_i lambda_i))^1/2 [K m^2/W] turns Wt q into a flash temperature. `flux_scale`
-    is rho0 um b^2/R. `rheology` is the position of the law in `inputs.Rheology`.
+    surface_heating_i = (b/(pi rho_i c_i u_i lambda_i))^1/2 [K m^2/W]. Multiplied by Wt q, the product of the matrix
+    `Grid.heat` and the heat flux, it gives the flash temperature of surface i. `flux_scale` is the unit of mass fluxes,
+    rho0 um b^2/R [kg/(m s)]. `rheology` is the position of the law of shear in `inputs.Rheology`.
     """
 
     laws: FluidLaws
@@ -242,7 +244,7 @@ def peclet_number(solid: Solid, speed: float, scales: Groups) -> float:
     Returns
     -------
     float
-        Peclet number [-]; below about 5 heat also spreads along the surface.
+        Peclet number [-]; if it is below about 5, heat also spreads along the surface.
 
     Notes
     -----

@@ -1,8 +1,9 @@
-"""Accuracy of a finished contact: the error estimated from half as many nodes, and balances checked by separate code.
+"""Accuracy of a finished contact: estimated error due to the mesh, and a check of the temperatures by separate code.
 
-Only reported values are used: curves, field and inputs in SI units. The temperature of each surface must equal its bulk
-temperature plus the rise by the heat flux into it. The oil must enter at the given temperature. No point may be colder
-than the coldest of surfaces and inlet by more than the decompression of the oil explains.
+The error due to the mesh is estimated from a solution on half as many nodes. The check uses reported values only:
+curves, field and inputs in SI units. The temperature of each surface must equal its bulk temperature plus the rise due
+to the heat flux into this surface. The oil must enter at the given temperature. A point may be colder than the lowest
+bulk or inlet temperature only by as much as the decompression of the oil explains.
 """
 
 from dataclasses import dataclass, replace
@@ -21,29 +22,31 @@ from solvers.contact.ehl.problem import Problem
 from solvers.contact.ehl.results import ContactCurves, ContactField, MeshError
 from solvers.materials import Solid
 
-FINEST = 481  # chosen: the cost of the dense solution grows with the third power of the nodes
+FINEST = 481  # largest number of nodes, chosen; the cost of the dense solution grows with the third power of the number
 STEPS_ON_FINER = 20.0  # Newton steps that a refinement may take, chosen
 STEPS_ON_COARSER = 12  # Newton steps of the comparison with half as many nodes, chosen
-# A contact on half the nodes is accurate enough after a step within dP, dT [K].
+# Tolerances of P and of temperature [K] for the solution on half the nodes; a smaller Newton step makes it accurate
+# enough.
 NEAR = (0.12, 12.0)
-# Error that is left, as a share of the difference to half as many nodes: 1/3 in second order. If the pressure falls
-# steeply from one node to the next, both meshes have the fall between the same two nodes, wherever it should be. They
-# then agree better with each other than with the truth: from a fall of p_H/2 on, the error is the whole difference.
+# Remaining error as a share of the difference from the result on half as many nodes. The share is 1/3 if convergence is
+# of second order. If the pressure falls steeply from one node to the next, both meshes place the fall between the same
+# two nodes, wherever the fall should be. The two meshes then agree better with each other than with the exact solution.
+# If the fall is p_H/2 or more, the whole difference counts as error.
 SECOND_ORDER = 1 / 3
-LEFT = {"friction": 1 / 2, "generated_heat": 1 / 2}  # where heat decides, the observed order is below two
-LEFT_BY_FALL = 2.0  # per fall in p_H: the error is the whole difference from a fall of p_H/2 on
-AT_INLET = {"central_film", "centre_pressure"}  # the inlet decides them, whatever the pressure does at the outlet
-BEFORE_SPIKES = 0.5  # half widths behind the centre: pressure spikes lie further downstream
-SURFACES = {"surface_1_flash": 0, "surface_2_flash": -1}  # places across the film
+LEFT = {"friction": 1 / 2, "generated_heat": 1 / 2}  # shares of results that depend on heat: their order is below two
+LEFT_BY_FALL = 2.0  # share of the difference, divided by the fall of pressure in p_H
+AT_INLET = {"central_film", "centre_pressure"}  # the inlet decides these results; falls at the outlet have no effect
+BEFORE_SPIKES = 0.5  # half widths downstream of the centre; pressure spikes lie further downstream
+SURFACES = {"surface_1_flash": 0, "surface_2_flash": -1}  # numbers of the nodes across the film
 LEAST = {
     "friction": 1e-3,
     "surface_1_flash": 25.0,
     "surface_2_flash": 25.0,
-}  # [-], [K]: smaller results are compared with these
+}  # [-], [K]; the error of a smaller result is relative to this value
 
 
 def departure(inputs: LineContactInputs, curves: ContactCurves, field: ContactField) -> float:
-    """Return the largest difference [K] between temperatures and what they must be."""
+    """Return the largest difference [K] between the computed temperatures and those that the check requires."""
     contact, bulk = inputs.contact, inputs.temperatures
     t = field.temperature
     fluxes = (curves.surface_1_heat_flux, curves.surface_2_heat_flux)
@@ -83,7 +86,8 @@ def surface_heating(solid: Solid, speed: float, x: FloatArray, flux: FloatArray)
 
     Notes
     -----
-    Eq. E12: strip sources on a fast half-space (Carslaw and Jaeger), (pi rho c lambda u)^-1/2 int q(s) (x - s)^-1/2 ds.
+    Eq. E12: (pi rho c lambda u)^-1/2 int q(s) (x - s)^-1/2 ds, for strip sources on a fast half-space (Carslaw and
+    Jaeger).
     """
     effusivity_squared = solid.density * solid.specific_heat * solid.thermal_conductivity
     return strip_integral(x, flux) / sqrt(pi * effusivity_squared * speed)
@@ -91,9 +95,9 @@ def surface_heating(solid: Solid, speed: float, x: FloatArray, flux: FloatArray)
 
 @kernel
 def strip_integral(x: FloatArray, flux: FloatArray) -> FloatArray:
-    """Compute the integral of q(s) (x - s)^-1/2 up to each x (n,).
+    """Compute the integral of q(s) (x - s)^-1/2 over s from x_0 to each x (n,).
 
-    By parts it is 2 q_0 (x - x_0)^1/2 + int 2 q' (x - s)^1/2 ds.
+    Integration by parts gives 2 q_0 (x - x_0)^1/2 + int 2 q' (x - s)^1/2 ds.
     """
     n = x.size
     slope = np.empty(n)
@@ -113,10 +117,10 @@ def strip_integral(x: FloatArray, flux: FloatArray) -> FloatArray:
 
 
 def inlet_departure(inputs: LineContactInputs, t: FloatArray) -> float:
-    """Return the error [K] of the first column of t (n, k).
+    """Return the error [K] of the first column of the temperatures t (n, k).
 
-    Its walls have their bulk temperatures. Oil that enters has the temperature of the inlet, oil that leaves that of
-    the next column.
+    The walls must have their bulk temperatures. Oil that enters must have the inlet temperature, and oil that leaves
+    must have the temperature of the next column.
     """
     bulk = inputs.temperatures
     walls = max(abs(t[0, 0] - bulk.surface_1), abs(t[0, -1] - bulk.surface_2))
@@ -126,10 +130,11 @@ def inlet_departure(inputs: LineContactInputs, t: FloatArray) -> float:
 
 
 def undercooling(inputs: LineContactInputs, curves: ContactCurves, t: FloatArray) -> float:
-    """Return by how much [K] t (n, k) is colder at its coldest place than bulk, inlet and decompression explain.
+    """Return the cooling [K] at the coldest point of the temperatures t (n, k) that decompression cannot explain.
 
-    Decompression takes q = 0.00065 T u |dp/dx| h per area. It cools the surfaces by its strip integral and the film
-    between them by q h/(8 lambda).
+    The cooling is the difference from the lowest bulk or inlet temperature. Decompression takes up the heat
+    q = 0.00065 T u |dp/dx| h per area. This heat cools the surfaces by `surface_heating` for the flux q, and the film
+    between the surfaces by q h/(8 lambda).
     """
     bulk, contact, oil = inputs.temperatures, inputs.contact, inputs.lubricant
     missing = min(bulk.surface_1, bulk.surface_2, bulk.inlet) - float(t.min())
@@ -146,9 +151,10 @@ def undercooling(inputs: LineContactInputs, curves: ContactCurves, t: FloatArray
 
 @dataclass(frozen=True, slots=True)
 class Comparison:
-    """The results of a contact and of the same contact on half the nodes, in groups named as in `MeshError`.
+    """The results of a contact (`fine`) and of the same contact on half the nodes (`coarse`).
 
-    `fall` is the steepest fall of P from one node to the next; `kinks` are the kinks of the surface temperatures [K].
+    The results are tuples of parts, with the names of `MeshError`. `fall` is the steepest fall of P from one node to
+    the next, and `kinks` are the results of `_kink` for both surfaces [K].
     """
 
     fine: dict[str, tuple[float, ...]]
@@ -157,11 +163,11 @@ class Comparison:
     kinks: dict[str, float]
 
     def smooth_error(self) -> MeshError:
-        """Return the error that is left without spikes and kinks, which more nodes soon reduce."""
+        """Return the error without the effect of spikes and kinks; more nodes soon reduce this error."""
         return self._error(0.0, {})
 
     def error(self) -> MeshError:
-        """Return the error that is left, including that of spikes, which no mesh here resolves."""
+        """Return the error with the effect of spikes and kinks, which no mesh up to `FINEST` resolves."""
         return self._error(min(LEFT_BY_FALL * self.fall, 1.0), self.kinks)
 
     def _error(self, left_at_spike: float, kinks: dict[str, float]) -> MeshError:
@@ -171,7 +177,7 @@ class Comparison:
             left = max(LEFT.get(name, SECOND_ORDER), 0.0 if name in AT_INLET else left_at_spike)
             missing = max(left * moved, kinks.get(name, 0.0))
             errors[name] = missing / max(abs(sum(parts)), LEAST.get(name, 0.0))
-        # The oil that passes the centre also passes the thinnest place.
+        # The oil that passes the centre also passes the thinnest place, so both film thicknesses share their error.
         errors["minimum_film"] = max(errors["minimum_film"], errors["central_film"])
         return MeshError(**errors)
 
@@ -179,11 +185,11 @@ class Comparison:
 def refine(
     inputs: LineContactInputs, constants: Problem, resolution: Resolution, attempt: Attempt, budget: Budget
 ) -> tuple[Attempt, MeshError | None]:
-    """Return a converged attempt on a fine enough mesh, and the error left in its results (None: not known).
+    """Return a converged attempt on a sufficiently fine mesh, and the error of its results (None if unknown).
 
-    The attempt stays on its mesh if this is fine enough, is the finest, or if no refinement is asked for, or if the
-    finer one does not converge within the steps left. The decision depends on the contact only, never on the way to its
-    solution.
+    The attempt stays on its mesh in four cases: the mesh is fine enough; it is the finest mesh; no refinement is
+    requested; or the solution on a finer mesh does not converge within the remaining steps. The decision depends on
+    the contact only, and not on how the contact was solved.
     """
     comparison = compare(inputs, constants, resolution, attempt)
     while inputs.model.refine_mesh and not is_acceptable(comparison) and resolution.nodes < FINEST:
@@ -200,14 +206,14 @@ def refine(
 
 
 def is_acceptable(comparison: Comparison | None) -> bool:
-    """Return whether a finer mesh is not worth its price."""
+    """Return whether the error that more nodes would reduce is within the limit; False if the error is unknown."""
     return comparison is not None and comparison.smooth_error().largest <= LARGEST_MESH_ERROR
 
 
 def finer_nodes(nodes: int, comparison: Comparison | None) -> int:
-    """Return a number of nodes with a second-order error below the limit.
+    """Return the number of nodes with which an error of second order would fall below the limit.
 
-    It grows in steps of sqrt(2), so that contacts share meshes.
+    The number of intervals grows by a power of sqrt(2), so that contacts share meshes.
     """
     excess = 4.0 if comparison is None else min(comparison.smooth_error().largest / LARGEST_MESH_ERROR, 16.0)
     half_octaves = max(ceil(log2(excess)), 1)
@@ -217,10 +223,10 @@ def finer_nodes(nodes: int, comparison: Comparison | None) -> int:
 def compare(
     inputs: LineContactInputs, constants: Problem, resolution: Resolution, attempt: Attempt
 ) -> Comparison | None:
-    """Return the comparison of a contact with the same on every other node (Richardson); None if that is not solved.
+    """Compare a contact with the same contact on half the nodes (Richardson); return None if the latter is not solved.
 
-    The contact on half the nodes is so near that mostly one Newton step solves it. A spike or a hot film needs more
-    steps, because half the nodes keep the peak that they are given.
+    The solution on half the nodes starts from the contact's own solution. Mostly one Newton step is enough. A spike or
+    a hot film needs more steps, because the coarser mesh at first keeps the peak with which it starts.
     """
     grid = grid_for(resolution.gap, resolution.nodes // 2 + 1)
     state = interpolate(attempt.state, attempt.grid.x, grid.x)
@@ -236,25 +242,27 @@ def compare(
 
 
 def _steepest_fall(attempt: Attempt) -> float:
-    """Return the largest fall of P from one node to the next, behind the centre."""
+    """Return the largest fall of P from one node to the next, downstream of the centre."""
     return float(-np.diff(attempt.state.pressure[attempt.grid.x > 0.0]).min())
 
 
 def _kink(attempt: Attempt, surface: int) -> float:
-    """Return by how much a surface temperature behind the centre exceeds the mean of both neighbours [K].
+    """Return the largest excess [K] of a surface temperature over the mean of its neighbours, downstream of the centre.
 
-    It is the heat of a spike that only one node sees: a node nearer to the spike would receive as much again.
+    This excess comes from the heat of a spike that affects only one node. A node nearer to the spike would rise by as
+    much again.
     """
     t = attempt.state.temperature[attempt.grid.x > 0.0, surface]
     return float((t[1:-1] - 0.5 * (t[:-2] + t[2:])).max())
 
 
 def _parts(inputs: LineContactInputs, constants: Problem, attempt: Attempt) -> dict[str, tuple[float, ...]]:
-    """Return the results of a contact except local maxima, by the names of `MeshError`, as sums of parts.
+    """Return the results of a contact except local maxima, by the names of `MeshError`, as tuples of parts.
 
-    Friction, heat and flash temperatures are divided where the pressure spike begins. With more nodes the film is
-    thicker, so that less heat arises before the spike; the spike is sharper, so that more heat arises behind it. The
-    sum can therefore be equal on two meshes although it has not converged; the parts differ.
+    Friction, heat and flash temperatures have two parts: before and behind the place where pressure spikes begin. With
+    more nodes the film is thicker, so less heat arises before this place. The spike is also sharper, so more heat
+    arises behind this place. Therefore the sum of the parts can be equal on two meshes although it has not converged,
+    but then the parts differ.
     """
     heights = measures.film_heights(constants, attempt)
     parts: dict[str, tuple[float, ...]] = {

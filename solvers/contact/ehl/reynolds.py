@@ -11,17 +11,17 @@ from solvers.contact.ehl.grid import Grid
 from solvers.contact.ehl.linear_algebra import multiply
 from solvers.contact.ehl.problem import Problem
 
-PATIENCE = 10  # iterations before the rupture tolerance applies
-RUPTURE_TOLERANCE = 5e-3  # of the flux
-HALVINGS = 12  # a step below 1/4096 of Newton's step does not help
+PATIENCE = 10  # number of iterations before the rupture tolerance applies
+RUPTURE_TOLERANCE = 5e-3  # share of the flux, see `release_cavitated`
+HALVINGS = 12  # largest number of halvings of a step; a step below 1/4096 of Newton's step does not help
 
 
 class FaceFluxes(NamedTuple):
     """Mass flux (divided by flux_scale) through the face on the right of each node, and its derivatives.
 
-    Shapes: flux and conductance A H^3/dX (n,); by_b (n, 2), by B of the node and of its upstream neighbour (at the
-    first face: downstream neighbour); by_log_a (n, 2), by ln A of nodes i and i+1; by_pressure (n, 5), by nodes
-    i-2..i+2; by_film (n, 3), by nodes i-1..i+1.
+    `flux` (n,); `conductance` A H^3/dX (n,). Derivatives of the flux at the right of node i: `by_b` (n, 2) by B of node
+    i and of its upstream neighbour (at the first face, its downstream neighbour); `by_log_a` (n, 2) by ln A of nodes i
+    and i+1; `by_pressure` (n, 5) by P of nodes i-2..i+2; `by_film` (n, 3) by H of nodes i-1..i+1.
     """
 
     flux: FloatArray
@@ -65,7 +65,7 @@ def film_shape(grid: Grid, pressure: FloatArray, separation: float, film: FloatA
 
 @kernel
 def gradient_stencil(x: FloatArray, i: int, cavitated: BoolArray) -> tuple[int, int, float]:
-    """Return the two nodes whose pressure difference gives dP/dX at node i, and its factor."""
+    """Return the two nodes whose pressure difference gives dP/dX at node i, and the factor of this difference."""
     n = x.size
     left, right = max(i - 1, 0), min(i + 1, n - 1)
     if cavitated[i]:
@@ -93,8 +93,8 @@ def pressure_gradients(x: FloatArray, pressure: FloatArray, cavitated: BoolArray
     Notes
     -----
     Eq. E14: the difference is central, one-sided at the inlet, and zero where the film is broken. At the last node
-    before the rupture the difference is forward, so that the gradient vanishes with the pressure: a node can join the
-    broken film without a jump.
+    before the rupture the difference is forward, so that the gradient vanishes if the pressure of this node vanishes.
+    The node can then join the broken film without a jump of the gradient.
     """
     for i in range(x.size):
         left, right, factor = gradient_stencil(x, i, cavitated)
@@ -103,9 +103,9 @@ def pressure_gradients(x: FloatArray, pressure: FloatArray, cavitated: BoolArray
 
 @kernel
 def _log_mean(a: float, b: float) -> tuple[float, float]:
-    """Return the logarithmic mean of e^a and e^b and its logarithmic derivative by a.
+    """Return the logarithmic mean of e^a and e^b, and the derivative of the logarithm of this mean by a.
 
-    The mean is exact for an exponential between the nodes.
+    The mean is exact if the coefficient varies exponentially between the nodes.
     """
     half = 0.5 * (a - b)
     middle = np.exp(0.5 * (a + b))
@@ -145,8 +145,9 @@ def mass_fluxes(
 
     Notes
     -----
-    Eqs. E7, E13: m = B H - A H^3 dP/dX. The Couette part is extrapolated from the two nodes upstream, of second order;
-    first-order upwinding makes the film 12 per cent thicker. The Poiseuille part uses the logarithmic mean of A.
+    Eqs. E7, E13: m = B H - A H^3 dP/dX. The Couette part is extrapolated from the two nodes upstream, with an error of
+    second order. First-order upwinding would make the film 12 per cent thicker. The Poiseuille part uses the
+    logarithmic mean of A.
     """
     couette_scale, poiseuille_scale = _flux_scales(problem)
     log_a, b = coefficients.log_a, coefficients.b
@@ -172,10 +173,10 @@ def mass_flux_slopes(
     coefficients: FlowCoefficients,
     faces: FaceFluxes,
 ) -> None:
-    """Compute the derivatives of `mass_fluxes` by the pressures and the film around each face.
+    """Compute the derivatives of the mass fluxes by the pressures and film thicknesses around each face.
 
-    First come the derivatives of B and ln A of each node by P at the node and beside it, and by H; B and ln A depend on
-    p, G = h dp/dx and h.
+    B and ln A of a node depend on p, G = h dp/dx and h. The derivatives of B and ln A are computed first: by P of the
+    node and of its neighbours, and by H of the node.
     """
     n, (couette_scale, _), b, log_a = grid.x.size, _flux_scales(problem), coefficients.b, coefficients.log_a
     slope = problem.maximum_pressure / problem.half_width
@@ -210,7 +211,7 @@ def mass_flux_slopes(
 
 @inlined_kernel
 def _flux_scales(problem: Problem) -> tuple[float, float]:
-    """Return the factors of B H and of A H^3 dP/dX in units of the flux scale."""
+    """Return the factors that turn B H and A H^3 dP/dX into fluxes in units of the flux scale."""
     couette = problem.gap_scale / problem.flux_scale
     return couette, couette * problem.gap_scale**2 * problem.maximum_pressure / problem.half_width
 
@@ -219,7 +220,7 @@ def _flux_scales(problem: Problem) -> tuple[float, float]:
 def _upstream(x: FloatArray, i: int) -> tuple[int, float]:
     """Return the node upstream of node i, and its weight in the extrapolation of B H to the face on the right of i.
 
-    At the first face it returns the downstream node and the weight of the mean.
+    The first face has only one node upstream. There the result is the node downstream and the weight of the mean, 0.5.
     """
     if i == 0:
         return 1, 0.5
@@ -245,7 +246,7 @@ def add_flux_changes(
 def balance_of_mass(
     grid: Grid, pressure: FloatArray, cavitated: BoolArray, faces: FaceFluxes, residual: FloatArray
 ) -> None:
-    """Compute the residual of the balance of mass, of the broken film and of the load, in place.
+    """Compute the residuals of the balances of mass and load and of the broken film, in place.
 
     Parameters
     ----------
@@ -258,7 +259,8 @@ def balance_of_mass(
     faces : FaceFluxes
         Mass fluxes through the faces.
     residual : FloatArray
-        Receives the residual (n + 1,): d(flux)/dx = 0, or P = 0 where the film is broken, then the load [-].
+        Receives the residuals (n + 1,): at each node, the outflow minus the inflow, or P at both ends and where the
+        film is broken; after the nodes, the residual of the load [-].
 
     Notes
     -----
@@ -306,10 +308,10 @@ def assemble_jacobian(grid: Grid, cavitated: BoolArray, faces: FaceFluxes, jacob
 
 @kernel
 def release_cavitated(faces: FaceFluxes, cavitated: BoolArray, tolerance: float) -> bool:
-    """Return broken nodes with more inflow than outflow to the full film; return whether there were any.
+    """Move broken nodes with more inflow than outflow to the full film, and return whether any node was moved.
 
-    `tolerance` is the imbalance, relative to the flux, that a broken node may keep. Without it one node at the rupture
-    can change sides for ever.
+    `tolerance` is the imbalance, relative to the flux, that a broken node may keep. Without this tolerance, a node at
+    the rupture can change between full and broken film for ever.
     """
     changed = False
     for i in range(1, cavitated.size - 1):
@@ -328,10 +330,11 @@ def apply_pressure_step(
     step: FloatArray,
     scale: float,
 ) -> tuple[float, bool]:
-    """Move (P, H0) by `scale` times the step (n + 1,), or less if the film would close.
+    """Change (P, H0) by `scale` times the step (n + 1,), or by less if the film would close.
 
-    Nodes behind the centre whose pressure falls below zero join the broken film. Both the scale that was taken and
-    whether any node joined are returned. At both ends the pressure is zero, whatever another mesh left there.
+    Nodes downstream of the centre whose pressure would fall below zero join the broken film. The result is the scale
+    that was used, and whether any node joined the broken film. The pressure at both ends is set to zero, because a
+    state from another mesh may have other values there.
     """
     n = grid.x.size
     trial, film = np.empty(n), np.empty(n)

@@ -1,15 +1,16 @@
-"""How oil shears: all that the solver knows of the laws of Newton and of Ree and Eyring.
+"""Laws of shear of the oil: Newton's law, and the law of Ree and Eyring.
 
-With G = h dp/dx the stress is tau = tau_m + G (zeta - 1/2). A law gives four things, each in a function that chooses by
-`Problem.rheology`:
+The stress is tau = tau_m + G (zeta - 1/2), where G is h dp/dx and zeta is the height over the film thickness. Four
+functions contain all that depends on the law, and choose the law by `Problem.rheology`:
 
-limited_gradient  the G up to which it can be evaluated
-mid_film_stress   the stress half way across a column at which it slides at u2 - u1
-shear_rates       the shear rate of every interval under its stress, and its derivative by the stress
+limited_gradient  G, limited to values at which the law can be evaluated
+mid_film_stress   the stress half way across a column for which the sliding speed is u2 - u1
+shear_rates       the shear rate of every interval for its stress, and the derivative of the rate by the stress
 uniform_shear     flow and stress in a film at one temperature
 
-A law more is a name in `inputs.Rheology`, these four here, and `effective_fluidity`, `mid_film_stress` and
-`uniform_columns` in `equations`, against which tests compare every law of that list.
+A further law needs a name in `inputs.Rheology`, a branch in these four functions, and a branch in `effective_fluidity`,
+`mid_film_stress` and `uniform_columns` of `equations`. The tests compare every law of `inputs.Rheology` with
+`equations`.
 """
 
 from typing import get_args
@@ -22,11 +23,11 @@ from solvers.contact.ehl.problem import Problem
 from solvers.contact.ehl.shear import Shear
 
 REE_EYRING, NEWTONIAN = map(get_args(Rheology).index, ("ree_eyring", "newtonian"))
-STRESS_LIMIT = 300.0  # of |h dp/dx| / (2 tau0): exp(300)^2 does not overflow
+STRESS_LIMIT = 300.0  # largest |h dp/dx|/(2 tau0); exp(300)^2 does not overflow
 
 
 def softened(problem: Problem, stress: float) -> Problem | None:
-    """Return the contact with a Ree-Eyring oil of a low Eyring stress [Pa], or None if its own oil is as soft."""
+    """Return the contact with a Ree-Eyring oil of a lower Eyring stress [Pa], or None if `stress` is not lower."""
     if problem.rheology == REE_EYRING and stress >= problem.eyring_stress:
         return None
     return problem._replace(rheology=REE_EYRING, eyring_stress=stress)
@@ -43,7 +44,7 @@ def limited_gradient(problem: Problem, g: float) -> float:
 
 @inlined_kernel
 def mid_film_stress(problem: Problem, i: int, g: float, h: float, shear: Shear) -> float:
-    """Compute the stress half way across column i at which the film slides at u2 - u1.
+    """Compute the stress half way across column i for which the sliding speed is u2 - u1.
 
     Parameters
     ----------
@@ -86,10 +87,11 @@ def _newtonian_mid_stress(problem: Problem, i: int, g: float, h: float, shear: S
 
 @inlined_kernel
 def _eyring_mid_stress(problem: Problem, i: int, g: float, h: float, shear: Shear) -> float:
-    """Solve for tau_m = tau0 a in closed form for e^a; the form for du < 0 is the conjugate, free of cancellation."""
+    """Compute tau_m = tau0 a from a closed form of e^a; for du < 0 the conjugate form avoids cancellation."""
     m = shear.fluidity.shape[1]
     tau0, dz = problem.eyring_stress, 1.0 / m
-    growth, ratio = np.exp(g * (0.5 * dz - 0.5) / tau0), np.exp(g * dz / tau0)  # e^(G (zeta - 1/2)/tau0) grows by
+    # e^(G (zeta - 1/2)/tau0) in the first interval, and the ratio of this factor in two neighbouring intervals
+    growth, ratio = np.exp(g * (0.5 * dz - 0.5) / tau0), np.exp(g * dz / tau0)
     c_plus, c_minus = 0.0, 0.0
     for j in range(m):
         c_plus += shear.fluidity[i, j] * growth * dz
@@ -162,7 +164,7 @@ def _eyring_rates(problem: Problem, i: int, g: float, tau_m: float, shear: Shear
 
 @inlined_kernel
 def uniform_shear(problem: Problem, log_eta: float, g: float, h: float) -> tuple[float, float, float, float, float]:
-    """Compute the effect of shear on a film at one temperature.
+    """Compute flow and mid-film stress of a film at one temperature.
 
     Parameters
     ----------
@@ -182,9 +184,10 @@ def uniform_shear(problem: Problem, log_eta: float, g: float, h: float) -> tuple
 
     Notes
     -----
-    Eq. E7.2. A Newtonian oil has A = rho/(12 eta). For Ree-Eyring with s = G/(2 tau0): sinh a = eta du s/(tau0 h sinh
-    s), tau_m = tau0 a and 12 eta A/rho = cosh a 3 (s cosh s - sinh s)/s^3. `sigma` is s/sinh s and `phi` is the last
-    factor, both by series near s = 0; their slopes are those of their logarithms.
+    Eq. E7.2. A Newtonian oil has A = rho/(12 eta). A Ree-Eyring oil, with s = G/(2 tau0), has sinh a = eta du s/(tau0 h
+    sinh s), tau_m = tau0 a and 12 eta A/rho = cosh a 3 (s cosh s - sinh s)/s^3. In the code, `sigma` is s/sinh s and
+    `phi` is 3 (s cosh s - sinh s)/s^3; near s = 0 both are computed by series. `sigma_slope` and `phi_slope` are the
+    derivatives of ln sigma and ln phi by s.
     """
     du = problem.speed_2 - problem.speed_1
     if problem.rheology == NEWTONIAN:

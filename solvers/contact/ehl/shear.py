@@ -1,4 +1,4 @@
-"""The film across the columns: its arrays, viscosities and densities, and the response of its stress."""
+"""Shear across the columns of the film: arrays, viscosities, densities, and derivatives of the mid-film stress."""
 
 from typing import NamedTuple
 
@@ -13,8 +13,10 @@ from solvers.lubricants import density, log_viscosity, pressure_part
 class Shear(NamedTuple):
     """Shear and density of the oil in all intervals (n, m).
 
-    Fluidity 1/eta and its logarithmic derivatives by temperature and pressure, stress [Pa], rate [1/s], stiffness d
-    rate/d stress, effective fluidity rate/stress and its derivative by stress.
+    `fluidity` is 1/eta [1/(Pa s)]; `by_temperature` [1/K] and `by_pressure` [1/Pa] are the derivatives of ln(1/eta).
+    `stress` [Pa]; `rate` [1/s]; `stiffness` is the derivative of the rate by the stress [1/(Pa s)]. `effective` is the
+    rate divided by the stress [1/(Pa s)]; `effective_slope` is the derivative of `effective` by the stress.
+    `density` [kg/m^3].
     """
 
     fluidity: FloatArray
@@ -29,11 +31,11 @@ class Shear(NamedTuple):
 
 
 class Flow(NamedTuple):
-    """Flow between surface 1 and the nodes, and its derivatives by nodal temperature, all (n, m + 1).
+    """Stream functions at the nodes, and derivatives of ln A and B by nodal temperature, all (n, m + 1).
 
-    `stream` is the stream function [kg/(m s)], `couette` is its part without pressure gradient, and `poiseuille` is the
-    shape, from 0 to 1, of its part with pressure gradient. The derivatives are those of the flow coefficients ln A and
-    B.
+    `stream` is the mass flow between surface 1 and a node [kg/(m s)]. `couette` is the part of this flow that does not
+    depend on the pressure gradient [kg/(m s)]. `poiseuille` is the profile of the part due to the pressure gradient; it
+    rises from 0 at surface 1 to 1 at surface 2.
     """
 
     stream: FloatArray
@@ -48,7 +50,10 @@ MOMENTS = floats("density", "f0", "f1", "n0", "n1")
 
 
 class MidFilm(NamedTuple):
-    """Stress half way across [Pa] and its derivatives by p, G = h dp/dx and h (n,), by nodal temperature (n, m + 1)."""
+    """Shear stress half way across the film (n,) [Pa], and the derivatives of this stress.
+
+    The derivatives by p, G = h dp/dx and h have the shape (n,), those by nodal temperature the shape (n, m + 1).
+    """
 
     stress: FloatArray
     by_temperature: FloatArray
@@ -76,7 +81,7 @@ def film_arrays(nodes: int, film_nodes: int) -> Film:
 
 @inlined_kernel
 def viscosities(problem: Problem, i: int, temperature: FloatArray, p: float, shear: Shear) -> None:
-    """Compute fluidity 1/eta and density of all intervals of column i at their mean temperatures, in place."""
+    """Compute fluidity 1/eta and density of each interval of column i at its mean temperature, in place."""
     laws, m = problem.laws, temperature.shape[1] - 1
     term, term_slope = pressure_part(laws, p)
     base, _, by_heating = density(laws, p, laws.reference_temperature)
@@ -93,7 +98,7 @@ def viscosities(problem: Problem, i: int, temperature: FloatArray, p: float, she
 def stress_response(problem: Problem, i: int, h: float, film: Film) -> None:
     """Compute the derivatives of the mid-film stress by temperatures, p, G and h at constant sliding speed, in place.
 
-    They hold for any law of shear.
+    The formulas hold for any law of shear.
     """
     shear, mid, m = film.shear, film.mid, film.shear.stress.shape[1]
     height, total, by_p, by_g = 1.0 / m, 0.0, 0.0, 0.0

@@ -14,15 +14,17 @@ from solvers.contact.ehl.reynolds import FaceFluxes, face_arrays, film_shape, ma
 from solvers.contact.ehl.rheology import limited_gradient
 from solvers.contact.ehl.shear import Film, film_arrays
 
-# First columns of the passes. They are not literals, because numba would compile the passes again for each literal.
+# Numbers of the first column of a pass: 0, or 1 for a pass that leaves out the first column. They are not literals,
+# because numba would compile the passes again for each literal.
 FIRST, NEXT = cast("int", np.int64(0)), cast("int", np.int64(1))
 
 
 class State(NamedTuple):
-    """Unknowns at n nodes along and k across: pressure/p_H (n,), rigid separation H0 (1,), temperature (n, k) [K].
+    """Unknowns at n nodes along the contact and k nodes across the film.
 
-    `cavitated` (n,) marks the nodes of broken film. `history` (1,) holds the number of iterations and the last changes
-    max|dP| and max|dT| [K] (NaN: none).
+    `pressure` P = p/p_H (n,); rigid `separation` H0 (1,); `temperature` (n, k) [K]. `cavitated` (n,) marks the nodes
+    at which the film is broken. `history` (1,) holds the number of iterations and the changes max|dP| and max|dT| [K]
+    in the last iteration; the changes are NaN before the first iteration.
     """
 
     pressure: FloatArray
@@ -33,16 +35,17 @@ class State(NamedTuple):
 
 
 def no_steps() -> RecordArray:
-    """Return the history of a state before the first step: its changes are NaN."""
+    """Return the history of a state before the first iteration."""
     history = records(1, floats("iterations", "pressure_change", "temperature_change"))
     history.pressure_change = history.temperature_change = np.nan
     return history
 
 
 class Work(NamedTuple):
-    """Quantities that follow from a state: film H and dP/dX (n,); place, flow, film and heat of all columns.
+    """Quantities that follow from a state.
 
-    `at` (n,) of PLACE has pressure, h dp/dx and film thickness in SI units.
+    `height` is the film thickness H (n,), and `gradient` is dP/dX (n,). `at` (n,) of PLACE holds pressure, h dp/dx and
+    film thickness of the columns in SI units. The other fields hold flow coefficients, mass fluxes, shear and heat.
     """
 
     height: FloatArray
@@ -69,7 +72,7 @@ def work_arrays(nodes: int, film_nodes: int) -> Work:
 
 @kernel
 def evaluate_flow(problem: Problem, grid: Grid, state: State, work: Work) -> bool:
-    """Compute film, stress and flow of all columns; return whether the guard on the pressure gradient acted."""
+    """Compute film thickness, stress and flow of all columns; return whether a pressure gradient had to be limited."""
     film_shape(grid, state.pressure, state.separation[0], work.height)
     pressure_gradients(grid.x, state.pressure, state.cavitated, work.gradient)
     slope, limited = problem.maximum_pressure / problem.half_width, False
@@ -86,7 +89,7 @@ def evaluate_flow(problem: Problem, grid: Grid, state: State, work: Work) -> boo
 
 @kernel
 def fluid_fractions(problem: Problem, state: State, work: Work) -> float:
-    """Compute the fraction of the gap that oil fills at all nodes, in place.
+    """Compute the fraction of the gap that oil fills at each node, in place.
 
     Parameters
     ----------
@@ -104,8 +107,8 @@ def fluid_fractions(problem: Problem, state: State, work: Work) -> float:
 
     Notes
     -----
-    Eq. E8.2. Where the film is broken, oil fills the share of the gap that carries the flux. The flux is taken at the
-    largest pressure, because it does not depend on the pressure gradient there.
+    Eq. E8.2. Where the film is broken, oil fills only the fraction of the gap that is needed to carry the mass flux.
+    The mass flux is taken at the largest pressure, where the flux hardly depends on the pressure gradient.
     """
     flux = work.faces.flux[state.pressure.argmax()] * problem.flux_scale
     for i in range(state.pressure.size):
@@ -116,7 +119,7 @@ def fluid_fractions(problem: Problem, state: State, work: Work) -> float:
 
 @kernel
 def match_stream(problem: Problem, state: State, work: Work) -> None:
-    """Compute stream functions by which all columns carry the same mass, in place.
+    """Compute stream functions for which all columns carry the same mass flux, in place.
 
     Parameters
     ----------
@@ -129,9 +132,9 @@ def match_stream(problem: Problem, state: State, work: Work) -> None:
 
     Notes
     -----
-    Eq. E8.1. A full column carries the rest of the flux, which the surfaces do not drag, with the profile of pressure
-    flow. A broken column keeps the profile of the last full one in a fraction of the gap. Convection thus conserves
-    mass during the iteration, too.
+    Eq. E8.1. In a full column the surfaces drag a part of the mass flux; the remaining part has the profile of pressure
+    flow. A broken column has the stream function of the last full column. Convection therefore conserves mass even if
+    the iteration has not converged yet.
     """
     flow, heat = work.film.flow, work.heat
     flux = fluid_fractions(problem, state, work)
@@ -148,9 +151,9 @@ def match_stream(problem: Problem, state: State, work: Work) -> None:
 
 @kernel
 def evaluate_state(problem: Problem, grid: Grid, state: State, work: Work) -> bool:
-    """Compute the residual of all columns and faces; return whether the guard on the pressure gradient acted.
+    """Compute the residuals of all columns and faces; return whether a pressure gradient had to be limited.
 
-    The film stays broken up to the end of the mesh.
+    If the film is broken at the last node but one, it is broken at the last node as well.
     """
     state.cavitated[-1] = state.cavitated[-2]
     limited = evaluate_flow(problem, grid, state, work)
@@ -162,9 +165,10 @@ def evaluate_state(problem: Problem, grid: Grid, state: State, work: Work) -> bo
 
 @kernel
 def linearise_state(problem: Problem, state: State, work: Work, damping: float) -> None:
-    """Compute the derivatives of the columns of an evaluated state; `damping` is that of `linearise_balances`.
+    """Compute the derivatives of the columns of an evaluated state.
 
-    The carriers of heat are held fixed: the stream function, the fluid fraction and the density that is compressed.
+    Three quantities that carry heat are held fixed: the stream function, the fluid fraction, and the density in the
+    heat of compression. `damping` is that of `linearise_balances`.
     """
     n = work.at.size
     linearise_columns(problem, FIRST, n, work.at, work.film, work.coefficients)

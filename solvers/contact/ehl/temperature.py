@@ -1,4 +1,4 @@
-"""Temperatures marched along the flow: the first guess, and the linear step inside Newton's method."""
+"""Temperatures computed column by column along the flow: the first guess, and the linear step of Newton's method."""
 
 import numpy as np
 
@@ -21,17 +21,17 @@ from solvers.contact.ehl.reynolds import film_shape
 from solvers.contact.ehl.shear import Film
 from solvers.contact.ehl.state import State, Work
 
-LARGEST_STEP = 40.0  # K
+LARGEST_STEP = 40.0  # K, largest change of a temperature in one iteration of a column
 COLUMN_ITERATIONS = 60  # limit; a column that has not converged by then does not converge at all
-REVERSE_SWEEPS = 3  # chosen: one sweep carries the heat of reverse flow once against the direction of the march
+REVERSE_SWEEPS = 3  # chosen; a sweep carries the heat of reverse flow against the direction of the march only once
 
 
 @kernel
 def march_temperatures(problem: Problem, grid: Grid, state: State, work: Work) -> None:
-    """Compute first temperatures at given pressures: columns of one Couette flow, solved one after the other.
+    """Compute a first guess of the temperatures at given pressures, one column after the other.
 
-    The columns have no pressure gradient. A column starts from the one before it, so that all stay on the same branch
-    of solutions as the inlet.
+    All columns have the same mass flux of Couette flow, without a pressure gradient. The iteration of a column starts
+    from the temperatures of the column before it. Thus all columns stay on the same branch of solutions as the inlet.
     """
     film, heat, temperature = work.film, work.heat, state.temperature
     n, nodes = temperature.shape
@@ -68,7 +68,7 @@ def march_temperatures(problem: Problem, grid: Grid, state: State, work: Work) -
 
 @kernel
 def last_reverse(convection: Convection) -> int:
-    """Return the last column into which oil flows from the right; 0 if there is none."""
+    """Return the last column into which oil flows from its right neighbour; 0 if there is no such column."""
     n, nodes = convection.from_right.shape
     for i in range(n - 2, 0, -1):
         for k in range(nodes):
@@ -79,7 +79,10 @@ def last_reverse(convection: Convection) -> int:
 
 @inlined_kernel
 def _relax_column(i: int, film: Film, heat: Heat, given: FloatArray, weight: float, step: FloatArray) -> None:
-    """Compute the temperature step of column i from its neighbours and the surfaces upstream, and add `given`."""
+    """Compute the temperature step of column i from the steps of its neighbours and surfaces, and add `given`.
+
+    `given` and `weight` are those of `temperature_step`.
+    """
     from_left, from_right, residual = heat.convection.from_left, heat.convection.from_right, heat.column.residual
     n, m = step.shape[0], step.shape[1] - 1
     for k in range(m + 1):
@@ -98,10 +101,12 @@ def _relax_column(i: int, film: Film, heat: Heat, given: FloatArray, weight: flo
 def temperature_step(
     problem: Problem, grid: Grid, film: Film, heat: Heat, given: FloatArray, weight: float, step: FloatArray
 ) -> None:
-    """Solve the linearised heat balance of all columns for `step` (n, k), with the responses `given` to pressure.
+    """Solve the linearised heat balance of all columns for the temperature step `step` (n, k).
 
-    The solution marches along the flow. Columns with reverse flow are swept backward in between, with the previous step
-    of their right neighbours. `weight` multiplies the residual: 1 for a Newton step, 0 for the derivative alone.
+    The solution marches along the flow. If there is reverse flow, the columns with reverse flow are first swept forward
+    and backward, with the latest step of their right neighbours. `given` (n, k) is the temperature change that a change
+    of pressure causes at fixed temperatures upstream. `weight` multiplies the residual: it is 1 for a Newton step, and
+    0 for the effect of `given` alone.
     """
     n, last = step.shape[0], step.shape[1] - 1
     surfaces, residual = heat.surfaces, heat.column.residual
@@ -140,8 +145,8 @@ def inlet_step(problem: Problem, work: Work, temperature: FloatArray, step: Floa
     Notes
     -----
     Eq. E8.3. The walls have their bulk temperatures, oil that enters has the temperature of the inlet, and oil that
-    leaves has that of the next column. The flux and a uniform viscosity decide where oil enters, so that the decision
-    does not depend on the temperatures that follow from it.
+    leaves has the temperature of the next column. The heights at which oil enters follow from the mass flux and a
+    uniform viscosity, so they do not depend on the computed temperatures.
     """
     nodes = step.shape[1]
     u1, u2 = problem.speed_1, problem.speed_2

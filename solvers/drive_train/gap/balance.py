@@ -1,11 +1,12 @@
 """The gap over the face at which mesh and shafts are in equilibrium.
 
-A gap distributes the load over the face, and this load bends the shafts into a gap; the two gaps have to be equal. The
-unknown is the gap g at the stations. The residual R is g minus the gap of shafts, bearings and couplings under the load
-that belongs to g. Newton's step is (I - D B) dg = -R. B = dQ/dg is the derivative of the mesh force, as its mean over a
-base pitch: the mesh frequency lies far above any bending or film frequency, so the shafts follow the mean. D is the
-derivative of the gap by Q, with the couplings. The mean of the gap belongs to the transmission error and is subtracted.
-The iteration starts with fewer roll positions and slices, where it makes most of its steps.
+The gap determines how the load is distributed over the face. This load bends the shafts, and the bent shafts have a
+gap. Both gaps have to be equal. The unknown is the gap g at the stations. The residual R is g minus the gap of shafts,
+bearings and couplings under the load that belongs to g. Newton's step dg follows from (I - D B) dg = -R. B = dQ/dg is
+the derivative of the mesh force Q, which is a mean over a base pitch. The shafts follow only this mean, because the
+mesh frequency lies far above any frequency of bending or of the bearing films. D is the derivative of the gap by Q and
+includes the couplings. The mean of the gap belongs to the transmission error and is subtracted. The first steps, which
+are most of the steps, are made with fewer roll positions and slices.
 """
 
 from dataclasses import dataclass, replace
@@ -26,18 +27,18 @@ from solvers.scuffing.modification import kinks_along_face, kinks_along_path
 
 TOLERANCE = 1e-12  # m
 ITERATIONS = 40  # chosen: an iteration that needs more does not converge
-COARSER = 4  # divisor of roll positions and slices; it changes the gap by a nanometre
+COARSER = 4  # divisor of the numbers of roll positions and slices; the coarse mesh changes the gap by a nanometre
 ROUGH_TOLERANCE = 1e-9  # m
-ROUGH_ITERATIONS = 10  # the start need not be exact
-LEAST_STEP = 1 / 64  # chosen: after six halvings the step is accepted
+ROUGH_ITERATIONS = 10  # the rough gap need not be exact, because the iteration only starts from it
+LEAST_STEP = 1 / 64  # chosen: a step shortened below this share is accepted
 
 
 @dataclass(frozen=True, slots=True)
 class LoadedMesh:
-    """The mesh with a gap `fixed` [m] that does not depend on the load, to which the shafts' gap is added.
+    """The mesh, and the part of the gap that does not depend on the load.
 
-    `fixed` stands at points of the face, among which are the stations. `scale` converts the force of the contacts into
-    the transverse force that the shafts carry.
+    `fixed` [m] is this part at points of the face; the stations are among these points. `scale` converts the force of
+    the contacts into the transverse force that the shafts carry.
     """
 
     prepared: PreparedMesh
@@ -53,7 +54,7 @@ class LoadedMesh:
         return self.scale * self.force * self.prepared.path.plane.cos_base_helix
 
     def under(self, gap: FloatArray) -> Mesh:
-        """Return the mesh with the shafts' gap at the stations [m] added."""
+        """Return the mesh after adding the gap by the shafts at the stations [m]."""
         points = np.linspace(0.0, self.stations[-1], self.fixed.size)
         mesh = self.prepared.mesh
         lead = self.fixed + np.interp(points, self.stations, gap)
@@ -68,25 +69,27 @@ class LoadedMesh:
         return replace(self, prepared=replace(given, rolls=rolls), slices=self.slices // COARSER)
 
     def respond(self, gap: FloatArray, start: FaceResponse | None = None) -> FaceResponse:
-        """Compute the force of the contacts at the stations; the iteration starts from a similar response, `start`."""
+        """Compute the force of the contacts at the stations. The iteration starts from `start`, a similar response."""
         count, slices = self.stations.size, self.slices
-        # Contact lines of a spur pair run along the face: each interval between stations gets the same number.
+        # Contact lines of a spur pair run along the face. Therefore all intervals between stations get the same number
+        # of slices.
         if self.prepared.path.plane.tan_base_helix == 0.0:
             slices = -(-slices // (count - 1)) * (count - 1)
         return face_response(self.under(gap), self.prepared.rolls, self.force, slices, count, start)
 
     def balance(self, gap: FloatArray, near: FaceResponse | None = None) -> LoadBalance:
-        """Solve the load balance with the shafts' gap [m]; the iteration starts from a similar response, `near`."""
+        """Solve the load balance with a gap by the shafts [m]. The iteration starts from `near`, a similar response."""
         start = None if near is None else (near.error, near.log_load)
         return balance_load(self.under(gap), self.prepared.rolls, self.force, self.slices, start)
 
 
 @dataclass(frozen=True, slots=True)
 class Equilibrium:
-    """Equilibrium of mesh and shafts: gap at the stations without its mean [m], the mean, loads of ports and hubs.
+    """Equilibrium of mesh and shafts.
 
-    `by_gap` [N/m] is the derivative of the force at the stations by an additional gap there, to which both mesh and
-    shafts respond.
+    `gap` [m] is the gap by the shafts at the stations minus the mean, `mean_gap` [m] is this mean. `loads` are the
+    loads of all ports [N, N m]. `by_gap` [N/m] is the derivative of the force at the stations by an additional gap at
+    the stations; both mesh and shafts respond to this gap.
     """
 
     gap: FloatArray
@@ -109,12 +112,12 @@ def equilibrium(unit: Unit, mesh: LoadedMesh, start: FloatArray | None = None) -
     mesh : LoadedMesh
         The mesh.
     start : FloatArray of shape (stations,), optional
-        Gap from which the iteration starts [m]; by default it starts from the gap of a coarse mesh.
+        Gap from which the iteration starts; by default the gap of the coarse mesh [m].
 
     Returns
     -------
     Equilibrium
-        The gap, and loads and responses at this gap.
+        The gap, with the loads and the response at this gap.
 
     Raises
     ------
@@ -141,9 +144,10 @@ def equilibrium(unit: Unit, mesh: LoadedMesh, start: FloatArray | None = None) -
 
 
 def _rough(unit: Unit, mesh: LoadedMesh, hubs: HubLoads) -> tuple[FloatArray, HubLoads]:
-    """Return an approximate gap and the loads of the hubs, by an iteration with a coarse mesh from a uniform load.
+    """Return an approximate gap and the loads of the hubs, by an iteration with the coarse mesh.
 
-    The result need not have converged; the iteration with the full mesh decides.
+    The iteration starts from a uniform load. It may end before it has converged, because the iteration with the full
+    mesh follows.
     """
     count = unit.stations.size
     answer = respond(unit, uniform_force(mesh.transmitted, count), hubs)
@@ -197,7 +201,7 @@ def _matrix(mesh: LoadedMesh, state: _State) -> FloatArray:
 def _advance(unit: Unit, mesh: LoadedMesh, state: _State) -> _State:
     """Return the state after Newton's step.
 
-    The step is halved as long as the residual does not fall, or a part of the unit has no solution there.
+    The step is halved as long as the residual does not fall or a part of the unit has no solution after the step.
     """
     step, share = remove_mean(solve_linear(_matrix(mesh, state), -state.residual)), 1.0
     while True:
@@ -213,7 +217,7 @@ def _advance(unit: Unit, mesh: LoadedMesh, state: _State) -> _State:
 
 
 def uniform_force(force: float, stations: int) -> FloatArray:
-    """Return the shares at the stations of a force [N] that is spread evenly over the face."""
+    """Return the forces at the stations [N] if a force [N] is spread evenly over the face."""
     weights = np.ones(stations)
     weights[0] = weights[-1] = 0.5
     return force * weights / (stations - 1)
@@ -225,6 +229,6 @@ def remove_mean(gap: FloatArray) -> FloatArray:
 
 
 def _remove_mean_of_rows(derivative: FloatArray) -> FloatArray:
-    """Return the derivative of the gap minus that of its mean."""
+    """Return the derivative of the gap minus the derivative of the mean gap."""
     mean = (derivative.sum(axis=0) - 0.5 * (derivative[0] + derivative[-1])) / (derivative.shape[0] - 1)
     return np.asarray(derivative - mean)

@@ -1,6 +1,6 @@
 """Mean, slope and crown of curves over the face.
 
-The curves are linear between equidistant stations; their integrals are exact.
+The curves are linear between equidistant stations, and the integrals of these curves are exact.
 """
 
 import numpy as np
@@ -14,7 +14,7 @@ def face_mean(values: FloatArray) -> float:
 
 
 def face_slope(values: FloatArray) -> float:
-    """Compute the slope of a curve: the rise over the face of the straight line fitted by least squares.
+    """Compute the slope of a curve: the rise over the face of the straight line that fits best by least squares.
 
     Parameters
     ----------
@@ -24,7 +24,7 @@ def face_slope(values: FloatArray) -> float:
     Returns
     -------
     float
-        12 int (eta - 1/2) v d eta, the rise from y = 0 to y = b, in the unit of the values.
+        Rise from y = 0 to y = b, 12 int (eta - 1/2) v d eta of the values v, in the unit of v.
 
     Notes
     -----
@@ -35,7 +35,7 @@ def face_slope(values: FloatArray) -> float:
 
 
 def face_crown(values: FloatArray) -> float:
-    """Compute the crown of a curve: the height C of the parabola C (2 eta - 1)^2 fitted by least squares.
+    """Compute the crown of a curve: the height C of the parabola C (2 eta - 1)^2 that fits best by least squares.
 
     Parameters
     ----------
@@ -45,7 +45,7 @@ def face_crown(values: FloatArray) -> float:
     Returns
     -------
     float
-        (15/2) int P2(2 eta - 1) v d eta with P2(t) = (3 t^2 - 1) / 2, in the unit of the values.
+        Height (15/2) int P2(2 eta - 1) v d eta of the values v, with P2(t) = (3 t^2 - 1) / 2, in the unit of v.
 
     Notes
     -----
@@ -56,7 +56,10 @@ def face_crown(values: FloatArray) -> float:
 
 
 def _gauss(values: FloatArray) -> tuple[FloatArray, FloatArray, float]:
-    """Return places, values and weight of two Gauss points per interval, which integrate cubic functions exactly."""
+    """Return positions, values and weight of two Gauss points per interval.
+
+    The points integrate cubic functions exactly.
+    """
     steps = values.size - 1
     shares = np.array([0.5 - 0.5 / np.sqrt(3), 0.5 + 0.5 / np.sqrt(3)])
     eta = (np.arange(steps)[:, None] + shares) / steps

@@ -1,7 +1,8 @@
 """Tilts of the coupling hubs in equilibrium with the loads of the couplings.
 
-A hub has the tilt x = rest + lever (motion of the hub). The coupling's loads p(x) bend the shaft, which moves the hub.
-Newton's step on x has the matrix I - lever D dp/dx, where D is the derivative of the hubs' motion by their loads.
+A hub has the tilt x = rest + lever (motion of the hub). The loads p(x) of the coupling bend the shaft, and the bent
+shaft moves the hub. Newton's step on x has the matrix I - lever D dp/dx, where D is the derivative of the motion of the
+hubs by the loads of the couplings.
 """
 
 from dataclasses import dataclass
@@ -14,19 +15,23 @@ from solvers.drive_train.shafts.influence import Unit
 from solvers.errors import InvalidInput, NoSolution
 
 TILT_TOLERANCE = 1e-13  # rad
-TILT_ITERATIONS = 30  # chosen: after them the solution path is followed
-LEAST_STEP = 1 / 64  # chosen: after six halvings the step is accepted
+TILT_ITERATIONS = 30  # chosen: after these iterations the solution path is followed
+LEAST_STEP = 1 / 64  # chosen: a step shortened below this share is accepted
 LEAST_SIZE = 1e-9  # rad; least scale of the tilts along the path
-LONGEST, SHORTEST, LONGER = 0.3, 1e-6, 1.5  # steps along the path in scales of the tilts; growth of a step
-FARTHEST = 2.0  # largest distance from the end of a step, in step lengths
-PATH_POINTS = 500  # chosen: ends a search without a balance
-PATH_ITERATIONS = 6  # chosen: after them a shorter step is tried
+LONGEST, SHORTEST, LONGER = 0.3, 1e-6, 1.5  # steps along the path, in scales of the tilts; growth factor of a step
+FARTHEST = 2.0  # largest distance of a solution from the end of a step, in step lengths
+PATH_POINTS = 500  # chosen: after these points the search ends without a balance
+PATH_ITERATIONS = 6  # chosen: after these iterations a shorter step is tried
 PATH_TOLERANCE = 1e-6  # in scales of the tilts
 
 
 @dataclass(frozen=True, slots=True)
 class HubLoads:
-    """Tilts of all hubs, four per coupling [rad], loads at the ports, five per coupling [N, N m], and dp/dx."""
+    """Tilts of all hubs, and the loads of the couplings.
+
+    Each coupling has four `tilts` [rad] and five `loads` [N, N m]. `by_tilts` is the derivative of the loads by the
+    tilts, dp/dx.
+    """
 
     tilts: FloatArray
     loads: FloatArray
@@ -35,9 +40,10 @@ class HubLoads:
 
 @dataclass(frozen=True, slots=True)
 class Yielding:
-    """Motion of the ports under a force over the face and the hub loads that follow, and its derivative by the force.
+    """Motion of the ports under a force over the face, with the hubs in balance.
 
-    The derivative (stations, stations) [m/N] includes the response of the hubs.
+    `hubs` holds the tilts of the hubs and the loads of the couplings in this balance. `derivative` (stations, stations)
+    [m/N] is the derivative of the motion of the stations by the force, including the response of the hubs.
     """
 
     hubs: HubLoads
@@ -46,10 +52,10 @@ class Yielding:
 
 
 def free_hubs(unit: Unit, force: FloatArray) -> HubLoads:
-    """Return the hubs on shafts bent by a force over the face [N] but not by the couplings.
+    """Return the hubs on shafts that are bent by a force over the face [N], but not by the couplings.
 
-    The iteration begins there. On shafts without any bending a hub may have no tilt at all, at which its friction is
-    stiffest. Raises InvalidInput if a tilt is out of the range of the coupling model.
+    The iteration starts from these hubs. On straight shafts a hub may have no tilt at all, and the friction of a hub is
+    stiffest without tilt. Raises InvalidInput if a tilt is out of the range of the coupling model.
     """
     ports = unit.couplings
     if not ports:
@@ -78,14 +84,15 @@ def respond(unit: Unit, force: FloatArray, start: HubLoads) -> Yielding:
     Raises
     ------
     InvalidInput
-        If a hub on shafts without coupling loads tilts too far for the coupling model.
+        If a hub tilts too far for the coupling model while the shafts carry no coupling loads.
     NoSolution
         `drive_train` with the residual of the tilts [rad] if no iteration converges.
 
     Notes
     -----
-    Eq. D12. If the iteration from `start` does not converge, it starts again at the hubs without coupling loads, and
-    then at the tilts which these hubs reach while the coupling loads grow from zero.
+    Eq. D12. If the iteration from `start` does not converge, a second iteration starts from the tilts of the hubs
+    without coupling loads. If the second iteration does not converge either, these tilts are followed while the
+    coupling loads grow from zero, and a third iteration starts from the tilts at the end of this path.
     """
     yielding, residual = _solve(unit, force, start)
     if yielding is None:
@@ -100,9 +107,10 @@ def respond(unit: Unit, force: FloatArray, start: HubLoads) -> Yielding:
 
 @dataclass(frozen=True, slots=True)
 class _State:
-    """Hubs at some tilts, the motion of the ports, and the residual: the tilts minus those that belong to this motion.
+    """Hubs at assumed tilts, the motion of the ports, and the residual.
 
-    `by_tilts` and `by_share` are the derivatives of the residual by the tilts and by the share of the loads that acts.
+    The residual is the assumed tilts minus the tilts that follow from the motion. `by_tilts` and `by_share` are the
+    derivatives of the residual by the tilts and by the share of the coupling loads that acts.
     """
 
     hubs: HubLoads
@@ -118,7 +126,7 @@ class _State:
 
 
 def _evaluate(unit: Unit, force: FloatArray, hubs: HubLoads, share: float = 1.0) -> _State:
-    """Return the state of the hubs while a share of the couplings' loads acts."""
+    """Return the state of the hubs if only a share of the coupling loads acts."""
     levers, own = _levers(unit.couplings), force.size
     motion, derivative = unit.motion(np.concatenate([force, share * hubs.loads]))
     through = levers @ derivative[own:, own:]
@@ -133,7 +141,10 @@ def _evaluate(unit: Unit, force: FloatArray, hubs: HubLoads, share: float = 1.0)
 
 
 def _solve(unit: Unit, force: FloatArray, hubs: HubLoads) -> tuple[Yielding | None, float]:
-    """Find the balance of the tilts by Newton's iteration; None if it fails. Also return the last residual [rad]."""
+    """Find the balance of the tilts by Newton's iteration.
+
+    Return the balance, or None if the iteration fails, and the last residual [rad].
+    """
     state = _evaluate(unit, force, hubs)
     for _ in range(TILT_ITERATIONS):
         if state.size <= TILT_TOLERANCE:
@@ -151,12 +162,15 @@ def solve_linear(matrix: FloatArray, right: FloatArray) -> FloatArray:
     try:
         return np.asarray(np.linalg.solve(matrix, right), dtype=float)
     except np.linalg.LinAlgError as error:
-        message = "shafts and couplings yield without bound: their equations are singular"
+        message = "the deflections of shafts and couplings have no limit, because their equations are singular"
         raise NoSolution("drive_train", message, {"reciprocal_condition": 0.0}) from error
 
 
 def _advance(unit: Unit, force: FloatArray, state: _State, step: FloatArray) -> _State:
-    """Return the state after a step, halved as long as the residual does not fall or a part rejects the tilts."""
+    """Return the state after a step of the tilts.
+
+    The step is halved as long as the residual does not fall or the model of a coupling or bearing rejects the tilts.
+    """
     share = 1.0
     while True:
         following = _try_tilts(unit, force, state.hubs.tilts + share * step)
@@ -166,7 +180,7 @@ def _advance(unit: Unit, force: FloatArray, state: _State, step: FloatArray) -> 
 
 
 def _try_tilts(unit: Unit, force: FloatArray, tilts: FloatArray, share: float = 1.0) -> _State | None:
-    """Return the state at tilts; None if the model of coupling or bearing rejects them."""
+    """Return the state at given tilts; None if the model of a coupling or bearing rejects these tilts."""
     try:
         return _evaluate(unit, force, _hub_loads(unit.couplings, tilts), share)
     except (InvalidInput, NoSolution):
@@ -174,19 +188,20 @@ def _try_tilts(unit: Unit, force: FloatArray, tilts: FloatArray, share: float = 
 
 
 def _yielding(unit: Unit, count: int, state: _State) -> Yielding:
-    """Return the motion of the unit and its derivative, once its hubs are in balance."""
+    """Return the motion of the ports at a state with balanced hubs, and the derivative of this motion by the force."""
     mesh, hubs = state.derivative[:count], state.derivative[count:]
     through = solve_linear(state.by_tilts, _levers(unit.couplings) @ hubs[:, :count])
     return Yielding(state.hubs, state.motion, mesh[:, :count] + mesh[:, count:] @ state.hubs.by_tilts @ through)
 
 
 def _raise_loads(unit: Unit, force: FloatArray, free: HubLoads) -> HubLoads:
-    """Follow the hubs from their tilts without coupling loads while these loads grow from zero to the whole.
+    """Follow the tilts of the hubs while the coupling loads grow from zero to their full value.
 
-    Friction that falls with the sliding velocity lets a hub jump between sliding and sticking, and there the share of
-    the loads decreases along the path. The path is therefore followed by its length, with the tilts of a hub in units
-    of their size. Newton's iteration finds the points on a plane normal to the last direction (Allgower and Georg 2003,
-    chapter 2).
+    The path begins at `free`, the hubs without coupling loads. If friction falls with the sliding velocity, a hub can
+    jump between sliding and sticking. At such a jump the share of the coupling loads decreases along the path. The
+    steps are therefore taken along the length of the path, on which the tilts of each hub are divided by the size of
+    the hub's tilt. Newton's iteration finds the next point of the path on the plane at the end of a step, normal to the
+    step (Allgower and Georg 2003, chapter 2).
     """
     share, state, length = 0.0, _evaluate(unit, force, free, 0.0), LONGEST
     direction = np.append(np.zeros(free.tilts.size), 1.0)
@@ -209,20 +224,24 @@ def _raise_loads(unit: Unit, force: FloatArray, free: HubLoads) -> HubLoads:
 
 
 def _sizes(tilts: FloatArray) -> FloatArray:
-    """Return the scale of every tilt: the size of the hub's tilt [rad], for both components."""
+    """Return the scale of every component of a tilt: the size of the tilt [rad], the same for both components."""
     return np.repeat(np.maximum(np.hypot(tilts[::2], tilts[1::2]), LEAST_SIZE), 2)
 
 
 def _path_direction(state: _State, scale: FloatArray, direction: FloatArray) -> FloatArray:
-    """Return the unit vector along the path, forward with respect to the last direction; tilts in their scale."""
+    """Return the unit vector along the path, with tilts divided by their scales.
+
+    The vector points forward with respect to the last direction, `direction`.
+    """
     tangent = solve_linear(_path_matrix(state, scale, direction), np.append(np.zeros(scale.size), 1.0))
     return np.asarray(tangent / np.linalg.norm(tangent))
 
 
 def _path_matrix(state: _State, scale: FloatArray, direction: FloatArray) -> FloatArray:
-    """Return the matrix of Newton's step on the path, by the tilts in their scale and by the share.
+    """Return the matrix of Newton's step on the path.
 
-    Its last row is the derivative of the distance along `direction`, the others are those of the residual.
+    The unknowns are the tilts divided by their scales, and the share of the coupling loads. The last row is the
+    derivative of the distance along `direction`; the other rows are the derivatives of the scaled residual.
     """
     return np.vstack([np.column_stack([state.by_tilts * scale, state.by_share]) / scale[:, None], direction])
 
@@ -230,7 +249,10 @@ def _path_matrix(state: _State, scale: FloatArray, direction: FloatArray) -> Flo
 def _find_on_path(
     unit: Unit, force: FloatArray, start: _State, share: float, scale: FloatArray, step: FloatArray
 ) -> tuple[float, _State] | None:
-    """Return share and state on the plane normal to a step at its end; None if Newton's iteration fails."""
+    """Return the share of the coupling loads and the state at the next point of the path.
+
+    The point lies on the plane at the end of `step`, normal to `step`. Return None if Newton's iteration fails.
+    """
     length = float(np.linalg.norm(step))
     place = step
     for _ in range(PATH_ITERATIONS):
@@ -250,7 +272,7 @@ def _find_on_path(
 
 
 def _hub_loads(ports: tuple[CouplingPort, ...], tilts: FloatArray) -> HubLoads:
-    """Return the loads of all couplings at the tilts of their hubs, and their derivative."""
+    """Return the loads of all couplings at the tilts of the hubs, and the derivative of the loads by the tilts."""
     loads, derivative = np.zeros(LOADS * len(ports)), np.zeros((LOADS * len(ports), tilts.size))
     for k, port in enumerate(ports):
         own, by = slice(LOADS * k, LOADS * (k + 1)), slice(TILTS * k, TILTS * (k + 1))

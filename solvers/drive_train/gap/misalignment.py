@@ -1,4 +1,4 @@
-"""The gap over the face, its causes by superposition of the loads, and the modifications that compensate it."""
+"""The gap over the face, its parts by cause (superposition of the loads), and modifications that compensate the gap."""
 
 import numpy as np
 
@@ -17,7 +17,7 @@ from solvers.scuffing.modification import gaps_at
 def misalignment(
     inputs: DriveTrainInputs, unit: Unit, mesh: LoadedMesh, thermal: ThermalLead, equilibrium: Equilibrium
 ) -> Misalignment:
-    """Return the gap by shafts and heat, its causes, and the modifications that compensate it."""
+    """Return the gap by shafts and heat, its parts by cause, and the modifications that compensate the gap."""
     even = _even_gap(inputs, unit, mesh, equilibrium) + _at_stations(thermal.lead, unit.stations.size)
     return Misalignment(
         shaft_slope=face_slope(equilibrium.gap),
@@ -39,7 +39,7 @@ def misalignment(
 
 
 def _even_gap(inputs: DriveTrainInputs, unit: Unit, mesh: LoadedMesh, equilibrium: Equilibrium) -> FloatArray:
-    """Return the shafts' gap under a load spread evenly over the face [m]."""
+    """Return the gap by the shafts under a load that is spread evenly over the face [m]."""
     count = unit.stations.size
     if not inputs.effects.shafts:
         return np.zeros(count)
@@ -47,7 +47,7 @@ def _even_gap(inputs: DriveTrainInputs, unit: Unit, mesh: LoadedMesh, equilibriu
 
 
 def gap_parts(unit: Unit, loads: FloatArray) -> Parts:
-    """Return the slope of the gap by each cause, under the loads of the ports."""
+    """Return the part of each cause in the slope of the gap under given loads of the ports."""
     count = unit.stations.size
     force, hubs = loads[:count], loads[count:]
     axial = np.arange(hubs.size) % LOADS == LOADS - 1
@@ -83,7 +83,7 @@ def _curves(
 ) -> GapCurves:
     """Return the gaps over the face.
 
-    The gap by the modification is that at the pitch point without profile modifications, minus its mean.
+    The gap by the modification contains only the lead modifications, and the mean of this gap is subtracted.
     """
     plane, count = mesh.prepared.path.plane, unit.stations.size
     form = mesh.prepared.mesh.gap._replace(profile_slope=0.0, profile_crowning=0.0, tip_relief=0.0, root_relief=0.0)
@@ -104,5 +104,5 @@ def _curves(
 
 
 def _at_stations(curve: FloatArray, count: int) -> FloatArray:
-    """Pick the values at the stations from a curve that has further points between them."""
+    """Pick the values at the stations from a curve that has further points between the stations."""
     return curve[:: (curve.size - 1) // (count - 1)]

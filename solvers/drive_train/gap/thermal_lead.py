@@ -1,8 +1,9 @@
-"""Lead and profile errors of gears that are warmer than the temperature of their drawings.
+"""Lead and profile errors of gears that are warmer than the reference temperature of their drawings.
 
-The temperature of the teeth and the gas that they pump heat the gears. A heated body grows in proportion: a point moves
-by eps = alpha_L dT times its distance from the axis, and eps times its distance along the axis. In the direction of the
-line of action the flanks of the pinion grow by eps_1 (s_A + x) + tan beta_b int_0^y eps_1, and those of the wheel by
+The gears have the temperature of the teeth, and the pumped gas heats the gears further. A heated body grows in
+proportion by the strain eps = alpha_L dT. A point moves away from the axis by eps times its distance from the axis, and
+along the axis by the integral of eps. In the direction of the line of action the flanks of the pinion grow by
+eps_1 (s_A + x) + tan beta_b int_0^y eps_1, and the flanks of the wheel grow by
 eps_2 (N - s_A - x) - tan beta_b int_0^y eps_2. If both gears are equally hot, only the base pitch changes and the
 contact lines stay parallel. Own derivation, checked against the numerical geometry of a heated helicoid.
 """
@@ -21,14 +22,14 @@ from solvers.pumping import model as pumping
 from solvers.pumping.inputs import PumpingInputs, PumpingSetup
 from solvers.pumping.results import SpacesResult
 
-EXPANSION = 12e-6  # of steel, 1/K
+EXPANSION = 12e-6  # 1/K; coefficient of thermal expansion of steel
 
 
 @dataclass(frozen=True, slots=True)
 class GasHeat:
     """Temperature rise of the gas above the ambient in the tooth spaces [K], at positions on the face [m].
 
-    `power` [W] is the pumping power of both gears, `powers` [W] are those of pinion and wheel.
+    `power` [W] is the total pumping power, `powers` [W] are the pumping powers of pinion and wheel.
     """
 
     pinion_position: FloatArray
@@ -42,10 +43,11 @@ class GasHeat:
 
 @dataclass(frozen=True, slots=True)
 class ThermalLead:
-    """Gap by heat at the stations, with mean 0 [m], and the temperature rise of the metal by pumping [K].
+    """Gap by heat, and the temperature rise of the metal by pumping [K].
 
-    `profile_slope` [m] belongs to the lead: only both together keep parallel contact lines parallel. `base_pitch` [m]
-    is the growth of the pinion's base pitch minus that of the wheel's.
+    `lead` [m] is the gap at the stations; its mean is 0. `profile_slope` [m] belongs to the lead, because parallel
+    contact lines stay parallel only with both. `base_pitch` [m] is the growth of the pinion's base pitch minus the
+    growth of the wheel's base pitch.
     """
 
     lead: FloatArray
@@ -71,28 +73,28 @@ def gas_heat(setup: PumpingSetup, pinion_speed: float) -> GasHeat:
 
 
 def _profile(spaces: SpacesResult | None) -> tuple[FloatArray, FloatArray]:
-    """Return positions on the face and temperature rises; no rise if the flow model has no temperature."""
+    """Return positions on the face and temperature rises; the rise is 0 if the flow model has no temperature."""
     if spaces is None or spaces.profile.temperature_rise is None:
         return np.zeros(1), np.zeros(1)
     return spaces.profile.position, spaces.profile.temperature_rise
 
 
 def thermal_lead(inputs: DriveTrainInputs, path: PathOfContact, stations: FloatArray) -> ThermalLead:
-    """Compute the gap by heat over the face and the profile slope that belongs to it.
+    """Compute the gap by heat over the face, and the profile slope that belongs to this gap.
 
     Parameters
     ----------
     inputs : DriveTrainInputs
         The unit.
     path : PathOfContact
-        Path of contact of its gear pair.
+        Path of contact of the gear pair of the unit.
     stations : FloatArray of shape (stations,)
-        Positions y on the face from the end that meshes first [m].
+        Positions y on the face, measured from the end that meshes first [m].
 
     Returns
     -------
     ThermalLead
-        Gap, profile slope and base pitch deviation [m], temperature rises by pumping [K].
+        Gap, profile slope and base pitch deviation [m], and temperature rises by pumping [K].
 
     Notes
     -----
@@ -124,7 +126,7 @@ def thermal_lead(inputs: DriveTrainInputs, path: PathOfContact, stations: FloatA
 
 
 def no_heat(stations: FloatArray) -> ThermalLead:
-    """Return the thermal lead of gears at the temperature of their drawings: zero."""
+    """Return the thermal lead of gears at the reference temperature of their drawings, which is zero."""
     nothing = np.zeros(stations.size)
     return ThermalLead(nothing, 0.0, 0.0, nothing, nothing)
 

@@ -1,1 +1,5 @@
-"""Elastic parts: frame, shaft, bearings, coupling_loads -> thrust_budget -> influence (their flexibility matrix)."""
+"""The elastic parts of a unit.
+
+`frame` gives the directions of the forces. `shaft`, `bearings` and `coupling_loads` model the parts, and
+`thrust_budget` computes the axial forces. `influence` joins all parts into one flexibility matrix.
+"""

@@ -1,4 +1,8 @@
-"""Bearings under load: film of short plain bearings (DuBois and Ocvirk, NACA 1157, 1953), springs, rigid bearings."""
+"""Displacements of bearings under load.
+
+Plain bearings have the film of a short bearing (DuBois and Ocvirk, NACA 1157, 1953). Other bearings are linear springs
+or rigid.
+"""
 
 from dataclasses import dataclass
 from math import atan2, cos, hypot, pi, sin, sqrt
@@ -10,15 +14,17 @@ from solvers.compiled import kernel
 from solvers.drive_train.inputs import Bearing, JournalBearing, LinearBearing
 from solvers.errors import NoSolution
 
-LARGEST_ECCENTRICITY = 0.999  # chosen: the film, a thousandth of the clearance, is thinner than any roughness
+LARGEST_ECCENTRICITY = 0.999  # chosen: here the film is a thousandth of the clearance, thinner than any roughness
 
 
 @dataclass(frozen=True, slots=True)
 class BearingState:
-    """A loaded bearing: displacement of the shaft without the bore's offset [m], and its derivative by the load [m/N].
+    """A loaded bearing.
 
-    A plain bearing has an eccentricity ratio, the attitude angle between load and displacement [rad], the thinnest film
-    [m], a load per projected area [Pa] and a friction power [W]. These are None, and the power 0, for other bearings.
+    `displacement` [m] is the displacement of the shaft without the offset of the bore. `flexibility` [m/N] is the
+    derivative of the displacement by the load. Only plain bearings have an eccentricity ratio [-], an attitude angle
+    between load and displacement [rad], a thinnest film [m] and a load per projected area [Pa]; for other bearings
+    these values are None. The friction power [W] of other bearings is 0.
     """
 
     load: FloatArray
@@ -43,11 +49,11 @@ def load_number(eccentricity: float) -> float:
     Returns
     -------
     float
-        Load over eta omega (D/2) L^3 / (4 c^2) [-].
+        Load divided by eta omega (D/2) L^3 / (4 c^2) [-].
 
     Notes
     -----
-    Eq. D4, for a film over the half of the circumference where the pressure is positive.
+    Eq. D4, for a film that covers only the half of the circumference in which the pressure is positive.
     """
     square = eccentricity**2
     return eccentricity / (1 - square) ** 2 * sqrt(pi**2 * (1 - square) + 16 * square)
@@ -74,7 +80,7 @@ def attitude_angle(eccentricity: float) -> float:
 
 
 def film_force(bearing: JournalBearing, speed: float) -> float:
-    """Compute the force by which the load of a short bearing is made dimensionless.
+    """Compute the reference force for the dimensionless load of a short bearing.
 
     Parameters
     ----------
@@ -86,7 +92,7 @@ def film_force(bearing: JournalBearing, speed: float) -> float:
     Returns
     -------
     float
-        Eta omega (D/2) L^3 / (4 c^2) [N].
+        Reference force eta omega (D/2) L^3 / (4 c^2) [N].
 
     Notes
     -----
@@ -156,7 +162,7 @@ def _journal(bearing: JournalBearing, load: FloatArray, speed: float, rotation: 
 
 
 def _friction(bearing: JournalBearing, speed: float, eccentricity: float) -> float:
-    """Return the friction power [W]: that of the concentric bearing over sqrt(1 - e^2)."""
+    """Return the friction power [W]: the power of the concentric bearing divided by sqrt(1 - e^2)."""
     concentric = 2 * pi * bearing.viscosity * speed**2 * (bearing.diameter / 2) ** 3 * bearing.width
     return concentric / (bearing.clearance * sqrt(1 - eccentricity**2))
 
@@ -173,14 +179,21 @@ def friction_and_eccentricity(bearing: JournalBearing, load: float, speed: float
 def _eccentricity(load: float) -> float:
     """Return the eccentricity ratio at a load number."""
     if load > load_number(LARGEST_ECCENTRICITY):
-        message = "a plain bearing's film cannot carry its load; it would be thinner than a thousandth of the clearance"
+        message = (
+            "the film of a plain bearing cannot carry the load, because it would be thinner than a thousandth of the "
+            "clearance"
+        )
         raise NoSolution("journal", message, {"load_number": load})
     return _invert_load_number(load)
 
 
 @kernel
 def _invert_load_number(load: float) -> float:
-    """Solve for the eccentricity ratio from the right: the load number is convex, so Newton's steps only decrease."""
+    """Return the eccentricity ratio at a load number, by Newton's iteration from the largest eccentricity ratio.
+
+    The load number is a convex function of the eccentricity ratio. Newton's steps therefore decrease the ratio until
+    rounding ends the iteration.
+    """
     eccentricity, before = LARGEST_ECCENTRICITY, 1.0
     while eccentricity < before:
         before = eccentricity

@@ -1,14 +1,17 @@
-"""Moments and forces of a gear coupling on its shaft, as functions of the tilts of both its hubs.
+"""Moments and forces of a gear coupling on a shaft of the unit, as functions of the tilts of both hubs.
 
-Hub A sits on the unit's shaft, hub B on the machine's shaft. The machine lies at the hub distance l on the side
-`towards` (+1 along Z). The sleeve's slope is (c_B - c_A) / (towards l). The tilt of a hub is its slope minus the
-sleeve's, a vector d = delta e in the planes X and Y. Moments are conjugate to slopes, m = -Z x M. With a = M_s + M_e
-the loads are
+Hub A sits on the unit's shaft, hub B on the machine's shaft. The distance of the hubs is l; `towards` is +1 if the
+machine lies towards +Z, else -1. The slope of the sleeve is (c_B - c_A) / (towards l), where c_A and c_B are the
+positions of the hubs in X and Y. The tilt of a hub is the slope of the hub minus the slope of the sleeve. This tilt is
+a vector d = delta e with the size delta and the direction e. Moments m are conjugate to slopes: m = -Z x M for a moment
+vector M. With a = M_s + M_e the loads are
     on the hub       m = -a e + s (M_l - s_d T delta / 2) Z x e
-    on its shaft     f = -a e / l + s (M_l + s_d T delta / 2) Z x e / l     times `towards`, summed over both hubs
-M_l is the frictional moment; M_s and M_e act against the tilt. s is the sense of rotation; s_d is +1 if the hub drives
-the sleeve. The sign of T delta / 2 differs between hub and sleeve because the torque's axis bisects their axes. Along Z
-the coupling pushes the shaft with the share tau of the friction limit, the smaller limit of both hubs.
+    on its shaft     f = towards [-a e + s (M_l + s_d T delta / 2) Z x e] / l     summed over both hubs
+M_l is the loss moment of friction. The straightening moment M_s and the elastic moment M_e act against the tilt. s is
+the sense of rotation, T is the torque, and s_d is +1 if the hub drives the sleeve, else -1. The sign of T delta / 2
+differs between hub and sleeve, because the axis of the torque bisects the angle between the axes of hub and sleeve.
+Along Z the coupling pushes the shaft with the share tau of the friction limit, which is the smaller of the limits of
+both hubs.
 """
 
 from collections.abc import Iterator
@@ -29,17 +32,18 @@ from solvers.drive_train.inputs import CouplingFriction, UnitCoupling
 from solvers.errors import InvalidInput
 from solvers.notices import Notice
 
-LOADS = 5  # of a coupling on its shaft: F_X, F_Y, m_X, m_Y, F_Z
-TILTS = 4  # of a coupling: hub A and hub B in both planes
-STEP = 1e-4  # relative step of the tilt, for differences
-LEAST_TILT = 1e-12  # rad; smaller tilts are none
+LOADS = 5  # number of loads of a coupling on its shaft: F_X, F_Y, m_X, m_Y, F_Z
+TILTS = 4  # number of tilts of a coupling: hub A and hub B in both planes
+STEP = 1e-4  # relative step of the tilt, for finite differences
+LEAST_TILT = 1e-12  # rad; below this tilt the moments are proportional to the tilt
 
 
 @dataclass(frozen=True, slots=True)
 class HubMoments:
-    """Moments of one hub: straightening moment a = M_s + M_e and loss moment M_l [N m], and its limit of thrust [N].
+    """Moments of one hub [N m], and the limit of the hub's thrust [N].
 
-    The hub `sticks` if no tooth slides. `share` is the friction moment over that of full sliding.
+    `straightening` is the moment a = M_s + M_e, `loss` is the moment M_l. The hub `sticks` if no tooth slides. `share`
+    is the friction moment divided by the friction moment of full sliding.
     """
 
     straightening: float
@@ -54,7 +58,8 @@ class HubMoments:
 class CouplingPort:
     """A coupling at its shaft, with the torque [N m], speed [rad/s] and sense of rotation of this shaft.
 
-    The tilts of both hubs are `rest` + `lever` @ (U, V, both slopes, motion along Z) of the shaft at the unit's hub.
+    The tilts of both hubs are `rest` + `lever` @ v. The vector v is the motion of the shaft at the unit's hub:
+    displacements U and V along X and Y, both slopes, and the displacement along Z.
     `sleeve_weight` (X, Y) [N] is the part of the sleeve's weight on this hub.
     """
 
@@ -76,7 +81,7 @@ class CouplingPort:
 
     @property
     def driving(self) -> tuple[float, float]:
-        """Signs s_d of the hubs A and B: one machine drives the pinion, the wheel drives the other machine."""
+        """Signs s_d of hubs A and B. A machine drives the pinion; the wheel drives another machine."""
         return (-1.0, 1.0) if self.inputs.shaft == "pinion" else (1.0, -1.0)
 
 
@@ -92,7 +97,8 @@ def coupling_port(
 ) -> CouplingPort:
     """Return the coupling at its shaft.
 
-    `down` (X, Y) is the unit vector of gravity, against which the machine's shaft grows; `gravity` is in [m/s^2].
+    `down` (X, Y) is the unit vector in the direction of gravity, `gravity` is the acceleration [m/s^2]. Warm supports
+    raise the shaft of the machine against `down`.
     """
     offset = np.array(inputs.offset) - (0.0 if inputs.alignment is None else inputs.alignment.growth) * down
     distance = inputs.coupling.hub_distance if inputs.machine_side == "plus" else -inputs.coupling.hub_distance
@@ -111,7 +117,7 @@ def coupling_port(
 
 
 def sliding_tilt(port: CouplingPort, friction: float) -> float:
-    """Compute the tilt of a hub at which its teeth begin to slide; below it they yield elastically.
+    """Compute the tilt of a hub at which the teeth begin to slide; below this tilt the teeth only yield elastically.
 
     Parameters
     ----------
@@ -136,7 +142,7 @@ def sliding_tilt(port: CouplingPort, friction: float) -> float:
 
 
 def axial_share(port: CouplingPort) -> float:
-    """Compute the share of the friction that resists the tilting if another share acts axially.
+    """Compute the share of the friction that resists the tilting if the share tau acts axially.
 
     Parameters
     ----------
@@ -161,17 +167,17 @@ def elastic_plastic(ratio: float) -> tuple[float, float]:
     Parameters
     ----------
     ratio : float
-        Tilt over the tilt at which sliding begins, beta [-].
+        Tilt divided by the tilt at which sliding begins, beta [-].
 
     Returns
     -------
     tuple of float
-        Loss moment and elastic moment over the moment of full sliding [-].
+        Loss moment and elastic moment, both divided by the friction moment of full sliding [-].
 
     Notes
     -----
-    Eq. D9. The moments are the first harmonic of the hysteresis loop which springs with a sliding limit describe in one
-    revolution.
+    Eq. D9. Springs with a sliding limit pass through a hysteresis loop in one revolution. The moments are the first
+    harmonic of this loop.
     """
     if ratio <= 1.0:
         return 0.0, pi * ratio / 4
@@ -180,7 +186,10 @@ def elastic_plastic(ratio: float) -> tuple[float, float]:
 
 
 def regularised(ratio: float) -> tuple[float, float]:
-    """Return loss moment and elastic moment of a hub that slides at all but the smallest tilts, for comparison."""
+    """Return the moments of `elastic_plastic` for a hub that slides at all but the smallest tilts.
+
+    This friction law is for comparison only.
+    """
     return ratio / sqrt(ratio**2 + 1), 0.0
 
 
@@ -202,7 +211,7 @@ def hub_moments(port: CouplingPort, tilt: float) -> HubMoments:
     Raises
     ------
     InvalidInput
-        The errors of `coupling.solve`, with the field of the coupling in the unit.
+        The errors of `coupling.solve`; their fields begin with the path of the coupling in the unit.
     NoSolution
         The errors of `coupling.solve`.
 
@@ -249,7 +258,7 @@ def _operating_point(port: CouplingPort, tilt: float) -> CouplingInputs:
 
 @contextmanager
 def _prefixed(port: CouplingPort) -> Iterator[None]:
-    """Prefix the fields in errors of the coupling model with the coupling of the unit."""
+    """Put the path of the coupling in the unit before the fields in errors of the coupling model."""
     try:
         yield
     except InvalidInput as error:
@@ -258,7 +267,7 @@ def _prefixed(port: CouplingPort) -> Iterator[None]:
 
 
 def coupling_loads(port: CouplingPort, tilts: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Compute the loads of a coupling on the unit's shaft, and their derivative by the tilts of its hubs.
+    """Compute the loads of a coupling on the unit's shaft, and the derivative of these loads by the tilts.
 
     Parameters
     ----------
@@ -299,10 +308,10 @@ def coupling_loads(port: CouplingPort, tilts: FloatArray) -> tuple[FloatArray, F
 
 
 def _polar(tilt: FloatArray, moments: FloatArray, slopes: FloatArray, torque: float) -> tuple[FloatArray, FloatArray]:
-    """Return -a e + (b + torque delta) Z x e for a tilt delta e, and its derivative by the components of the tilt.
+    """Return the vector -a e + (b + torque delta) Z x e at a tilt delta e, and its derivative by the tilt.
 
-    `moments` begins with a and b, `slopes` with their derivatives by delta. Below `LEAST_TILT`, a and b are
-    proportional to delta.
+    `moments` begins with a and b; `slopes` begins with the derivatives of a and b by delta. Below `LEAST_TILT`, a and b
+    are proportional to delta.
     """
     size = hypot(*tilt)
     direction = tilt / size if size > 0.0 else np.array([1.0, 0.0])
@@ -315,6 +324,9 @@ def _polar(tilt: FloatArray, moments: FloatArray, slopes: FloatArray, torque: fl
 
 
 def _moments_and_limit(port: CouplingPort, tilt: float) -> FloatArray:
-    """Return straightening moment, loss moment with the sign of the rotation [N m], and thrust limit [N] of a hub."""
+    """Return straightening moment and loss moment [N m] and thrust limit [N] of a hub.
+
+    The loss moment has the sign of the rotation.
+    """
     hub = hub_moments(port, tilt)
     return np.array([hub.straightening, port.rotation * hub.loss, hub.thrust_limit])

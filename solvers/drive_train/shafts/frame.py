@@ -17,9 +17,10 @@ class Frame:
     """Directions and lever arms in X, Y, Z.
 
     `rotation` is +1 if the pinion turns counter-clockwise about Z, else -1. The face coordinate y begins at the end
-    that meshes first; `face_direction` is +1 if y runs along Z, else -1. `radial` points from pinion to wheel,
-    `transverse_force` in the direction of the transverse force on the pinion. `force` is the whole force on the pinion
-    per unit transverse force. `arms` point from the axes of pinion and wheel to the pitch point [m].
+    that meshes first; `face_direction` is +1 if y runs along +Z, else -1. `radial` points from pinion to wheel.
+    `transverse_force` points in the direction of the transverse force on the pinion. `force` is the vector of the total
+    force on the pinion, divided by the transverse force. `arms` point from the axes of pinion and wheel to the pitch
+    point [m]. `down` (X, Y) points in the direction of gravity.
     """
 
     rotation: float
@@ -31,11 +32,11 @@ class Frame:
     down: FloatArray
 
     def shaft_rotation(self, shaft: int) -> float:
-        """Return the sense of rotation of the pinion's (0) or the wheel's (1) shaft."""
+        """Return the sense of rotation of the shaft of the pinion (0) or the wheel (1)."""
         return self.rotation if shaft == 0 else -self.rotation
 
     def positions(self, face_start: float, face_width: float, y: FloatArray) -> FloatArray:
-        """Return Z [m] of points on the face at distances y [m] from the end that meshes first."""
+        """Return the positions Z [m] of points on the face at distances y [m] from the end that meshes first."""
         return face_start + y if self.face_direction > 0.0 else face_start + (face_width - y)
 
 
@@ -47,7 +48,7 @@ def frame(arrangement: Arrangement, path: PathOfContact) -> Frame:
     arrangement : Arrangement
         Position and rotation of the unit.
     path : PathOfContact
-        Path of contact of its gear pair.
+        Path of contact of the gear pair of the unit.
 
     Returns
     -------
@@ -57,8 +58,9 @@ def frame(arrangement: Arrangement, path: PathOfContact) -> Frame:
     Notes
     -----
     Eq. D1. e_t = sigma Z x e_r is the direction of the pinion's velocity at C. The flank force on the pinion opposes
-    it: n_t = -(cos a_wt e_t + sin a_wt e_r). A helix adds -tan beta_b along y, and y runs along -sigma h Z. A spur pair
-    meshes over the whole face at once: for it y runs along -sigma Z, whatever its hand in the inputs is.
+    this velocity: n_t = -(cos a_wt e_t + sin a_wt e_r). A helix adds the component -tan beta_b along y. The direction
+    of y is -sigma h Z, where h is +1 for a right-hand pinion and -1 for a left-hand pinion. A spur pair meshes over the
+    whole face at once; for a spur pair h is always +1.
     """
     pair = path.pair
     rotation = 1.0 if arrangement.rotation == "counterclockwise" else -1.0

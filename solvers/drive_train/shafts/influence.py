@@ -1,10 +1,10 @@
-"""Shafts, bearings and couplings as one elastic system: gap at stations of the face, motion of the hubs.
+"""Shafts, bearings and couplings as one elastic system, which gives the gap over the face and the motion of the hubs.
 
 The ports of the system are the stations of the face and the hubs of the couplings. The transverse force Q at a station
-loads both shafts with a force, a tilting moment and a torque; the coefficients A of these loads also give the gap from
-the motion of the shafts. With the shafts' flexibility C the elastic gap is A^T C A Q. Its matrix is symmetric and
-positive semidefinite, and Q A^T C A Q is twice the strain energy. Loads q of the ports put L q on the bearings, and
-displacements u in the bearings move the ports by L^T u.
+loads both shafts with a force, a tilting moment and a torque. The matrix A holds the coefficients of these loads, and
+its transpose gives the gap from the motion of the shafts. With the shafts' flexibility C the elastic gap is A^T C A Q.
+The matrix A^T C A is symmetric and positive semidefinite, and Q^T A^T C A Q is twice the strain energy. Loads q of the
+ports load the bearings with L q, and displacements u in the bearings move the ports by L^T u.
 """
 
 from dataclasses import dataclass
@@ -23,12 +23,13 @@ from solvers.gears.pair import PathOfContact
 
 @dataclass(frozen=True, slots=True)
 class ShaftPorts:
-    """A shaft, and the loads on its N nodes per unit load of the ports: `loads` (2 planes, 2N, ports), `torques`.
+    """A shaft with N nodes, and the loads on these nodes.
 
-    `torques` has the shape (N, ports). `mesh_loads` (2 planes, 2N, stations) holds the transverse forces of the
-    stations alone. Two loads (2 planes, 2N) do not change: `weight`, with that of half a sleeve, and `collar`, the
-    moment of the thrust collar under the axial force of the mesh. The collar's moment under the thrust of the pinion's
-    coupling is part of `loads`.
+    `loads` (2 planes, 2N, ports) and `torques` (N, ports) are the loads on the nodes per unit load of the ports.
+    `mesh_loads` (2 planes, 2N, stations) holds only the transverse forces of the stations. Two loads (2 planes, 2N) are
+    constant: `weight` is the weight of the shaft and of half a sleeve, `collar` is the moment of the thrust collar
+    under the axial force of the mesh. The moment of the collar under the thrust of the pinion's coupling is part of
+    `loads`.
     """
 
     model: ShaftModel
@@ -43,7 +44,7 @@ class ShaftPorts:
 
     @property
     def fixed(self) -> FloatArray:
-        """Loads that do not change."""
+        """Sum of the constant loads."""
         return self.weight + self.collar
 
     def motion(self, loads: FloatArray) -> FloatArray:
@@ -60,11 +61,12 @@ class Unit:
     """The elastic system of a unit at its ports: the stations of the face, then five ports per coupling.
 
     A coupling's ports are U, V, both slopes and the motion along Z at the unit's hub. The motion along Z is the
-    response of the thrust collar to the coupling's thrust, and 0 without a collar.
+    response of the thrust collar to the coupling's thrust, and is 0 without a collar.
 
-    `elastic` (ports, ports) [m/N, ...] is the flexibility with the bearings at rest, `rest` the motion of the ports
-    under the loads that do not change. Under loads q of the ports the bearings carry `bearing_loads` @ q +
-    `bearing_rest` [N], in the order of the pinion's two and the wheel's two, with X and Y of each bearing.
+    `elastic` (ports, ports) [m/N, ...] is the flexibility with the bearings at rest. `rest` is the motion of the ports
+    under the constant loads. Under loads q of the ports the bearings carry `bearing_loads` @ q + `bearing_rest` [N]:
+    X and Y of the pinion's two bearings, then X and Y of the wheel's two bearings. `offsets` [m] are the offsets of the
+    bores in the same order.
     """
 
     frame: Frame
@@ -87,7 +89,7 @@ class Unit:
         ]
 
     def motion(self, loads: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return the motion of the ports under their loads, and its derivative (ports, ports)."""
+        """Return the motion of the ports under loads of the ports, and the derivative (ports, ports) of this motion."""
         states = self.bearings(loads)
         displacement = np.concatenate([state.displacement for state in states]) + self.offsets
         yielding = np.zeros((8, 8))
@@ -105,7 +107,7 @@ def unit(inputs: DriveTrainInputs, path: PathOfContact) -> Unit:
     inputs : DriveTrainInputs
         The unit.
     path : PathOfContact
-        Path of contact of its gear pair.
+        Path of contact of the gear pair of the unit.
 
     Returns
     -------
@@ -161,7 +163,7 @@ def _elastic(side: ShaftPorts) -> FloatArray:
 
 
 def torque_position(inputs: DriveTrainInputs, index: int) -> float:
-    """Return the position at which torque enters a shaft [m]: as given, else that of its coupling."""
+    """Return the position at which torque enters a shaft [m]: as given, else the position of the coupling."""
     given = inputs.shafts[index].torque_position
     if given is not None:
         return given
@@ -178,7 +180,7 @@ def _shaft_ports(
     speed: float,
     index: int,
 ) -> ShaftPorts:
-    """Return one shaft with the loads of the ports; the mesh force on the wheel opposes that on the pinion."""
+    """Return one shaft with the loads of the ports; the mesh forces on pinion and wheel are opposite."""
     shaft, name, sign = inputs.shafts[index], ("pinion", "wheel")[index], (1.0, -1.0)[index]
     z = directions.positions(inputs.face_start, path.plane.face_width, stations)
     hubs = [port.inputs.position for port in couplings if port.inputs.shaft == name]
@@ -226,10 +228,10 @@ def _collar_loads(
     position: float,
     index: int,
 ) -> FloatArray:
-    """Return the loads of a unit axial force at the thrust collar, +Z on the pinion, -Z on the wheel; else 0.
+    """Return the nodal loads of a unit axial force at the thrust collar; without a collar they are 0.
 
-    The force acts at the collar's radius and at y = b as a tilting moment. It balances the axial forces of mesh and
-    couplings on the pinion.
+    The force points towards +Z on the pinion and towards -Z on the wheel. The force acts at the radius of the collar
+    and at y = b as a tilting moment. The force balances the axial forces of mesh and couplings on the pinion.
     """
     loads = np.zeros((2, 2 * model.z.size))
     if inputs.collar_radius is not None:

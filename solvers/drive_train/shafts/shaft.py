@@ -1,9 +1,9 @@
-"""Shafts in two bearings: displacements of their nodes under nodal loads, by statics and strain energy.
+"""Shafts in two bearings: displacements of the nodes under nodal loads, by statics and strain energy.
 
 A shaft in two bearings is statically determinate: shear force V and bending moment M of every element follow from the
-loads alone. V is constant and M linear between nodes. The flexibility is the second derivative of the strain energy
-int [M^2 / (2 E I) + V^2 / (2 kappa G A)] dz of Timoshenko's beam. It is exact for stepped cylinders under nodal loads,
-and symmetric and positive semidefinite by construction, even for very short elements.
+loads alone. Between nodes V is constant and M is linear. The flexibility is the second derivative of the strain energy
+int [M^2 / (2 E I) + V^2 / (2 kappa G A)] dz of Timoshenko's beam. The flexibility is exact for stepped cylinders under
+nodal loads. It is symmetric and positive semidefinite by construction, even for very short elements.
 """
 
 from dataclasses import dataclass
@@ -19,12 +19,13 @@ GRAVITY = 9.80665  # m/s^2, standard gravity (CGPM 1901)
 
 @dataclass(frozen=True, slots=True)
 class ShaftModel:
-    """A shaft with N nodes at z [m]; a vector (2N,) holds deflections [m] and slopes [rad] of all nodes in one plane.
+    """A shaft with N nodes at the positions z [m].
 
-    The conjugate loads are forces [N] and moments [N m]. `flexibility` (2N, 2N) is that with both bearings at rest.
-    `bearing_share` (2, 2N) gives the load on the bearings under nodal loads; transposed, it gives the motion of the
-    nodes under displacements of the bearings. `torsion` (N, N) gives the twist under nodal torques [rad/(N m)].
-    `weight` (2N,) is the nodal load of the weight.
+    A motion in one plane is a vector (2N,) of the deflections [m] and the slopes [rad] of all nodes. The conjugate
+    loads are forces [N] and moments [N m]. `flexibility` (2N, 2N) gives this motion under these loads if both bearings
+    are at rest. `bearing_share` (2, 2N) gives the loads on the bearings under nodal loads; the transpose gives the
+    motion of the nodes under displacements of the bearings. `torsion` (N, N) gives the twist under nodal torques
+    [rad/(N m)]. `weight` (2N,) holds the nodal loads of the weight.
     """
 
     z: FloatArray
@@ -34,7 +35,7 @@ class ShaftModel:
     weight: FloatArray
 
     def node(self, position: float) -> int:
-        """Return the number of the node at a position [m]."""
+        """Return the number of the node nearest to a position [m]."""
         return int(np.argmin(np.abs(self.z - position)))
 
 
@@ -46,7 +47,7 @@ def shear_coefficient(poisson_ratio: float, bore_ratio: float) -> float:
     poisson_ratio : float
         Poisson's ratio [-].
     bore_ratio : float
-        Inner over outer diameter, m = d_i/d_o [-].
+        Ratio of inner to outer diameter, m = d_i/d_o [-].
 
     Returns
     -------
@@ -119,10 +120,10 @@ def _bearing_share(z: FloatArray, first: float, second: float) -> FloatArray:
 def _flexibility(
     shaft: Shaft, z: FloatArray, elements: list[ShaftSection], share: FloatArray, bearings: list[float]
 ) -> FloatArray:
-    """Return the flexibility as G^T G.
+    """Return the flexibility as the product G^T G.
 
-    Three rows of G belong to an element. Their squares are the energies of its mean moment, of the moment's slope and
-    of its shear force.
+    Three rows of G belong to each element: one for the strain energy of the mean bending moment, one for that of the
+    slope of the bending moment, and one for that of the shear force.
     """
     nodes = z.size
     forces = np.hstack([np.eye(nodes), np.zeros((nodes, nodes))])
@@ -153,8 +154,8 @@ def _flexibility(
 def _torsion(shaft: Shaft, z: FloatArray, elements: list[ShaftSection], torque_position: float) -> FloatArray:
     """Return the twist at node i per torque at node j.
 
-    It is the twist of the part between the torque input and the nearer of both nodes, and 0 if the nodes lie on
-    different sides of the torque input.
+    The twist is that of the part of the shaft between the torque input and the nearer of both nodes. It is 0 if the
+    nodes lie on different sides of the torque input.
     """
     modulus = shaft.youngs_modulus / (2 * (1 + shaft.poisson_ratio))
     twist = np.diff(z) / (2 * modulus * np.array([second_moment(part) for part in elements]))
@@ -165,7 +166,7 @@ def _torsion(shaft: Shaft, z: FloatArray, elements: list[ShaftSection], torque_p
 
 
 def _weight(shaft: Shaft, z: FloatArray, elements: list[ShaftSection]) -> FloatArray:
-    """Return the consistent nodal loads of the weight: q L / 2 and +-q L^2 / 12 at the ends of every element."""
+    """Return the consistent nodal loads of the weight: q L / 2 and +-q L^2 / 12 at both ends of every element."""
     lengths = np.diff(z)
     load = GRAVITY * shaft.density * np.array([area(part) for part in elements]) * lengths
     forces, moments = np.zeros(z.size), np.zeros(z.size)

@@ -1,7 +1,8 @@
 """The axial forces on both shafts.
 
-The axial force of the mesh is known. That of a coupling's friction has a limit, but its sign is not known. API 613 (5th
-ed., 2003) adds the coupling's force numerically and allows half the ultimate rating of a thrust bearing.
+The axial force of the mesh is known. The axial force by friction in a coupling has a known limit, but its sign is not
+known. API 613 (5th ed., 2003) adds the magnitudes of both forces, and allows half the ultimate rating of a thrust
+bearing as the load.
 """
 
 from solvers.drive_train.inputs import DriveTrainInputs
@@ -10,14 +11,15 @@ from solvers.gears.pair import PathOfContact
 from solvers.quantity import computed, quantity, record
 from solvers.sources import API_613
 
-USABLE = 0.5  # of the ultimate rating
+USABLE = 0.5  # usable share of the ultimate rating
 
 
 @record
 class Thrust:
-    """Axial forces on one shaft, positive towards +Z, and the bounds of the load of its thrust bearing.
+    """Axial forces on one shaft, positive towards +Z, and the bounds of the load on the thrust bearing.
 
-    The bounds are None if a thrust collar replaces the bearing. `customary` is the rule of thumb for couplings.
+    The bounds are None if a thrust collar replaces the bearing. `customary` is the thrust of the coupling by a rule of
+    thumb.
     """
 
     mesh: float = quantity("axial force of the mesh", "F_a", unit="n")
@@ -65,7 +67,7 @@ def mesh_thrust(inputs: DriveTrainInputs, path: PathOfContact, directions: Frame
     inputs : DriveTrainInputs
         The unit.
     path : PathOfContact
-        Path of contact of its gear pair.
+        Path of contact of the gear pair of the unit.
     directions : Frame
         The unit's frame of reference.
 
@@ -89,7 +91,7 @@ def thrust_budget(
     limits: tuple[float, float],
     diameters: tuple[float | None, float | None],
 ) -> tuple[Thrust, Thrust]:
-    """Compute the axial forces on both shafts and the bounds of the load of their thrust bearings.
+    """Compute the axial forces on both shafts and the bounds of the load on each thrust bearing.
 
     Parameters
     ----------
@@ -100,9 +102,9 @@ def thrust_budget(
     couplings : tuple of float
         Thrust of the couplings on the shafts of pinion and wheel [N].
     limits : tuple of float
-        Friction limits of this thrust [N].
+        Friction limits of the thrust of the couplings [N].
     diameters : tuple of float or None
-        Diameters of the shafts at their couplings, None without a coupling [m].
+        Diameters of the shafts at their couplings; None for a shaft without a coupling [m].
 
     Returns
     -------
@@ -143,7 +145,7 @@ def thrust_budget(
 
 
 def _use(lower: float | None, upper: float | None, ultimate: float | None) -> float | None:
-    """Return the largest load over the usable half of the rating; None without a rating or a bearing."""
+    """Return the largest load divided by the usable half of the rating; None without a rating or without a bearing."""
     if lower is None or upper is None or ultimate is None:
         return None
     return max(abs(lower), abs(upper)) / (USABLE * ultimate)

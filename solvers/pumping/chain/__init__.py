@@ -1,1 +1,1 @@
-"""The paper's chain of pockets: step -> pocket_chain."""
+"""The paper's chain of pockets; `pocket_chain` marches the steps of `step`."""

@@ -1,4 +1,4 @@
-"""The paper's chain of pockets (Eqs. 2-7), marched through the strokes of its pockets.
+"""The paper's chain of pockets (Eqs. 2-7), marched in time through the strokes of the pockets.
 
 Pressures depend on the number of pockets, which is a constant of this model.
 """
@@ -29,7 +29,7 @@ from solvers.pumping.inputs import Closure
 from solvers.pumping.space.face import Stretch
 
 STEPS = 2000  # least number of time steps in a stroke
-_REFINEMENTS = (1, 2, 4, 8)  # factors on the number of steps, tried until Newton's method converges in every step
+_REFINEMENTS = (1, 2, 4, 8)  # factors on the number of steps, tried in turn until all steps converge
 
 
 def pocket_chain(
@@ -45,7 +45,7 @@ def pocket_chain(
 
 
 def _march(gas: Gas, stretch: Stretch, duct: Duct, angle: FloatArray, closure: Closure, substeps: int) -> March:
-    """March one stretch; repeat with shorter steps if Newton's method stalls because the flow reverses in a step."""
+    """March one stretch; if Newton's method stalls because the flow reverses in a step, repeat with shorter steps."""
     for refinement in _REFINEMENTS:
         count = refinement * substeps
         record = empty_record(gas, angle.size, duct.cells, count * (angle.size - 1))
@@ -66,7 +66,7 @@ def march_chain(
 ) -> tuple[int, float]:
     """March over all `angles` [rad] in equal steps.
 
-    Returns the number of steps and 0, or -1 and the residual of the step that did not converge.
+    Returns the number of steps and 0; if a step does not converge, returns -1 and the residual of this step.
     """
     turn = (angles[-1] - angles[0]) / ((angles.size - 1) * substeps)
     dt = turn / duct.speed
@@ -104,7 +104,10 @@ def _renew(
     new_high: int,
     angle: float,
 ) -> None:
-    """Fill pockets whose stroke begins with ambient gas; add content that begins or ends its stroke to the balances."""
+    """Fill the pockets whose stroke begins, with ambient gas; update the balances.
+
+    The content of a pocket is added to the balances when its stroke begins and when it ends.
+    """
     per_energy = gas.exponent - 1.0
     for i in range(low, high):
         if i < new_low or i >= new_high:
@@ -143,7 +146,7 @@ def _mach(gas: Gas, left: float, right: float) -> float:
 
 @kernel
 def _record_field(gas: Gas, pockets: RecordArray, record: Record, low: int, high: int, k: int) -> None:
-    """Record the gas in the active pockets at recorded angle k."""
+    """Record the gas at angle k in the active pockets."""
     field = record.field
     mach = 0.0
     for i in range(low, high):
@@ -158,7 +161,7 @@ def _record_field(gas: Gas, pockets: RecordArray, record: Record, low: int, high
 def _record_ends(
     gas: Gas, duct: Duct, pockets: RecordArray, record: Record, low: int, high: int, dt: float, taken: int
 ) -> None:
-    """Record the flow out of both ends of the active pockets: ends of the duct, or borders to idle pockets."""
+    """Record the flow out of both ends of the active pockets, which are ends of the duct or borders to idle pockets."""
     for end in range(2):
         face, outward = (low, -1.0) if end == 0 else (high, 1.0)
         open_end = (low == 0) if end == 0 else (high == duct.cells)
@@ -193,7 +196,7 @@ def _record_jets(gas: Gas, pockets: RecordArray, record: Record, low: int, high:
 
 @kernel
 def _record_pockets(gas: Gas, duct: Duct, pockets: RecordArray, record: Record, low: int, high: int, dt: float) -> None:
-    """Record losses to the walls, means and extremes, and take the new state as the old state of the next step."""
+    """Record losses to the walls, means and extremes, and make the new state the old state of the next step."""
     mass = energy = work = 0.0
     for i in range(low, high):
         growth = pockets[i].area - pockets[i].start_area

@@ -1,12 +1,12 @@
-"""One implicit time step of a chain of pockets, which exchange mass and energy by nozzle flow.
+"""One implicit time step of a chain of pockets that exchange mass and energy by nozzle flow.
 
  dm_i/dt = M_{i-1/2} - M_{i+1/2} - Q_i                                    (Eq. 3, with the density in the radial term)
  dE_i/dt = (M h)_{i-1/2} - (M h)_{i+1/2} - (Q h)_i - p dV/dt              energy closure, h = c_p T upstream
  p = p_e (rho/rho_e)^gamma                                                isentropic closure (Eq. 1)
 
-The step is a backward Euler step; the wall work takes the mean pressure of the step. Newton's method solves for
-pressure and mass of all pockets; its blocks of two by two are eliminated along the chain. All amounts are per metre of
-face.
+The step is a backward Euler step, but the wall work is computed with the mean pressure of the step. Newton's method
+solves for pressure and mass of all pockets. Its Jacobian consists of blocks of two by two, which are eliminated along
+the chain. All amounts are per metre of face.
 """
 
 from typing import Any, NamedTuple
@@ -17,14 +17,14 @@ from solvers.arrays import Fields, RecordArray, floats, records
 from solvers.compiled import kernel
 from solvers.pumping.flow.nozzle import Gas, mass_flux
 
-_NEWTON_LIMIT = 200  # iterations, after which a step counts as not converged
-_TOLERANCE = 1e-10  # of the residual, relative to a pocket's content at ambient pressure
-_ROUNDING = 1e-7  # residual accepted if Newton's method no longer lowers it: pressures differ by round-off only
-_HALVINGS = 12  # of a Newton step; 1/4096 of it no longer helps
+_NEWTON_LIMIT = 200  # number of iterations after which a step counts as not converged
+_TOLERANCE = 1e-10  # largest residual, relative to a pocket's content at ambient pressure
+_ROUNDING = 1e-7  # largest residual if Newton's method no longer reduces it because pressures differ by round-off only
+_HALVINGS = 12  # largest number of halvings of a Newton step; a step below 1/4096 of it does not help
 
 
 STATE = floats("pressure", "mass")
-"""State of a pocket, or its correction by Newton's method: pressure [Pa] and mass [kg/m]."""
+"""State of a pocket, or a correction of this state by Newton's method: pressure [Pa] and mass [kg/m]."""
 
 ROW = floats("by_pressure", "by_mass")
 """Derivatives of a residual by the pressure and by the mass of a pocket."""
@@ -32,9 +32,9 @@ ROW = floats("by_pressure", "by_mass")
 BALANCE: Fields = [*floats("flow", "leak", "residual"), ("lower", ROW), ("diagonal", ROW), ("upper", ROW)]
 """Balance of mass or of heat of a pocket.
 
-Flow through the face below the pocket towards the high end [kg/s or W], leakage outwards [kg/(s m) or W/m], residual
-of Newton's method [kg/m or J/m], derivatives of the residual by the state of the pocket below (`lower`), of the pocket
-itself (`diagonal`) and of the pocket above (`upper`).
+`flow`: flow through the face below the pocket, towards the high end [kg/s or W]; `leak`: leakage outwards [kg/(s m) or
+W/m]; `residual` of Newton's method [kg/m or J/m]. `lower`, `diagonal` and `upper`: derivatives of the residual by the
+state of the pocket below, of the pocket itself and of the pocket above.
 """
 
 POCKET: Fields = [
@@ -48,14 +48,15 @@ POCKET: Fields = [
 ]
 """A pocket and the face below it.
 
-State at the start (`old`) and at the end (`new`) of a step, trial state and correction of Newton's method, both
-balances; area at the start and at the end of the step [m^2]; radial gap [m] and section of the face [m^2] (`opening`)
-at the end of the step.
+`old` and `new`: state at the start and at the end of a step; `trial` and `correction`: trial state and correction of
+Newton's method; `mass_balance` and `heat_balance`: balances of mass and heat; `start_area` and `area`: area at the
+start and at the end of the step [m^2]; `gap` and `opening`: radial gap [m] and section of the face [m^2] at the end of
+the step.
 """
 
 
 def empty_pockets(pockets: int) -> RecordArray:
-    """Return an array of POCKET for the number of pockets, and one more for the face above the last pocket."""
+    """Return an array of POCKET with one more record than pockets, for the face above the last pocket."""
     return records(pockets + 1, POCKET)
 
 
@@ -79,15 +80,16 @@ class Passage(NamedTuple):
 
 @kernel
 def ambient(gas: Gas) -> Side:
-    """Return a side with ambient gas."""
+    """Return a side that holds ambient gas."""
     return Side(gas.pressure, gas.density, 1.0)
 
 
 @kernel
 def passages(gas: Gas, left: Side, right: Side) -> tuple[Passage, Passage]:
-    """Compute the flow of mass and of heat per open area.
+    """Compute the flow of mass and the flow of heat through an opening, per area of the opening.
 
-    The side of the higher pressure is the source; the gas carries its enthalpy c_p T = c_p p A/(m R).
+    The side with the higher pressure is the source. The gas carries the enthalpy of the source,
+    c_p T = c_p p A/(m R).
     """
     forward = left.pressure >= right.pressure
     source, sink = (left, right) if forward else (right, left)
@@ -166,7 +168,7 @@ def advance(
 
 @kernel
 def _add_change(value: float, change: float) -> float:
-    """Add a change by Newton's method to a positive value, which loses at most 80 % of itself."""
+    """Add Newton's change to a positive value, but reduce the value by at most 80 %."""
     return value + max(change, -0.8 * value)
 
 
@@ -194,7 +196,10 @@ def _set_from_flows(
 def _assemble(
     gas: Gas, width: float, discharge: float, pockets: RecordArray, low: int, high: int, dt: float, isentropic: bool
 ) -> float:
-    """Set flows, residuals and Jacobian of the trial state; return the largest residual relative to ambient content."""
+    """Set flows, residuals and Jacobian of the trial state; return the largest relative residual.
+
+    Residuals are relative to the content of a pocket at ambient pressure.
+    """
     error = 0.0
     _store(gas, pockets, low, high, isentropic)
     _leak(gas, discharge, pockets, low, high, dt, isentropic)
@@ -208,7 +213,7 @@ def _assemble(
 
 @kernel
 def _store(gas: Gas, pockets: RecordArray, low: int, high: int, isentropic: bool) -> None:
-    """Set residuals and derivatives as if the pockets were closed: they keep mass, and energy or entropy."""
+    """Set residuals and derivatives as if the pockets were closed, so that they keep mass, and energy or entropy."""
     g = gas.exponent
     for i in range(low, high):
         p, content = pockets[i].trial.pressure, pockets[i].trial.mass
@@ -262,7 +267,7 @@ def _leak(gas: Gas, discharge: float, pockets: RecordArray, low: int, high: int,
 
 @kernel
 def _add_leakage(balance: Any, opening: float, dt: float, passage: Passage, counts: bool) -> None:
-    """Record the leakage through a radial gap, and add it to the residual if the balance `counts`."""
+    """Record the leakage through a radial gap; if `counts` is true, also add the leakage to the residual."""
     balance.leak = opening * passage.flow
     if counts:
         share = dt * opening
@@ -274,7 +279,10 @@ def _add_leakage(balance: Any, opening: float, dt: float, passage: Passage, coun
 def _exchange(
     gas: Gas, width: float, discharge: float, pockets: RecordArray, low: int, high: int, dt: float, isentropic: bool
 ) -> None:
-    """Add the flow through the faces to the balances: between two pockets, and between a pocket and the ambient."""
+    """Add the flow through the faces to the balances.
+
+    A face lies between two pockets, or between a pocket and the ambient.
+    """
     right = ambient(gas)
     for face in range(low, high + 1):
         left = right
@@ -313,8 +321,8 @@ def _add_inflow(balance: Any, share: float, passage: Passage) -> None:
 def _eliminate(pockets: RecordArray, low: int, high: int) -> None:
     """Compute Newton's correction by elimination of the blocks along the chain.
 
-    The forward pass solves the two balances of each pocket for its pressure and its mass. From then on the mass balance
-    holds the row of the pressure, and the heat balance holds the row of the mass.
+    The forward pass solves the two balances of a pocket for its pressure and its mass. After this pass, the record of
+    the mass balance holds the row for the pressure, and the record of the heat balance holds the row for the mass.
     """
     for i in range(low, high):
         mass, heat = pockets[i].mass_balance, pockets[i].heat_balance
@@ -340,7 +348,7 @@ def _eliminate(pockets: RecordArray, low: int, high: int) -> None:
 
 @kernel
 def _substitute(balance: Any, pressure: Any, mass: Any) -> None:
-    """Eliminate the pocket below from a balance; its two balances already hold its pressure and its mass."""
+    """Eliminate the pocket below from a balance; `pressure` and `mass` are the solved rows of the pocket below."""
     p, m = balance.lower.by_pressure, balance.lower.by_mass
     balance.diagonal.by_pressure -= p * pressure.upper.by_pressure + m * mass.upper.by_pressure
     balance.diagonal.by_mass -= p * pressure.upper.by_mass + m * mass.upper.by_mass

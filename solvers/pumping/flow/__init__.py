@@ -1,1 +1,1 @@
-"""Parts that the flow models share: nozzle (the gas and its discharge), duct, space_flow (records and results)."""
+"""Parts that the flow models share: the gas and its flow through openings, the duct, records and results."""

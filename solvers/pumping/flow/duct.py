@@ -1,4 +1,4 @@
-"""A stretch of tooth space as a duct, cut into cells along the face, whose walls move with the gears."""
+"""A stretch of tooth space as a duct that is cut into cells along the face; the walls of the cells move."""
 
 from typing import NamedTuple
 
@@ -6,15 +6,16 @@ from solvers.arrays import FloatArray, RecordArray, floats, records
 from solvers.compiled import kernel
 
 WALL = floats("area", "clearance", "carried")
-"""Walls of a cell, see `Wall`."""
+"""Values of a cell that depend on its walls, see `Wall`."""
 
 
 class Duct(NamedTuple):
     """A stretch of a tooth space cut into equal cells.
 
-    `start` [m] from the end that meshes first; `width` of a cell [m]; number of `cells`; `lag`: angle by which the
-    stroke comes later per metre of face [rad/m]; `speed` of the owner [rad/s]; `table` of walls (`wall_table`), whose
-    row k belongs to the angle `first_angle` + k `angle_step` [rad]; `discharge` coefficient of the radial gaps.
+    `start` is the distance from the end that meshes first [m]; `width` is the width of a cell [m], and `cells` the
+    number of cells. `lag` is the angle by which the stroke comes later per metre of face [rad/m]. `speed` is the speed
+    of the owner, the gear to which the space belongs [rad/s]. Row k of `table` (`wall_table`) holds the walls at the
+    angle `first_angle` + k `angle_step` [rad]. `discharge` is the discharge coefficient.
     """
 
     start: float
@@ -29,7 +30,7 @@ class Duct(NamedTuple):
 
 
 class Wall(NamedTuple):
-    """Section of a tooth space [m^2], sum of both clearances [m], area of gas that the flanks carried out [m^2]."""
+    """Area of a tooth space [m^2], sum of both clearances [m], area of gas that the flanks have carried out [m^2]."""
 
     area: float
     clearance: float
@@ -61,13 +62,16 @@ def wall_at(duct: Duct, z: float, angle: float) -> Wall:
 
 @kernel
 def phase_of(duct: Duct, i: int, angle: float) -> float:
-    """Compute the phase of cell i [rad], on which its walls depend: the owner's angle less the lag of the cell."""
+    """Compute the phase of cell i [rad]: the owner's angle minus the lag of the cell, on which the walls depend."""
     return angle - duct.lag * (duct.start + (i + 0.5) * duct.width)
 
 
 @kernel
 def active_range(duct: Duct, angle: float) -> tuple[int, int]:
-    """Find the first active cell and the cell after the last active one: cells whose phase is in the stroke."""
+    """Find the first active cell and the cell after the last active cell.
+
+    A cell is active if its phase is in the stroke.
+    """
     low, high = 0, 0
     for i in range(duct.cells):
         phase = phase_of(duct, i, angle)
@@ -80,7 +84,7 @@ def active_range(duct: Duct, angle: float) -> tuple[int, int]:
 
 @kernel
 def stroke_end(duct: Duct) -> float:
-    """Compute the phase at which the stroke ends [rad]."""
+    """Compute the phase [rad] at which the stroke ends."""
     end: float = duct.first_angle + duct.angle_step * (duct.table.size - 1)
     return end
 

@@ -1,4 +1,4 @@
-"""The perfect gas with its ambient state, and its discharge through an opening; Eq. 7 is the choked limit."""
+"""The perfect gas with its ambient state, and the flow of this gas through an opening; Eq. 7 is the choked limit."""
 
 from math import sqrt
 from typing import NamedTuple
@@ -8,15 +8,15 @@ import numpy as np
 from solvers.compiled import inlined_kernel, kernel
 from solvers.pumping.inputs import MOLAR_GAS_CONSTANT, Ambient
 
-_LINEAR = 1e-7  # relative pressure drop; the flux is linear below it, so that its derivative stays finite
+_LINEAR = 1e-7  # relative pressure drop below which the flux is made linear, so that its derivative stays finite
 _SMALL = 1e-2  # relative pressure drop; below it the expansion is computed by a series
-_TERMS = 7  # of the series; for drops up to _SMALL the first term left out is below 1e-16
+_TERMS = 7  # number of terms of the series; for drops up to _SMALL the first omitted term is below 1e-16
 
 
 class Gas(NamedTuple):
-    """The perfect gas and its ambient state, SI.
+    """The perfect gas and its ambient state, in SI units.
 
-    `critical_ratio` and `critical_density_ratio` are those of the pressure and the density at Mach 1 to those at rest.
+    `critical_ratio` and `critical_density_ratio` are the pressure and the density at Mach 1 divided by those at rest.
     """
 
     exponent: float
@@ -64,7 +64,7 @@ def flux_squared(gas: Gas, upstream: float, density: float, drop: float) -> tupl
     Returns
     -------
     squared : float
-        Square of the mass flux [kg^2/(s^2 m^4)]; negative for a negative drop, where it continues linearly.
+        Square of the mass flux [kg^2/(s^2 m^4)]; for a negative drop, a linear continuation with negative values.
     by_upstream : float
         Derivative by the upstream pressure at a fixed density upstream [kg^2/(s^2 m^4 Pa)].
     by_downstream : float
@@ -93,9 +93,9 @@ def flux_squared(gas: Gas, upstream: float, density: float, drop: float) -> tupl
 
 @kernel
 def _expansion(power: float, drop: float) -> tuple[float, float]:
-    """Compute the ratio of densities y = x^power over an isentropic pressure ratio x = 1 - drop, and y - x.
+    """Compute the density ratio y = x^power of an isentropic expansion by the pressure ratio x = 1 - drop, and y - x.
 
-    For small drops x and y are nearly equal. Their difference is then computed by the series
+    For small drops x and y are nearly equal. The difference y - x is then computed from the series
     1 - y = power drop (1 + (1 - power)/2 drop (1 + (2 - power)/3 drop (1 + ...))).
     """
     if drop > _SMALL:
@@ -176,7 +176,7 @@ def choked_mass_flux(gas: Gas, pressure: float, temperature: float) -> float:
 
     Notes
     -----
-    Eq. 7 per area of the opening.
+    Eq. 7 divided by the area of the opening.
     """
     g, r = gas.exponent, gas.constant
     velocity_factor: float = (2 / (g + 1)) ** (1 / (g - 1)) * sqrt(2 * g * r / (g + 1))

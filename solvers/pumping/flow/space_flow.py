@@ -1,4 +1,4 @@
-"""The flow in the tooth spaces over one stroke: the records of a march, and the result of every flow model."""
+"""The flow in a tooth space over one stroke: the records of a march in time, and the result of every flow model."""
 
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -16,30 +16,33 @@ FIELD = floats("pressure", "mach", "temperature")
 PROFILE = floats("static", "stagnation", "active", "highest", "lowest", "mach")
 """Gas of a cell over its stroke.
 
-Integrals of static and stagnation temperature over time [K s], time in the stroke [s], highest and lowest pressure
-[Pa], largest axial Mach number. The Mach number is 0 in the chain of pockets, where gas moves between pockets only.
+`static` and `stagnation`: integrals of static and stagnation temperature over time [K s]; `active`: time in the stroke
+[s]; `highest` and `lowest`: pressures [Pa]; `mach`: largest axial Mach number. The Mach number is 0 in the pocket
+chain, because its gas moves between pockets only.
 """
 
 EXTREMES = floats("mach", "velocity", "demand")
-"""Largest axial Mach number, largest velocity [m/s], largest demand: see `SpaceFlow.exit_demand`."""
+"""Largest axial Mach number, largest velocity [m/s], and largest demand (`exit_demand` of `SpaceFlow`)."""
 
 BALANCE = floats("begun", "ended", "low_end", "high_end", "walls", "idle")
-"""Mass [kg] or energy [J] of the cells: content when their stroke began, and where it went.
+"""Balance of the mass [kg] or energy [J] of all cells over their strokes.
 
-`begun` and `ended`: content when the stroke began and ended. Outflow through the low and the high end; `walls`: through
-the radial gaps and with the flanks, of the energy also the work on the walls; `idle`: to cells outside their stroke.
-The first value less the sum of the others is the error of conservation.
+`begun` and `ended`: content of the cells when their strokes began and ended. `low_end` and `high_end`: outflow through
+both ends. `walls`: outflow through the radial gaps and with the flanks; in the balance of energy, also the work on the
+walls. `idle`: outflow to cells outside their stroke. `begun` minus the sum of the other values is the error of
+conservation.
 """
 
 ENDS = floats("time", "low_outflow", "high_outflow")
-"""Time of the middle of a step [s], mass that flowed out of the low and of the high end in this step [kg]."""
+"""Time at the middle of a step [s], and mass that left through the low end and the high end in this step [kg]."""
 
 
 class Record(NamedTuple):
-    """Arrays of records that a march through the stroke of a duct fills.
+    """Arrays of records that are filled while a duct is marched through its stroke.
 
     `field` (angles, cells) of FIELD; `profile` (cells,) of PROFILE; `extremes` (1,) of EXTREMES; `mass` and `energy`
-    (1,) of BALANCE, the energy with the `work` done on the gas above ambient pressure [J]; `ends` (steps,) of ENDS.
+    (1,) of BALANCE; `ends` (steps,) of ENDS. `energy` also has the field `work`: work on the gas by pressures above
+    ambient pressure [J].
     """
 
     field: RecordArray
@@ -102,30 +105,30 @@ def add_means(profile: RecordArray, i: int, static: float, stagnation: float, dt
 
 @kernel
 def include_pressure(profile: RecordArray, i: int, pressure: float) -> None:
-    """Include a pressure [Pa] of cell i in its extremes."""
+    """Update the highest and the lowest pressure of cell i by a pressure [Pa]."""
     profile[i].highest = max(profile[i].highest, pressure)
     profile[i].lowest = min(profile[i].lowest, pressure)
 
 
 @kernel
 def include_speed(extremes: RecordArray, mach: float, velocity: float) -> None:
-    """Include an axial Mach number and velocity [m/s] in the extremes of the stroke."""
+    """Update the extremes of the stroke by an axial Mach number and a velocity [m/s]."""
     extremes[0].mach = max(extremes[0].mach, mach)
     extremes[0].velocity = max(extremes[0].velocity, velocity)
 
 
 @kernel
 def include_demand(extremes: RecordArray, mach: float) -> None:
-    """Include the Mach number that the ambient pressure asks for at an end in the extremes of the stroke."""
+    """Update the largest demand of the stroke by the Mach number of an expansion to ambient pressure at an end."""
     extremes[0].demand = max(extremes[0].demand, mach)
 
 
 @dataclass(frozen=True, slots=True)
 class ExitMasses:
-    """Net mass that leaves one tooth space in a stroke, by exit [kg].
+    """Net mass that leaves one tooth space in a stroke through each exit [kg].
 
-    `reset` is the mass that slices lose when their content is replaced by ambient gas between two strokes, and the mass
-    that flows to slices outside their stroke. The five masses add up to 0.
+    `reset` is the sum of two masses: the mass that slices lose when ambient gas replaces their content between two
+    strokes, and the mass that flows to slices outside their stroke. The five masses of this class add up to 0.
     """
 
     front: float
@@ -146,13 +149,13 @@ class EndFlow:
 
 @dataclass(frozen=True, slots=True)
 class SpaceFlow:
-    """One stroke of one tooth space; temperatures are None if the flow model has none.
+    """One stroke of one tooth space; temperatures are None if the flow model gives no temperatures.
 
-    Fields of shape (angles, positions): `pressure` [Pa], `mach`, `stagnation_temperature` [K] at the owner's `angle`
-    [rad] and the `position` [m]. Over the face, (positions,): means of temperature and stagnation temperature over the
-    stroke [K], peak and lowest pressure [Pa], largest Mach number within the slices (0 in the chain of pockets).
-    `exit_demand`: largest Mach number of an end if the gas expanded to ambient pressure there; above 1 the end is
-    choked. `work` [J]: work on the gas above ambient pressure. Errors are relative.
+    Fields of shape (angles, positions): `pressure` [Pa], `mach` and `stagnation_temperature` [K] at the owner's `angle`
+    [rad] and the `position` [m]. Curves over the face, (positions,): means of temperature and stagnation temperature
+    over the stroke [K], peak and lowest pressure [Pa], largest Mach number within the slices (0 in the pocket chain).
+    `exit_demand` is the largest Mach number that an end would have if the gas expanded to ambient pressure; above 1 the
+    end is choked. `work` is the work on the gas by pressures above ambient pressure [J]. Errors are relative.
     """
 
     angle: FloatArray
@@ -188,7 +191,7 @@ class March:
 
 
 def space_flow(angle: FloatArray, marches: list[March], *, conserves_energy: bool) -> SpaceFlow:
-    """Join the marches of all stretches of a face."""
+    """Join the marches through all stretches of a face to one flow."""
     marched = [march.record for march in marches]
     field = np.concatenate([record.field for record in marched], axis=1).view(np.recarray)
     profile = np.concatenate([record.profile for record in marched]).view(np.recarray)

@@ -1,1 +1,1 @@
-"""Quasi-one-dimensional gas dynamics of a tooth space: riemann, leakage -> step -> gas_dynamics."""
+"""Quasi-one-dimensional gas dynamics of a tooth space; modules in order: riemann, leakage -> step -> gas_dynamics."""

@@ -1,6 +1,6 @@
-"""Quasi-one-dimensional gas dynamics of a tooth space: ducts marched through their strokes, step by step.
+"""Quasi-one-dimensional gas dynamics of a tooth space: ducts are marched through their strokes, step by step.
 
-A cell takes part while it is in its stroke. This model converges as the grid is refined; the chain of pockets does not.
+A cell takes part while it is in its stroke. This model converges if the grid is refined; the pocket chain does not.
 """
 
 from math import ceil
@@ -29,17 +29,17 @@ from solvers.pumping.gas.step import Cells, empty_cells, set_walls, step
 from solvers.pumping.space.face import Stretch
 
 LEAST_SLICES = 4  # chosen: limited slopes need three cells
-_HASTE = 2.5  # room in the record for more steps than sound in gas at rest requires
-COURANT = 0.7  # below the limit of 1 of the scheme, with room for waves that speed up within a step
-_ROUNDING = 1e-6  # of a step, by which a step may be longer instead of leaving such a small rest
+_HASTE = 2.5  # factor on the number of steps for sound in gas at rest, which gives the room in the record
+COURANT = 0.7  # Courant number; less than the limit of the scheme, 1, because waves may become faster within a step
+_ROUNDING = 1e-6  # share of a step; a remainder this small is added to the step before it
 _RETRIES = 12  # number of halvings of a failed step, chosen
 _AHEAD = 4.0  # number of cells that take part early if the stroke runs along the face faster than sound
-_STEEP = 0.5  # of a cell's density or pressure; smaller extrapolated values are replaced by those of the cell
-_UNSETTLED = 5.0  # number of steps in which the leakage settles after the start of a stroke and the starting waves pass
+_STEEP = 0.5  # share of a cell's density or pressure; smaller extrapolated values are replaced by those of the cell
+_UNSETTLED = 5.0  # number of steps after the start of a stroke until the leakage and the waves of the start settle
 
 
 def gas_dynamics(gas: Gas, ducts: list[tuple[Stretch, Duct]], angle: FloatArray) -> SpaceFlow:
-    """March every stretch of a tooth space through its stroke and record the gas at each `angle` [rad].
+    """March every stretch of a tooth space through its stroke, and record the gas at each `angle` [rad].
 
     Raises NoSolution: unphysical_state.
     """
@@ -52,13 +52,15 @@ def gas_dynamics(gas: Gas, ducts: list[tuple[Stretch, Duct]], angle: FloatArray)
             reason = "the step limit was reached" if steps == -1 else "no step length gave a physical state"
             duration = float(angle[-1] - angle[0]) / part.speed
             remaining = {"remaining_share_of_stroke": 1.0 - float(record.ends.time.max()) / duration}
-            raise NoSolution("unphysical_state", f"the gas dynamics failed: {reason}; try fewer slices", remaining)
+            raise NoSolution(
+                "unphysical_state", f"the gas dynamics failed because {reason}; try fewer slices", remaining
+            )
         marches.append(March(stretch, record, steps))
     return space_flow(angle, marches, conserves_energy=True)
 
 
 def cell_steps(gas: Gas, ducts: list[tuple[Stretch, Duct]], angle: FloatArray) -> float:
-    """Estimate the number of cells times steps of a march from the speed of sound in gas at rest."""
+    """Estimate the number of cells times the number of steps of a march, from the speed of sound in gas at rest."""
     return sum(part.cells * _steps(gas, part, angle) for _, part in ducts)
 
 
@@ -68,11 +70,12 @@ def _steps(gas: Gas, part: Duct, angle: FloatArray) -> float:
 
 @kernel
 def march(gas: Gas, duct: Duct, cells: Cells, angles: FloatArray, record: Record, order: int) -> int:
-    """March from the first of the `angles` [rad] to the last; return the number of steps, or a negative number.
+    """March from the first to the last of the `angles` [rad]; return the number of steps, or a negative number.
 
-    A step never passes an angle. Steps are as long as waves allow; the last step before an angle is the rest. If the
-    number of steps grows by one, the new step is short at first, so results depend continuously on the step length.
-    The result is -1 if the record has no room for more steps, and -2 if no step length gives a physical state.
+    A step never passes one of the angles. Steps are as long as the waves allow; the last step before an angle covers
+    the remaining turn. If the number of steps between two angles grows by one, the additional step is very short at
+    first, so results depend continuously on the step length. The result is -1 if the record has no room for more steps,
+    and -2 if no step length gives a physical state.
     """
     angle, taken, low, high = angles[0], 0, 0, 0
     for k in range(1, angles.size):
@@ -114,15 +117,15 @@ def march(gas: Gas, duct: Duct, cells: Cells, angles: FloatArray, record: Record
 
 @kernel
 def _taking_part(gas: Gas, duct: Duct, angle: float, turn: float) -> tuple[int, int]:
-    """Find the first cell that takes part in a step of `turn` from `angle` [rad], and the cell after the last one.
+    """Find the first cell that takes part in a step of `turn` from `angle` [rad], and the cell after the last of them.
 
     A cell takes part while its centre is in its stroke. The first and the last cell of the duct also take part while
     their outer end is in its stroke, so that gas can leave through an end as long as the end is open. Walls and
-    balances count the share of the step in the stroke.
+    balances count only the share of the step that lies in the stroke.
 
-    If the stroke runs along the face faster than sound, cells take part some widths early. Physical waves do not reach
-    the border to the idle cells then, but on a grid waves spread over a few cells. If the border were among these
-    cells, the gas that it lets pass would fill the cells that come next, and the flow would take one of two courses
+    If the stroke runs along the face faster than sound, cells take part a few cell widths early. Physical waves then do
+    not reach the border to the idle cells, but on a grid waves spread over a few cells. If the border were among these
+    cells, the gas that passes the border would fill the next cells. The flow could then develop in two different ways,
     depending on the sequence of steps.
     """
     low, high, rear = 0, 0, duct.cells - 1
@@ -139,7 +142,7 @@ def _taking_part(gas: Gas, duct: Duct, angle: float, turn: float) -> tuple[int, 
 
 @kernel
 def _longest_turn(gas: Gas, duct: Duct, cells: Cells, low: int, high: int) -> float:
-    """Compute the turn of the owner [rad] in which the fastest wave crosses the Courant number's share of a cell."""
+    """Compute the turn of the owner [rad] in which the fastest wave crosses a share of a cell, the Courant number."""
     fastest = gas.sound_speed
     for i in range(low, high):
         rho, u, p = cells.state[i].density, cells.state[i].velocity, cells.state[i].pressure
@@ -149,7 +152,7 @@ def _longest_turn(gas: Gas, duct: Duct, cells: Cells, low: int, high: int) -> fl
 
 @kernel
 def _fill(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, new_low: int, new_high: int, angle: float) -> None:
-    """Fill the cells whose stroke begins with the gas of the border."""
+    """Fill the cells whose stroke begins; they receive the gas of the border."""
     rho, u, p = _border(gas, duct, cells, low, high)
     for i in range(new_low, new_high):
         if i < low or i >= high:
@@ -161,10 +164,10 @@ def _fill(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, new_low: int,
 
 @kernel
 def _border(gas: Gas, duct: Duct, cells: Cells, low: int, high: int) -> State:
-    """Compute the state of the gas in the cells that come next, from the border at their centres.
+    """Compute the state of the gas with which the next cells begin, from a border at the centre of these cells.
 
-    The state of the last active cells is extrapolated by one cell width. If no cell is active yet, the gas is ambient
-    gas at rest.
+    The state of the last active cells is extrapolated to the border by one cell width. If no cell is active yet, the
+    gas is ambient gas at rest.
     """
     if not low < high < duct.cells:
         return State(gas.density, 0.0, gas.pressure)
@@ -179,9 +182,9 @@ def _border(gas: Gas, duct: Duct, cells: Cells, low: int, high: int) -> State:
 
 @kernel
 def _record_changes(duct: Duct, cells: Cells, record: Record, low: int, high: int, new_low: int, new_high: int) -> None:
-    """Add the content of cells whose stroke ends or begins between two steps to the balances.
+    """Add to the balances the content of the cells whose stroke ends or begins between two steps.
 
-    The active cells were low..high and are now new_low..new_high.
+    The active cells were low..high in the step before, and are now new_low..new_high.
     """
     for i in range(low, high):
         if i < new_low or i >= new_high:
@@ -197,9 +200,10 @@ def _record_changes(duct: Duct, cells: Cells, record: Record, low: int, high: in
 def _record_ends(
     duct: Duct, cells: Cells, record: Record, low: int, high: int, angle: float, turn: float, taken: int
 ) -> None:
-    """Record the flow out of both ends of the active cells: ends of the duct, or borders to idle cells.
+    """Record the flow out of both ends of the active cells, which are ends of the duct or borders to idle cells.
 
-    An end of the duct counts as an end for the share of the step in which it is in its own stroke, else as a border.
+    An end of the duct counts as an end for the share of the step in which its position is in the stroke. For the
+    remaining share, it counts as a border to idle cells.
     """
     dt = turn / duct.speed
     for end in range(2):
@@ -219,11 +223,12 @@ def _record_ends(
 def _record_cells(
     gas: Gas, duct: Duct, cells: Cells, record: Record, low: int, high: int, angle: float, turn: float, longest: float
 ) -> None:
-    """Record losses to the walls, mean temperatures (trapezoidal) and extremes of the active cells.
+    """Record losses to the walls, mean temperatures and extremes of the active cells.
 
-    `longest` is the turn of a whole step [rad]. Extremes leave out two kinds of cells. Cells whose stroke ends within
-    the step are closed for the rest of it and collect the inflow. Cells in their first steps start from the state of
-    the border; their leakage settles within a fraction of a step, so an implicit scheme of second order overshoots.
+    Mean temperatures follow from the trapezoidal rule. `longest` is the turn of a whole step [rad]. The extremes leave
+    out two kinds of cells. If the stroke of a cell ends within the step, the cell is closed for the remainder of the
+    step and collects the inflow. In its first steps a cell starts from the state of the border; the leakage of the cell
+    settles within a fraction of a step, so an implicit scheme of second order overshoots.
     """
     old, new, loss, dt = cells.state, cells.next_state, cells.loss, turn / duct.speed
     for i in range(low, high):
@@ -244,7 +249,7 @@ def _record_cells(
 
 @kernel
 def _take_over(cells: Cells, low: int, high: int) -> None:
-    """Copy the end of one step to the start of the next."""
+    """Copy the state at the end of a step to the start of the next step."""
     for i in range(low, high):
         cells.content[i] = cells.next_content[i]
         cells.state[i] = cells.next_state[i]
@@ -254,7 +259,7 @@ def _take_over(cells: Cells, low: int, high: int) -> None:
 def _record_field(
     gas: Gas, duct: Duct, cells: Cells, record: Record, low: int, high: int, k: int, angle: float
 ) -> None:
-    """Record the gas at recorded angle k in the active cells whose stroke is not over."""
+    """Record the gas at angle k in the active cells whose stroke is not over."""
     for i in range(low, high):
         if phase_of(duct, i, angle) <= stroke_end(duct):
             rho, u, p = cells.state[i].density, cells.state[i].velocity, cells.state[i].pressure

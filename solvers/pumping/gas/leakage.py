@@ -1,9 +1,10 @@
-"""Exchange of a cell of the duct with its walls over an implicit stage: leakage, gas carried by the flanks, wall work.
+"""Exchange of a cell with its walls over an implicit stage: leakage, gas carried by the flanks, and wall work.
 
-All amounts are per metre of face. Gas that leaks out has the velocity of the cell, gas that leaks in comes from rest.
-One unknown remains, the flux through the radial gaps. Its square is nearly linear in the pressure, so Newton's method
-on the square converges for any gap and any pressure, however stiff the exchange is. Mass, momentum and energy of the
-cell follow from the flux without further iteration, so they are conserved whatever the error of the flux is.
+All amounts are per metre of face. Gas that leaks out has the velocity of the cell; gas that leaks in comes from rest.
+The only unknown is the flux through the radial gaps. The square of this flux is nearly linear in the pressure.
+Therefore Newton's method for the square converges for any gap and any pressure, even if the exchange is very stiff.
+Mass, momentum and energy of the cell follow from the flux without further iteration. Therefore they are conserved
+even if the flux has an error.
 """
 
 from typing import NamedTuple
@@ -14,14 +15,15 @@ from solvers.compiled import inlined_kernel, kernel
 from solvers.pumping.flow.nozzle import Gas, flux_squared
 
 _NEWTON_LIMIT = 30  # iterations; Newton's method on the square of the flux needs few
-_TOLERANCE = 1e-10  # relative, of the flux through the gaps
+_TOLERANCE = 1e-10  # largest relative error of the flux through the gaps
 
 
 class Walls(NamedTuple):
     """The walls of a cell at one instant.
 
-    `area` of the section [m^2]; `growth`: rate of the area [m^2/s]; `gap`: clearance times discharge coefficient [m];
-    `transport`: area of gas that the flanks carry out per second [m^2/s].
+    `area` is the area of the cell's section [m^2], and `growth` the rate at which this area grows [m^2/s]. `gap` is the
+    clearance times the discharge coefficient [m]. `transport` is the area of gas that the flanks carry out per second
+    [m^2/s].
     """
 
     area: float
@@ -31,11 +33,11 @@ class Walls(NamedTuple):
 
 
 class Stage(NamedTuple):
-    """Content of a cell after a stage, its pressure, and the rates of loss in the stage.
+    """Content and pressure of a cell after a stage, and the rates at which the cell loses its content in the stage.
 
-    `mass` [kg/m], `momentum` [kg/s], `energy` [J/m], `pressure` [Pa]. Rates of loss: `leak` of mass [kg/(s m)],
-    `momentum_rate` [N/m], `energy_rate` [W/m]; `through_gaps`: the part of `leak` through the radial gaps.
-    `fits`: whether the state is physical.
+    Content: `mass` [kg/m], `momentum` [kg/s] and `energy` [J/m]; `pressure` [Pa]. Rates of loss: `leak` of mass
+    [kg/(s m)], `momentum_rate` [N/m] and `energy_rate` [W/m]. `through_gaps` is the part of `leak` that passes the
+    radial gaps [kg/(s m)]. `fits` tells whether the state is physical.
     """
 
     mass: float
@@ -53,7 +55,7 @@ class Stage(NamedTuple):
 def implicit_stage(
     gas: Gas, walls: Walls, mass: float, momentum: float, energy: float, h: float, guess: float
 ) -> Stage:
-    """Compute a backward Euler stage of the exchange of a cell with its walls.
+    """Compute the exchange of a cell with its walls over one stage of the backward Euler method.
 
     Parameters
     ----------
@@ -79,8 +81,8 @@ def implicit_stage(
 
     Notes
     -----
-    Eq. P7. `stiffness` is the inner energy per pressure [m^2] of a cell that does wall work and loses gas with the
-    flanks, but has no gaps.
+    Eq. P7. In the code, `stiffness` is the internal energy divided by the pressure [m^2] of a cell that does work on
+    its walls and loses gas with the flanks, but has no gaps.
     """
     g, area = gas.exponent, walls.area
     into, carried = max(-walls.transport, 0.0) * gas.density, max(walls.transport, 0.0) / area
@@ -125,7 +127,10 @@ def _unphysical() -> Stage:
 
 @kernel
 def _improve(flux: float, squared: float, slope: float) -> float:
-    """Solve new^2 = squared + slope (new - flux), the nozzle law linearised in the flux, for new > 0; slope <= 0."""
+    """Solve the nozzle law linearised in the flux, new^2 = squared + slope (new - flux), for new > 0.
+
+    `slope` must not be positive.
+    """
     constant = squared - slope * flux
     if constant <= 0.0:
         return 0.0
@@ -138,9 +143,9 @@ def _improve(flux: float, squared: float, slope: float) -> float:
 def _is_settled(change: float, content: float, drop: float) -> bool:
     """Return whether the error of the flux is within tolerance after Newton's last `change` of a content [kg/m].
 
-    The linearised law lacks the second derivative. The relative error of the flux is therefore about
-    (change / content)^2 over the relative pressure drop, times a factor of 1 to 2 from the powers by which pressure and
-    density of the cell fall.
+    The linearised law leaves out the second derivative. Therefore the relative error of the flux is about
+    (change / content)^2 divided by the relative pressure drop, times a factor of 1 to 2. The factor results from the
+    powers with which pressure and density of the cell fall.
     """
     return 2.0 * change**2 <= _TOLERANCE * content**2 * max(drop, 0.0)
 
@@ -149,7 +154,7 @@ def _is_settled(change: float, content: float, drop: float) -> bool:
 def _outflow(gas: Gas, walls: Walls, stiffness: float, mass: float, inner: float, h: float, guess: float) -> float:
     """Compute the leakage out of a cell above ambient pressure [kg/(s m)].
 
-    The pressure of the cell is inner / resistance. The resistance is the stiffness [m^2] plus the share of the enthalpy
+    The pressure of the cell is inner / resistance. The resistance [m^2] is the stiffness plus a term for the enthalpy
     that leaks out.
     """
     g, area, gap = gas.exponent, walls.area, walls.gap

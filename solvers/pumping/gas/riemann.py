@@ -1,6 +1,6 @@
-"""States of the gas, and fluxes through the faces of a duct: between two cells (HLLC) and into ambient gas at rest.
+"""States of the gas, and fluxes through the faces of a duct: between two cells (HLLC), and into ambient gas at rest.
 
-Velocities are along the face [m/s], or outwards at a face that opens into the ambient.
+Velocities are positive along the face [m/s]; at a face that opens into the ambient, they are positive outwards.
 """
 
 from typing import NamedTuple
@@ -20,7 +20,7 @@ class State(NamedTuple):
 
 
 class Conserved(NamedTuple):
-    """Mass, momentum and energy; as a flux [kg/s, N, W], per area [kg/(s m^2), Pa, W/m^2]."""
+    """Flux of mass, momentum and energy [kg/s, N, W]; if it is divided by the area, [kg/(s m^2), Pa, W/m^2]."""
 
     mass: float
     momentum: float
@@ -36,7 +36,7 @@ def flux(g: float, area: float, state: State, ram: float) -> Conserved:
     g : float
         Isentropic exponent.
     area : float
-        Area [m^2]; 1 for the flux per area.
+        Area [m^2]; with an area of 1 the result is the flux per area.
     state : State
         State of the gas at the face.
     ram : float
@@ -49,8 +49,8 @@ def flux(g: float, area: float, state: State, ram: float) -> Conserved:
 
     Notes
     -----
-    Eq. P6 with rho E = p/(g - 1) + rho u^2/2. The caller gives the ram pressure because its rounding counts: a march
-    amplifies the last digit to 1e-7 of a result.
+    Eq. P6 with rho E = p/(g - 1) + rho u^2/2. The caller computes the ram pressure, because the way in which it is
+    rounded matters: a march amplifies a difference in the last digit to 1e-7 of a result.
     """
     rho, u, p = state
     return Conserved(area * rho * u, area * (ram + p), area * u * (g / (g - 1.0) * p + 0.5 * ram))
@@ -86,7 +86,7 @@ def hllc(g: float, left: State, right: State) -> Conserved:
 
 @kernel
 def _star_flux(g: float, state: State, s: float, s_m: float) -> Conserved:
-    """Compute the flux of the state between the outer wave s and the contact s_m."""
+    """Compute the flux of the state between the outer wave of speed s and the contact of speed s_m."""
     rho, u, p = state
     outside = flux(g, 1.0, state, ram_pressure(state))
     total = p / (g - 1.0) + 0.5 * rho * u * u
@@ -108,7 +108,7 @@ def reservoir_face(gas: Gas, cell: State) -> tuple[State, float]:
     gas : Gas
         The perfect gas and its ambient state.
     cell : State
-        State of the cell at the face; its velocity is outwards.
+        State of the cell at the face, with the velocity positive outwards.
 
     Returns
     -------
@@ -116,8 +116,8 @@ def reservoir_face(gas: Gas, cell: State) -> tuple[State, float]:
         State of the face. Outflow expands to the ambient pressure, at most to Mach 1. Inflow comes from ambient gas at
         rest. If the cell is supersonic outwards, the face has the state of the cell.
     demand : float
-        Mach number of an expansion to the ambient pressure, negative for inflow. Above 1 the face is choked, or the
-        cell is supersonic.
+        Mach number of an expansion to the ambient pressure, negative for inflow. If it is above 1, the face is choked,
+        or the cell is supersonic.
 
     Notes
     -----
@@ -144,14 +144,15 @@ def reservoir_face(gas: Gas, cell: State) -> tuple[State, float]:
 
 @kernel
 def front_face(gas: Gas, speed: float, cell: State) -> State:
-    """Compute the state of the border that moves at `speed` [m/s] into gas at rest, from the cell behind it.
+    """Compute the state of a border that moves at `speed` [m/s] into gas at rest, from the cell behind the border.
 
-    Seen from the border, the gas ahead is a head wind of this speed. The border is therefore a reservoir face in its
-    own frame, with a reservoir at the stagnation state of the head wind. At the speed of sound and above, no wave runs
-    ahead of the border. The head wind then has the speed of sound and lets waves pass that are spread by the grid.
+    Seen from the border, the gas ahead is a head wind of this speed. In the frame of the border, the border is
+    therefore a reservoir face, and the reservoir has the stagnation state of the head wind. At the speed of sound and
+    above, no wave runs ahead of the border. The head wind is then limited to the speed of sound, so that waves that the
+    grid has spread can pass the border.
 
-    Simpler borders fail. A border at ambient pressure draws a jet along. A border that is in turn at ambient pressure
-    and at rest reflects rho c u, a pressure in proportion to the speed instead of its square.
+    Simpler borders fail. A border at ambient pressure draws a jet along. A border that is alternately at ambient
+    pressure and at rest reflects the pressure rho c u, which is in proportion to the speed instead of its square.
     """
     g, head = gas.exponent, min(speed, gas.sound_speed)
     warming = 1.0 + 0.5 * (g - 1.0) * (head / gas.sound_speed) ** 2
@@ -172,12 +173,12 @@ def front_face(gas: Gas, speed: float, cell: State) -> State:
 
 @kernel
 def _inflow(gas: Gas, invariant: float, cell_sound_speed: float) -> State:
-    """Compute the state of inflow from rest that has pressure and velocity in common with the gas of the cell.
+    """Compute the state of inflow from rest whose pressure and velocity equal those of the cell's gas beside it.
 
-    The inflow is at most sonic. `cell_sound_speed` is the speed of sound of the cell's gas after its expansion to
-    ambient pressure [m/s]. If this gas is hotter than the ambient, a contact lies between both, and the invariant
-    v + 2c/(g-1) holds on the side of the cell. `ratio` of the speed of sound of the face to that of the ambient is the
-    larger root of a quadratic equation.
+    The inflow is at most sonic. `cell_sound_speed` is the speed of sound of the cell's gas after an expansion to
+    ambient pressure [m/s]. If this gas is hotter than the ambient gas, a contact discontinuity lies between both gases,
+    and the invariant v + 2c/(g-1) holds on the side of the cell. In the code, `ratio` is the speed of sound at the face
+    divided by that of the ambient gas; it is the larger root of a quadratic equation.
     """
     g, stagnation = gas.exponent, gas.sound_speed
     slope, jet = 2.0 / (g - 1.0) * cell_sound_speed, 2.0 / (g - 1.0) * stagnation**2

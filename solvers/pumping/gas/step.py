@@ -1,12 +1,13 @@
-"""One time step of quasi-one-dimensional gas dynamics in a duct whose section moves: MUSCL-Hancock, walls implicit.
+"""One time step of quasi-one-dimensional gas dynamics in a duct whose section changes with time.
 
  d(A rho)/dt       + d(A rho u)/dz             = -q
  d(A rho u)/dt     + d(A (rho u^2 + p))/dz     = p dA/dz - q u_q
  d(A rho E)/dt     + d(A u (rho E + p))/dz     = -p dA/dt - q h_q
 
-The method is of second order in space and time. States at the faces come from a limited linear reconstruction and a
-half-step predictor. Leakage q and wall work are integrated by a two-stage, L-stable, stiffly accurate Runge-Kutta
-method around the fluxes of the half step.
+The MUSCL-Hancock method is of second order in space and time. States at the faces come from a limited linear
+reconstruction and a half-step predictor. The exchange with the walls, leakage q and wall work, is integrated by an
+implicit Runge-Kutta method with two stages, L-stable and stiffly accurate; the fluxes through the faces are constant
+in these stages.
 """
 
 from typing import NamedTuple
@@ -20,40 +21,41 @@ from solvers.pumping.flow.nozzle import Gas
 from solvers.pumping.gas.leakage import Stage, Walls, implicit_stage
 from solvers.pumping.gas.riemann import Conserved, State, flux, front_face, hllc, ram_pressure, reservoir_face
 
-_DIAGONAL = 1.0 - np.sqrt(0.5)  # diagonal coefficient of the two-stage method
+_DIAGONAL = 1.0 - np.sqrt(0.5)  # diagonal coefficient of the Runge-Kutta method with two stages
 
 
 CONSERVED = floats("mass", "momentum", "energy")
-"""Per metre of face: mass [kg/m], momentum [kg/s], energy [J/m]; as a flux through a face: [kg/s, N, W]."""
+"""Mass [kg/m], momentum [kg/s] and energy [J/m] per metre of face, or their fluxes through a face [kg/s, N, W]."""
 
 STATE = floats("density", "velocity", "pressure")
-"""Density [kg/m^3], velocity [m/s] and pressure [Pa], or their changes over a cell."""
+"""Density [kg/m^3], velocity [m/s] and pressure [Pa], or the changes of these quantities over a cell."""
 
 LOSS = floats("mass", "energy", "work")
 """Losses of a cell to the walls in a step, per metre of face.
 
-Leaked mass [kg/m]; energy lost with the leakage and the wall work [J/m]; work of the walls on the gas above ambient
-pressure [J/m].
+`mass`: leaked mass [kg/m]; `energy`: energy lost with the leakage and by wall work [J/m]; `work`: work of the walls on
+the gas by pressures above ambient pressure [J/m].
 """
 
 END = floats("demand", "mach", "velocity")
-"""An end of the duct in a step: demand as `reservoir_face` returns it, Mach number, velocity outwards [m/s]."""
+"""An end of the duct in a step: demand (see `reservoir_face`), Mach number, outward velocity [m/s]."""
 
 LEAK = floats("latest", "halfway", "growth")
-"""Flux out of a cell through the gaps, the first guess for the next step.
+"""Flux out of a cell through the gaps, from which the first guess for the next step is extrapolated.
 
-Flux at the end of the latest step and in its middle [kg/(s m)]; its growth over the step [kg/(s^2 m)].
+`latest` and `halfway`: flux at the end and in the middle of the latest step [kg/(s m)]; `growth`: rate at which the
+flux grew in this step [kg/(s^2 m)].
 """
 
 
 class Cells(NamedTuple):
-    """Arrays of a duct that the kernels of a step share: (cells,), of faces (cells + 1,), of ends (2,).
+    """Arrays of a duct that the kernels of a step share; shapes: cells (cells,), faces (cells + 1,), ends (2,).
 
-    At the start of the step: `content` (CONSERVED), `state` (STATE) and `walls` (WALL); at its end: `next_content`,
-    `next_state` and `next_walls`; in its middle: the state `half` (STATE), `face_area` [m^2] and the `flux` through the
-    faces (CONSERVED). `slope`: change of the state over a cell (STATE). Over the step: `loss` (LOSS), `ends` (END),
-    `leak` (LEAK) and `share`, the share of the step in which the centre of a cell is in its stroke. Outside its stroke
-    the walls of a cell stand still and nothing leaks.
+    At the start of the step: `content` (CONSERVED), `state` (STATE) and `walls` (WALL). At the end of the step:
+    `next_content`, `next_state` and `next_walls`. In the middle of the step: the state `half` (STATE), the `face_area`
+    [m^2] and the `flux` through the faces (CONSERVED). `slope` is the change of the state over a cell (STATE). For the
+    whole step: `loss` (LOSS), `ends` (END), `leak` (LEAK) and `share`, which is the share of the step in which the
+    centre of a cell is in its stroke. Outside the stroke the walls of a cell stand still, and nothing leaks.
     """
 
     content: RecordArray
@@ -94,7 +96,7 @@ def empty_cells(cells: int) -> Cells:
 
 @kernel
 def set_walls(duct: Duct, cells: Cells, low: int, high: int, angle: float, turn: float) -> None:
-    """Set the walls of the active cells at both ends of a step, and the areas of the faces in its middle."""
+    """Set the walls of the active cells at the start and at the end of a step, and the face areas in its middle."""
     for i in range(low, high):
         z = duct.start + (i + 0.5) * duct.width
         share = stroke_share(duct, z, angle, turn)
@@ -148,7 +150,10 @@ def step(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, dt: float, ord
 
 @kernel
 def _set_slopes(cells: Cells, low: int, high: int, order: int) -> None:
-    """Compute limited slopes of the state over the cells; 0 if density or pressure would fall near 0 at an edge."""
+    """Compute limited slopes of the state over the cells.
+
+    The slopes of a cell are 0 if density or pressure would be nearly 0 at an edge of the cell.
+    """
     state, slope = cells.state, cells.slope
     for i in range(low, high):
         if order == 1 or high - low < 3:
@@ -186,7 +191,7 @@ def _limited(side: int, back: float, ahead: float) -> float:
 
 @kernel
 def _end_slope(nearest: float, next_one: float) -> float:
-    """Compute the slope of a parabola in an end cell from the two nearest differences, at most twice the nearest."""
+    """Compute the slope of a parabola in an end cell from two differences; at most twice the nearest difference."""
     slope = 1.5 * nearest - 0.5 * next_one
     if slope * nearest <= 0.0:
         return 0.0
@@ -206,7 +211,10 @@ def _walls(duct: Duct, now: RecordArray, after: RecordArray, i: int, fraction: f
 
 @kernel
 def _predict(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, dt: float) -> bool:
-    """Compute the states in the middle of the step from the fluxes of a cell's own state at its two edges (Hancock)."""
+    """Compute the states in the middle of the step by Hancock's method.
+
+    The fluxes at both edges of a cell are those of the cell's own state.
+    """
     g, share = gas.exponent, 0.5 * dt / duct.width
     w, s, c, area = cells.state, cells.slope, cells.content, cells.face_area
     half, leak = cells.half, cells.leak
@@ -230,13 +238,13 @@ def _predict(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, dt: float)
 
 @kernel
 def _own_flux(g: float, area: float, edge: State) -> Conserved:
-    """Compute the flux of a cell's own state at its edge; the square is rounded first, unlike in `ram_pressure`."""
+    """Compute the flux of a cell's own state at an edge; unlike in `ram_pressure`, the velocity is squared first."""
     return flux(g, area, edge, edge.density * edge.velocity**2)
 
 
 @kernel
 def _edge(w: RecordArray, s: RecordArray, i: int, side: float) -> State:
-    """Extrapolate the state w by the slope s to an edge of cell i, `side` cells from its centre."""
+    """Extrapolate the state w by the slope s to an edge of cell i; the edge lies `side` cell widths from the centre."""
     return State(
         w[i].density + side * s[i].density,
         w[i].velocity + side * s[i].velocity,
@@ -246,7 +254,7 @@ def _edge(w: RecordArray, s: RecordArray, i: int, side: float) -> State:
 
 @kernel
 def _safe_edge(w: RecordArray, s: RecordArray, i: int, side: float) -> State:
-    """Extrapolate the state to an edge of cell i, or return that of the cell if density or pressure falls too far."""
+    """Extrapolate the state to an edge of cell i; return the state of the cell if density or pressure falls too far."""
     edge = _edge(w, s, i, side)
     if edge.density < 0.1 * w[i].density or edge.pressure < 0.1 * w[i].pressure:
         return State(w[i].density, w[i].velocity, w[i].pressure)
@@ -263,7 +271,7 @@ def _set_fluxes(gas: Gas, duct: Duct, cells: Cells, low: int, high: int) -> None
         fluxes[i].mass, fluxes[i].momentum, fluxes[i].energy = area[i] * mass, area[i] * momentum, area[i] * energy
     _set_end(gas, cells, low, low, 0)
     if high < duct.cells:
-        # The border to slices whose stroke is about to begin has the state with which they will begin.
+        # The border to cells whose stroke is about to begin has the state with which the stroke of these cells begins.
         border = front_face(gas, duct.speed / duct.lag, _safe_edge(half, slope, high - 1, 0.5))
         _put_flux(gas, cells, high, 1.0, border)
     else:
@@ -272,7 +280,11 @@ def _set_fluxes(gas: Gas, duct: Duct, cells: Cells, low: int, high: int) -> None
 
 @kernel
 def _put_flux(gas: Gas, cells: Cells, face: int, outward: float, state: State) -> None:
-    """Store the flux of a state through a face; `outward` is -1 if its mass and energy count against the axis."""
+    """Store the flux of a state through a face.
+
+    `outward` is -1 if the velocity of the state is positive towards the low end, else 1; it turns the signs of the
+    fluxes of mass and energy.
+    """
     through, fluxes = flux(gas.exponent, cells.face_area[face], state, ram_pressure(state)), cells.flux
     fluxes[face].mass, fluxes[face].energy = outward * through.mass, outward * through.energy
     fluxes[face].momentum = through.momentum
@@ -291,7 +303,7 @@ def _set_end(gas: Gas, cells: Cells, cell: int, face: int, end: int) -> None:
 
 @kernel
 def _correct(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, dt: float) -> bool:
-    """Compute the content at the end of the step by the fluxes of its middle and two implicit stages at the walls."""
+    """Compute the content at the end of the step from the fluxes in its middle and two implicit stages at the walls."""
     fluxes, area, c, h = cells.flux, cells.face_area, cells.content, _DIAGONAL * dt
     loss, leak = cells.loss, cells.leak
     for i in range(low, high):
@@ -324,7 +336,7 @@ def _correct(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, dt: float)
             late,
             latest + ahead,
         )
-        if not (first.fits and last.fits):  # a single stage is of first order and more robust
+        if not (first.fits and last.fits):  # a single stage is of first order, but more robust
             early, late = 0.0, dt
             last = implicit_stage(gas, walls, full_mass, full_momentum, full_energy, dt, latest + ahead)
         if not last.fits:

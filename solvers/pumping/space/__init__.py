@@ -1,1 +1,1 @@
-"""The space between two teeth in mesh: tooth_space -> profile -> section -> stroke; face, the width it lies along."""
+"""The space between two teeth in mesh: tooth_space -> profile -> section -> stroke. `face` cuts it into slices."""

@@ -1,4 +1,4 @@
-"""The face between its grooves: stretches of tooth space, open to the ambient at both ends and cut into slices."""
+"""The face width between grooves: stretches of a tooth space that are open at both ends and cut into slices."""
 
 from dataclasses import dataclass, replace
 
@@ -15,8 +15,8 @@ _SLIVER = 1e-9  # share of the face width; a shorter stretch between two grooves
 class Stretch:
     """Stretch of the face between grooves, cut into `cells` slices of equal `width` [m].
 
-    The stretch reaches from `start` to `start + cells * width` [m]. `opens_front` and `opens_rear` tell whether it
-    begins at the front end and ends at the rear end of the face.
+    The stretch reaches from `start` to `start + cells * width` [m]. `opens_front` tells whether it begins at the front
+    end of the face, and `opens_rear` tells whether it ends at the rear end.
     """
 
     start: float
@@ -31,7 +31,7 @@ class Stretch:
         return np.linspace(self.start + 0.5 * self.width, self.start + (self.cells - 0.5) * self.width, self.cells)
 
     def coarser(self, times: int) -> "Stretch":
-        """Return this stretch with the number of slices divided by `times`, at least one slice."""
+        """Return this stretch with `1/times` of the slices, but at least one slice."""
         cells = max(self.cells // times, 1)
         return replace(self, cells=cells, width=self.width * self.cells / cells)
 
@@ -50,7 +50,7 @@ def stretches(face_width: float, grooves: tuple[Groove, ...], slices: int, least
             message = f"the groove from {1e3 * low:.3f} to {1e3 * high:.3f} mm does not lie within the face"
             raise InvalidInput("groove_outside", message, f"grooves.{k}.position")
         if low < edges[-1] - tolerance and len(edges) > 1:
-            message = f"the groove at {1e3 * groove.position:.3f} mm overlaps its neighbour"
+            message = f"the groove at {1e3 * groove.position:.3f} mm overlaps the groove beside it"
             raise InvalidInput("groove_overlap", message, f"grooves.{k}.position")
         edges += [low, high]
     edges.append(face_width)
@@ -60,5 +60,7 @@ def stretches(face_width: float, grooves: tuple[Groove, ...], slices: int, least
             cells = max(round(slices * (high - low) / face_width), least)
             parts.append(Stretch(low, (high - low) / cells, cells, low == 0.0, high == face_width))
     if not parts:
-        raise InvalidInput("groove_outside", "the grooves leave nothing of the face", "grooves")
+        raise InvalidInput(
+            "groove_outside", "the grooves cover the whole face; leave a part of the face free", "grooves"
+        )
     return parts

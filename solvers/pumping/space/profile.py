@@ -1,7 +1,7 @@
 """Profiles of a tooth space and of the mate's tooth in it, and the nearest point of a profile to a given point.
 
-A normal of an involute is a tangent of its base circle, so the nearest point of a flank needs no search. The areas
-under involutes and circular arcs have closed forms. Only the nearest point of a root fillet is searched for.
+A normal of an involute is a tangent of its base circle, so the nearest point of a flank follows without a search. The
+areas under involutes and circular arcs have closed forms. Only the nearest point of a root fillet needs a search.
 
 Points are given by their distance from the axis of a gear [m] and their angle [rad] from the centre line of the space
 or tooth. Profiles are symmetric, so one half is enough. A roll length [m] is the length of the tangent from a point of
@@ -14,7 +14,7 @@ from solvers.compiled import kernel
 from solvers.gears.gear import RackFillet, fillet_point, fillet_sector_area
 from solvers.pumping.space.tooth_space import ToothSpace
 
-_SCAN = 17  # points of the fillet among which the search brackets the nearest one
+_SCAN = 17  # number of points of the fillet by which the search brackets the nearest point
 _GOLDEN = 0.6180339887498949  # (sqrt(5) - 1) / 2, the golden section
 
 
@@ -33,7 +33,7 @@ def sector(roll: float, base: float) -> float:
 
 @kernel
 def sector_to_involute(space: ToothSpace, roll: float) -> float:
-    """Compute the area between the owner's axis and half the space's profile up to a roll length of the flank [m^2]."""
+    """Compute the area between the owner's axis and half the profile of the space, up to a roll length [m^2]."""
     base = space.base_radius
     return space.root.sector_area + sector(roll, base) - sector(space.root.involute_roll, base)
 
@@ -47,7 +47,10 @@ def _distance_to_fillet(fillet: RackFillet, t: float, radius: float, angle: floa
 
 @kernel
 def _nearest_on_fillet(fillet: RackFillet, radius: float, angle: float) -> tuple[float, float]:
-    """Find the point of the fillet nearest to (radius, angle); return its arc parameter and its distance [m]."""
+    """Find the point of the fillet nearest to (radius, angle); return its parameter on the fillet and its distance [m].
+
+    The distance is that between the two points.
+    """
     step = fillet.end / (_SCAN - 1)
     best, nearest = 0, np.inf
     for k in range(_SCAN):
@@ -101,7 +104,7 @@ def nearest_on_profile(space: ToothSpace, radius: float, angle: float) -> tuple[
         t, gap = _nearest_on_fillet(root.fillet, radius, angle)
         if gap < distance:
             r, psi = fillet_point(root.fillet, t)
-            # if the fillet stands proud of the involute, the mate's point may lie inside it: the profiles touch
+            # If the fillet protrudes beyond the involute, the mate's point may lie inside the fillet: profiles touch.
             distance = gap if radius - r > r * (angle - psi) else 0.0
             area = 0.5 * root.root_half_angle * root.root_radius**2 + fillet_sector_area(root.fillet, t)
     return distance, r, psi, area
@@ -127,7 +130,10 @@ def foot_on_mate(space: ToothSpace, radius: float, angle: float) -> tuple[float,
 def from_mate(
     space: ToothSpace, angle: float, mate_angle: float, mate_roll: float
 ) -> tuple[float, float, float, float]:
-    """Find the point of half the space's profile nearest to a point of the mate's flank, see `nearest_on_profile`."""
+    """Find the point of half the space's profile that is nearest to the mate's flank at the roll length `mate_roll`.
+
+    Returns the values of `nearest_on_profile`.
+    """
     radius = np.hypot(space.mate_base_radius, mate_roll)
     mu = mate_angle - space.mate_base_half_angle + involute(mate_roll, space.mate_base_radius)
     x, y = radius * np.sin(mu), space.centre_distance - radius * np.cos(mu)
@@ -136,7 +142,10 @@ def from_mate(
 
 @kernel
 def from_own(space: ToothSpace, angle: float, mate_angle: float, roll: float) -> tuple[float, float]:
-    """Find the point of the mate's flank nearest to a point of the space's flank, see `foot_on_mate`."""
+    """Find the point of the mate's flank that is nearest to the space's flank at the roll length `roll`.
+
+    Returns the values of `foot_on_mate`.
+    """
     radius = np.hypot(space.base_radius, roll)
     theta = angle - space.base_half_angle - involute(roll, space.base_radius)
     x, y = radius * np.sin(theta), space.centre_distance - radius * np.cos(theta)

@@ -1,9 +1,9 @@
-"""Free area of a tooth space and its radial clearances at one angle, by closed forms.
+"""Free area and radial clearances of a tooth space at one angle, by closed forms.
 
-A space has a left and a right side, each closed by its narrowest section: the shortest line between the profile of
-the space and the mate's tooth, whose length is the clearance. The section ends at two feet: at the point of the space
-(radius [m], half angle [rad]) and at the point of the mate (roll length [m]). The right side at (angle, mate's angle)
-is the mirror image of the left side at (-angle, -mate's angle).
+A space has a left and a right side. Each side is closed by its narrowest section, the shortest line between the profile
+of the space and the mate's tooth. The length of this line is the clearance. The line ends at two feet: a point of the
+space (radius [m], half angle [rad]) and a point of the mate (roll length [m]). The right side at (angle, mate's angle)
+is the mirror image of the left side at (-angle, -mate's angle). The owner is the gear to which the space belongs.
 """
 
 from typing import NamedTuple
@@ -26,7 +26,10 @@ class Section(NamedTuple):
 
 @kernel
 def _area_part(space: ToothSpace, own_x: float, own_y: float, mate_x: float, mate_y: float, mate_roll: float) -> float:
-    """Compute the area between the owner's axis and a side's upper boundary: section, mate's flank and tip [m^2]."""
+    """Compute the area between the owner's axis and the upper boundary of a side [m^2].
+
+    The upper boundary consists of the section, the mate's flank and the mate's tip.
+    """
     base = space.mate_base_radius
     under_flank = sector(space.mate_tip_roll, base) - sector(mate_roll, base)
     section = 0.5 * (own_y * mate_x - own_x * mate_y) - 0.5 * space.centre_distance * mate_x
@@ -37,7 +40,7 @@ def _area_part(space: ToothSpace, own_x: float, own_y: float, mate_x: float, mat
 def _close(
     space: ToothSpace, angle: float, mate_angle: float, own_radius: float, own_half_angle: float, mate_roll: float
 ) -> float:
-    """Compute the area between the owner's axis and a side's upper boundary [m^2] from the feet of its section."""
+    """Compute the area between the owner's axis and the upper boundary of a side [m^2] from the feet of the section."""
     mate_radius = np.hypot(space.mate_base_radius, mate_roll)
     mu = mate_angle - space.mate_base_half_angle + involute(mate_roll, space.mate_base_radius)
     theta = angle - own_half_angle
@@ -50,9 +53,9 @@ def _close(
 def _corner_section(space: ToothSpace, angle: float, mate_angle: float) -> tuple[float, float, float, float, float]:
     """Find the section between a tip corner and the other gear.
 
-    With contact gaps the nearer of both tip corners counts, with tip gaps that of the mate.
-    Returns the clearance [m]; radius [m] and half angle [rad] of the foot on the space, with the area between the
-    owner's axis and the profile up to this foot [m^2]; the roll length of the foot on the mate [m].
+    With contact gaps, the tip corner that is nearer to the other gear counts; with tip gaps, the mate's tip corner.
+    Returns the clearance [m]; radius [m] and half angle [rad] of the foot on the space; the area between the owner's
+    axis and the profile up to this foot [m^2]; and the roll length of the foot on the mate [m].
     """
     clearance, r, psi, below = from_mate(space, angle, mate_angle, space.mate_tip_roll)
     foot = space.mate_tip_roll
@@ -70,8 +73,9 @@ def _flank_section(
 ) -> tuple[float, float, float, float, float]:
     """Find the section of a side on the line of action; returns the same values as `_corner_section`.
 
-    If the line of action misses the involute of one gear, the section joins the flank of the other gear to the nearest
-    point of this gear. The clearance at the end of the missed involute may be smaller and then counts.
+    If the line of action misses the involute of one gear, the section joins the point on the flank of the other gear to
+    the nearest point of the first gear. If the distance of the end of the missed involute from the other gear is
+    smaller, this distance is the clearance.
     """
     start = space.root.involute_roll
     if roll < start:
@@ -89,10 +93,10 @@ def _flank_section(
 
 @kernel
 def _carried(space: ToothSpace, roll: float, gap: float) -> float:
-    """Compute the area of gas that rolling flanks have carried through a section of width `gap` [m] [m^2].
+    """Compute the area of gas [m^2] that rolling flanks have carried through a section of width `gap` [m].
 
-    It is positive towards growing roll lengths. It is the integral of the gap times half the sum of the rolling
-    velocities of both flanks, from the angle at which both velocities are 0.
+    The area is positive towards growing roll lengths. It is the integral of the gap times half the sum of the rolling
+    velocities of both flanks over time, from the angle at which both velocities are 0.
     """
     facing = space.line_of_action - gap
     roll = min(max(roll, facing - space.mate_tip_roll), space.tip_roll)
@@ -102,12 +106,12 @@ def _carried(space: ToothSpace, roll: float, gap: float) -> float:
 
 @kernel
 def _side(space: ToothSpace, angle: float, mate_angle: float, gap: float) -> tuple[float, float, float]:
-    """Compute a side's part of the area [m^2], its clearance [m] and the area of gas carried through its section [m^2].
+    """Compute the area of a side [m^2], its clearance [m] and the area of gas carried through its section [m^2].
 
-    Flanks that face each other close the space on the line of action, where they are `gap` [m] apart. Without a gap
-    the involutes count down to the base circles, even if undercut, as in the path of contact.
-    A wide gap is not always the narrowest place of the side: a tip corner may be closer to the root fillet. Its
-    distance is then the clearance, but the section that bounds the area stays on the line of action.
+    Flanks that face each other close the space on the line of action, where they are `gap` [m] apart. If the gap is 0,
+    the involutes are used down to the base circles even if the gear is undercut, as in the path of contact.
+    A wide gap is not always the narrowest place of the side, because a tip corner may be closer to the root fillet. The
+    distance of the tip corner is then the clearance, but the section that bounds the area stays on the line of action.
     """
     roll = space.pitch_roll + space.base_radius * (angle - space.pitch_half_angle)
     mate_roll = space.line_of_action - roll - gap
@@ -143,8 +147,8 @@ def section(space: ToothSpace, angle: float) -> Section:
 
     Notes
     -----
-    Eqs. 5, P3. The flanks of the coast side carry gas through the section that is fixed on the line of action: out of
-    the space if the owner drives, else into the space.
+    Eqs. 5, P3. The flanks of the coast side carry gas through a section that is fixed on the line of action. They carry
+    the gas out of the space if the owner of the space drives, else into the space.
     """
     mate_angle = angle * space.ratio + space.offset
     left_gap = 0.0 if space.owner_drives else space.backlash_gap

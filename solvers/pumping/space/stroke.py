@@ -12,9 +12,11 @@ from solvers.pumping.space.tooth_space import StrokeLimits, ToothSpace, stroke_l
 from solvers.quantity import quantity, record
 from solvers.sources import MILIAN
 
-POSITIONS = 361  # every 1/360 of the stroke, chosen
-SMOOTH = 3.0  # times the change of the area's logarithm over the neighbouring steps
-JUMP = 0.01  # chosen: change of the area's logarithm, far above the rounding of the search for the section
+POSITIONS = 361  # number of positions, one at every 1/360 of the stroke, chosen
+# A change of the logarithm of the area in one step counts as a jump if it exceeds SMOOTH times the change in the
+# neighbouring steps by JUMP. JUMP, chosen, is far above the rounding errors of the search for the section.
+SMOOTH = 3.0
+JUMP = 0.01
 
 
 @record
@@ -22,9 +24,9 @@ class StrokeTable:
     """One stroke of a tooth space at equal steps of the owner's angle [rad], arrays of shape (positions,).
 
     `area` [m^2]; `clearance_left`, `clearance_right` [m]; `carried`: area of gas that the flanks have carried out of
-    the space through its narrowest sections since the stroke began [m^2]. The table holds this sum instead of its rate:
-    at the angle at which a section passes from a tip corner to the flanks, the rate jumps and the slope of the area
-    changes. Interpolated between two positions, area and sum stay consistent.
+    the space through its narrowest sections since the stroke began [m^2]. The table holds this accumulated area instead
+    of its rate. At the angle at which a section passes from a tip corner to the flanks, the rate jumps, and the slope
+    of `area` changes. If `area` and `carried` are both interpolated between two positions, they stay consistent.
     """
 
     limits: StrokeLimits
@@ -49,7 +51,7 @@ class StrokeTable:
 
     @property
     def jump(self) -> tuple[float, float]:
-        """Largest jump of the logarithm of the area between two positions, 0 if there is none, and its angle [rad].
+        """Largest jump of the logarithm of the area between two positions (0 if none), and the angle of the jump [rad].
 
         With tip gaps the point nearest to a tip corner can jump from the flank to the root. With contact gaps the area
         has no jump.
@@ -67,9 +69,9 @@ class StrokeTable:
 
 
 def stroke_table(space: ToothSpace, *, minimum_gap: float = 0.0, positions: int = POSITIONS) -> StrokeTable:
-    """Tabulate the space over its stroke.
+    """Tabulate area and clearances of the space over its stroke.
 
-    `minimum_gap` [m] is the least clearance of a side.
+    A clearance smaller than `minimum_gap` [m] is replaced by `minimum_gap`.
     Raises InvalidInput: tooth_space_closed (no area left), tooth_space_minima (area with more than one minimum).
     """
     limits = stroke_limits(space)
@@ -99,14 +101,17 @@ def _tabulate(
 def _check_area(angle: FloatArray, area: FloatArray) -> None:
     smallest = int(np.argmin(area))
     if area[smallest] <= 0.0:
-        message = f"the mate's tooth fills the tooth space at {degrees(angle[smallest]):.3f} deg"
+        message = (
+            f"at {degrees(angle[smallest]):.3f} deg the tooth of the mating gear fills the tooth space completely; "
+            "check the teeth and the centre distance"
+        )
         raise InvalidInput("tooth_space_closed", message, "gears")
     noise = 1e-12 * area.max()
     wrong = np.concatenate([np.diff(area[: smallest + 1]) > noise, np.diff(area[smallest:]) < -noise])
     if wrong.any():
         where = degrees(angle[int(np.argmax(wrong))])
         message = (
-            f"the area of the tooth space has a second minimum near {where:.3f} deg: with tip gaps the point nearest "
-            "to a tip corner can jump along the root, contact gaps have no such jump"
+            f"near {where:.3f} deg the area of the tooth space has a second minimum. With tip gaps the point nearest "
+            "to a tip corner can jump along the root; use contact gaps, which have no such jump"
         )
         raise InvalidInput("tooth_space_minima", message, "gears")

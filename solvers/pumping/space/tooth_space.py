@@ -1,9 +1,9 @@
 """A tooth space of one gear and the mate's tooth that passes through it, in the transverse plane.
 
-Frame: the owner of the space turns about (0, 0), the mate about (0, a). Angles of the owner are measured from +y,
-angles of the mate from -y, both towards +x, the direction of motion. At angle 0 the centre of the space is on the line
-of centres. The right side of the space is ahead in the direction of motion. If the owner drives, its driving flank is
-the left side.
+Frame: the owner is the gear to which the space belongs. The owner turns about (0, 0), and the mate turns about (0, a).
+Angles of the owner are measured from +y and angles of the mate from -y, both positive towards +x, the direction of
+motion. At angle 0 the centre of the space is on the line of centres. The right side of the space is ahead in the
+direction of motion. If the owner drives, its driving flank is on the left side of the space.
 """
 
 from dataclasses import dataclass
@@ -17,12 +17,12 @@ from solvers.pumping.inputs import Gap
 
 
 class ToothSpace(NamedTuple):
-    """Shape and motion of a space and its mate's tooth; lengths [m], angles [rad].
+    """Shape and motion of a space and of the mate's tooth; lengths [m], angles [rad].
 
-    A flank is given by its base radius, its half angle at the base circle and its roll length at the tip.
-    `first_contact`, `last_contact`: roll lengths of the owner between which the flanks are in contact;
-    `ratio`: angle of the mate per angle of the owner; `offset`: angle of the mate while the space is on the line of
-    centres; `backlash_gap`: distance of the coast flanks along the line of action.
+    A flank is given by its base radius, its half angle at the base circle and its roll length at the tip. The flanks
+    are in contact between the roll lengths `first_contact` and `last_contact` of the owner. `ratio` is the angle of the
+    mate divided by the angle of the owner. `offset` is the angle of the mate while the space is on the line of centres.
+    `backlash_gap` is the distance between the coast flanks along the line of action.
     """
 
     root: RootProfile
@@ -51,7 +51,10 @@ class ToothSpace(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class StrokeLimits:
-    """Angles of the owner [rad] between which the mate's tooth is in the space, and between which it is in contact."""
+    """Angles of the owner [rad] that limit the stroke.
+
+    The mate's tooth is in the space from `start` to `end`, and in contact from `contact_start` to `contact_end`.
+    """
 
     start: float
     contact_start: float
@@ -67,7 +70,7 @@ def circumferential_backlash(pair: GearPair, normal_backlash: float) -> float:
     pair : GearPair
         The gear pair at its centre distance.
     normal_backlash : float
-        Normal backlash by which the mate's tooth is thinner, added to that of the centre distance [m].
+        Normal backlash by which the mate's tooth is thinner, in addition to the backlash of the centre distance [m].
 
     Returns
     -------
@@ -85,7 +88,7 @@ def circumferential_backlash(pair: GearPair, normal_backlash: float) -> float:
 
 
 def normal_backlash(pair: GearPair, extra: float) -> float:
-    """Compute the backlash along the normal of the flanks [m], `extra` [m] of it by a thinner tooth."""
+    """Compute the backlash along the normal of the flanks [m], including `extra` [m] by a thinner tooth."""
     tangential = circumferential_backlash(pair, extra)
     return tangential * cos(pair.working_pressure_angle) * cos(pair.base_helix_angle)
 
@@ -96,7 +99,7 @@ def _thinning(pair: GearPair, normal_backlash: float) -> float:
 
 
 def tooth_space(pair: GearPair, extra_backlash: float, gap: Gap, *, of_pinion: bool) -> ToothSpace:
-    """Describe the space of the pinion or of the wheel and the mate's tooth, thinned by the extra backlash [m].
+    """Describe the space of the pinion or of the wheel, and the mate's tooth thinned by the extra backlash [m].
 
     Raises InvalidInput: pointed_tooth, and the codes of `path_of_contact`.
     """
@@ -111,7 +114,9 @@ def tooth_space(pair: GearPair, extra_backlash: float, gap: Gap, *, of_pinion: b
     mate_tip = mate.half_tooth_angle(mate.tip_radius) - thinning
     if mate_tip <= 0.0:
         raise InvalidInput(
-            "pointed_tooth", "the mate's teeth are pointed with this backlash; reduce it", "normal_backlash"
+            "pointed_tooth",
+            "with this backlash the teeth of the mating gear are pointed; reduce the backlash",
+            "normal_backlash",
         )
     return ToothSpace(
         root=root_profile(pair.inputs, teeth, owner),
@@ -150,8 +155,8 @@ def stroke_limits(space: ToothSpace) -> StrokeLimits:
     Returns
     -------
     StrokeLimits
-        Angles of the owner [rad]: at `start` the first tip corner of the mate crosses the owner's tip circle, at `end`
-        the last.
+        Angles of the owner [rad]. At `start` the first tip corner of the mate's tooth crosses the owner's tip circle;
+        at `end` the last tip corner crosses it.
 
     Notes
     -----

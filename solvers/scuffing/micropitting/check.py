@@ -23,12 +23,12 @@ from solvers.scuffing.micropitting.standard import characteristic_points, has_st
 from solvers.scuffing.results import LoadDistribution
 from solvers.scuffing.thermal.flank import FaceFunction, FlashMap
 
-LIKELY_BELOW, UNLIKELY_ABOVE = 1.0, 2.0  # of the safety factor; common practice
+LIKELY_BELOW, UNLIKELY_ABOVE = 1.0, 2.0  # limits of the safety factor, from common practice
 
 
 @dataclass(frozen=True, slots=True)
 class CheckedFlank:
-    """The answer to a check, with the film of the flank and the film ratio over the flank's maps, None if unknown."""
+    """Answer of a check, film of the flank, and film ratio over the maps of the flank; unknown values are None."""
 
     answer: Micropitting | None = None
     film: FlankFilm | None = None
@@ -48,20 +48,20 @@ def check_micropitting(
     Parameters
     ----------
     inputs : ScuffingInputs
-        The check, with friction, temperatures and oil in force.
+        Inputs of the scuffing check. Estimates of friction, temperatures and oil are already replaced by numbers.
     distribution : LoadDistribution
         Load distribution of the pair.
     grid : FlashMap
-        Points of the flank at which the film is computed, with their load.
+        Points of the flank at which the film is computed, and the load at these points.
     thermal_film : float, optional
-        Thinnest film by thermal EHL [m].
+        Thinnest film by thermal EHL [m]; None if it is unknown.
     bulk : callable, optional
-        Bulk temperature [K] along the face; None if the bulk temperature is constant.
+        Function that returns the bulk temperature [K] along the face; None if the bulk temperature is constant.
 
     Returns
     -------
     CheckedFlank
-        The answer; None if the check is not requested, or if the oil or the bulk temperature is unknown.
+        The checked flank. It is empty if the check is not requested, or if the oil or the bulk temperature is unknown.
     """
     check, oil = inputs.micropitting, inputs.known_oil
     if check is None or oil is None or inputs.temperatures.bulk is None:
@@ -108,7 +108,7 @@ def _local(
 def _local_points(
     distribution: LoadDistribution, film: FlankFilm | None, permissible: float | None
 ) -> list[LocalPoint]:
-    """Return the film at those characteristic points of the feature line that the path contains."""
+    """Return the film at the characteristic points of the feature line; points outside the path are left out."""
     path = distribution.path_of_contact
     places = {name: x / path.length for name, x in characteristic_points(path).items() if 0.0 <= x <= path.length}
     psi = np.array([*places.values()])
@@ -145,12 +145,12 @@ def _standard(
 
 
 def _safety(ratio: float | None, permissible: float | None) -> float | None:
-    """Compute S_lambda = lambda / lambda_GFP (Eq. M7); None unless both are known."""
+    """Compute the safety factor S_lambda = lambda / lambda_GFP (Eq. M7); None if either film ratio is unknown."""
     return None if ratio is None or permissible is None else ratio / permissible
 
 
 def verdict(safety: float) -> Verdict:
-    """Return the verdict of practice on a safety factor."""
+    """Return the verdict that common practice gives for a safety factor."""
     if safety < LIKELY_BELOW:
         return "micropitting is likely"
     return "micropitting is unlikely" if safety > UNLIKELY_ABOVE else "limited margin"

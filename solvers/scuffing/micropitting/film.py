@@ -1,4 +1,4 @@
-"""Film of a contact of two flanks at its contact temperature, and the ratio of film to roughness."""
+"""Film between two flanks at the temperature of their contact, and the ratio of the film to the roughness."""
 
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -15,7 +15,10 @@ from solvers.scuffing.micropitting.oil import pressure_viscosity, viscosity
 
 @dataclass(frozen=True, slots=True)
 class Conditions:
-    """What all contacts of a mesh share; the bulk temperature [K] is one number, or one for every contact."""
+    """Values that all contacts of a mesh share.
+
+    The bulk temperature [K] is either one number for all contacts, or an array with one number for each contact.
+    """
 
     oil: OilSheet | Lubricant
     bulk: float | FloatArray
@@ -25,17 +28,17 @@ class Conditions:
 
     @property
     def modulus(self) -> float:
-        """E_r [Pa]."""
+        """Reduced modulus E_r [Pa]."""
         return reduced_modulus(self.pinion, self.wheel)
 
     @property
     def roughness(self) -> float:
-        """Mean roughness Ra of both flanks [m]."""
+        """Mean value of the roughness Ra of both flanks [m]."""
         return (self.pinion.roughness + self.wheel.roughness) / 2
 
 
 class Contacts(NamedTuple):
-    """Hertzian pressure > 0 [Pa], reduced radius [m] and surface speeds [m/s]; arrays of one shape."""
+    """Hertzian pressure above 0 [Pa], reduced radius [m] and surface speeds [m/s] of contacts; arrays of one shape."""
 
     pressure: FloatArray
     radius: FloatArray
@@ -44,7 +47,7 @@ class Contacts(NamedTuple):
 
 
 class Films(NamedTuple):
-    """Flash temperature [K], film [m] and its ratio to the roughness."""
+    """Flash temperature [K], film [m] and film ratio (film over roughness) [-] of contacts."""
 
     flash: FloatArray
     film: FloatArray
@@ -52,12 +55,12 @@ class Films(NamedTuple):
 
 
 def films(conditions: Conditions, contacts: Contacts) -> Films:
-    """Compute flash temperature, film and film ratio lambda = h / Ra of contacts.
+    """Compute the flash temperature, the film and the film ratio lambda = h / Ra of contacts.
 
     Parameters
     ----------
     conditions : Conditions
-        What the contacts share.
+        Values that the contacts share.
     contacts : Contacts
         The contacts.
 
@@ -81,7 +84,7 @@ def flash_temperature(conditions: Conditions, contacts: Contacts) -> FloatArray:
     Parameters
     ----------
     conditions : Conditions
-        What the contacts share.
+        Values that the contacts share.
     contacts : Contacts
         The contacts.
 
@@ -104,17 +107,19 @@ def flash_temperature(conditions: Conditions, contacts: Contacts) -> FloatArray:
 
 
 def _effusivity(solid: Solid) -> float:
-    """B_M = sqrt(lambda rho c) [W s^0.5/(m^2 K)]."""
+    """Return the thermal contact coefficient B_M = sqrt(lambda rho c) [W s^0.5/(m^2 K)]."""
     return float(np.sqrt(solid.thermal_conductivity * solid.density * solid.specific_heat))
 
 
 def film_thickness(conditions: Conditions, contacts: Contacts, flash: FloatArray) -> FloatArray:
-    """Compute the film of contacts: the film at the bulk temperature, thinned by the flash temperature.
+    """Compute the film of contacts.
+
+    The film at the bulk temperature is reduced, because the flash temperature thins the oil.
 
     Parameters
     ----------
     conditions : Conditions
-        What the contacts share.
+        Values that the contacts share.
     contacts : Contacts
         The contacts.
     flash : ndarray

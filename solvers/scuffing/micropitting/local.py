@@ -1,4 +1,4 @@
-"""Method A of ISO/TR 15144-1: the film over the whole flank under its computed load."""
+"""Method A of ISO/TR 15144-1: the film over the whole flank under the computed load distribution."""
 
 from dataclasses import dataclass, replace
 
@@ -20,15 +20,15 @@ from solvers.scuffing.thermal.flank import (
     on_diagonals,
 )
 
-LEAST = 1e-9  # ratio below which films are equally thin
+LEAST = 1e-9  # film ratio; all films with a smaller ratio count as equally thin
 
 
 @dataclass(frozen=True, slots=True)
 class FlankFilm:
-    """What the film ratio over the flank depends on.
+    """Values on which the film ratio over the flank depends.
 
-    `bulk` is the bulk temperature along the face. If it is None, the bulk temperature of `conditions`, at which the oil
-    enters the contact, holds everywhere.
+    `bulk` is a function that returns the bulk temperature along the face. If `bulk` is None, the bulk temperature of
+    `conditions` is used everywhere; at this temperature the oil enters the contact.
     """
 
     inputs: ScuffingInputs
@@ -47,7 +47,7 @@ class FlankFilm:
         return ratio
 
     def at(self, x: FloatArray, y: FloatArray) -> FloatArray:
-        """Compute the film ratio at x, y [m] of the flank, arrays of one shape."""
+        """Compute the film ratio at points x, y [m] of the flank; x and y are arrays of one shape."""
         return self.ratio(contact_at_points(self.inputs.distribution, self.distribution, x, y), y)
 
     def over(self, grid: FlashMap) -> FloatArray:
@@ -57,7 +57,7 @@ class FlankFilm:
 
 
 def contacts_of(points: ContactPoints, modulus: float) -> Contacts:
-    """Return the contacts at those points that are in contact; `modulus` is E' [Pa]."""
+    """Return the contacts at the points where the flanks touch; `modulus` is the reduced modulus E' [Pa]."""
     touching = points.in_contact
     load, radius, pinion_speed, wheel_speed = (
         values[touching] for values in (points.line_load, points.radius, points.pinion_speed, points.wheel_speed)
@@ -68,7 +68,7 @@ def contacts_of(points: ContactPoints, modulus: float) -> Contacts:
 def flank_film(
     inputs: ScuffingInputs, distribution: LoadDistribution, bulk: FaceFunction | None = None
 ) -> FlankFilm | None:
-    """Return the film of a flank; None without an oil, a bulk temperature, a load or a speed."""
+    """Return the film of a flank; None if the oil, the bulk temperature, the load or the speed is missing."""
     given, temperatures, oil = inputs.distribution, inputs.temperatures, inputs.known_oil
     if oil is None or temperatures.bulk is None or distribution.balance.force == 0.0 or given.load.pinion_speed == 0.0:
         return None

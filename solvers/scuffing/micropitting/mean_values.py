@@ -13,7 +13,7 @@ MM = 1e-3  # m
 
 
 def helical_load_factor(total_contact_ratio: float) -> float:
-    """Compute the factor by which helical gears raise the load of the mean friction.
+    """Compute the factor that increases the line load in the mean coefficient of friction of helical gears.
 
     Parameters
     ----------
@@ -50,7 +50,7 @@ def mean_friction(
     given : LoadDistributionInputs
         The pair and its load; neither torque nor speed is 0.
     path : PathOfContact
-        Its path of contact.
+        The path of contact of the pair.
     oil : OilSheet or Lubricant
         The oil.
     oil_temperature : float
@@ -65,12 +65,12 @@ def mean_friction(
 
     Notes
     -----
-    Eq. M9 of the chapter on micropitting. The transverse load factor K_Halpha is 1.
+    Eq. M9 of the chapter on micropitting. The transverse load factor K_Halpha is set to 1.
     """
     at_pitch = path.pitch_point - path.start
     radius = reduced_radius(path.plane, at_pitch) / MM
     speed = sum(path.surface_speeds(at_pitch, given.load.pinion_speed))
-    force = face_load_factor * given.load.contact_torque / path.pair.pinion.base_radius  # F_bt with its factors
+    force = face_load_factor * given.load.contact_torque / path.pair.pinion.base_radius  # F_bt times the load factors
     line_load = force * helical_load_factor(path.total_contact_ratio) * MM / given.gears.face_width
     rough = (given.pinion_material.roughness + given.wheel_material.roughness) / 2 * 1e6
     roughness_factor = 2.2 * (rough / radius) ** 0.25
@@ -105,7 +105,7 @@ def loss_factor(path: PathOfContact) -> float:
 def bulk_temperature(
     given: LoadDistributionInputs, path: PathOfContact, oil_temperature: float, supply: OilSupply, friction: float
 ) -> float:
-    """Compute the bulk temperature of a pair without tip relief from the loss of its mesh.
+    """Compute the bulk temperature of a pair without tip relief from the friction loss of the mesh.
 
     Parameters
     ----------

@@ -24,44 +24,64 @@ ROUNDING = 1e-9
 
 
 def range_notices(given: LoadDistributionInputs, path: PathOfContact) -> Iterator[Notice]:
-    """Warn of the ranges of the method that the pair exceeds."""
+    """Warn if values of the pair lie outside the ranges for which the method is known to hold."""
     pressure, helix = degrees(path.pair.working_pressure_angle), degrees(given.gears.helix_angle)
-    highest = f"up to {LARGEST_ANGLE:g}°"
+    highest = f"angles up to {LARGEST_ANGLE:g}°"
     for value, (low, high), text, allowed, field in (
-        (given.gears.normal_module * 1e3, MODULES, "{:.4g} mm of normal module", "3 to 11 mm", "module"),
-        (pitch_line_velocity(given, path), SPEEDS, "{:.4g} m/s at the pitch line", "8 to 60 m/s", "pinion_speed"),
-        (pressure, (0.0, LARGEST_ANGLE), "{:.4g}° of working pressure angle", highest, "pressure_angle"),
-        (helix, (0.0, LARGEST_ANGLE), "{:.4g}° of helix angle", highest, "helix_angle"),
+        (
+            given.gears.normal_module * 1e3,
+            MODULES,
+            "a normal module of {:.4g} mm",
+            "normal modules from 3 to 11 mm",
+            "module",
+        ),
+        (
+            pitch_line_velocity(given, path),
+            SPEEDS,
+            "a pitch-line velocity of {:.4g} m/s",
+            "pitch-line velocities from 8 to 60 m/s",
+            "pinion_speed",
+        ),
+        (
+            pressure,
+            (0.0, LARGEST_ANGLE),
+            "a working pressure angle of {:.4g}°",
+            f"working pressure {highest}",
+            "pressure_angle",
+        ),
+        (helix, (0.0, LARGEST_ANGLE), "a helix angle of {:.4g}°", f"helix {highest}", "helix_angle"),
     ):
         if not low - ROUNDING <= value <= high + ROUNDING:
-            message = f"the method against micropitting is known to hold for {allowed}; the pair has "
+            message = f"the method against micropitting is known to hold for {allowed}, but the pair has "
             yield Notice("micropitting_range", message + text.format(value), field)
 
 
 def standard_notices(
     given: LoadDistributionInputs, path: PathOfContact, standard: StandardFilm | None
 ) -> Iterator[Notice]:
-    """Say why method B has no film, if it has none."""
+    """Yield a note with the reason if method B gives no film."""
     if standard is not None:
         return
     reasons = {
         "the load sharing factors of helical gears are not known": path.plane.tan_base_helix > 0.0,
         "the load sharing factors of gears with tip or root relief are not known": has_relief(given),
-        "its points are those of a transverse contact ratio of 1 to 2": not has_single_contact(path),
+        "method B is defined only for transverse contact ratios from 1 to 2": not has_single_contact(path),
     }
     reason = next((text for text, holds in reasons.items() if holds), None)
     if reason is not None:
-        yield Notice("no_standard_film", f"no film by method B: {reason}", "micropitting", rank="note")
+        yield Notice(
+            "no_standard_film", f"the film by method B cannot be computed: {reason}", "micropitting", rank="note"
+        )
 
 
 def hot_film_notices(film: FlankFilm, least: Peak) -> Iterator[Notice]:
-    """Warn of a contact that is hotter than the range in which the laws of the oil hold."""
+    """Warn if the contact with the thinnest film is hotter than the range in which the laws of the oil hold."""
     points = contact_at_points(film.inputs.distribution, film.distribution, np.array([least.x]), np.array([least.y]))
     bulk = film.conditions.bulk if film.bulk is None else film.bulk(np.array([least.y]))
     contact = float(np.max(bulk + flash_temperature(film.conditions, contacts_of(points, film.conditions.modulus))))
     if contact > HOTTEST_OIL:
         message = (
-            f"the contact with the thinnest film reaches {contact - 273.15:.4g} °C; beyond "
-            f"{HOTTEST_OIL - 273.15:.4g} °C viscosity and pressure-viscosity coefficient of the oil are extrapolated"
+            f"the contact with the thinnest film reaches {contact - 273.15:.4g} °C; above {HOTTEST_OIL - 273.15:.4g} "
+            "°C the viscosity and the pressure-viscosity coefficient of the oil are extrapolated"
         )
         yield Notice("micropitting_temperature", message, "temperatures")

@@ -1,7 +1,7 @@
 """Viscosity and pressure-viscosity coefficient of an oil for the film of ISO/TR 15144-1.
 
-The film needs both at contact temperatures. An oil given by its data sheet therefore follows its laws from one contact
-to the next; its coefficients at one temperature would not do.
+The film needs both values at the temperature of each contact. For an oil given by its data sheet, both are therefore
+computed from the laws of the oil at each temperature; coefficients at a single temperature would not be enough.
 """
 
 from math import log10
@@ -15,18 +15,18 @@ from solvers.oils import SQUARE_MILLIMETRE, WALTHER_SHIFT, OilSheet
 
 Real = TypeVar("Real", float, FloatArray)
 
-ZERO = 273.0  # K, of the report's temperatures in C; ours is 273.15
-ROUNDED = 273.15 - ZERO  # K
+ZERO = 273.0  # K, rounded zero of the Celsius scale in the report; the exact zero is 273.15 K
+ROUNDED = 273.15 - ZERO  # K, difference between the exact and the rounded zero
 DENSITY_SLOPE = 0.7  # kg/(m^3 K)
 DENSITY_ZERO = 289.0  # K, on the report's scale
-REFERENCE = 38.0  # C, of viscosity and pressure-viscosity coefficient
+REFERENCE = 38.0  # C, reference temperature of viscosity and pressure-viscosity coefficient
 REFERENCE_COEFFICIENT: dict[OilKind, tuple[float, float]] = {
     "mineral": (2.657e-8, 0.1348),
     "pao": (1.466e-8, 0.0507),
     "polyglycol": (1.392e-8, 0.1572),
-    "ester": (2.657e-8, 0.1348),  # no value is known; that of a mineral oil
+    "ester": (2.657e-8, 0.1348),  # no values for esters are known; these are the values of a mineral oil
 }
-"""Scale [m^2/N at 1 Pa s] and exponent of the pressure-viscosity coefficient at 38 C."""
+"""Scale [m^2/N at 1 Pa s] and exponent of the law that gives the pressure-viscosity coefficient at 38 C."""
 
 
 def density(sheet: OilSheet, temperature: Real) -> Real:
@@ -35,14 +35,14 @@ def density(sheet: OilSheet, temperature: Real) -> Real:
     Parameters
     ----------
     sheet : OilSheet
-        The oil. If its density at 15 C is not given, the density follows from the viscosity at 40 C.
+        The oil. If the density at 15 C is not given, it is estimated from the viscosity at 40 C.
     temperature : float or ndarray
         Temperature [K].
 
     Returns
     -------
     float or ndarray
-        Density [kg/m^3]; 0 at temperatures at which the law would be negative.
+        Density [kg/m^3]; 0 at temperatures at which the law would give a negative density.
 
     Notes
     -----
@@ -56,7 +56,7 @@ def density(sheet: OilSheet, temperature: Real) -> Real:
 
 
 def viscosity(oil: OilSheet | Lubricant, temperature: Real) -> Real:
-    """Compute the dynamic viscosity of an oil without pressure.
+    """Compute the dynamic viscosity of an oil at ambient pressure.
 
     Parameters
     ----------
@@ -73,18 +73,19 @@ def viscosity(oil: OilSheet | Lubricant, temperature: Real) -> Real:
     Raises
     ------
     InvalidInput
-        `viscosity_range` if the law of an oil that is given by its viscosity makes it thicker than any oil.
+        `viscosity_range` if the oil is given by its viscosity, and its law yields more than the viscosity of any oil.
 
     Notes
     -----
-    Eq. M2 of the chapter on micropitting. An oil that is given by its viscosity follows its own law.
+    Eq. M2 of the chapter on micropitting. The equation holds for an oil that is given by a data sheet. An
+    oil that is given by its viscosity follows its own law.
     """
     if isinstance(oil, OilSheet):
         intercept, slope = oil.walther()
         kinematic: Any = 10.0**10.0 ** (intercept - slope * np.log10(temperature)) - WALTHER_SHIFT
         return cast("Real", kinematic * SQUARE_MILLIMETRE * density(oil, temperature))
     laws = oil.laws
-    oil.viscosity_at(0.0, float(np.min(temperature, initial=oil.reference_temperature)))  # raises where it is too thick
+    oil.viscosity_at(0.0, float(np.min(temperature, initial=oil.reference_temperature)))  # raises if it is too thick
     if oil.pressure_viscosity_law == "barus":
         heating = temperature - laws.reference_temperature
         return cast("Real", np.exp(laws.log_viscosity - laws.temperature_viscosity * heating))
@@ -110,8 +111,8 @@ def pressure_viscosity(oil: OilSheet | Lubricant, temperature: Real) -> Real:
 
     Notes
     -----
-    Eq. M3 of the chapter on micropitting. A given coefficient holds at every temperature. Above 510 C the law
-    would make the coefficient negative; there both coefficient and film are 0.
+    Eq. M3 of the chapter on micropitting. A given coefficient is used at every temperature. Above 510 C the law
+    would give a negative coefficient; the coefficient and the film are then 0.
     """
     if oil.pressure_viscosity is not None:
         return cast("Real", np.full(np.shape(temperature), oil.pressure_viscosity))

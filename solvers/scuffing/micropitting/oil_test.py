@@ -1,4 +1,4 @@
-"""Film ratio in the micropitting test of an oil: test gears C-GF at the failure load stage."""
+"""Film ratio of the test gears C-GF in the micropitting test of an oil, at the failure load stage."""
 
 from functools import cache
 from math import pi
@@ -14,7 +14,7 @@ from solvers.scuffing.inputs import FlankSurface, Load, LoadDistributionInputs, 
 from solvers.scuffing.micropitting.results import FilmOfTest
 from solvers.scuffing.micropitting.standard import characteristic_points, solve_standard
 
-STAGE_TORQUE = {5: 70.0, 6: 98.9, 7: 132.5, 8: 171.6, 9: 215.6, 10: 265.1}  # N m, of the pinion
+STAGE_TORQUE = {5: 70.0, 6: 98.9, 7: 132.5, 8: 171.6, 9: 215.6, 10: 265.1}  # N m, pinion torque of each load stage
 SPEED = 2250.0 * pi / 30  # rad/s
 OIL_TEMPERATURE = 363.15  # K
 QUALITY_GRADE = 7
@@ -26,7 +26,7 @@ STEEL = Solid(
     thermal_conductivity=45.0,
     roughness=0.5e-6,
 )
-PERMISSIBLE_SHARE = 1.4  # of the film ratio in the test: what the teeth need
+PERMISSIBLE_SHARE = 1.4  # permissible film ratio over the film ratio in the test, if the material factor is 1
 SURFACE_FACTOR: dict[FlankSurface, float] = {
     "case_hardened": 1.0,
     "case_hardened_retained_austenite": 0.95,
@@ -34,11 +34,11 @@ SURFACE_FACTOR: dict[FlankSurface, float] = {
     "induction_hardened": 0.65,
     "through_hardened": 0.5,
 }
-"""W_W."""
+"""Material factor W_W of each surface."""
 
 
 def _teeth(count: int, tip_diameter: float, profile_shift: float) -> GearTeeth:
-    """Return a test gear of module 4.5 mm by its tip diameter [mm]."""
+    """Return a test gear of module 4.5 mm with a given tip diameter [mm]."""
     return GearTeeth(count, profile_shift, (tip_diameter - 4.5 * count) / 9.0 - profile_shift)
 
 
@@ -66,7 +66,7 @@ def film_of_test(oil: OilSheet | Lubricant, stage: int) -> FilmOfTest:
     Returns
     -------
     FilmOfTest
-        The least film ratio, with the torque, friction, bulk temperature and place that belong to it.
+        The least film ratio and its place, with the torque, friction and bulk temperature of the test.
     """
     torque = STAGE_TORQUE[stage]
     given = LoadDistributionInputs(GEARS, Load(torque, SPEED), pinion_material=STEEL, wheel_material=STEEL)
@@ -83,19 +83,19 @@ def film_of_test(oil: OilSheet | Lubricant, stage: int) -> FilmOfTest:
 
 
 def permissible_ratio(check: MicropittingCheck, test: FilmOfTest | None) -> float | None:
-    """Return the film ratio that the teeth need.
+    """Return the permissible film ratio of the flanks.
 
     Parameters
     ----------
     check : MicropittingCheck
-        Surfaces of the flanks, the material factor, or the ratio itself.
+        The check with the surfaces of the flanks, the material factor, or the permissible ratio itself.
     test : FilmOfTest, optional
-        Film of the oil's test; None without a failure load stage.
+        Film in the test of the oil; None if no failure load stage is given.
 
     Returns
     -------
     float or None
-        The ratio by the test [-], else the given ratio; None if there is neither.
+        The ratio that follows from the test [-]. Without a test, the given ratio; None if no ratio is given.
 
     Notes
     -----

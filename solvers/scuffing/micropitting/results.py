@@ -12,7 +12,7 @@ Verdict = Literal["micropitting is likely", "limited margin", "micropitting is u
 
 @record
 class FilmOfTest:
-    """The film of the test gears C-GF in this oil at the stage at which it fails."""
+    """The film of the test gears C-GF in this oil, at the load stage at which the oil fails."""
 
     ratio: float = quantity(
         "specific film thickness of the micropitting test",
@@ -28,7 +28,7 @@ class FilmOfTest:
 
 @record
 class LocalPoint:
-    """The film at a point of the feature line; None where nothing is in contact."""
+    """The film at a point of the feature line; ratio and safety factor are None if nothing is in contact there."""
 
     point: PointName = quantity("point of the feature line")
     psi: float = quantity("position of the point", "Ψ", text="fraction of the path, and of the feature line")
@@ -42,7 +42,7 @@ class LocalPoint:
 
 @record
 class LocalFilm:
-    """Film over the flank under its own load (method A). Unknown values are None."""
+    """Film over the flank under the computed load distribution (method A). Unknown values are None."""
 
     safety: float | None = quantity(
         "safety factor against micropitting",
@@ -88,7 +88,7 @@ class LocalFilm:
 
 @record
 class StandardPoint:
-    """The contact and its film at a point of the path by method B."""
+    """Contact and film at a point of the path, by method B."""
 
     point: PointName = quantity("point of the path")
     force_ratio: float = quantity("load sharing factor of the standard", "X", f"{ISO_TR_15144}, formulas 46 to 48")
@@ -108,7 +108,7 @@ class StandardPoint:
 
 @record
 class StandardFilm:
-    """Method B: seven points of a spur pair without relief, under an even load."""
+    """Results of method B at seven points of a spur pair without relief; the load is uniform over the face."""
 
     friction_coefficient: float = quantity(
         "coefficient of friction of the standard", "μ_m", f"{ISO_TR_15144}, formula 86"
@@ -127,7 +127,7 @@ class StandardFilm:
 
 @record
 class Micropitting:
-    """The film, compared with the film that the oil's micropitting test requires."""
+    """The film over the flanks, compared with the film that the micropitting test of the oil requires."""
 
     permissible_ratio: float | None = quantity(
         "permissible specific film thickness",
@@ -145,10 +145,10 @@ class Micropitting:
 
 @record
 class Wear:
-    """Depth of wear per revolution [m] of either gear.
+    """Depth of wear of each gear per revolution of the gear [m].
 
-    There are the largest depth over the flank with its place, the largest depth over the face at every position of the
-    path, and maps [profile, face].
+    For each gear there are three results: the largest depth over the flank with its place, the largest depth over the
+    face at every position of the path, and a map [profile, face] of the depth.
     """
 
     pinion_max: float | None = quantity(

@@ -1,4 +1,7 @@
-"""Method B of ISO/TR 15144-1: the film at seven points of a spur pair without relief, under an even load."""
+"""Method B of ISO/TR 15144-1: the film at seven points of the path, for a spur pair without relief.
+
+The load is uniform over the face.
+"""
 
 from dataclasses import dataclass
 
@@ -14,14 +17,14 @@ from solvers.scuffing.micropitting.film import Conditions, Contacts, Films, film
 from solvers.scuffing.micropitting.mean_values import bulk_temperature, loss_factor, mean_friction
 from solvers.scuffing.micropitting.results import PointName
 
-BEST_GRADE = 7  # better quality grades have the load sharing of this one
+BEST_GRADE = 7  # better quality grades have the load sharing of this grade
 
 
 @dataclass(frozen=True, slots=True)
 class StandardFilms:
     """Friction, bulk temperature [K] and loss factor by method B, and the values at the points of the path.
 
-    These are the load sharing factors X (`force_ratio`), the contacts and the films.
+    The values at the points are the load sharing factors X (`force_ratio`), the contacts and the films.
     """
 
     friction: float
@@ -35,7 +38,7 @@ class StandardFilms:
 def characteristic_points(path: PathOfContact) -> dict[PointName, float]:
     """Return the points A, AB, B, C, D, DE and E of the path with their distances from A [m].
 
-    Only A, C and E are defined if more than two pairs of teeth are in contact at some roll positions, or no pair.
+    Only A, C and E are defined if more than two pairs of teeth, or no pair, are in contact at some roll positions.
     """
     length, pitch = path.length, path.plane.base_pitch
     at_pitch = path.pitch_point - path.start
@@ -46,17 +49,17 @@ def characteristic_points(path: PathOfContact) -> dict[PointName, float]:
 
 
 def has_single_contact(path: PathOfContact) -> bool:
-    """Return True if the transverse contact ratio is 1 to 2."""
+    """Return True if the transverse contact ratio is from 1 to 2."""
     return 1.0 <= path.transverse_contact_ratio <= 2.0
 
 
 def has_relief(given: LoadDistributionInputs) -> bool:
-    """Return True if tips or roots are relieved."""
+    """Return True if the pair has tip relief or root relief."""
     return given.modifications.tip_relief > 0.0 or given.modifications.root_relief > 0.0
 
 
 def has_standard_film(given: LoadDistributionInputs, path: PathOfContact) -> bool:
-    """Return True if method B has load sharing factors for the pair and every point of its path has a pressure."""
+    """Return True if method B has load sharing factors for the pair, and if every point of the path has a pressure."""
     plane = path.plane
     ends = reduced_radius(plane, np.array([0.0, path.length]))
     unmodified_spur = plane.tan_base_helix == 0.0 and not has_relief(given)
@@ -85,7 +88,7 @@ def load_sharing(path: PathOfContact, x: FloatArray, quality_grade: int) -> Floa
     Eq. M12 of the chapter on micropitting; formulas 46 to 48 of ISO/TR 15144-1.
     """
     inner, outer = path.length - path.plane.base_pitch, path.plane.base_pitch
-    outside = np.maximum(inner - x, x - outer)  # of the stretch with one pair in contact
+    outside = np.maximum(inner - x, x - outer)  # distance outside the stretch with one pair in contact; negative inside
     if inner <= 0.0:
         return np.ones(x.shape)
     base = (max(quality_grade, BEST_GRADE) - 2) / 15
@@ -100,14 +103,14 @@ def solve_standard(
     supply: OilSupply,
     quality_grade: int,
 ) -> StandardFilms:
-    """Compute the film of a spur pair without relief at its seven points.
+    """Compute the film of a spur pair without relief at the seven points of the path.
 
     Parameters
     ----------
     given : LoadDistributionInputs
-        The pair and its load; neither torque nor speed is 0. Its modifications are not used.
+        The pair and its load; neither torque nor speed is 0. The modifications are not used.
     path : PathOfContact
-        Its path of contact, with a transverse contact ratio of 1 to 2 and no point near a base circle.
+        The path of contact of the pair. Its transverse contact ratio is from 1 to 2; no point is near a base circle.
     oil : OilSheet or Lubricant
         The oil.
     oil_temperature : float
@@ -132,7 +135,7 @@ def solve_standard(
 
 
 def contacts_under(given: LoadDistributionInputs, path: PathOfContact, x: FloatArray, sharing: FloatArray) -> Contacts:
-    """Return the contacts of a spur pair under shares of its tooth force.
+    """Return the contacts of a spur pair under given shares of the tooth force.
 
     Parameters
     ----------

@@ -12,14 +12,14 @@ from solvers.scuffing.results import LoadDistribution
 
 
 class WearDepths(NamedTuple):
-    """Depth per revolution of either gear [m] over the flank's maps [profile, face]; NaN next to a base circle."""
+    """Depth of wear of each gear per revolution of the gear [m], maps [profile, face]; NaN next to a base circle."""
 
     pinion: FloatArray
     wheel: FloatArray
 
 
 def wear_depths(coefficient: float, distribution: LoadDistribution) -> WearDepths:
-    """Compute the depth of wear of both flanks, k w |v_g| / v_i per passage of the mesh.
+    """Compute the depth of wear of both flanks, which is k w |v_g| / v_i per passage through the mesh.
 
     Parameters
     ----------
@@ -31,12 +31,12 @@ def wear_depths(coefficient: float, distribution: LoadDistribution) -> WearDepth
     Returns
     -------
     WearDepths
-        Depth per revolution of either gear [m]; a tooth meshes once per revolution.
+        Depth of wear of each gear per revolution of the gear [m]; a tooth meshes once per revolution.
 
     Notes
     -----
-    Eq. M15 of the chapter on micropitting; v_g is the sliding speed, v_i the gear's own surface speed. Next to a base
-    circle the flank of one gear hardly moves, and the law has no limit.
+    Eq. M15 of the chapter on micropitting; v_g is the sliding speed, and v_i is the surface speed of the gear. Next
+    to a base circle the flank of one gear hardly moves, and the depth of wear has no limit.
     """
     path, flank = distribution.path_of_contact, distribution.flank
     speeds = np.stack(path.surface_speeds(flank.profile_fraction * path.length, 1.0))
@@ -61,7 +61,7 @@ def solve_wear(coefficient: float, distribution: LoadDistribution) -> Wear:
     Returns
     -------
     Wear
-        Largest depth of either flank over the face along the path, and over the flank with its place.
+        For each flank the largest depth with its place, the largest depth over the face along the path, and the map.
     """
     depths = wear_depths(coefficient, distribution)
     pinion, wheel = (_largest(depth, distribution) for depth in depths)
@@ -73,7 +73,7 @@ def solve_wear(coefficient: float, distribution: LoadDistribution) -> Wear:
         wheel_at_psi=wheel.psi,
         wheel_at_face=wheel.face,
         psi=distribution.flank.profile_fraction,
-        pinion=frozen(depths.pinion.max(axis=1)),  # rows have a limit as a whole or not at all
+        pinion=frozen(depths.pinion.max(axis=1)),  # a row of the map is NaN either as a whole or nowhere
         wheel=frozen(depths.wheel.max(axis=1)),
         pinion_map=frozen(depths.pinion),
         wheel_map=frozen(depths.wheel),
@@ -81,7 +81,7 @@ def solve_wear(coefficient: float, distribution: LoadDistribution) -> Wear:
 
 
 class _Largest(NamedTuple):
-    """Largest depth [m], its fraction of the path and its place on the face [m]; None if the depth has no limit."""
+    """Largest depth [m], and its place as fraction of the path and distance on the face [m]; None without a limit."""
 
     value: float | None
     psi: float | None
@@ -97,7 +97,7 @@ def _largest(depth: FloatArray, distribution: LoadDistribution) -> _Largest:
 
 
 def wear_asked_for(check: MicropittingCheck | None, distribution: LoadDistribution) -> Wear | None:
-    """Return the wear of both flanks; None if the check has no wear coefficient."""
+    """Return the wear of both flanks; None if no wear coefficient is given."""
     if check is None or check.wear_coefficient is None:
         return None
     return solve_wear(check.wear_coefficient, distribution)

@@ -1,1 +1,4 @@
-"""Temperatures of the contact: practice, blok -> temperatures -> thermal_path -> verdict."""
+"""Temperatures of the contact.
+
+The main modules, in the order of the calculation: practice and blok; temperatures; thermal_path; verdict.
+"""

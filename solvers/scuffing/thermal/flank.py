@@ -1,9 +1,10 @@
-"""Blok's flash temperature and the film of the formula over the whole flank, and where they are largest and thinnest.
+"""Blok's flash temperature and the film of the formula over the flank, with the hottest point and the thinnest film.
 
-The feature line of the paper is a diagonal. It misses the hot corner of a flank that carries at one end, and of a
-crowned flank it meets the loaded middle only at the pitch point, where nothing slides. At one place along the path the
-contacts differ in their load alone. The search therefore takes the largest value of each row of the face, and refines
-the places of the largest rows.
+The feature line of the paper is a diagonal of the flank. If the load is carried at one end of the face, the feature
+line misses the hot corner of the flank. If the flank is crowned, the feature line crosses the loaded middle of the face
+only near the pitch point, where the flanks do not slide. The search for the largest value therefore covers the whole
+flank. Contacts at one place along the path differ only in their load. The search takes the largest value over the face
+at every place along the path, and refines the places with the highest of these values.
 """
 
 from collections.abc import Callable
@@ -22,28 +23,29 @@ from solvers.scuffing.load_balance import BESIDE, LoadBalance, line_loads
 from solvers.scuffing.results import ContactPoints, LoadDistribution
 from solvers.scuffing.thermal.blok import blok_flash
 
-SURVEY_POINTS = 4001  # of the formulas along the feature line, to find where they are largest and smallest
-REACHES = (2, 1, 1)  # of the zooms to both sides, in steps of the grid before: narrower by a factor of 2, 4 and 4
-ZOOM_POINTS = 9  # of a zoom, along the path and across the face
+SURVEY_POINTS = 4001  # points of the feature line at which the formulas are evaluated to find extreme values
+REACHES = (2, 1, 1)  # of the zooms to both sides, in steps of the previous grid; steps become finer by 2, 4 and 4
+ZOOM_POINTS = 9  # number of points of a zoom, both along the path and across the face
 ZOOM_FRACTIONS = np.linspace(0.0, 1.0, ZOOM_POINTS)
 
 FlankFunction = Callable[[FloatArray, FloatArray], FloatArray]
-"""A value at points x, y [m] of the flank, arrays of one shape."""
+"""A function that returns values at points x, y [m] of the flank; all arrays have one shape."""
 
 FaceFunction = Callable[[FloatArray], FloatArray]
-"""A value at distances y [m] from the end that meshes first."""
+"""A function that returns values at distances y [m] from the end that meshes first."""
 
 ContactFunction = Callable[[ContactPoints], FloatArray]
-"""A value at contacts."""
+"""A function that returns values at contacts."""
 
 
 @dataclass(frozen=True, slots=True)
 class FlashMap:
-    """Blok's flash temperature [K] at x (n,) and y (m,) [m] of the flank, shape (n, m); NaN where it has no limit.
+    """Blok's flash temperature `flash` [K] over a grid of the flank; NaN where the flash temperature has no limit.
 
-    `load` is the line load [N/m] at these points, `heaviest` the contact under the largest load of every row. `mapped`
-    marks the rows of the flank's maps. The other rows are the places at which the load jumps along the path, one row
-    for either side of a jump.
+    The grid has x (n,) along the path and y (m,) along the face [m]; values over the grid have the shape (n, m). `load`
+    is the line load [N/m], `heaviest` is the contact under the largest load of every row. A row contains the points
+    with one x. `mapped` is True for the rows of the flank's maps. The other rows are added where the load jumps along
+    the path: one row on each side of a jump.
     """
 
     x: FloatArray
@@ -57,14 +59,14 @@ class FlashMap:
 def contact_at_points(
     given: LoadDistributionInputs, distribution: LoadDistribution, x: FloatArray, y: FloatArray
 ) -> ContactPoints:
-    """Return the contact at points x, y [m] of the flank, arrays of one shape."""
+    """Return the contacts at points x, y [m] of the flank; x and y are arrays of one shape."""
     return contacts_under_load(given, distribution, x, line_loads(distribution.balance, x, y))
 
 
 def contacts_under_load(
     given: LoadDistributionInputs, distribution: LoadDistribution, x: FloatArray, load: FloatArray
 ) -> ContactPoints:
-    """Return the contact at distances x [m] from A under line loads [N/m], arrays of one shape."""
+    """Return the contacts at distances x [m] from A under line loads [N/m]; both are arrays of one shape."""
     modulus = reduced_modulus(given.pinion_material, given.wheel_material)
     return contact_points(distribution.path_of_contact, x, load, given.load.pinion_speed, modulus)
 
@@ -72,8 +74,9 @@ def contacts_under_load(
 def map_flash(given: LoadDistributionInputs, distribution: LoadDistribution) -> FlashMap:
     """Compute Blok's flash temperature over the points of the flank's maps and on both sides of jumps of the load.
 
-    At one place along the path the flash temperature grows with the load to the power 3/4: it is proportional to the
-    load over the root of the half-width, and the half-width to the root of the load.
+    At one place along the path the flash temperature is proportional to the load divided by the square root of the
+    half-width. The half-width is proportional to the square root of the load. The flash temperature therefore grows
+    with the load to the power 3/4.
     """
     plane, flank = distribution.path_of_contact.plane, distribution.flank
     x, y = flank.profile_fraction * plane.path_length, flank.face_fraction * plane.face_width
@@ -95,9 +98,9 @@ def map_flash(given: LoadDistributionInputs, distribution: LoadDistribution) -> 
 
 
 def _jumps(balance: LoadBalance) -> FloatArray:
-    """Return x [m] just before and just behind the places at which a spur gear's load jumps, in ascending order.
+    """Return x [m] just before and just behind the places at which the load of a spur gear jumps, in ascending order.
 
-    At a jump another pair of teeth comes into contact or leaves it, along its whole face at once.
+    At a jump another pair of teeth comes into contact or leaves contact, over the whole face at once.
     """
     plane, phase = balance.mesh.plane, balance.rolls.phase
     if plane.tan_base_helix > 0.0:
@@ -123,18 +126,19 @@ def find_hottest(
     flash: FlashMap,
     bulk: FaceFunction | None = None,
 ) -> Peak | None:
-    """Find where flash temperature, or bulk and flash together, are largest over the flank.
+    """Find the largest flash temperature over the flank, or the largest sum of bulk and flash temperature.
 
     Parameters
     ----------
     given : LoadDistributionInputs
         The pair, with its coefficient of friction.
     distribution : LoadDistribution
-        Its load distribution.
+        The load distribution of the pair.
     flash : FlashMap
         The result of `map_flash` for the pair and its load distribution.
     bulk : callable, optional
-        Bulk temperature [K] at the distance y [m] from the end that meshes first.
+        Function that returns the bulk temperature [K] at distances y [m] from the end that meshes first. If it is
+        given, the sum of bulk and flash temperature is searched, else the flash temperature alone.
 
     Returns
     -------
@@ -155,18 +159,18 @@ def find_hottest(
 def find_thinnest(
     given: LoadDistributionInputs, distribution: LoadDistribution, flash: FlashMap, film_at: ContactFunction
 ) -> Peak | None:
-    """Find where the film of the formula is thinnest over the flank.
+    """Find the thinnest film of the formula over the flank.
 
     Parameters
     ----------
     given : LoadDistributionInputs
         The pair.
     distribution : LoadDistribution
-        Its load distribution.
+        The load distribution of the pair.
     flash : FlashMap
         The result of `map_flash` for the pair and its load distribution.
     film_at : callable
-        Film [m] at contacts: the result of `formula_film`.
+        Function that returns the film [m] at contacts; the result of `formula_film`.
 
     Returns
     -------
@@ -190,9 +194,10 @@ def find_thinnest(
 
 
 def formula_film(inputs: ScuffingInputs) -> ContactFunction:
-    """Return the function that computes the minimum film [m] of Dowson and Higginson at contacts.
+    """Return a function that computes the minimum film [m] at contacts by the formula of Dowson and Higginson.
 
-    The film is NaN at points that are not in contact, and everywhere if the oil or the bulk temperature is unknown.
+    The film is NaN at points that are not in contact. It is NaN at all points if the oil or the bulk temperature is
+    unknown.
     """
     lubricant, bulk = inputs.lubricant, inputs.temperatures.bulk
     if lubricant is None or bulk is None:
@@ -216,16 +221,17 @@ def formula_film(inputs: ScuffingInputs) -> ContactFunction:
 
 
 def on_diagonals(distribution: LoadDistribution, peak: Peak, function: FlankFunction) -> Peak:
-    """Return the peak, or the peak along the feature line or its mirror image if that is higher."""
+    """Return the given peak, or a higher peak on the feature line or on the lines that `_or_beside` searches."""
     along_feature_line = _peak_along(distribution, function, mirrored=False)
     return _or_beside(distribution, max(peak, along_feature_line, key=_height), function)
 
 
 def _or_beside(distribution: LoadDistribution, peak: Peak, function: FlankFunction) -> Peak:
-    """Return the peak, or a higher one along its profile line or along the other diagonal of a spur pair's flank.
+    """Return the given peak, or a higher peak on the profile line through it or, for spur pairs, on the other diagonal.
 
-    The largest value must not be below a value on the feature line. The feature line of a spur pair's mirror image is
-    the other diagonal; if both diagonals count, a pair and its mirror image have the same largest value.
+    The largest value over the flank must not be below a value on the feature line, which is one diagonal of the flank.
+    In the mirror image of a spur pair the other diagonal is the feature line. Both diagonals are therefore searched, so
+    that a pair and its mirror image have the same largest value.
     """
     peak = max(peak, _peak_at_kinks(distribution, function, peak), key=_height)
     if distribution.path_of_contact.plane.tan_base_helix > 0.0:
@@ -234,13 +240,15 @@ def _or_beside(distribution: LoadDistribution, peak: Peak, function: FlankFuncti
 
 
 def _peak_at_kinks(distribution: LoadDistribution, function: FlankFunction, peak: Peak) -> Peak:
-    """Find the largest value at which contact lines of the roll positions meet the profile line through a peak.
+    """Find the largest value at the points where contact lines of the roll positions cross the profile line of a peak.
 
-    Between roll positions the approach is linear. Where another pair of teeth takes over the load, the load is largest
-    at a roll position. Roll positions may lie closer together than any points of the search.
+    The approach is linear between roll positions. At the place where another pair of teeth takes over load, the load is
+    therefore largest at a roll position. The search over the grid can miss this place, because roll positions may lie
+    closer together than the points of the grid.
     """
     plane, rolls = distribution.path_of_contact.plane, distribution.balance.rolls
-    phase = rolls.phase[rolls.side == 0.0]  # at the others a spur gear's load jumps; the map has both sides
+    # At the other positions the load of a spur gear jumps; the map has both sides of these jumps.
+    phase = rolls.phase[rolls.side == 0.0]
     lines = np.add.outer(plane.base_pitch * np.arange(line_count(plane)), phase).ravel()
     x = np.unique(np.clip(lines - peak.y * plane.tan_base_helix, 0.0, plane.path_length))
     values = function(x, np.full(x.size, peak.y))
@@ -263,11 +271,11 @@ def _height(peak: Peak) -> float:
 
 
 def find_largest(grid: FlashMap, values: FloatArray, function: FlankFunction) -> Peak:
-    """Find the largest value of a function over the flank, from its values (n, m) on the grid.
+    """Find the largest value of a function over the flank, starting from `values` (n, m), its values on the grid.
 
     The largest values of the rows form a ridge along the path. Around the highest tops of the ridge the function is
-    evaluated on finer and finer grids. Every grid contains the largest place of the grid before, so that no value is
-    lost.
+    evaluated on finer and finer grids. Every grid contains the place of the largest value of the previous grid, so that
+    this value is not lost.
     """
     across = np.argmax(values, axis=1)
     highest = np.array(tops(values[np.arange(grid.x.size), across])[-TOPS:])
@@ -283,9 +291,10 @@ def find_largest(grid: FlashMap, values: FloatArray, function: FlankFunction) ->
 
 
 def _around(places: FloatArray, top: IntArray, reach: int) -> FloatArray:
-    """Return equidistant places around the place `top` of every row, up to `reach` steps of the row to both sides.
+    """Return equidistant places around the place with the index `top` of every row.
 
-    The place itself replaces the nearest of them.
+    They extend over `reach` steps of the row to both sides. The place with the index `top` replaces the nearest of the
+    equidistant places.
     """
     row, last = np.arange(top.size), places.shape[1] - 1
     centre = places[row, top]

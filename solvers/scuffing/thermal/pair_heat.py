@@ -19,7 +19,7 @@ STEEL_EXPANSION = 12e-6  # 1/K, of gears and casing
 
 
 def is_beyond_the_estimate(gears: GearPairInputs, pinion_speed: float) -> bool:
-    """Return True if the pitch-line velocity of a pair exceeds 60 m/s at a speed of the pinion [rad/s].
+    """Return True if the pitch-line velocity of a pair exceeds 60 m/s at a given speed of the pinion [rad/s].
 
     Raises the errors of `gear_pair`.
     """
@@ -32,11 +32,11 @@ def pair_heat(inputs: ScuffingInputs, distribution: LoadDistribution, estimate: 
     Parameters
     ----------
     inputs : ScuffingInputs
-        The pair with a known oil and its cooling.
+        The pair, its oil (which must be known) and its cooling.
     distribution : LoadDistribution
-        Its load distribution with the friction of the losses.
+        Load distribution of the pair, with the coefficient of friction for the losses.
     estimate : float or None
-        Bulk temperature by ISO/TR 13989-1 [K], which the result states for comparison.
+        Bulk temperature by ISO/TR 13989-1 [K]; the result states this temperature for comparison.
 
     Returns
     -------
@@ -57,7 +57,7 @@ def pair_heat(inputs: ScuffingInputs, distribution: LoadDistribution, estimate: 
 def balance_inputs(
     inputs: ScuffingInputs, distribution: LoadDistribution, estimate: float | None = None
 ) -> HeatBalanceInputs:
-    """Return the inputs of the balance of a pair; the parameters are those of `pair_heat`."""
+    """Return the inputs of the heat balance of a pair; the parameters are the same as in `pair_heat`."""
     oil, path = inputs.known_oil, distribution.path_of_contact
     assert oil is not None
     return HeatBalanceInputs(
@@ -71,19 +71,19 @@ def balance_inputs(
 
 
 def with_backlash_loss(heat: Heat, pair: GearPair) -> Heat:
-    """Add to the heat the loss of backlash, for gears of steel that are hotter than their casing of steel."""
+    """Add the loss of backlash to the heat balance, for steel gears that are hotter than their steel casing."""
     radii = (pair.pinion_working_radius, pair.wheel_working_radius)
     return heat_balance.backlash_loss(heat, radii, pair.working_pressure_angle, STEEL_EXPANSION)
 
 
 def with_flanks(inputs: ScuffingInputs, heat: Heat) -> ScuffingInputs:
-    """Return the inputs with the flank temperatures of the balance as bulk temperatures of both gears."""
+    """Return the inputs with the flank temperatures of the heat balance as the bulk temperatures of both gears."""
     flanks = (heat.pinion.flank, heat.wheel.flank)
     return replace(inputs, temperatures=replace(inputs.temperatures, bulk=sum(flanks) / 2, flanks=flanks))
 
 
 def gear_geometries(given: LoadDistributionInputs, path: PathOfContact) -> tuple[GearGeometry, GearGeometry]:
-    """Return both gears for the heat balance, without shafts."""
+    """Return the geometry of both gears for the heat balance; the gears have no shafts."""
     pair, speed = path.pair, abs(given.load.pinion_speed)
     speeds = (speed, speed * pair.pinion.teeth / pair.wheel.teeth)
     pinion, wheel = (
@@ -124,7 +124,7 @@ def friction_to_pinion(given: LoadDistributionInputs, distribution: LoadDistribu
     given : LoadDistributionInputs
         The pair with its materials.
     distribution : LoadDistribution
-        Its load distribution.
+        The load distribution of the pair.
 
     Returns
     -------
@@ -133,7 +133,7 @@ def friction_to_pinion(given: LoadDistributionInputs, distribution: LoadDistribu
 
     Notes
     -----
-    Eq. H7. At every place along the path the heat is the sum over the face.
+    Eq. H7. At every place along the path the frictional heat is summed over the face.
     """
     path, flank = distribution.path_of_contact, distribution.flank
     along = flank.profile_fraction * path.plane.path_length

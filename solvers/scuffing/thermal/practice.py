@@ -1,8 +1,8 @@
-"""Estimates of ISO/TR 13989-1: mean friction, scuffing temperature of an FZG stage, bulk temperature, risk.
+"""Estimates of ISO/TR 13989-1: mean friction, scuffing temperature from an FZG test, bulk temperature, risk class.
 
 The formulas, the load factors and the upper limit of 50 m/s on the speed follow a public implementation of the
 standard. The lower limit of 150 N/mm on the line load is quoted and was not verified against the standard. The
-coefficient of friction of the losses is Schlenk's.
+coefficient of friction for the losses is Schlenk's.
 """
 
 from typing import Literal
@@ -14,18 +14,18 @@ from solvers.scuffing.inputs import LoadDistributionInputs, OilSupply
 ScuffingRisk = Literal["high", "moderate", "low"]
 
 OIL_SUPPLY_FACTOR: dict[OilSupply, float] = {"spray": 1.2, "dip": 1.0, "submerged": 0.2}  # X_S
-OIL_KIND_FACTOR: dict[OilKind, float] = {"mineral": 1.0, "pao": 0.8, "polyglycol": 0.7, "ester": 1.0}  # X_L
+OIL_KIND_FACTOR: dict[OilKind, float] = {"mineral": 1.0, "pao": 0.8, "polyglycol": 0.7, "ester": 1.0}  # in X_L
 OIL_KIND_LOSS_FACTOR: dict[OilKind, float] = {"mineral": 1.0, "pao": 0.8, "polyglycol": 0.7, "ester": 0.8}  # X_L
 LEAST_LINE_LOAD = 150.0  # N/mm, lower limit in both friction laws
 FASTEST_PITCH_LINE = 50.0  # m/s, upper limit of v_t in both friction laws
-TEST_TEMPERATURE = 363.15  # K, of the oil in A/8.3/90
-FLOODED_UP_TO = 60.0  # m/s, pitch-line velocity beyond which the estimated bulk is a lower bound
-FLASH_SHARE = 0.47  # rise of the bulk temperature over the mean flash temperature
-HIGH_RISK_BELOW, LOW_RISK_ABOVE = 1.0, 2.0  # quoted, not verified against the standard
+TEST_TEMPERATURE = 363.15  # K, oil temperature in the FZG test A/8.3/90
+FLOODED_UP_TO = 60.0  # m/s, pitch-line velocity; beyond it the estimated bulk temperature is a lower bound
+FLASH_SHARE = 0.47  # ratio of the rise of the bulk temperature to the mean flash temperature, if X_S = 1
+HIGH_RISK_BELOW, LOW_RISK_ABOVE = 1.0, 2.0  # safety factors; quoted, not verified against the standard
 
 
 def lubricant_factor(viscosity: float, kind: OilKind) -> float:
-    """Compute the lubricant factor of the friction of the flash temperature.
+    """Compute the lubricant factor of the coefficient of friction that is used for the flash temperature.
 
     Parameters
     ----------
@@ -42,13 +42,13 @@ def lubricant_factor(viscosity: float, kind: OilKind) -> float:
     Notes
     -----
     X_L = eta_oil^-0.05 with eta_oil in mPa s, times 0.8 for polyalphaolefins and 0.7 for polyglycols (Eq. R6). No
-    factor is known for esters; they count as mineral oils.
+    factor is known for esters; they are treated as mineral oils.
     """
     return float(OIL_KIND_FACTOR[kind] * (viscosity * 1e3) ** -0.05)
 
 
 def roughness_factor(roughness_1: float, roughness_2: float) -> float:
-    """Compute the roughness factor of the mean friction.
+    """Compute the roughness factor of the mean coefficient of friction.
 
     Parameters
     ----------
@@ -68,19 +68,19 @@ def roughness_factor(roughness_1: float, roughness_2: float) -> float:
 
 
 def pitch_line_velocity(inputs: LoadDistributionInputs, path: PathOfContact) -> float:
-    """Return the speed of the working pitch circles [m/s]."""
+    """Return the circumferential speed of the working pitch circles [m/s]."""
     return inputs.load.pinion_speed * path.pair.pinion_working_radius
 
 
 def mean_friction(inputs: LoadDistributionInputs, path: PathOfContact, factor: float, face_load_factor: float) -> float:
-    """Compute the mean coefficient of friction of the flash temperature.
+    """Compute the mean coefficient of friction for the flash temperature.
 
     Parameters
     ----------
     inputs : LoadDistributionInputs
         The pair and its load; the speed is not 0.
     path : PathOfContact
-        Its path of contact.
+        The path of contact of the pair.
     factor : float
         Lubricant factor X_L [-].
     face_load_factor : float
@@ -93,8 +93,9 @@ def mean_friction(inputs: LoadDistributionInputs, path: PathOfContact, factor: f
 
     Notes
     -----
-    mu = 0.060 [w_Bt/(v_SigmaC rho_relC)]^0.2 X_L X_R (Eq. R5), with w_Bt = K_A K_v K_gamma K_Hbeta K_Halpha F_t/b, at
-    least 150 N/mm. F_t acts at the reference circle; the transverse load factor K_Halpha is 1.
+    mu = 0.060 [w_Bt/(v_SigmaC rho_relC)]^0.2 X_L X_R (Eq. R5), with w_Bt = K_A K_v K_gamma K_Hbeta K_Halpha F_t/b.
+    A value of w_Bt below 150 N/mm is raised to 150 N/mm. F_t acts at the reference circle; the transverse load factor
+    K_Halpha is 1.
     """
     load, width = inputs.load, inputs.gears.face_width
     line_load = face_load_factor * load.contact_factor * load.torque / path.pair.pinion.reference_radius / width
@@ -102,14 +103,14 @@ def mean_friction(inputs: LoadDistributionInputs, path: PathOfContact, factor: f
 
 
 def loss_friction(inputs: LoadDistributionInputs, path: PathOfContact, viscosity: float, kind: OilKind) -> float:
-    """Compute Schlenk's mean coefficient of friction of the losses.
+    """Compute Schlenk's mean coefficient of friction for the losses.
 
     Parameters
     ----------
     inputs : LoadDistributionInputs
         The pair and its load; the speed is not 0.
     path : PathOfContact
-        Its path of contact.
+        The path of contact of the pair.
     viscosity : float
         Dynamic viscosity at the oil temperature [Pa s].
     kind : str
@@ -122,8 +123,9 @@ def loss_friction(inputs: LoadDistributionInputs, path: PathOfContact, viscosity
 
     Notes
     -----
-    mu = 0.048 [w_bt/(v_SigmaC rho_redC)]^0.2 eta_oil^-0.05 Ra^0.25 X_L (Eq. R10), with w_bt = F_bt/b of the transmitted
-    torque, at least 150 N/mm. F_bt acts at the base circle, without load factors. X_L is 1 for mineral oils, 0.8 for
+    mu = 0.048 [w_bt/(v_SigmaC rho_redC)]^0.2 eta_oil^-0.05 Ra^0.25 X_L (Eq. R10). Here w_bt = F_bt/b follows from the
+    transmitted torque; values below 150 N/mm are raised to 150 N/mm. F_bt acts at the base circle and does not contain
+    load factors. X_L is 1 for mineral oils, 0.8 for
     polyalphaolefins and 0.7 for polyglycols; for esters 0.8 is assumed.
     """
     line_load = inputs.load.torque / path.pair.pinion.base_radius / inputs.gears.face_width
@@ -132,9 +134,10 @@ def loss_friction(inputs: LoadDistributionInputs, path: PathOfContact, viscosity
 
 
 def _load_and_speed(inputs: LoadDistributionInputs, path: PathOfContact, line_load: float) -> float:
-    """Return [w/(v_SigmaC rho_C)]^0.2 for a line load w [N/m], which counts as 150 N/mm if it is less.
+    """Return [w/(v_SigmaC rho_C)]^0.2 for a line load w [N/m].
 
-    v_SigmaC is the sum of the tangential speeds at the pitch point [m/s], for a pitch-line velocity of at most 50 m/s;
+    In the formula w is in N/mm; values below 150 N/mm are raised to 150 N/mm. v_SigmaC [m/s] is the sum of the
+    tangential speeds at the pitch point. If the pitch-line velocity exceeds 50 m/s, the speeds at 50 m/s are used.
     rho_C is the reduced radius at the pitch point [mm].
     """
     pair, pitch = path.pair, path.pitch_point
@@ -167,7 +170,7 @@ def scuffing_temperature(stage: int, structure_factor: float, factor: float) -> 
 
     Notes
     -----
-    80 + (0.85 + 1.4 X_W) X_L S^2 in C (Eq. R9).
+    The scuffing temperature is 80 + (0.85 + 1.4 X_W) X_L S^2 in C (Eq. R9).
     """
     return 80.0 + (0.85 + 1.4 * structure_factor) * factor * stage**2 + 273.15
 
@@ -191,13 +194,16 @@ def bulk_temperature(oil: float, supply: OilSupply, mean_flash: float) -> float:
 
     Notes
     -----
-    Oil temperature plus 0.47 X_S times the mean flash temperature (Eq. R8).
+    The bulk temperature is the oil temperature plus 0.47 X_S times the mean flash temperature (Eq. R8).
     """
     return oil + FLASH_SHARE * OIL_SUPPLY_FACTOR[supply] * mean_flash
 
 
 def scuffing_risk(safety: float) -> ScuffingRisk:
-    """Return the standard's risk for a safety factor by Blok: high below 1, low above 2 (secondary source)."""
+    """Return the risk class of the standard for a safety factor by Blok.
+
+    The risk is high below 1, low above 2, and moderate in between. These limits are quoted from a secondary source.
+    """
     if safety < HIGH_RISK_BELOW:
         return "high"
     return "low" if safety > LOW_RISK_ABOVE else "moderate"

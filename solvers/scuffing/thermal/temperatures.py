@@ -1,8 +1,9 @@
-"""Values of a scuffing check that are estimated if they are not given: friction, bulk, oil, scuffing temperature.
+"""Values of a scuffing check that are estimated if they are not given.
 
-There is no iteration: friction uses the viscosity at the oil temperature, the film uses the viscosity at the bulk
-temperature. The bulk temperature by heat balance follows from the losses; within the balance their coefficient of
-friction depends on the oil temperature.
+These values are the coefficient of friction, the bulk temperature, the oil at this temperature, and the scuffing
+temperature. No iteration is needed: friction uses the viscosity at the oil temperature, and only the film uses the
+viscosity at the bulk temperature. If the bulk temperature comes from a heat balance, it follows from the losses. In the
+balance the coefficient of friction for the losses depends on the oil temperature.
 """
 
 from collections.abc import Iterator
@@ -35,15 +36,15 @@ from solvers.scuffing.thermal.practice import (
     scuffing_temperature,
 )
 
-COLDEST_OIL, HOTTEST_OIL = 223.15, 573.15  # K, the range of reference temperatures
+COLDEST_OIL, HOTTEST_OIL = 223.15, 573.15  # K, range of the reference temperature of an oil
 STEEL_MODULI = (170e9, 240e9)  # Pa; cast iron and bronze are below, hard metal is above
 MEAN_POINTS = 1001  # for the mean flash temperature along the feature line
 
 
 class InForce(NamedTuple):
-    """Inputs and load distribution of a scuffing check with every estimate as a number.
+    """Inputs and load distribution of a scuffing check, after every estimate has been replaced by a number.
 
-    `flash` is Blok's flash temperature over the flank, `heat` the heat balance if the pair requests one.
+    `flash` is Blok's flash temperature over the flank. `heat` is the heat balance of the pair; None if none was solved.
     """
 
     inputs: ScuffingInputs
@@ -53,10 +54,11 @@ class InForce(NamedTuple):
 
 
 def in_force(inputs: ScuffingInputs, distribution: LoadDistribution) -> InForce:
-    """Return inputs and load distribution with friction, temperatures and oil as numbers.
+    """Return inputs and load distribution with numbers for friction, temperatures and oil.
 
-    The heat balance is solved only if the flank temperatures are not given; a unit has solved its own balance before.
-    Raises the errors of `with_friction`, `pair_heat` and `with_temperatures`.
+    The heat balance is solved only if the flank temperatures are not given. They are given if the pair belongs to a
+    unit, because a unit solves its own heat balance before. Raises the errors of `with_friction`, `pair_heat` and
+    `with_temperatures`.
     """
     inputs, distribution = with_friction(inputs, distribution)
     flash = map_flash(inputs.distribution, distribution)
@@ -69,11 +71,11 @@ def in_force(inputs: ScuffingInputs, distribution: LoadDistribution) -> InForce:
 
 
 def with_friction(inputs: ScuffingInputs, distribution: LoadDistribution) -> tuple[ScuffingInputs, LoadDistribution]:
-    """Return the inputs with the friction of the flash temperature, the load distribution with that of the losses.
+    """Return the inputs with the friction for the flash temperature, and the load distribution with the friction loss.
 
     A given coefficient of friction is used for both. Otherwise the flash temperature uses the coefficient of ISO/TR
-    13989-1, which is on the safe side for scuffing; the losses use Schlenk's coefficient, a mean for the efficiency.
-    Both coefficients are None without an oil, a load or a speed.
+    13989-1, which is on the safe side for scuffing. The losses use Schlenk's coefficient, which is a mean value for the
+    efficiency. Both coefficients are None if the oil, the load or the speed is missing.
     """
     if inputs.friction == "given":
         return inputs, distribution
@@ -91,17 +93,17 @@ def with_friction(inputs: ScuffingInputs, distribution: LoadDistribution) -> tup
 
 
 def with_temperatures(inputs: ScuffingInputs, distribution: LoadDistribution, flash: FlashMap) -> ScuffingInputs:
-    """Return the inputs with bulk and scuffing temperature as numbers and the oil as it enters the contact.
+    """Return the inputs with numbers for bulk and scuffing temperature, and with the oil at the bulk temperature.
 
-    Bulk temperature and lubricant are None without an oil, and if the bulk temperature cannot be estimated because the
-    flash temperature has no mean.
+    Bulk temperature and lubricant are None if there is no oil. They are also None if the bulk temperature cannot be
+    estimated because the flash temperature has no mean.
 
     Raises
     ------
     InvalidInput
         `missing_bulk` if the bulk temperature is neither given nor estimated, `oil_temperature` if an oil given by its
-        data sheet would be too hot or too cold, `scuffing_temperature` if the oil is not cooler than the scuffing
-        temperature.
+        data sheet would be too hot or too cold at the bulk temperature, `scuffing_temperature` if the oil is not cooler
+        than the scuffing temperature.
     """
     temperatures, oil = inputs.temperatures, inputs.known_oil
     if oil is None:
@@ -115,57 +117,58 @@ def with_temperatures(inputs: ScuffingInputs, distribution: LoadDistribution, fl
         test = replace(test, lubricant_factor=factor)
         temperatures = replace(temperatures, scuffing=limit, scuffing_test=test)
     if temperatures.scuffing is not None and temperatures.scuffing <= temperatures.oil:
-        message = "the scuffing temperature must lie above the oil temperature"
+        message = "the scuffing temperature must be above the oil temperature"
         raise InvalidInput("scuffing_temperature", message, "temperatures.scuffing")
     bulk = temperatures.bulk
     if bulk is None and temperatures.bulk_method != "estimated":
-        message = f"the method '{temperatures.bulk_method}' needs a bulk temperature"
+        message = f"the method '{temperatures.bulk_method}' needs a bulk temperature; give one"
         raise InvalidInput("missing_bulk", message, "temperatures.bulk")
     if bulk is None:
         return replace(inputs, temperatures=temperatures, oil=oil, lubricant=None)
     if isinstance(oil, OilSheet) and not COLDEST_OIL <= bulk <= HOTTEST_OIL:
         message = (
-            f"the oil would enter at {bulk - 273.15:.4g} °C, where grade and data sheet do not hold; "
-            "give a lower load, another bulk temperature, or the oil by its viscosity"
+            f"the oil would enter the contact at {bulk - 273.15:.4g} °C, where grade and data sheet are not valid; "
+            "reduce the load, give another bulk temperature, or give the viscosity of the oil"
         )
         raise InvalidInput("oil_temperature", message, "temperatures.bulk_method")
     return replace(inputs, temperatures=temperatures, lubricant=lubricant_at(oil, bulk))
 
 
 def oil_notices(inputs: ScuffingInputs, path: PathOfContact) -> Iterator[Notice]:
-    """Warn of a missing oil or bulk temperature, of a bulk temperature that is a lower bound, and of unused cooling."""
+    """Warn of a missing oil or bulk temperature, of doubtful estimates, and of unused inputs of the cooling."""
     if inputs.known_oil is None:
         message = (
-            "no oil is given (iso_vg, kinematic_viscosity_40 or viscosity_pa_s): film, contact temperature and "
-            "safety are not stated"
+            "no oil is given (iso_vg, kinematic_viscosity_40 or viscosity_pa_s); film, contact temperature and safety "
+            "are therefore not stated"
         )
         yield Notice("no_oil", message, "lubricant", rank="note")
         return
     yield from _material_notices(inputs)
     if inputs.temperatures.bulk is None:
         message = (
-            "the path of contact reaches a base circle, where no flash temperature is defined to estimate the bulk "
-            "temperature from: film, contact temperature and safety are not stated; give the bulk temperature"
+            "the path of contact reaches a base circle, where no flash temperature is defined, so that the bulk "
+            "temperature cannot be estimated. Film, contact temperature and safety are not stated; give the bulk "
+            "temperature"
         )
         yield Notice("no_bulk_estimate", message, "temperatures.bulk_method", rank="invalid")
         return
     speed = pitch_line_velocity(inputs.distribution, path)
     if inputs.temperatures.bulk_method == "estimated" and speed > FLOODED_UP_TO:
         message = (
-            f"the bulk temperature is estimated for flooded flanks; at {speed:.4g} m/s, beyond 60 m/s, it is a lower "
-            "bound, the contact temperature is higher and the safety lower than stated"
+            f"the estimate of the bulk temperature holds for flooded flanks; at {speed:.4g} m/s, above 60 m/s, it is a "
+            "lower bound. The real contact temperature is higher and the real safety is lower than stated"
         )
         yield Notice("bulk_lower_bound", message, "temperatures.bulk_method")
     if inputs.temperatures.bulk_method != "heat_balance" and inputs.cooling != Cooling():
         message = (
-            f"the bulk temperature is {inputs.temperatures.bulk_method}; the inputs of the cooling are only used by "
-            "the method heat_balance"
+            "the inputs of the cooling are not used, because the bulk temperature is "
+            f"{inputs.temperatures.bulk_method}; only the method heat_balance uses them"
         )
         yield Notice("cooling_not_used", message, "temperatures.bulk_method", rank="note")
 
 
 def _material_notices(inputs: ScuffingInputs) -> Iterator[Notice]:
-    """Warn of estimates that were made for steel, if a gear is of another material."""
+    """Warn of estimates by formulas that were made for steel gears, if a gear is of another material."""
     estimates = {
         "the coefficient of friction": inputs.friction == "iso_tr_13989",
         "the bulk temperature": inputs.temperatures.bulk_method == "estimated",
@@ -176,14 +179,14 @@ def _material_notices(inputs: ScuffingInputs) -> Iterator[Notice]:
     for name, solid in (("pinion", given.pinion_material), ("wheel", given.wheel_material)):
         if estimated and not least <= solid.youngs_modulus <= largest:
             message = (
-                f"the {name} is not of steel ({solid.youngs_modulus / 1e9:.4g} GPa), but ISO/TR 13989-1 estimates "
-                f"{' and '.join(estimated)} for gears of steel: give measured values"
+                f"the {name} is not made of steel (Young's modulus {solid.youngs_modulus / 1e9:.4g} GPa), but ISO/TR "
+                f"13989-1 estimates {' and '.join(estimated)} for steel gears; give measured values"
             )
             yield Notice("made_for_steel", message, f"materials.{name}.youngs_modulus")
 
 
 def _oil_factor(oil: OilSheet | Lubricant, temperature: float) -> float:
-    """Return X_L of the oil at a temperature [K]."""
+    """Return the lubricant factor X_L of the oil at a temperature [K]."""
     lubricant = lubricant_at(oil, temperature)
     return lubricant_factor(lubricant.viscosity_at(0.0, temperature), lubricant.kind)
 
@@ -191,8 +194,9 @@ def _oil_factor(oil: OilSheet | Lubricant, temperature: float) -> float:
 def estimated_bulk(inputs: ScuffingInputs, distribution: LoadDistribution, flash: FlashMap) -> float | None:
     """Return the bulk temperature [K] from the mean flash temperature; None if the mean is not defined.
 
-    The mean is taken over the checked part, the flank or the feature line. The mean over the flank is the same for a
-    pair and its mirror image, as the bulk temperature of a tooth must be; the mean along the feature line is not.
+    The mean is taken over the part that is checked, which is the flank or the feature line. The bulk temperature must
+    be the same for a pair and its mirror image. The mean over the flank meets this condition; the mean along the
+    feature line does not.
     """
     given = inputs.distribution
     if inputs.line == "flank":

@@ -13,7 +13,7 @@ from solvers.scuffing.inputs import ScuffingInputs
 from solvers.scuffing.results import ContactPoints
 from solvers.scuffing.safety_results import PointStatus, ThermalPath
 
-# The scuffing input behind an input of the contact; other inputs have the same name in both.
+# The scuffing input from which an input of the contact follows. The other inputs have the same name in both.
 FIELDS = {
     "line_load": "power",
     "speed_1": "pinion_speed",
@@ -27,11 +27,13 @@ CURVES = tuple(item.name for item in fields(ThermalPath) if item.name != "status
 def thermal_paths(
     inputs: ScuffingInputs, lines: Sequence[ContactPoints]
 ) -> tuple[tuple[ThermalPath, ...], tuple[Notice, ...]]:
-    """Solve the points in contact of the lines, every point from its neighbour on the line.
+    """Solve the thermal EHL contact at the points of the lines that are in contact.
 
-    The oil enters at the bulk temperature. If a heat balance gives pinion and wheel different bulk temperatures, each
-    surface has that of its gear. A point outside the range of the solver gets the status "refused", a point without
-    convergence "no_solution"; the other points are solved nevertheless. The warnings are those of all lines.
+    The solution of a point starts from the solutions of the preceding points on the line. The oil enters the contact at
+    the bulk temperature. If a heat balance gives pinion and wheel different bulk temperatures, each surface has the
+    bulk temperature of its gear. A point outside the range of the solver gets the status "refused". A point without
+    convergence gets the status "no_solution". The other points are solved nevertheless. The warnings are those of all
+    lines together.
 
     Raises
     ------
@@ -57,7 +59,11 @@ def thermal_paths(
 def _solve_line(
     points: ContactPoints, contacts: dict[int, ehl.LineContactInputs], refusals: dict[int, InvalidInput]
 ) -> tuple[ThermalPath, list[ehl.LineContactResult]]:
-    """Solve one line; return its path, and the results of the points that were solved under their own load."""
+    """Solve one line; return its path, and the results of the points that were solved under their own load.
+
+    A point that is refused because its load is too light is solved under the lightest load of the solver, to get
+    bounds.
+    """
     light = {point: ehl.lightest(contacts[point]) for point, why in refusals.items() if why.code == "load_range"}
     solvable = {
         point: contact for point, contact in (contacts | light).items() if point in light or point not in refusals
@@ -77,7 +83,7 @@ def _solve_line(
 
 
 def contact_at(inputs: ScuffingInputs, points: ContactPoints, point: int) -> ehl.LineContactInputs:
-    """Return one of the points as a line contact; oil and bulk temperature are known."""
+    """Return the inputs of the line contact at one of the points; oil and bulk temperature must be known."""
     given, temperatures, lubricant = inputs.distribution, inputs.temperatures, inputs.lubricant
     assert temperatures.bulk is not None
     assert temperatures.surfaces is not None
@@ -108,7 +114,7 @@ def _refusal(contact: ehl.LineContactInputs) -> InvalidInput | None:
 
 
 def _values(result: ehl.LineContactResult) -> dict[str, float | None]:
-    """Return the values of a solved point by the names of the curves."""
+    """Return the values of a solved point under the names of the curves."""
     assert result.temperature is not None
     assert result.pressure is not None
     assert result.friction is not None
@@ -124,14 +130,14 @@ def _values(result: ehl.LineContactResult) -> dict[str, float | None]:
 
 
 def _bounds(result: ehl.LineContactResult) -> dict[str, float | None]:
-    """Return bounds for a point that is too lightly loaded, from its solution under the lightest load of the solver."""
+    """Return bounds for a point with a too light load, from the solution under the lightest load of the solver."""
     assert result.temperature is not None
     flash = max(result.temperature.surface_1_flash, result.temperature.surface_2_flash)
     return {"flash_bound": flash, "film_bound": result.film.minimum}
 
 
 def _notices(results: Sequence[ehl.LineContactResult], refusals: Sequence[InvalidInput]) -> tuple[Notice, ...]:
-    """Return every warning once, with the number of points it applies to."""
+    """Return every warning once, with the number of points to which the warning applies."""
     points: dict[str, int] = {}
     first: dict[str, Notice] = {}
     notices = [notice for result in results for notice in result.warnings]
@@ -147,5 +153,5 @@ def _notices(results: Sequence[ehl.LineContactResult], refusals: Sequence[Invali
 
 
 def _field(of_contact: str | None) -> str | None:
-    """Return the scuffing input behind an input of the contact."""
+    """Return the scuffing input from which an input of the contact follows."""
     return None if of_contact is None else FIELDS.get(of_contact, of_contact)

@@ -1,6 +1,6 @@
 """Largest flash temperature and thinnest film of the lines and of the flank, or the reason why they are not stated.
 
-Both are stated only if the bounds of the unsolved points show that none of these is hotter or has a thinner film.
+Both are stated only if bounds show that no unsolved point is hotter, and that none has a thinner film.
 """
 
 from collections.abc import Sequence
@@ -20,7 +20,7 @@ from solvers.scuffing.thermal.practice import scuffing_risk
 
 
 class CheckedLine(NamedTuple):
-    """The check along a line of the flank, and the distance of its points from the end that meshes first [m]."""
+    """The check along a line of the flank, and the distances of the points from the end that meshes first [m]."""
 
     path: ScuffingPath
     face: FloatArray
@@ -29,7 +29,8 @@ class CheckedLine(NamedTuple):
 def unknown_points(paths: Sequence[ThermalPath], bulks: Sequence[FloatArray]) -> int:
     """Count the unsolved points of the paths that may be the hottest or have the thinnest film.
 
-    `bulks` are the bulk temperatures [K] at the points of every path, or two rows, of pinion and wheel.
+    `bulks` contains the bulk temperatures [K] at the points of every path. For each path this is either one row for
+    both gears, or two rows for pinion and wheel.
     """
     status = np.concatenate([path.status for path in paths])
     film, film_bound, flank, flash_bound = (
@@ -49,21 +50,24 @@ def unknown_points(paths: Sequence[ThermalPath], bulks: Sequence[FloatArray]) ->
 
 
 def hotter_surface(path: ThermalPath, bulk: FloatArray) -> FloatArray:
-    """Return the temperature of the hotter surface at each point [K]; `bulk` [K] as in `unknown_points`."""
+    """Return the temperature of the hotter surface at each point [K].
+
+    `bulk` [K] is either one row for both gears, or two rows for pinion and wheel.
+    """
     pinion, wheel = np.broadcast_to(bulk, (2, path.pinion_flash.size))
     hotter: FloatArray = np.fmax(path.pinion_flash + pinion, path.wheel_flash + wheel)
     return hotter
 
 
 def largest_flash(lines: Sequence[CheckedLine], hottest: Peak | None, path_length: float) -> Flash:
-    """Return the largest flash temperatures by Blok and by the thermal EHL solution (either flank of the teeth).
+    """Return the largest flash temperature by Blok, and the largest of both surfaces by the thermal EHL solution.
 
     Parameters
     ----------
     lines : sequence of CheckedLine
         The feature line, and the profile line if it was checked.
     hottest : Peak or None
-        Largest flash temperature over the flank [K], if the flank was checked.
+        Largest flash temperature by Blok over the flank [K]; None if the flank was not checked.
     path_length : float
         Length of the path of contact [m].
     """
@@ -96,14 +100,14 @@ def largest_flash(lines: Sequence[CheckedLine], hottest: Peak | None, path_lengt
 def thinnest_film(
     lines: Sequence[CheckedLine], thinnest: Peak | None, path_length: float, given: LoadDistributionInputs
 ) -> Film:
-    """Return the thinnest film, judged by the thermal EHL solution if there is one, else by the formula.
+    """Return the thinnest film; its ratio is that of the thermal EHL solution if there is one, else of the formula.
 
     Parameters
     ----------
     lines : sequence of CheckedLine
         The feature line, and the profile line if it was checked.
     thinnest : Peak or None
-        Thinnest film of the formula over the flank [m], if the flank was checked.
+        Thinnest film of the formula over the flank [m]; None if the flank was not checked.
     path_length : float
         Length of the path of contact [m].
     given : LoadDistributionInputs
@@ -134,7 +138,7 @@ def thinnest_film(
 
 
 def without_thermal(flash: Flash, film: Film) -> tuple[Flash, Film]:
-    """Return the extremes by formula alone, without those of the thermal EHL solution."""
+    """Return flash temperature and film with the values of the formulas alone, without the thermal EHL solution."""
     by_formula = replace(
         flash, thermal_ehl_max=None, thermal_ehl_at_psi=None, thermal_ehl_at_profile=None, thermal_ehl_at_face=None
     )
@@ -144,9 +148,9 @@ def without_thermal(flash: Flash, film: Film) -> tuple[Flash, Film]:
 def _extreme(
     lines: Sequence[CheckedLine], curves: Sequence[FloatArray], *, largest: bool
 ) -> tuple[float, float, float] | None:
-    """Return the extreme value of all lines with its profile position (fraction) and face position [m].
+    """Return the extreme value of all lines with its profile position (fraction of the path) and face position [m].
 
-    None if the lines have no value.
+    The result is None if the lines have no value.
     """
     values = np.concatenate(curves)
     if not _any_number(values):
@@ -158,7 +162,7 @@ def _extreme(
 
 
 def _place_on(path: ScuffingPath, values: FloatArray, *, largest: bool) -> float | None:
-    """Return psi of a path's extreme value; None if all are NaN."""
+    """Return psi of the extreme value of a path; None if all values are NaN."""
     if not _any_number(values):
         return None
     return float(path.psi[np.nanargmax(values) if largest else np.nanargmin(values)])
@@ -169,7 +173,7 @@ def _any_number(values: FloatArray) -> bool:
 
 
 def _what_leaves_no_film(distribution: LoadDistribution) -> str:
-    """Return the input that leaves points without a film: a load or speed of zero, else the modifications."""
+    """Return the input that is the cause of points without a film: torque or speed if zero, else the modifications."""
     if distribution.balance.force == 0.0:
         return "pinion_torque"
     return "modifications" if np.any(distribution.feature_line.pinion_speed > 0.0) else "pinion_speed"
@@ -182,22 +186,23 @@ def path_notices(
     safety: Safety | None,
     unknown: int,
 ) -> tuple[Notice, ...]:
-    """List warnings about points without a film, unsolved points that may decide, and a safety without a meaning.
+    """List warnings about points without a film, unsolved points, and a safety factor without a meaning.
 
-    A note is added if the feature line alone would have another risk than the flank.
+    `unknown` is the number of unsolved points at which an extreme value may lie. A note is added if the feature line
+    alone would have another risk class than the flank.
     """
     notices = []
     status = [outcome for path in paths for outcome in path.status]
     if "unloaded" in paths[0].status:
-        message = "there is no film at points of the feature line without load or motion"
+        message = "some points of the feature line have no load or no motion; at these points there is no film"
         notices.append(Notice("no_film", message, _what_leaves_no_film(distribution), rank="note"))
     if unknown:
         notices.append(
             Notice(
                 "unsolved_points",
-                f"{status.count('no_solution')} of {len(status)} points have no solution and "
-                f"{status.count('refused')} are outside the range of the model; {unknown} of them may decide: no "
-                "largest flash temperature, thinnest film or safety is stated from the others",
+                f"{status.count('no_solution')} of {len(status)} points have no solution and {status.count('refused')} "
+                f"are outside the range of the model. The extreme value may lie at {unknown} of these points. "
+                "Therefore no largest flash temperature, thinnest film or safety is stated",
                 rank="invalid",
             )
         )
@@ -205,7 +210,7 @@ def path_notices(
         notices.append(
             Notice(
                 "no_safety",
-                "the teeth stay as cool as the oil; the safety factor has no meaning",
+                "the teeth stay as cool as the oil; the safety factor therefore has no meaning",
                 "temperatures",
                 rank="note",
             )
@@ -216,9 +221,15 @@ def path_notices(
 
 
 def _other_verdict(flank: float, feature_line: float | None) -> list[Notice]:
-    """Return a note if the feature line, which alone was judged before version 0.3, has another risk than the flank."""
+    """Return a note if the feature line has another risk class than the flank.
+
+    Before version 0.3 only the feature line was judged.
+    """
     if feature_line is not None and scuffing_risk(feature_line) == scuffing_risk(flank):
         return []
     along = "the teeth stay as cool as the oil" if feature_line is None else f"the safety is {feature_line:.2f}"
-    message = f"since version 0.3 the whole flank is judged: its safety is {flank:.2f}; along the feature line {along}"
+    message = (
+        f"since version 0.3 the whole flank is judged; the safety of the whole flank is {flank:.2f}, but along the "
+        f"feature line {along}"
+    )
     return [Notice("whole_flank", message, "model.line", rank="note")]

@@ -41,5 +41,5 @@ def test_a_former_oil_by_grade_has_its_viscosity_at_the_teeth() -> None:
 def test_a_former_point_without_tilt_is_refused() -> None:
     with pytest.raises(InvalidInput, match="give misalignment or parallel_offset"):
         OperatingPoint(1.0, 1.0).operation(0.2)
-    with pytest.raises(InvalidInput, match="give viscosity"):
+    with pytest.raises(InvalidInput, match="give the viscosity"):
         CouplingOil(viscosity=None).lubricant()

@@ -324,7 +324,7 @@ def test_an_even_lead_curve_changes_nothing_but_the_transmission_error() -> None
     [((0.0,), (0.0,)), ((0.0, 0.0), (0.0, 1e-6)), ((0.0, 21e-3), (0.0, 0.0)), ((0.0, 1e-3), (0.0, 0.0, 0.0))],
 )
 def test_lead_curves_without_sense_are_refused(position: tuple[float, ...], amount: tuple[float, ...]) -> None:
-    with pytest.raises(InvalidInput, match="rising from 0") as caught:
+    with pytest.raises(InvalidInput, match="in rising order from 0") as caught:
         solve_load_distribution(paper_pair(1, Modifications(lead_curve=LeadCurve(position, amount))))
     assert caught.value.code == "lead_curve"
 

@@ -363,7 +363,7 @@ def test_temperature_out_of_range_names_the_bulk_temperature() -> None:
     cold = inputs(temperatures=Temperatures(bulk=180.0, bulk_method="given"))
     even = replace(cold, lubricant=Lubricant(temperature_viscosity=0.0))
     assert refused(solve_scuffing, even) == ("temperature_range", "temperatures.bulk")
-    with pytest.raises(InvalidInput, match="Pa s at 180 K"):
+    with pytest.raises(InvalidInput, match="at 180 K the law"):
         solve_scuffing(cold)
 
 

@@ -176,7 +176,7 @@ def test_load_from_heavy_to_none(thermal: bool) -> None:
 
 def test_film_thinner_than_a_molecule_is_refused() -> None:
     slow = changed(POINT, {"contact.speed_1": 1e-5, "contact.speed_2": 1e-5})
-    with pytest.raises(InvalidInput, match="nm thin") as refusal:
+    with pytest.raises(InvalidInput, match="nm thick, which is less than a molecule") as refusal:
         check(slow)
     assert refusal.value.code == "film_range"
 

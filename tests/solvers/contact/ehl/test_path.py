@@ -177,7 +177,7 @@ def test_empty_and_isothermal_paths() -> None:
 
 
 def test_bad_points_and_mixed_models_are_refused_at_once() -> None:
-    with pytest.raises(InvalidInput, match="both speeds must be positive"):
+    with pytest.raises(InvalidInput, match="give positive speeds for both surfaces"):
         solve_path([*contacts(2), LineContactInputs(Contact(2.5e5, 4e-3, 0.0, 3.0), lubricant=Lubricant())])
     assert refused(solve_path, [*contacts(2), replace(contacts(3)[2], model=Model(nodes=91))])[0] == "mixed_models"
 
