@@ -60,7 +60,7 @@ def _use(asked: Asked, other: Calculation) -> Use:
 
 
 def _common(calculation: Calculation, name: str) -> str:
-    """Return the shared name of a field. Calculations of gears share the name in the request of scuffing."""
+    """Return the shared name of a field. For calculations of gears this is the name in the request of scuffing."""
     if subject_of(calculation) != "pair" or not name.startswith(OPERATION):
         return name
     renamed = f"{LOAD}{name.removeprefix(OPERATION)}"

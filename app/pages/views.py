@@ -204,7 +204,8 @@ def _elsewhere(asked: Asked) -> list[tuple[str, str, list[str]]]:
 def _both(asked: Asked) -> tuple[Case, Case | None, str]:
     """Return the case, the variant to compare the case with, and the reason if the variant cannot be computed.
 
-    If there is no variant, or if it cannot be computed, None takes its place. The reason is otherwise empty.
+    If there is no variant, or if the variant cannot be computed, None stands for the variant. The reason is empty
+    unless the variant cannot be computed.
     """
     case = solved(asked.calculation, asked.pairs, asked.kept)
     if not asked.ref and asked.kept_ref is None:

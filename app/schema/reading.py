@@ -1,7 +1,7 @@
 """Validation of the content of bodies: the request, or the faults of the fields in plain words.
 
-Messages repeat numbers, texts that consist of a number, and field names of at most 40 characters, but nothing else of
-the input.
+Messages repeat nothing of the input except numbers, texts that consist of a number, and field names of at most 40
+characters.
 """
 
 import re
