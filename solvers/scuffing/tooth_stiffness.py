@@ -65,8 +65,8 @@ class ToothShape:
 def section_gear(pair: GearPair, gear: Gear, teeth: GearTeeth, section: Literal["normal", "transverse"]) -> Gear:
     """Return the gear whose teeth are used to compute the bending.
 
-    In the transverse section this is the gear itself. In the normal section it is the virtual spur gear with z / (cos^2
-    beta_b cos beta) teeth.
+    In the transverse section this is the gear itself. In the normal section it is the virtual spur gear with
+    z / (cos^2 beta_b cos beta) teeth.
     """
     return gear if section == "transverse" else virtual_gear(pair.inputs, teeth, pair.base_helix_angle)
 
