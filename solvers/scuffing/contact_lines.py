@@ -17,8 +17,8 @@ LEAST_STEPS = 8  # between two breakpoints, even if they are close to each other
 MOST_LINES = 100  # in contact at the same time; no gear has a tenth of this number
 MOST_ZONES = 12  # of one line; further zones are joined to the last zone
 LEAST_SAMPLES = 8  # per smooth part
-BISECTIONS = 45  # they reduce the step between samples to 2^-45, below the rounding of a gap
-GOLDEN_STEPS = 30  # they reduce the step between samples to 5e-7; the gap is flat at its minimum
+BISECTIONS = 45  # halvings of the step between samples: 2^-45 of the step is below the rounding of a gap
+GOLDEN_STEPS = 30  # 0.618^30 = 5e-7 of the step between samples; the gap is flat at its minimum
 GOLDEN = 0.6180339887498949  # (sqrt(5) - 1) / 2, the golden section
 
 
@@ -57,9 +57,9 @@ def contact_lengths(path: PathOfContact) -> ContactLengths:
 
     Notes
     -----
-    These formulas replace Eq. 4 of the paper, which is lost; its mean is L = eps_alpha b / cos beta_b. The length as a
-    function of the roll position is the periodic convolution of two rectangles of the lengths eps_alpha = n_a + f_a and
-    eps_beta = n_b + f_b. With the unit u = b / (eps_beta cos beta_b):
+    These formulas replace the lost Eq. 4 of the paper. The mean of Eq. 4 is L = eps_alpha b / cos beta_b. The length
+    as a function of the roll position is the periodic convolution of two rectangles of the lengths
+    eps_alpha = n_a + f_a and eps_beta = n_b + f_b. With the unit u = b / (eps_beta cos beta_b):
 
     L_min = u [n_a eps_beta + n_b f_a + max(0, f_a + f_b - 1)],  L_max = u [n_a eps_beta + n_b f_a + min(f_a, f_b)].
     """

@@ -22,7 +22,7 @@ from solvers.scuffing.contact_lines import (
 from solvers.scuffing.modification import MOST_EDGES, Gap, gap_at, smooth_parts
 from solvers.scuffing.tooth_stiffness import PairCompliance, compliance_at, line_load
 
-NUDGE = 1e-3  # of a slice; distance from the end of a stretch at which the slope of the gap is tested
+NUDGE = 1e-3  # share of a slice; distance from the end of a stretch at which the slope of the gap is tested
 EQUAL = 1e-9  # relative; peaks that differ by less differ only by rounding, for example on a line of a spur gear
 
 
@@ -290,7 +290,7 @@ def survey_slices(mesh: Mesh, table: Slices, count: int, error: float, survey: S
 def survey_ends(mesh: Mesh, phase: float, side: float, error: float, survey: Survey, i: int) -> None:
     """Add the peaks at the ends of the lines and at the kinks of the gap.
 
-    A line that only meets a corner of the plane has no length; its point at the corner counts as an end.
+    A line that only meets a corner of the plane has no length. The corner then counts as the end of the line.
     """
     plane, edges, log_load = mesh.plane, np.empty(MOST_EDGES), 0.0
     overlap = plane.face_width * plane.tan_base_helix

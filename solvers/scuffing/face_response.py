@@ -1,8 +1,8 @@
 """Load over the face as a function of the gap over the face, and the derivative of this function.
 
-They couple the mesh and the shafts. Load and gap are given at equidistant stations over the face; between stations the
-gap is linear. A force on the face is distributed over the stations by hat functions. The hat function of a station is 1
-at the station, 0 at the neighbouring stations, and linear in between.
+Load and derivative couple the mesh and the shafts. Load and gap are given at equidistant stations over the face;
+between stations the gap is linear. A force on the face is distributed over the stations by hat functions. The hat
+function of a station is 1 at the station, 0 at the neighbouring stations, and linear in between.
 """
 
 from dataclasses import dataclass
@@ -23,7 +23,7 @@ class FaceResponse:
 
     The force over the whole face is the same at every roll position. Therefore every row and every column of the
     derivative adds up to 0. `error` is the approach of the flanks [m], and `log_load` is ln w of the slices, both at
-    every roll position. They are the start values for the next response of the same mesh under a similar gap.
+    every roll position. Both are the start values for the next response of the same mesh under a similar gap.
     """
 
     force: FloatArray

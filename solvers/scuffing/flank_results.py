@@ -16,7 +16,7 @@ from solvers.scuffing.tooth_stiffness import compliance_at, line_load
 
 SUBSTEPS = 4  # per step between roll positions, if lines are loaded over a part of their length only
 FACE_POINTS = 101  # every percent of the face
-NEARLY = 0.98  # of the largest value; a lower top cannot become the largest by refinement
+NEARLY = 0.98  # share of the largest value; a lower top cannot become the largest by refinement
 TOPS = 3  # number of the highest tops, which are refined
 ZOOMS = 3  # number of zooms; each narrows the place of the maximum by a factor of 3
 ZOOM_POINTS = 7  # per zoom, between the neighbours of a top
@@ -40,7 +40,7 @@ def face_load_factor(balance: LoadBalance, y: float) -> float:
 
     Notes
     -----
-    Eq. L17: K_Hbeta is the largest value of q(y) = int w dx / p_bt divided by the mean value of q, which is the idea of
+    Eq. L17: K_Hbeta is the largest value of q(y) = int w dx / p_bt divided by the mean value of q, as in the idea of
     ISO 6336-1, annex E. The mean value follows from the force in the balance and the face width. The search first
     computes q at equidistant places, at kinks of the gap and at `y`, and then refines the place with the largest q. The
     first step takes no substeps between roll positions. If lines are loaded over a part of their length only, this is
@@ -234,8 +234,9 @@ def _maps(
 ) -> tuple[FloatArray, FloatArray]:
     """Return gap Delta [m] and line load w [N/m] over a grid.
 
-    The iteration for the load at a point starts from the load at the same place of the face in the previous row. If it
-    started from the neighbouring point of the same row, the processor would have to compute these points one by one.
+    The iteration for the load at a point starts from the load at the same place of the face in the previous row. If the
+    iteration started from the neighbouring point of the same row, the processor would have to compute these points one
+    by one.
     """
     plane, compliance, form = mesh.plane, mesh.compliance, mesh.gap
     gaps, loads = np.empty((x.size, y.size)), np.zeros((x.size, y.size))
@@ -276,7 +277,7 @@ def contact_pressure(plane: ContactPlane, radius: FloatArray, load: FloatArray, 
 
     Notes
     -----
-    Eq. 14 of the paper is pi/4 of this value, which is the mean pressure; the paper calls it the maximum pressure.
+    Eq. 14 of the paper is pi/4 of this value. This is the mean pressure, but the paper calls it the maximum pressure.
     """
     defined = radius >= plane.least_radius
     pressure = hertz.maximum_pressure(load, np.where(defined, radius, 1.0), modulus)

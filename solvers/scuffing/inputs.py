@@ -78,7 +78,9 @@ class Load:
 
     @property
     def torque(self) -> float:
-        """Transmitted torque of the pinion [N m]; if only the power is given, it is P/omega, the paper's 9549 P/n.
+        """Transmitted torque of the pinion [N m]; if only the power is given, the torque is P/omega.
+
+        P/omega is 9549 P/n in the units of the paper.
 
         Raises InvalidInput torque_or_power if neither torque nor power is given.
         """
@@ -410,7 +412,7 @@ class Temperatures:
     from the oil, the oil supply and Blok's flash temperature; `bulk` is None before this estimate. If `bulk_method` is
     "heat_balance", the bulk temperature is the mean of `flanks`, the temperatures of both flanks [K] from the balance
     of losses and oil. If a bulk temperature is given, `bulk_method` must be "given". The scuffing temperature is a
-    property of oil and material, and the paper does not give it. It is given as a number, or it follows from a test.
+    property of oil and material that the paper does not state. The user gives it as a number or gives a test result.
     Without a scuffing temperature there is no safety factor.
     """
 
@@ -476,7 +478,7 @@ class Temperatures:
 
     @property
     def surfaces(self) -> tuple[float, float] | None:
-        """Bulk temperatures of pinion and wheel [K]: `flanks` if a heat balance gives them, else twice `bulk`."""
+        """Bulk temperatures of pinion and wheel [K]: `flanks` if a heat balance gives them, else `bulk` for both."""
         if self.flanks is not None or self.bulk is None:
             return self.flanks
         return self.bulk, self.bulk
@@ -489,7 +491,7 @@ class Temperatures:
 
 @record
 class FlankSurfaces:
-    """How the flanks are hardened; retained austenite counts only if its share exceeds 25 %."""
+    """How the flanks are hardened; retained austenite counts only if its content exceeds 25 %."""
 
     pinion: FlankSurface = quantity(
         "surface of the pinion", "W_W1", ISO_TR_15144, default="case_hardened", assumed="case-hardened flanks"
@@ -503,10 +505,10 @@ class FlankSurfaces:
 class MicropittingCheck:
     """Inputs of the checks against micropitting and wear: micropitting test of the oil, surfaces and quality of flanks.
 
-    `permissible_ratio` is given instead of the test. `material_factor` replaces the factors of the surfaces; without
-    it, the smaller factor of the two surfaces is used. If neither a failure load stage nor a permissible ratio is
-    given, the film is computed, but no safety factor. `quality_grade` is only used for the load sharing of the
-    standard.
+    `permissible_ratio` is given instead of the test. `material_factor` replaces the factors of the surfaces. If
+    `material_factor` is None, the smaller factor of both surfaces is used. If neither a failure load stage nor a
+    permissible ratio is given, the film is computed, but no safety factor. `quality_grade` is only used for the load
+    sharing of the standard.
     """
 
     failure_load_stage: int | None = quantity(
@@ -572,13 +574,13 @@ class ScuffingInputs:
     """Inputs of a scuffing check.
 
     If `oil` is given, `lubricant` becomes this oil at the bulk temperature. If neither is given, film, contact
-    temperature and safety factor are not computed. `friction` is "given" to use the coefficient of `distribution`. It
-    is "iso_tr_13989" to use the mean coefficient of ISO/TR 13989-1 for Blok's flash temperature, and Schlenk's
-    coefficient for the losses. `lubrication` is "thermal_ehl" to solve the film under the local load with the model
-    `film`, or "closed_form" to use only the formulas of Blok and of Dowson and Higginson. These formulas are evaluated
-    in either case. `line` is "flank" to check the whole flank, or "feature_line" to check only the paper's diagonal
-    from A1 to E2. Each checked line has `path_points` equidistant points. `cooling` is only used if the bulk
-    temperature follows from the heat balance.
+    temperature and safety factor are not computed. `friction` is "given" to use the coefficient of `distribution`, or
+    "iso_tr_13989" to use the mean coefficient of ISO/TR 13989-1 for Blok's flash temperature, and Schlenk's coefficient
+    for the losses. `lubrication` is "thermal_ehl" to solve the film under the local load with the model `film`, or
+    "closed_form" to use only the formulas of Blok and of Dowson and Higginson. These formulas are evaluated in either
+    case. `line` is "flank" to check the whole flank, or "feature_line" to check only the paper's diagonal from A1 to
+    E2. Each checked line has `path_points` equidistant points. `cooling` is only used if the bulk temperature follows
+    from the heat balance.
     """
 
     distribution: LoadDistributionInputs

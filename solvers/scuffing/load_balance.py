@@ -6,7 +6,7 @@ one TE for all points of a roll position). If a line is loaded over a part of it
 at the last TE is cut into slices again, until TE no longer changes. The slices then cover exactly the contact, even if
 the contact is small. Roll positions are added where TE is not linear between them. The paper's iteration (Eq. 10)
 converges only while the mean relief in contact is below TE/2. Here Newton's method is used, because the force F(TE) is
-convex and increasing. With linear contact it reaches the exact solution in a finite number of steps.
+convex and increasing. With linear contact the method reaches the exact solution in a finite number of steps.
 """
 
 from dataclasses import dataclass, replace
@@ -35,17 +35,17 @@ from solvers.scuffing.modification import gap_at
 from solvers.scuffing.tooth_stiffness import LEAST_OMEGA, line_load_near
 
 MAX_STEPS = 60  # limit; a roll position that has not converged after these steps never does
-ROUNDING = 1e-14  # relative residual of the force; if it is smaller, a Newton step gains nothing
-NEAR_ROUNDING = 1e-12  # relative residual of the force; accepted if a step does not reduce it
+ROUNDING = 1e-14  # relative residual of the force, below which a Newton step gains nothing
+NEAR_ROUNDING = 1e-12  # relative residual of the force that is accepted if a step does not reduce the residual
 TOLERANCE = 1e-10  # largest relative residual of the force in a solution
 MAX_COVERS = 20  # number of times that the lines of one roll position are cut into slices
-SETTLED = 1e-6  # relative change of the approach between two covers; if it is smaller, the last cover is used
+SETTLED = 1e-6  # relative change of the approach between two covers, below which the last cover is accepted
 STRAIGHT = 2e-3  # of the approach; largest distance of TE from the line through its neighbours that counts as linear
 MAX_HALVINGS = 8  # largest number of times that a step between roll positions is halved
 MOST_ADDED = 1000  # largest number of roll positions that are added per halving
 LEAST_LINE_LOAD = 0.1  # N/m, mean line load; below it the approach is as small as the rounding of large gaps
 LEAST_SPREAD = 1e-12  # m, least range of a kinematic error that is tested for linearity
-BESIDE = 1e-12  # of the path; distance from a jump of the load at which its two sides are computed, above rounding
+BESIDE = 1e-12  # of the path; distance from a load jump at which both sides of the jump are computed, above rounding
 
 
 Start = tuple[FloatArray, FloatArray]
@@ -110,7 +110,7 @@ def _press(table: Slices, count: int, logarithmic: float, error: float) -> tuple
 
 @kernel
 def _follow(table: Slices, count: int, change: float) -> float:
-    """Add to every load its derivative times a change of TE [m], and return the force [N]."""
+    """Add to every load the derivative of the load times a change of TE [m], and return the force [N]."""
     force = 0.0
     for i in range(count):
         table.load[i] += table.stiffness[i] * change
@@ -147,8 +147,8 @@ def newton(table: Slices, count: int, logarithmic: float, force: float, error: f
     Notes
     -----
     Eq. L13. TE and the loads of the slices are iterated together: with every step of TE, every slice takes one step
-    towards its load. A step is the last step if it crosses no kink and if its error, which is of the order of its
-    square, is below rounding. The loads then change by their derivatives times this step. With linear contact every
+    towards its load. The iteration ends after a step that crosses no kink and whose square, which estimates the
+    error, is below rounding. The loads then change by their derivatives times this step. With linear contact every
     step that crosses no kink is the last step.
     """
     residual, steps = np.inf, 0.0
@@ -190,10 +190,10 @@ def solve_near(table: Slices, count: int, logarithmic: float, force: float, erro
 class LoadBalance:
     """Loaded state of a mesh over one base pitch; arrays over the roll positions.
 
-    `force` is the force in the balance [N], 0 without load. `transmission_error` is TE, and `unloaded_error` is TE
-    without load, which is the least gap over the lines. Both are measured along the transverse line of action [m].
-    `residual` is the residual of the balance divided by the force, and `steps` is the number of iterations.
-    `bent_steps` is the number of steps between roll positions across which TE is not linear.
+    `force` is the force in the balance [N], 0 without load. `transmission_error` is TE. `unloaded_error` is TE without
+    load, and equals the least gap over the lines. Both are measured along the transverse line of action [m]. `residual`
+    is the residual of the balance divided by the force, and `steps` is the number of iterations. `bent_steps` is the
+    number of steps between roll positions across which TE is not linear.
     """
 
     mesh: Mesh

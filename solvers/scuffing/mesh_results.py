@@ -18,11 +18,11 @@ from solvers.scuffing.results import ErrorCurves, FrictionLoss, Stiffness, Stiff
 from solvers.scuffing.tooth_stiffness import single_stiffness
 
 CURVE_POINTS = 101  # of the stiffness curve: every percent of the path
-REFERENCE_LOAD = 100e3  # N/m, for which ISO 6336-1 states c'; used if there is no load
-STEEL = 206e9  # Pa, for which ISO 6336-1 states c'
-DISC_FACTOR = 1.0  # C_R: solid discs
-MEASURED_FRACTION = 0.8  # C_M
-HARMONICS = 5  # chosen
+REFERENCE_LOAD = 100e3  # N/m, line load for which ISO 6336-1 states c'; used if there is no load
+STEEL = 206e9  # Pa, modulus for which ISO 6336-1 states c'
+DISC_FACTOR = 1.0  # C_R of solid discs
+MEASURED_FRACTION = 0.8  # C_M: ratio of measured to theoretical stiffness
+HARMONICS = 5  # number of harmonics, chosen
 
 
 def iso_load_sharing(path: PathOfContact, x: FloatArray) -> FloatArray | None:
@@ -51,8 +51,8 @@ def _narrow(x: FloatArray, length: float, double: float) -> FloatArray:
 def _buttressing(path: PathOfContact, x: FloatArray) -> FloatArray:
     """Return the factor by which helical teeth carry more at their ends; 1 for spur gears.
 
-    The factor is 1 + 0.3 min(eps_beta, 1) at A and E. It falls to 1 within a distance of 0.2 sin beta_b in Gamma
-    (Eq. 15).
+    The factor is 1 + 0.3 min(eps_beta, 1) at A and E. From there the factor falls to 1 within a distance of
+    0.2 sin beta_b in Gamma (Eq. 15).
     """
     plane = path.plane
     ramp = 0.2 * plane.tan_base_helix * plane.cos_base_helix * path.pitch_point

@@ -50,7 +50,7 @@ class LengthCurves:
     """Total contact length [m] as a function of the roll position, which is a fraction of the base pitch.
 
     If the contact length of a spur gear jumps at a roll position, this position occurs twice: with the length before
-    the jump and with the length after it.
+    the jump and with the length after the jump.
     """
 
     roll_position: FloatArray = quantity(
@@ -122,7 +122,7 @@ class ErrorCurves:
     """Transmission error [m] as a function of the roll position, which is a fraction of the base pitch.
 
     If the error of a spur gear jumps at a roll position, this position occurs twice: with the error before the jump and
-    with the error after it.
+    with the error after the jump.
     """
 
     roll_position: FloatArray = quantity(
@@ -360,7 +360,7 @@ class LoadDistribution:
     """Load distribution of a pair of gears; further checks use `path_of_contact` and `balance`.
 
     `feature` is the function that computes the curves along the feature line, and `maps` is the function that computes
-    the maps over the flank. Each function is called when its result is first used.
+    the maps over the flank. Each function is called when the result is first used.
     """
 
     path_of_contact: PathOfContact

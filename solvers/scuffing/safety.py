@@ -55,7 +55,7 @@ from solvers.scuffing.thermal.verdict import (
     without_thermal,
 )
 
-AS_HOT = 0.02  # of the flash temperature; a profile line is checked if it is hotter than the feature line by more
+AS_HOT = 0.02  # share by which the hottest point must exceed the feature line, so that its profile line is checked
 
 
 def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
@@ -174,8 +174,8 @@ def _lines(
 ) -> tuple[list[_Line], _Line | None]:
     """Return the lines to check, and the profile line through the hottest point even if this line is not checked.
 
-    The feature line is always checked. The profile line is checked if it is hotter than the feature line. The points of
-    a line are equidistant. The hottest point of each line is added, and on the feature line also the point with the
+    The feature line is always checked. The profile line is checked if it is clearly hotter (`AS_HOT`). The points of a
+    line are equidistant. The hottest point of each line is added, and on the feature line also the point with the
     thinnest film of the formula. Without these points, a largest value would depend on the number of points. The
     profile line is None if `hottest` is None.
     """
@@ -205,8 +205,8 @@ def _or_along(distribution: LoadDistribution, line: _Line, thinnest: Peak) -> Pe
     """Return `thinnest`, or the thinnest film of the formula on a profile line if this film is thinner.
 
     A spur pair and its mirror image have different feature lines, so that the profile line may be checked for only one
-    of them. Here the points of the profile line always count. The pair and its mirror image then have the same thinnest
-    film.
+    of the pairs. Here the points of the profile line always count. The pair and its mirror image then have the same
+    thinnest film.
     """
     if np.isnan(line.film).all():
         return thinnest
@@ -240,7 +240,7 @@ def _contact_temperature(
 def _with_band(
     temperatures: Temperatures, heat: Heat, flash: Flash, safety: Safety | None
 ) -> tuple[Heat, Safety | None]:
-    """Add the range of the safety factor to the band of the heat balance, and take the verdict from its lower end."""
+    """Add the range of the safety factor to the band of the heat balance, and take the verdict from the lower end."""
     if safety is None or safety.blok_factor is None or flash.blok_max is None or heat.band is None:
         return heat, safety
     contacts = [sum(flanks) / 2 + flash.blok_max for flanks in heat.flank_cases]

@@ -1,4 +1,4 @@
-"""Results of the scuffing check, without those of the load distribution; SI units, arrays read-only."""
+"""Results of the scuffing check, without the load distribution; SI units, arrays read-only."""
 
 from typing import Literal
 
@@ -23,8 +23,8 @@ class Flash:
 
     The places are None without load. The values by thermal EHL are None in closed form, that is if only the formulas
     are evaluated. `..._at_psi` is the place of the largest value on the feature line; `..._at_profile` and
-    `..._at_face` [m] are the place of the largest value on the flank. A value and its places are None if a loaded point
-    without a value may be the hottest point.
+    `..._at_face` [m] are the place of the largest value on the flank. A value and the places of this value are None if
+    a loaded point without a value may be the hottest point.
     """
 
     blok_max: float | None = quantity(
@@ -263,9 +263,9 @@ class ScuffingPath:
     points of a line are equidistant. Further points are added at the places where Blok's flash temperature is largest
     and where the film of the formula is thinnest. A point without load or motion has the status "unloaded"; its film
     and its ratio are NaN, and its flash temperature by Blok is 0. A loaded point at which the reduced radius vanishes
-    has the status "refused"; all its values are NaN. `thermal` is None in closed form. If it is not None, points that
-    the thermal EHL solver could not solve have the status "no_solution", and points that the solver does not accept
-    have the status "refused". The thickness ratio is that of the film by thermal EHL if there is one.
+    has the status "refused"; all its values are NaN. `thermal` is None in closed form. Otherwise, points that the
+    thermal EHL solver could not solve have the status "no_solution", and points that the solver does not accept have
+    the status "refused". The thickness ratio is that of the film by thermal EHL if there is one.
     """
 
     psi: FloatArray = quantity(

@@ -27,7 +27,7 @@ from solvers.scuffing.inputs import Model
 from solvers.scuffing.modification import interpolated, place_of
 
 TABLE_POINTS = 801  # every 0.125 % of the path, chosen
-LEAST_RADIUS = 1e-6  # normal modules; on a base circle the reduced radius vanishes, and with it the half width
+LEAST_RADIUS = 1e-6  # normal modules; on a base circle the reduced radius and the half width would be 0
 SHALLOWEST = 2.0  # least ratio of the depth of the half-space to the half width of the contact
 OMEGA_STEPS = 12  # limit of Newton's method for the branch of Lambert's function
 LEAST_OMEGA = 2.0  # lower limit of a guess; omega is larger unless the compliance is held, and has no meaning below 1
@@ -348,7 +348,7 @@ def _pair_compliance(path: PathOfContact, pinion: Solid, wheel: Solid, model: Mo
         _member(gear, section_gear(path.pair, gear, one, model.section), roll, material)
         for gear, one, roll, material in zip(gears, teeth, roll_lengths, (pinion, wheel), strict=True)
     ]
-    # In the transverse plane a slice dy carries w dl cos(beta_b) = w dy. If the tooth bends in this plane, its load is
+    # In the transverse plane a slice dy carries w dl cos(beta_b) = w dy. If the tooth bends in this plane, the load is
     # therefore w itself. The contact, and a tooth that bends in its normal section, deflect along the normal. Along the
     # transverse line of action this deflection is larger by the factor 1 / cos(beta_b).
     inclination = cos(path.pair.base_helix_angle)
@@ -478,10 +478,10 @@ def line_load_near(
     """Take one step of omega from the guess `log_load`; return what `line_load` returns, and the relative step.
 
     The equation omega - ln omega = A/a + ln(a / delta) is solved by the iteration of Fritsch, Shafer and Crowley (1973)
-    for Lambert's function. It takes one logarithm per step and converges from any guess. After a step, the error of
-    omega is of the order of the fourth power of the step. The derivative is dw/d(delta) = 1 / (a (omega - 1)). The
-    guess is passed as ln w, because ln w changes less than omega from one position to the next. The returned ln w is at
-    most the ln w at the limit.
+    for Lambert's function. This iteration takes one logarithm per step and converges from any guess. After a step, the
+    error of omega is of the order of the fourth power of the step. The derivative is dw/d(delta) = 1 / (a (omega - 1)).
+    The guess is passed as ln w, because ln w changes less than omega from one position to the next. The returned ln w
+    is at most the ln w at the limit.
     """
     if approach <= 0.0:
         return 0.0, 0.0, log_load, 0.0

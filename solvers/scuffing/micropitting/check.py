@@ -61,7 +61,8 @@ def check_micropitting(
     Returns
     -------
     CheckedFlank
-        The checked flank. It is empty if the check is not requested, or if the oil or the bulk temperature is unknown.
+        The checked flank. The result is empty if the check is not requested, or if the oil or the bulk temperature is
+        unknown.
     """
     check, oil = inputs.micropitting, inputs.known_oil
     if check is None or oil is None or inputs.temperatures.bulk is None:

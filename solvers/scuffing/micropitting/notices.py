@@ -17,8 +17,8 @@ from solvers.scuffing.thermal.flank import contact_at_points
 from solvers.scuffing.thermal.practice import pitch_line_velocity
 from solvers.scuffing.thermal.temperatures import HOTTEST_OIL
 
-MODULES = (3.0, 11.0)  # mm
-SPEEDS = (8.0, 60.0)  # m/s
+MODULES = (3.0, 11.0)  # mm, range of the method
+SPEEDS = (8.0, 60.0)  # m/s, range of the method
 LARGEST_ANGLE = 25.0  # degrees
 ROUNDING = 1e-9
 

@@ -18,7 +18,7 @@ Real = TypeVar("Real", float, FloatArray)
 ZERO = 273.0  # K, rounded zero of the Celsius scale in the report; the exact zero is 273.15 K
 ROUNDED = 273.15 - ZERO  # K, difference between the exact and the rounded zero
 DENSITY_SLOPE = 0.7  # kg/(m^3 K)
-DENSITY_ZERO = 289.0  # K, on the report's scale
+DENSITY_ZERO = 289.0  # K, on the scale of the report
 REFERENCE = 38.0  # C, reference temperature of viscosity and pressure-viscosity coefficient
 REFERENCE_COEFFICIENT: dict[OilKind, tuple[float, float]] = {
     "mineral": (2.657e-8, 0.1348),
@@ -73,7 +73,7 @@ def viscosity(oil: OilSheet | Lubricant, temperature: Real) -> Real:
     Raises
     ------
     InvalidInput
-        `viscosity_range` if the oil is given by its viscosity, and its law yields more than the viscosity of any oil.
+        `viscosity_range` if the oil is given by its viscosity, and the law yields more than the viscosity of any oil.
 
     Notes
     -----
@@ -85,7 +85,7 @@ def viscosity(oil: OilSheet | Lubricant, temperature: Real) -> Real:
         kinematic: Any = 10.0**10.0 ** (intercept - slope * np.log10(temperature)) - WALTHER_SHIFT
         return cast("Real", kinematic * SQUARE_MILLIMETRE * density(oil, temperature))
     laws = oil.laws
-    oil.viscosity_at(0.0, float(np.min(temperature, initial=oil.reference_temperature)))  # raises if it is too thick
+    oil.viscosity_at(0.0, float(np.min(temperature, initial=oil.reference_temperature)))  # raises for thick oil
     if oil.pressure_viscosity_law == "barus":
         heating = temperature - laws.reference_temperature
         return cast("Real", np.exp(laws.log_viscosity - laws.temperature_viscosity * heating))

@@ -81,7 +81,7 @@ def solve_wear(coefficient: float, distribution: LoadDistribution) -> Wear:
 
 
 class _Largest(NamedTuple):
-    """Largest depth [m], and its place as fraction of the path and distance on the face [m]; None without a limit."""
+    """Largest depth [m], and its place: fraction of the path, distance on the face [m]; None if there is no limit."""
 
     value: float | None
     psi: float | None

@@ -137,8 +137,9 @@ def find_hottest(
     flash : FlashMap
         The result of `map_flash` for the pair and its load distribution.
     bulk : callable, optional
-        Function that returns the bulk temperature [K] at distances y [m] from the end that meshes first. If it is
-        given, the sum of bulk and flash temperature is searched, else the flash temperature alone.
+        Function that returns the bulk temperature [K] at distances y [m] from the end that meshes first. If the
+        function is given, the largest sum of bulk and flash temperature is searched, else the largest flash
+        temperature.
 
     Returns
     -------
@@ -247,7 +248,7 @@ def _peak_at_kinks(distribution: LoadDistribution, function: FlankFunction, peak
     closer together than the points of the grid.
     """
     plane, rolls = distribution.path_of_contact.plane, distribution.balance.rolls
-    # At the other positions the load of a spur gear jumps; the map has both sides of these jumps.
+    # At the other positions the load of a spur gear jumps; the map contains both sides of these jumps.
     phase = rolls.phase[rolls.side == 0.0]
     lines = np.add.outer(plane.base_pitch * np.arange(line_count(plane)), phase).ravel()
     x = np.unique(np.clip(lines - peak.y * plane.tan_base_helix, 0.0, plane.path_length))
@@ -271,7 +272,7 @@ def _height(peak: Peak) -> float:
 
 
 def find_largest(grid: FlashMap, values: FloatArray, function: FlankFunction) -> Peak:
-    """Find the largest value of a function over the flank, starting from `values` (n, m), its values on the grid.
+    """Find the largest value of a function over the flank, starting from its `values` (n, m) on the grid.
 
     The largest values of the rows form a ridge along the path. Around the highest tops of the ridge the function is
     evaluated on finer and finer grids. Every grid contains the place of the largest value of the previous grid, so that
@@ -293,8 +294,8 @@ def find_largest(grid: FlashMap, values: FloatArray, function: FlankFunction) ->
 def _around(places: FloatArray, top: IntArray, reach: int) -> FloatArray:
     """Return equidistant places around the place with the index `top` of every row.
 
-    They extend over `reach` steps of the row to both sides. The place with the index `top` replaces the nearest of the
-    equidistant places.
+    These places extend over `reach` steps of the row to both sides. The place with the index `top` replaces the nearest
+    of the equidistant places.
     """
     row, last = np.arange(top.size), places.shape[1] - 1
     centre = places[row, top]

@@ -2,8 +2,8 @@
 
 These values are the coefficient of friction, the bulk temperature, the oil at this temperature, and the scuffing
 temperature. No iteration is needed: friction uses the viscosity at the oil temperature, and only the film uses the
-viscosity at the bulk temperature. If the bulk temperature comes from a heat balance, it follows from the losses. In the
-balance the coefficient of friction for the losses depends on the oil temperature.
+viscosity at the bulk temperature. A bulk temperature by heat balance follows from the losses. In the balance the
+coefficient of friction for the losses depends on the oil temperature.
 """
 
 from collections.abc import Iterator
@@ -56,9 +56,9 @@ class InForce(NamedTuple):
 def in_force(inputs: ScuffingInputs, distribution: LoadDistribution) -> InForce:
     """Return inputs and load distribution with numbers for friction, temperatures and oil.
 
-    The heat balance is solved only if the flank temperatures are not given. They are given if the pair belongs to a
-    unit, because a unit solves its own heat balance before. Raises the errors of `with_friction`, `pair_heat` and
-    `with_temperatures`.
+    The heat balance is solved only if the flank temperatures are not given. The flank temperatures are given if the
+    pair belongs to a unit, because a unit solves its own heat balance before. Raises the errors of `with_friction`,
+    `pair_heat` and `with_temperatures`.
     """
     inputs, distribution = with_friction(inputs, distribution)
     flash = map_flash(inputs.distribution, distribution)

@@ -60,7 +60,9 @@ def hotter_surface(path: ThermalPath, bulk: FloatArray) -> FloatArray:
 
 
 def largest_flash(lines: Sequence[CheckedLine], hottest: Peak | None, path_length: float) -> Flash:
-    """Return the largest flash temperature by Blok, and the largest of both surfaces by the thermal EHL solution.
+    """Return the largest flash temperature by Blok, and the largest flash temperature by thermal EHL.
+
+    The flash temperature by thermal EHL is that of the hotter surface.
 
     Parameters
     ----------
@@ -100,7 +102,7 @@ def largest_flash(lines: Sequence[CheckedLine], hottest: Peak | None, path_lengt
 def thinnest_film(
     lines: Sequence[CheckedLine], thinnest: Peak | None, path_length: float, given: LoadDistributionInputs
 ) -> Film:
-    """Return the thinnest film; its ratio is that of the thermal EHL solution if there is one, else of the formula.
+    """Return the thinnest film; the ratio is that of the thermal EHL solution if there is one, else of the formula.
 
     Parameters
     ----------
