@@ -40,7 +40,7 @@ LEAST_WAIT_S = 0.25  # chosen; shortest wait before a busy service is asked agai
 
 
 class ServiceError(Exception):
-    """The service gave no answer: a problem, a study that ended early, or an answer that is not of its interface."""
+    """No valid answer: the service reports a problem, a study ended early, or the answer does not fit the interface."""
 
 
 class ProblemError(ServiceError):
@@ -59,7 +59,7 @@ class ProblemError(ServiceError):
     def __init__(self, response: httpx.Response) -> None:
         try:
             document = _json_of(response)
-        except ServiceError:  # an answer of a proxy
+        except ServiceError:  # not from the service, but from a proxy
             document = {}
         self.status = response.status_code
         self.code = str(document.get("type", "")).rpartition(":")[2]
@@ -72,7 +72,7 @@ class ProblemError(ServiceError):
 
 
 class StudyError(ServiceError):
-    """A study that ended before its last line: at its deadline, by an error, or with its connection."""
+    """A study that ended before its last line, because of its deadline, an error or a lost connection."""
 
 
 class _Endpoints(ABC, Generic[Answer, Stream]):
@@ -176,7 +176,7 @@ class _Endpoints(ABC, Generic[Answer, Stream]):
         return self.study("/v1/drive-train/corners", request, progress=progress)
 
     def design(self, request: Json, *, progress: bool = False) -> Stream:
-        """Find the correction of a gear unit with the best result at its worst corner."""
+        """Find the flank correction that gives a gear unit the best result at the worst corner."""
         return self.study("/v1/drive-train/design", request, progress=progress)
 
 

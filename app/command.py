@@ -110,7 +110,7 @@ def compile_kernels(names: Sequence[str]) -> None:
             done.set()
             showing.join()
         _tell(stage.name, 100)
-    os._exit(0)  # the usual end with all kernels would take a second
+    os._exit(0)  # the usual end of a process with all kernels would take a second
 
 
 def _show(name: str, kernels: int, events: Sequence[object], done: threading.Event) -> None:

@@ -80,7 +80,7 @@ def calculation_at(endpoint: str) -> Calculation:
 
 
 def answer(endpoint: str, request: dict[str, Any]) -> dict[str, Any]:
-    """Return the service's answer to a request without a server.
+    """Return the answer of the service to a request, without a running server.
 
     Parameters
     ----------

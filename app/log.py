@@ -1,8 +1,8 @@
 """Log and metrics of the service.
 
-A separate thread writes the log, so that a reader of the log that stops never delays a request. Lines that do not fit
-into the queue are dropped and counted. Lines of answered requests go to the standard output, all others to the standard
-error.
+A separate thread writes the log, so that no request is delayed if the reader of the log stops reading. Lines that do
+not fit into the queue are dropped and counted. Lines about answered requests go to the standard output, all other lines
+to the standard error.
 """
 
 import logging

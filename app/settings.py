@@ -18,7 +18,7 @@ CLUSTER_POINTS = 100_000  # chosen; most points of one study if a cluster solves
 def _share_of_cores() -> int:
     """Return the number of cores per process of the server.
 
-    uvicorn and gunicorn take the number of processes from the same argument and variable.
+    uvicorn and gunicorn take the number of processes from the same command-line argument or environment variable.
     """
     number = ArgumentParser(add_help=False, allow_abbrev=False)
     number.add_argument("-w", "--workers", type=int, default=os.environ.get("WEB_CONCURRENCY", "1"))

@@ -1,4 +1,4 @@
-"""The hash of the solvers' sources, and the entries of the changelog about their results."""
+"""The hash of the sources of the solvers, and the changelog entries about changed results."""
 
 import re
 from importlib.resources import files

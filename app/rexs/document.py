@@ -121,7 +121,7 @@ def _model(
 
 
 def _numbers(code: object, text: object) -> list[Any] | None:
-    """Return the numbers of an array in base64 (little-endian), or None if it is damaged."""
+    """Return the numbers of an array in base64 (little-endian), or None if the text is damaged."""
     try:
         raw = base64.b64decode(str(text or "").strip(), validate=True)
         numbers: list[Any] = np.frombuffer(raw, dtype=CODES[str(code)]).tolist() if raw else []
@@ -157,7 +157,7 @@ def _model_of_xml(content: bytes) -> Model:
 
 
 def _tag(element: Any) -> str:
-    """Return the name of an element without its namespace; empty for comments."""
+    """Return the name of an element without its namespace. The name of a comment is empty."""
     return etree.QName(element).localname if isinstance(element.tag, str) else ""
 
 
@@ -262,7 +262,7 @@ def _finite(text: str) -> float:
 
 
 def _objects(of: Any, name: str) -> list[dict[str, Any]]:
-    """Return the list of objects under a name; an empty list without that name."""
+    """Return the list of objects under a name. The list is empty if the name is absent."""
     items = of.get(name, []) if isinstance(of, dict) else None
     if not isinstance(items, list) or not all(isinstance(item, dict) for item in items):
         raise not_rexs(f"{name} must be a list of objects")

@@ -1,4 +1,4 @@
-"""The content of a REXS file: components with attributes, relations between them, load cases.
+"""The content of a REXS file: components with attributes, relations between components, and load cases.
 
 REXS (Reusable Engineering EXchange Standard, FVA, https://www.rexs.info) describes a gear unit as a graph. Versions 1.0
 to 2.0 share this structure; the names of some components and attributes differ (see `table`).

@@ -45,7 +45,7 @@ class Flow:
         return pair.stage.id in self.mesh_torque and pair.shafts[0].id in self.speed
 
     def driver(self, pair: Pair) -> int | None:
-        """Return the place of the driving gear in the pair, 0 or 1; None if it is not known."""
+        """Return the place of the driving gear in the pair, 0 or 1; None if the driving gear is not known."""
         for place, torque in enumerate(self.mesh_torque.get(pair.stage.id, ())):
             speed = self.speed.get(pair.shafts[place].id)
             if speed and torque:
@@ -179,9 +179,10 @@ class Train:
         return {self._group[shaft.id] for shaft in shafts if shaft is not None and shaft.id in self._group}
 
     def _stated_torque(self, load: Component, shaft: Component, speed: float | None, reading: Reading) -> float | None:
-        """Return the torque of a load on a shaft about the unit's axis [N m], if the load defines one.
+        """Return the torque of a load on a shaft about the unit's axis [N m], or None if it is not stated.
 
-        If a load case states the power but no torque, the torque follows from this power, even if the model states one.
+        If a load case states the power but no torque, the torque follows from this power, even if the model states a
+        torque.
         """
         if reading.flag(load, "defines_torque") is False:
             return None

@@ -107,7 +107,7 @@ class Reading:
     used_of_case: set[tuple[int, str]] = field(default_factory=set)
 
     def in_case(self, case: LoadCase | None) -> "Reading":
-        """Return a reading of the same model in which the values of a load case replace those of the model."""
+        """Return a reading of the same model in which the values of a load case replace the values of the model."""
         reading = copy(self)  # keeps the cached directions of the shafts
         reading.case, reading.used_of_case = case, set()
         return reading

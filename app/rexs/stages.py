@@ -362,7 +362,7 @@ class StageDraft(Draft):
         """Fill in addendum and dedendum.
 
         The addendum comes from the tip diameter or the basic profile, the dedendum from the tool or the root diameter.
-        If the file has neither, ISO 53, profile A is assumed.
+        If the file has none of these values, ISO 53, profile A is assumed.
         """
         prefix, tool = f"gears.{ROLES[place]}.", self.tool(place)
         path, module = f"{prefix}addendum", self.fields.get(table.MODULE.field)

@@ -79,7 +79,7 @@ class Pool:
         return job.outcome
 
     def _admit(self, owner: Hashable) -> None:
-        """Make room for a call if all places are taken: reject a waiting call, or raise QueueFull for the new one."""
+        """Make room for a call if all places are taken: reject a waiting call, or raise QueueFull for the new call."""
         queue = [job for job in self._waiting if job.is_single and not job.outcome.done()]
         places = Counter(job.owner for job in (*self._running, *queue) if job.is_single)
         if places.total() < self.size + self._settings.queue:
@@ -137,7 +137,7 @@ class Pool:
                 self._running.remove(job)
             if not is_usable:
                 self._trouble.set()
-                await self._is_prepared()  # at once: AnyIO forgets a worker that is cancelled while it starts
+                await self._is_prepared()  # at once, because AnyIO forgets a worker cancelled at its start
 
     async def _carry_out(self, job: Job) -> bool:
         """Run a call and set its result or exception. Return True if the worker can be used again."""

@@ -41,9 +41,9 @@ def _tilt_sizes(unit: Unit, equilibrium: Equilibrium) -> list[Vector2]:
 def coupling_results(
     unit: Unit, equilibrium: Equilibrium, hubs: list[tuple[HubMoments, HubMoments]]
 ) -> tuple[CouplingResult, ...]:
-    """Return the loads of the couplings on their shafts.
+    """Return tilts, friction and loads of the couplings.
 
-    The conjugate moments m = -Z x M of the ports are turned back into moments M.
+    The conjugate moments m = -Z x M of the ports are converted back to moments M.
     """
     results = []
     for k, (port, pair) in enumerate(zip(unit.couplings, hubs, strict=True)):

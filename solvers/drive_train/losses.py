@@ -37,9 +37,10 @@ def train_losses(
 
 
 def force_balance(unit: Unit, equilibrium: Equilibrium, torques: tuple[float, float], force: float) -> ForceBalance:
-    """Return the largest unbalanced force and moment on a shaft, in both planes and about Z.
+    """Return the largest unbalanced force and the largest unbalanced moment on a shaft.
 
-    `torques` [N m] drive the pinion and brake the wheel; `force` is F_bt [N].
+    Forces are balanced in both planes, moments in both planes and about Z. `torques` [N m] drive the pinion and brake
+    the wheel; `force` is F_bt [N].
     """
     if force == 0.0:
         return ForceBalance(None, None)

@@ -188,7 +188,7 @@ def _with_rise(coupling: UnitCoupling, casing: float | None, reference: float) -
 def _balance(
     inputs: DriveTrainInputs, warm: DriveTrainInputs, prepared: Prepared, equilibrium: Equilibrium
 ) -> HeatBalanceInputs:
-    """Return the inputs of the unit's heat balance at the gap and the loads of a pass."""
+    """Return the inputs of the heat balance for the gap and the loads of a pass."""
     mesh = prepared.mesh.prepared
     spread = distribution(warm.mesh.distribution, mesh, equilibrium.balance)
     contact, spread = with_friction(inputs.mesh, spread)

@@ -174,7 +174,7 @@ def _derived(warm: WarmUnit) -> Derived:
 
 
 def _capacities(unit: DriveTrainInputs, warm: WarmUnit) -> Capacities:
-    """Return the heat capacities of both rotors, their teeth and the casing [J/K]."""
+    """Return the heat capacities of both rotors, of the teeth and of the casing [J/K]."""
     given = unit.mesh.distribution
     materials, gears = (given.pinion_material, given.wheel_material), warm.balance.gears
     teeth = [
