@@ -232,7 +232,9 @@ class Network:
         yield Flow(source, MIST, thrown, "oil brought to speed")
 
     def _oil_cooling(self, gear: int, rises: FloatArray) -> Iterator[Flow]:
-        """Yield the heat flows from flank and body to the oil of the jets and to oil out of the mist, and in the teeth.
+        """Yield the heat flows from the flank and the body of a gear to the oil, and through the teeth.
+
+        The oil is partly the oil of the jets, and partly oil out of the mist.
         """
         flank, body, mist = float(rises[FLANKS[gear]]), float(rises[BODIES[gear]]), float(rises[MIST])
         cooling, tooth = self.cooling(gear, rises), self.gears[gear].to_body
