@@ -254,8 +254,9 @@ class PathOfContact:
 
         Notes
         -----
-        The velocity of a flank across the contact line is exactly omega times the transverse radius of curvature. Eq.
-        18 takes the radius of curvature across the contact line, which is too large by the factor 1/cos beta_b.
+        The velocity of a flank across the contact line is exactly omega times the transverse radius of curvature.
+        Instead, Eq. 18 takes the radius of curvature across the contact line, which is too large by the factor 1/cos
+        beta_b.
         """
         s = self.start + x
         wheel_speed = pinion_speed * self.pair.pinion.teeth / self.pair.wheel.teeth
