@@ -305,8 +305,7 @@ class OilSheet:
         return self.kinematic_viscosity(temperature) * self.density(temperature)
 
     def temperature_coefficient(self, temperature: float) -> float:
-        """Return the temperature-viscosity coefficient of the data sheet; compute it if the data sheet does not give
-        it.
+        """Compute the temperature-viscosity coefficient; a coefficient in the data sheet takes precedence.
 
         Parameters
         ----------
@@ -331,8 +330,7 @@ class OilSheet:
         return float(thinning + expansion)
 
     def pressure_coefficient(self, temperature: float) -> float:
-        """Return the pressure-viscosity coefficient of the data sheet; compute it by Gold if the sheet does not give
-        it.
+        """Compute the pressure-viscosity coefficient by Gold; a coefficient in the data sheet takes precedence.
 
         Parameters
         ----------

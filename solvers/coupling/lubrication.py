@@ -390,7 +390,7 @@ def _poorly_supplied(overlap: float, load_capacity_coefficient: float) -> float:
 
 
 def regime_friction(overlap: float, load_capacity_coefficient: float, mixed: float, lowest: float) -> float:
-    """Compute the coefficient of friction at any point of the friction map; it is continuous over the map.
+    """Compute the coefficient of friction at any point of the friction map; the coefficient is continuous.
 
     Parameters
     ----------
@@ -438,8 +438,8 @@ def friction_coefficient(
 def static_friction(friction: Friction) -> float:
     """Return the coefficient of friction at rest.
 
-    This is the user's static coefficient. If it is not given, it is the user's coefficient of friction; if that is not
-    given either, it is the coefficient of the friction map at rest without a film.
+    The function returns the user's static coefficient if there is one, otherwise the user's coefficient of friction if
+    there is one, and otherwise the coefficient of the friction map at rest without a film.
     """
     if friction.static_coefficient is not None:
         return friction.static_coefficient

@@ -42,7 +42,7 @@ from solvers.errors import NoSolution
 
 MAX_ITERATIONS = 150  # limit; an iteration that takes longer does not converge
 SUBSTITUTIONS = 5  # chosen: number of fixed-point steps in succession
-SHORTEST_STEP = 1.0 / 64.0  # of a Newton step; if no longer step reduces the residual, substitutions follow
+SHORTEST_STEP = 1.0 / 64.0  # smallest share of a Newton step that is tried; substitutions follow if it does not reduce the residual
 FORCE_TOLERANCE = 1e-9  # in units of T/r_o, chosen
 _LIMIT_MARGIN = 0.9999  # chosen share of the force that the teeth can hold
 
@@ -99,8 +99,8 @@ def unbalanced_force(
     """Return the residual Phi(g) - g of the sleeve's force balance, with g on the left mesh and -g on the right mesh.
 
     The function balances both meshes under these forces. The balance starts from `places`, and the function updates
-    `places`. It writes the interference of the teeth to `ahead` (2, teeth). The size of the residual is inf if a mesh
-    cannot hold the force.
+    `places`. The function writes the interference of the teeth to `ahead` (2, teeth). The size of the residual is inf
+    if a mesh cannot hold the force.
     """
     moment_x, moment_y, xx, xy, yx, yy = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     for mesh in range(2):
@@ -158,8 +158,8 @@ def balance_sleeve(
     Notes
     -----
     Eq. C22. Each step of Newton's method is shortened until the residual falls. If shortening fails, some damped
-    fixed-point steps (substitutions) follow. They are necessary because Phi is piecewise linear (teeth come under
-    load), and Newton's method may cycle between the linear pieces.
+    fixed-point steps (substitutions) follow. These steps are necessary because Phi is piecewise linear (teeth come
+    under load), and Newton's method may cycle between the linear pieces.
     """
     accepted_x, accepted_y, step_x, step_y = 0.0, 0.0, 0.0, 0.0
     accepted_residual, length, substitutions = np.inf, 1.0, 0
@@ -276,9 +276,9 @@ def sleeve_equilibrium(
 
     Notes
     -----
-    Eq. C22. Nothing slides if there is no axial velocity, and in addition no misalignment or no speed; the direction of
-    friction is then undetermined. If mu d_o/l_H < cos(pi/z), an equilibrium always exists. Phi then maps the set of the
-    forces that the teeth can hold into the same set, and Brouwer's theorem applies.
+    Eq. C22. Nothing slides if the axial velocity is zero and, in addition, the misalignment or the speed is zero. The
+    direction of friction is then undetermined. If mu d_o/l_H < cos(pi/z), an equilibrium always exists. Phi then maps
+    the set of the forces that the teeth can hold into the same set, and Brouwer's theorem applies.
     """
     coupling, torque = inputs.coupling, inputs.operation.torque
     meshes = two_meshes(inputs, geometry)

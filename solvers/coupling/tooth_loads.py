@@ -217,7 +217,7 @@ def solve_loaded(hessian: Hessian, right: Motion) -> tuple[Motion, float, float]
 
 @kernel
 def next_step(hessian: Hessian, missing: Motion) -> tuple[Motion, float]:
-    """Return the Newton step that supplies the `missing` forces, and the rate at which the energy falls along it.
+    """Return the Newton step for the `missing` forces, and the rate at which the energy falls along this step.
 
     If more than half of the missing force acts in a direction without stiffness, the step is along this direction
     instead. Such a step does not change the forces of the loaded teeth; it ends when another tooth meets the sleeve.
@@ -595,7 +595,7 @@ def allowable_misalignment(speed: float, radius: float) -> float | None:
 
 
 def sleeve_centring_torque(coupling: Coupling, radius: float) -> float:
-    """Compute the torque above which all teeth stay loaded although they carry the weight of a horizontal sleeve.
+    """Compute the torque above which all teeth stay loaded under the weight of a horizontal sleeve.
 
     Parameters
     ----------

@@ -117,7 +117,7 @@ def virtual_gear(inputs: GearPairInputs, teeth: GearTeeth, base_helix_angle: flo
 
 
 def _cut(inputs: GearPairInputs, teeth: GearTeeth, count: float, module: float, pressure_angle: float) -> Gear:
-    """Return a gear with `count` teeth in a plane in which module [m] and pressure angle [rad] are given.
+    """Return a gear with `count` teeth in a plane with the given module [m] and pressure angle [rad].
 
     Heights are in normal modules. A profile shift makes a tooth thicker in proportion to the tangent of the pressure
     angle in this plane.
