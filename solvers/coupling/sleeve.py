@@ -42,7 +42,7 @@ from solvers.errors import NoSolution
 
 MAX_ITERATIONS = 150  # limit; an iteration that takes longer does not converge
 SUBSTITUTIONS = 5  # chosen: number of fixed-point steps in succession
-SHORTEST_STEP = 1.0 / 64.0  # smallest share of a Newton step that is tried; substitutions follow if it does not reduce the residual
+SHORTEST_STEP = 1.0 / 64.0  # smallest share of a Newton step; if this share does not help, substitutions follow
 FORCE_TOLERANCE = 1e-9  # in units of T/r_o, chosen
 _LIMIT_MARGIN = 0.9999  # chosen share of the force that the teeth can hold
 
