@@ -1,1 +1,1 @@
-"""Published models of the tribology of high-speed drive trains: SI numbers in, SI results out."""
+"""Published models of the tribology of high-speed drive trains; all inputs and results are in SI units."""

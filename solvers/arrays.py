@@ -1,4 +1,4 @@
-"""Array types, read-only results, and sums without their rounding."""
+"""Array types, read-only arrays, record arrays, and removal of rounding errors from sums."""
 
 from typing import Any
 
@@ -9,13 +9,13 @@ FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
 IntArray = NDArray[np.int64]
 RecordArray = np.recarray[Any, np.dtype[np.record]]
-"""An array whose elements have named fields: `array[i].pressure` in kernels, `array.pressure` for all of them."""
+"""An array whose elements have named fields: `array[i].pressure` in kernels, `array.pressure` for all elements."""
 
 Fields = list[tuple[str, Any]]
 """Names and types of the fields of a record."""
 
 ROUNDING = 1e-12
-"""Of what is summed: far above the rounding of a sum of doubles, far below anything that is measured."""
+"""Share of the summands below which a sum counts as zero; far above rounding errors, far below any measured share."""
 
 
 def frozen(values: ArrayLike) -> NDArray[Any]:
@@ -26,19 +26,24 @@ def frozen(values: ArrayLike) -> NDArray[Any]:
 
 
 def without_rounding(value: float, scale: float) -> float:
-    """Return the value, or zero if it is below 1e-12 of `scale`, the sum of its parts without their signs."""
+    """Return a sum, or zero if the sum is only a rounding error.
+
+    A sum below 1e-12 of `scale` counts as a rounding error, where `scale` is the sum of the absolute values of the
+    summands.
+    """
     return 0.0 if abs(value) < ROUNDING * abs(scale) else value
 
 
 def records(shape: int | tuple[int, ...], fields: Fields) -> RecordArray:
     """Return a record array of zeros.
 
-    Kernels share their arrays as records because numba counts references to every array of a group in a call. With one
-    array per field, a march of the pocket chain took 3.3 times as long, and a march of the gas dynamics 1.4 times.
+    Kernels pass groups of arrays to each other as one record array, because numba counts references to every array that
+    is passed in a call. With one array per field, a march of the pocket chain took 3.3 times as long, and a march of
+    the gas dynamics took 1.4 times as long.
     """
     return np.zeros(shape, fields).view(np.recarray)
 
 
 def floats(*names: str) -> Fields:
-    """Return fields of these names that are all numbers."""
+    """Return record fields with these names, each of which holds a number."""
     return [(name, np.float64) for name in names]

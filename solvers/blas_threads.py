@@ -1,8 +1,8 @@
 """Limit the BLAS to one thread for systems of a few hundred unknowns, for which more threads only cost time.
 
-The workers of the service are started with one thread. A notebook has as many threads as the machine has cores, and
-other code in the notebook may need them. A solver therefore asks for one thread around its calls and then restores the
-limit.
+The workers of the service are started with one BLAS thread. In a notebook the BLAS has as many threads as the machine
+has cores, and other code in the notebook may need these threads. A solver therefore sets the limit of one thread only
+during its calls, and then restores the former limit.
 """
 
 from contextlib import AbstractContextManager
@@ -13,7 +13,7 @@ from threadpoolctl import ThreadpoolController
 
 @cache
 def libraries() -> ThreadpoolController:
-    """Return the BLAS libraries that this process has loaded at the first call."""
+    """Return the BLAS libraries that were loaded in this process when this function was called for the first time."""
     return ThreadpoolController().select(user_api="blas")
 
 

@@ -23,8 +23,9 @@ def kernel(function: Callable[P, R]) -> Callable[P, R]:
 def inlined_kernel(function: Callable[P, R]) -> Callable[P, R]:
     """Compile a kernel whose code is copied into the kernels that call it.
 
-    A call counts references to every array that is passed. For a step of a loop that takes groups of arrays, for
-    example one column of a film, this can cost twice the work of the step.
+    In a call that is not inlined, references to every array that is passed are counted. If the kernel is one step of a
+    loop and takes many arrays (for example a step for one column of a film), this counting can take twice as long as
+    the step itself.
     """
     return _compiled(function, forceinline=True)
 

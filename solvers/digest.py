@@ -1,4 +1,7 @@
-"""The digest of the sources of the solvers, which names results and the folder of compiled kernels."""
+"""The digest of the sources of the solvers.
+
+The digest identifies results, and is part of the name of the folder of compiled kernels.
+"""
 
 import ast
 import os
@@ -11,20 +14,21 @@ NO_CALCULATION = "published"
 """The package of published numbers for comparison, which does not affect results."""
 DECLARE = frozenset({"quantity", "Quantity", "described"})
 LABELS = frozenset({"title", "symbol", "source", "text", "default_text", "assumed", "index"})
-"""Arguments of a declaration that are text and do not affect results, beside the positional ones."""
+"""Keyword arguments of a declaration that are text and do not affect results; positional arguments are text too."""
 
 
 def cache_base() -> Path:
-    """Return the folder for what is computed once: in `NUMBA_CACHE_DIR` or in the user's cache folder."""
+    """Return the folder for cached digests and kernels; it is in `NUMBA_CACHE_DIR` or in the user's cache folder."""
     variables = ("NUMBA_CACHE_DIR", "XDG_CACHE_HOME", "LOCALAPPDATA")
     chosen = next((os.environ[name] for name in variables if os.environ.get(name)), "~/.cache")
-    return Path(os.path.expanduser(chosen), "tribodrive")  # noqa: PTH111  raises nothing where there is no home
+    return Path(os.path.expanduser(chosen), "tribodrive")  # noqa: PTH111  does not raise if there is no home folder
 
 
 def package_digest() -> str:
     """Return the digest of this package.
 
-    The digest takes a second to compute, so it is kept on disk under the state of the files.
+    The digest takes a second to compute. It is therefore kept on disk, in a file whose name depends on paths, times and
+    sizes of the source files.
     """
     status = [(str(path), (state := path.stat()).st_mtime_ns, state.st_size) for path in sorted(PACKAGE.rglob("*.py"))]
     kept = cache_base() / "digests" / sha256(repr(status).encode()).hexdigest()
@@ -41,8 +45,8 @@ def package_digest() -> str:
 def digest_of(package: Path) -> str:
     """Return the SHA-256 of the syntax trees of the modules in `package`, without docstrings, comments and labels.
 
-    Changes of layout and prose leave the digest as it is; a change of a constant, a formula or the name of a module
-    changes it. The trees, and with them the digest, may differ between versions of Python.
+    A change of layout, comments or docstrings does not change the digest. A change of a constant, of a formula or of
+    the name of a module changes the digest. The trees, and therefore the digest, may differ between versions of Python.
     """
     digest = sha256()
     for path in sorted(package.rglob("*.py")):

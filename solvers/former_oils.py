@@ -1,6 +1,7 @@
-"""Former names of oils with the fields of a request; the next minor version removes them.
+"""Former classes of oils, with the fields of a request; the next minor version removes these classes.
 
-`OilSheet`, `iso_vg` and `sheet_of_index` describe an oil by its data sheet or grade, `Lubricant` by its viscosity.
+Use `OilSheet`, `iso_vg` or `sheet_of_index` for an oil that is given by its data sheet or grade, and `Lubricant` for an
+oil that is given by its viscosity.
 """
 
 from dataclasses import fields, replace
@@ -12,7 +13,7 @@ from solvers.quantity import described, record
 
 @record
 class OilBySheet:
-    """Former oil by grade or data sheet, now `OilSheet`, `iso_vg` or `sheet_of_index`."""
+    """Former class of an oil by grade or data sheet; use `OilSheet`, `iso_vg` or `sheet_of_index` instead."""
 
     iso_vg: IsoGrade | None = described("ISO 3448 viscosity grade.", default=None)
     kinematic_viscosity_40: float | None = described("Kinematic viscosity at 40 C [m^2/s].", default=None)
@@ -28,7 +29,7 @@ class OilBySheet:
     def sheet(self) -> OilSheet | None:
         """Return the oil by grade or data sheet; None if neither is given.
 
-        Raises InvalidInput (`viscosity_order`, `viscosity_index`) for viscosities that no oil has.
+        Raises InvalidInput (`viscosity_order` or `viscosity_index`) if no oil has the given viscosities.
         """
         index, kind, density = self.viscosity_index, self.kind, self.density_15
         if self.iso_vg is not None:
@@ -42,10 +43,10 @@ class OilBySheet:
 
 @record
 class OilChoice(OilBySheet):
-    """Former oil by grade, data sheet or viscosity, now `OilSheet` or `Lubricant`.
+    """Former class of an oil by grade, data sheet or viscosity; use `OilSheet` or `Lubricant` instead.
 
-    With a grade or data sheet, a property that is None is typical of the kind of oil; otherwise it is the property of
-    the default `Lubricant`.
+    If a grade or data sheet is given, a property that is None has a value typical of the kind of oil. Otherwise it has
+    the value of the default `Lubricant`.
     """
 
     viscosity: float | None = described(

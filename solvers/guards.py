@@ -1,7 +1,7 @@
-"""Guards of a solver: reject inputs outside their declared range, and warn of unusual inputs.
+"""Guards of a solver: reject inputs outside their declared ranges, and warn of unusual inputs.
 
-The warnings about unusual values are in the `notices` of each model. They name the input and the likely mistake, often
-a wrong unit.
+Each model defines its warnings about unusual values. Such a warning names the input and the likely mistake, which is
+often a wrong unit.
 """
 
 from collections.abc import Callable, Iterator
@@ -29,9 +29,9 @@ def guarded(
     Parameters
     ----------
     solve : callable
-        The solver; its first argument is a dataclass with the inputs, and its result has `warnings`.
+        The solver. Its first argument is a dataclass of inputs, and its result is a dataclass with a field `warnings`.
     unusual : callable
-        Yields the warnings about unusual values, from the inputs and the result.
+        Function of the inputs and the result that yields the warnings about unusual values.
 
     Returns
     -------
@@ -53,10 +53,10 @@ def guarded(
 
 
 def checked(inputs: T, prefix: str = "") -> T:
-    """Return the inputs, a dataclass, if every declared number is inside its range.
+    """Return the dataclass `inputs` if every declared number in it is inside its range.
 
-    This check is for inputs that are built in Python; the service checks requests when they arrive. Raises
-    `InvalidInput` with the code `out_of_range` and the dotted name of the first wrong field.
+    Otherwise raise `InvalidInput` with the code `out_of_range` and the dotted name of the first wrong field. This check
+    is for inputs that are built in Python; the service checks requests when they arrive.
     """
     kind: Any = type(inputs)
     for name, ends in _ranges(kind):
@@ -72,7 +72,7 @@ def checked(inputs: T, prefix: str = "") -> T:
 
 
 class _Ends(NamedTuple):
-    """The least and the greatest permissible value in SI, and the declaration that contains both."""
+    """The least and the greatest permissible value in SI, and the declaration from which both follow."""
 
     least: float
     greatest: float

@@ -1,8 +1,9 @@
 """The folder in which numba keeps the machine code of compiled kernels.
 
-An entry of numba's cache only knows the file of its own kernel: after an edit of another kernel that it calls, the old
-machine code would still run. The name of the folder therefore contains a digest of all sources of the solvers and of
-numba's version. This module is imported before the first kernel is decorated.
+Before numba uses the machine code of a kernel from its cache, numba checks only the source file of this kernel. If the
+kernel calls a kernel in another file, and this other file is edited, the old machine code would still run. The name of
+the folder is therefore a digest of all sources of the solvers and of numba's version. This module must be imported
+before the first kernel is decorated.
 """
 
 import logging
@@ -18,13 +19,16 @@ import numba
 from solvers.digest import cache_base, package_digest
 
 NEEDED_BYTES = 100_000_000  # all kernels take 25 MB
-KEPT_FOLDERS = 5  # chosen: number of versions between which a developer switches
+KEPT_FOLDERS = 5  # chosen: largest number of versions between which a developer switches
 
 logger = logging.getLogger(__name__)
 
 
 def _writable(folder: Path) -> Path | None:
-    """Create the folder if necessary and return it; warn and return None if nothing can be kept there."""
+    """Create the folder if necessary and return it; warn and return None if no file can be kept in it.
+
+    Also remove old folders; the most recently used folders are kept.
+    """
     try:
         folder.mkdir(parents=True, exist_ok=True)
         os.utime(folder)
@@ -43,7 +47,7 @@ def _writable(folder: Path) -> Path | None:
 
 
 FOLDER = _writable(cache_base() / sha256(f"{package_digest()} {numba.__version__}".encode()).hexdigest()[:24])
-"""None if kernels are compiled in memory."""
+"""The folder in use; None if compiled kernels are kept in memory only."""
 
 if FOLDER is not None:
     config: Any = numba.config  # fills its attributes from the environment

@@ -16,10 +16,10 @@ from solvers.sources import XUE
 PressureViscosityLaw = Literal["roelands", "barus"]
 OilKind = Literal["mineral", "pao", "ester", "polyglycol"]
 
-HIGHEST_VISCOSITY = 1e4  # Pa s without pressure; no oil flows there
+HIGHEST_VISCOSITY = 1e4  # Pa s without pressure; no oil flows at this viscosity
 # Chosen limits of unusual values.
 THICK_OIL = 1.0  # Pa s at operating temperature
-HOTTEST = 403.15  # K, of oil and teeth; mineral oils age within days
+HOTTEST = 403.15  # K, of oil and teeth; at this temperature mineral oils age within days
 COLDEST_OIL = 243.15  # K; below the pour point of most gear oils
 
 ROELANDS_PRESSURE = 5.1e-9  # 1/Pa
@@ -29,10 +29,11 @@ ROELANDS_POLE_TEMPERATURE = 138.0  # K
 
 @record
 class Lubricant:
-    """A lubricating oil; the default is the oil of Xue, Zhang and Wang (second Table 2), its values at 360 K.
+    """A lubricating oil; the default is the oil of Xue, Zhang and Wang (second Table 2) at 360 K.
 
-    An incompressible oil has the same density at every pressure and temperature. The fields have no range here, because
-    an oil at a temperature is a `Lubricant` too; inputs have a range.
+    An incompressible oil has the same density at every pressure and temperature. The fields have no ranges here,
+    because a `Lubricant` may also hold computed properties of an oil at some temperature. The API declares ranges for
+    these properties as inputs.
     """
 
     viscosity: float = quantity(
@@ -126,7 +127,7 @@ class Lubricant:
         Raises
         ------
         InvalidInput
-            `viscosity_range` if the law makes the oil thicker than any oil is without pressure.
+            `viscosity_range` if the law gives the oil a viscosity without pressure that no oil has.
         """
         laws = self.laws
         logarithm = float(log_viscosity(laws, pressure_part(laws, 0.0)[0], temperature)[0])
@@ -183,14 +184,14 @@ class FluidLaws(NamedTuple):
 
 @kernel
 def pressure_part(laws: FluidLaws, pressure: float) -> tuple[float, float]:
-    """Compute the pressure term of the logarithm of the viscosity and its derivative.
+    """Compute the pressure term in the logarithm of the viscosity, and the derivative of this term.
 
     Parameters
     ----------
     laws : FluidLaws
         Constants of the oil.
     pressure : float
-        Pressure p [Pa]; a negative pressure counts as zero, because it only occurs during the iteration.
+        Pressure p [Pa]; negative pressures occur only during an iteration, and count as zero.
 
     Returns
     -------
@@ -199,7 +200,8 @@ def pressure_part(laws: FluidLaws, pressure: float) -> tuple[float, float]:
 
     Notes
     -----
-    Eq. 20 by Roelands: A1 (1 + 5.1e-9 p)^Z with Z = alpha/(5.1e-9 A1) and A1 = ln eta_0 + 9.67. By Barus: alpha p.
+    Eq. 20. By the law of Roelands the term is A1 (1 + 5.1e-9 p)^Z with Z = alpha/(5.1e-9 A1) and A1 = ln eta_0 + 9.67.
+    By the law of Barus the term is alpha p.
     """
     p = max(pressure, 0.0)
     if laws.roelands == 1:
@@ -216,7 +218,7 @@ def pressure_part(laws: FluidLaws, pressure: float) -> tuple[float, float]:
 
 @kernel
 def log_viscosity(laws: FluidLaws, pressure_term: float, temperature: float) -> tuple[float, float, float]:
-    """Compute the logarithm of the viscosity and its derivatives.
+    """Compute the logarithm of the viscosity, and the derivatives of this logarithm.
 
     Parameters
     ----------
@@ -234,10 +236,10 @@ def log_viscosity(laws: FluidLaws, pressure_term: float, temperature: float) -> 
 
     Notes
     -----
-    Eq. 20 by Roelands: ln eta = ln eta_0 + A1 {-1 + (1 + 5.1e-9 p)^Z [(t - 138)/(t_0 - 138)]^-S0} with S0 = beta (t_0 -
-    138)/A1. The paper prints S0 = beta/(A1 (t_0 - 138)), which has the wrong unit and would make the viscosity almost
-    independent of temperature; only the form here gives -d ln eta/dt = beta at t_0. By Barus and Reynolds: ln eta = ln
-    eta_0 + alpha p - beta (t - t_0).
+    Eq. 20. By the law of Roelands ln eta = ln eta_0 + A1 {-1 + (1 + 5.1e-9 p)^Z [(t - 138)/(t_0 - 138)]^-S0} with S0 =
+    beta (t_0 - 138)/A1. The paper prints S0 = beta/(A1 (t_0 - 138)), which has the wrong unit and would make the
+    viscosity almost independent of temperature; only the form used here gives -d ln eta/dt = beta at t_0. By the laws
+    of Barus and Reynolds ln eta = ln eta_0 + alpha p - beta (t - t_0).
     """
     if laws.roelands == 1:
         above_pole = temperature - ROELANDS_POLE_TEMPERATURE
@@ -252,7 +254,7 @@ def log_viscosity(laws: FluidLaws, pressure_term: float, temperature: float) -> 
 
 @kernel
 def density(laws: FluidLaws, pressure: float, temperature: float) -> tuple[float, float, float]:
-    """Compute the density of the oil and its derivatives by Dowson and Higginson.
+    """Compute the density of the oil and the derivatives of this density by the formula of Dowson and Higginson.
 
     Parameters
     ----------
@@ -281,7 +283,7 @@ def density(laws: FluidLaws, pressure: float, temperature: float) -> tuple[float
 
 
 def thick_oil(viscosity: float | None, field: str = "lubricant.viscosity") -> Iterator[Notice]:
-    """Warn of a viscosity [Pa s] at operating temperature that is unusually high."""
+    """Warn if the viscosity [Pa s] at operating temperature is unusually high."""
     if viscosity is not None and viscosity > THICK_OIL:
         yield unusual_value(
             field,
@@ -291,7 +293,7 @@ def thick_oil(viscosity: float | None, field: str = "lubricant.viscosity") -> It
 
 
 def oil_temperature(temperature: float, field: str = "temperatures.oil") -> Iterator[Notice]:
-    """Warn of an oil temperature [K] that gear oils in service do not have."""
+    """Warn if an oil temperature [K] is too high or too low for gear oils in service."""
     yield from hotter_than_gears(temperature, field)
     if temperature < COLDEST_OIL:
         shown = f"{temperature - 273.15:g} °C"
@@ -301,7 +303,7 @@ def oil_temperature(temperature: float, field: str = "temperatures.oil") -> Iter
 
 
 def hotter_than_gears(temperature: float, field: str) -> Iterator[Notice]:
-    """Warn of a temperature [K] of oil or teeth that is too high for gears in service."""
+    """Warn if a temperature [K] of oil or teeth is too high for gears in service."""
     if temperature > HOTTEST:
         shown = f"{temperature - 273.15:g} °C"
         yield unusual_value(
@@ -312,7 +314,7 @@ def hotter_than_gears(temperature: float, field: str) -> Iterator[Notice]:
 
 
 def hot_oil(oil: float, bulk: float | None) -> Iterator[Notice]:
-    """Warn of an oil temperature [K] above the temperature of the teeth [K]."""
+    """Warn if the oil temperature [K] is higher than the temperature `bulk` [K] of the teeth."""
     if bulk is not None and oil > bulk:
         message = f"the oil at {oil - 273.15:g} °C is hotter than the teeth at {bulk - 273.15:g} °C"
         message += "; were the two temperatures exchanged?"

@@ -6,20 +6,20 @@ from typing import Literal, get_args
 Rank = Literal["invalid", "doubtful", "note"]
 """How far a warning limits the use of a result.
 
-invalid     a result is missing, or stands where the theory does not hold
-doubtful    a limit of validity, of resolution or of good practice is exceeded; the result is to be questioned
-note        what was left out or assumed, or has no meaning here; the result stands
+invalid     a result is missing, or the theory does not hold for it
+doubtful    a limit of validity, of resolution or of good practice is exceeded; the result may be wrong
+note        something was left out or assumed, or has no meaning here; the result is valid
 """
 RANKS: tuple[Rank, ...] = get_args(Rank)
-"""The gravest first."""
+"""The ranks, the most serious first."""
 
 
 @dataclass(frozen=True, slots=True)
 class Notice:
     """A warning about the validity of a result.
 
-    `code` is stable and meant for programs. `message` names the exceeded range. `field` is the dotted name of an input
-    without its unit.
+    `code` is stable and meant for programs. `message` says what is wrong or uncertain. `field` is the dotted name of an
+    input without its unit.
     """
 
     code: str

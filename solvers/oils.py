@@ -1,7 +1,7 @@
-"""Oils as users know them: by ISO grade, by data sheet, or by the viscosity at one temperature.
+"""Oils as users describe them: by ISO grade, by data sheet, or by the viscosity at one temperature.
 
-A data sheet has two kinematic viscosities, which also give the viscosity index (ASTM D2270, ISO 2909). At the
-temperature at which the oil enters a contact, a data sheet gives a `Lubricant` of the models.
+A data sheet states two kinematic viscosities; the viscosity index follows from these (ASTM D2270, ISO 2909). The models
+use a `Lubricant`, which `OilSheet.lubricant` computes for the temperature at which the oil enters a contact.
 """
 
 from dataclasses import dataclass
@@ -16,7 +16,7 @@ from solvers.quantity import described, quantity, record
 
 SQUARE_MILLIMETRE = 1e-6  # m^2
 LEAST_VISCOSITY = 2.0
-"""Kinematic viscosity at 100 C [mm^2/s] from which the standard defines the index."""
+"""Smallest kinematic viscosity at 100 C [mm^2/s] for which the standard defines the viscosity index."""
 
 REFERENCE_OILS = (
     (2.0, (1.14673, 1.7576, -0.109), (0.84155, 1.5521, -0.077)),
@@ -36,8 +36,11 @@ REFERENCE_OILS = (
     (55.0, (0.85921, 11.1009, -83.190), (0.17130, 11.3680, -76.940)),
     (70.0, (0.83531, 14.6731, -216.246), (0.16841, 11.8493, -96.947)),
 )
-"""From a viscosity Y at 100 C [mm^2/s] on: a, b, c of L = a Y^2 + b Y + c and of H, the viscosities at 40 C [mm^2/s]
-of the oils of index 0 and 100 with that Y (ASTM D2270, Table X2.1; read in a public implementation)."""
+"""Rows of a smallest viscosity at 100 C [mm^2/s], coefficients (a, b, c) of L = a Y^2 + b Y + c, and those of H.
+
+A row is valid from its smallest viscosity up. Y is the viscosity at 100 C. L and H are the viscosities at 40 C [mm^2/s]
+of the oils of index 0 and 100 with this Y (ASTM D2270, Table X2.1; read in a public implementation).
+"""
 
 
 def viscosity_index(viscosity_40: float, viscosity_100: float) -> float:
@@ -58,7 +61,8 @@ def viscosity_index(viscosity_40: float, viscosity_100: float) -> float:
     Notes
     -----
     Eq. R2: 100 (L - U)/(L - H) up to an index of 100, above it 100 + (10^N - 1)/0.00715 with N = log(H/U)/log Y. The
-    standard defines no index below Y = 2 mm^2/s; the first formula is used there with the first reference oils.
+    standard defines no index below Y = 2 mm^2/s; in this range the first formula is used with the first row of
+    `REFERENCE_OILS`.
     """
     u, y = viscosity_40 / SQUARE_MILLIMETRE, viscosity_100 / SQUARE_MILLIMETRE
     _, low, high = max((row for row in REFERENCE_OILS if row[0] <= y), default=REFERENCE_OILS[0])
@@ -69,7 +73,7 @@ def viscosity_index(viscosity_40: float, viscosity_100: float) -> float:
 
 
 def viscosity_of_index(viscosity_40: float, index: float) -> float:
-    """Find the kinematic viscosity at 100 C of an oil of a given viscosity index.
+    """Find the kinematic viscosity at 100 C of an oil with a given viscosity index.
 
     Parameters
     ----------
@@ -131,12 +135,12 @@ MINERAL_VISCOSITY_100 = {
     460: 30.6e-6,
     680: 38.8e-6,
 }
-"""Kinematic viscosity at 100 C [m^2/s] typical of mineral oils of an ISO 3448 grade, of viscosity index 94 to 102."""
+"""Typical kinematic viscosity at 100 C [m^2/s] of a mineral oil by its ISO 3448 grade; viscosity index 94 to 102."""
 
 
 @dataclass(frozen=True, slots=True)
 class KindOfOil:
-    """Properties typical of a kind of oil, which a data sheet rarely gives.
+    """Typical properties of a kind of oil; a data sheet rarely states these properties.
 
     `pressure_viscosity_scale` is Gold's s [1/GPa at 1 mm^2/s] and `pressure_viscosity_exponent` is Gold's t. Density at
     15 C, specific heat and thermal conductivity are in SI units.
@@ -226,7 +230,7 @@ class OilSheet:
             raise InvalidInput("viscosity_index", message, field)
 
     def kinematic_viscosity(self, temperature: float) -> float:
-        """Compute the kinematic viscosity by the Walther law through both given points (ASTM D341).
+        """Compute the kinematic viscosity by the Walther law through both given viscosities (ASTM D341).
 
         Parameters
         ----------
@@ -259,12 +263,12 @@ class OilSheet:
 
     @property
     def reference_density(self) -> float:
-        """Density at 15 C [kg/m^3]; a typical one of the kind of oil if the data sheet does not give it."""
+        """Density at 15 C [kg/m^3]; if the data sheet does not give it, a typical density of the kind of oil."""
         return KINDS[self.kind].density_15 if self.density_15 is None else self.density_15
 
     @property
     def viscosity_index(self) -> float:
-        """Viscosity index by both viscosities (ASTM D2270) [-]."""
+        """Viscosity index that follows from both viscosities (ASTM D2270) [-]."""
         return viscosity_index(self.kinematic_viscosity_40, self.kinematic_viscosity_100)
 
     def density(self, temperature: float) -> float:
@@ -306,7 +310,7 @@ class OilSheet:
         return self.kinematic_viscosity(temperature) * self.density(temperature)
 
     def temperature_coefficient(self, temperature: float) -> float:
-        """Compute the temperature-viscosity coefficient, unless the data sheet gives it.
+        """Compute the temperature-viscosity coefficient; a coefficient in the data sheet takes precedence.
 
         Parameters
         ----------
@@ -331,7 +335,7 @@ class OilSheet:
         return float(thinning + expansion)
 
     def pressure_coefficient(self, temperature: float) -> float:
-        """Compute the pressure-viscosity coefficient by Gold, unless the data sheet gives it.
+        """Compute the pressure-viscosity coefficient by Gold; a coefficient in the data sheet takes precedence.
 
         Parameters
         ----------
@@ -373,7 +377,10 @@ class OilSheet:
         )
 
     def walther(self) -> tuple[float, float]:
-        """Return A and B of log10 log10 (nu + 0.7) = A - B log10 T through both points, nu in mm^2/s, T in kelvin."""
+        """Return A and B of the Walther law log10 log10 (nu + 0.7) = A - B log10 T through both given viscosities.
+
+        Here nu is in mm^2/s and T in kelvin.
+        """
         cold, hot = 40.0 + CELSIUS, 100.0 + CELSIUS
         thick = _double_logarithm(self.kinematic_viscosity_40)
         thin = _double_logarithm(self.kinematic_viscosity_100)
@@ -398,7 +405,7 @@ def iso_vg(
     kind : {"mineral", "pao", "ester", "polyglycol"}
         Kind of oil.
     viscosity_index : float, optional
-        Viscosity index; None: typical of grade and kind [-].
+        Viscosity index; if None, a value typical of grade and kind [-].
     density_15 : float, optional
         Density at 15 C; None: typical of the kind [kg/m^3].
 

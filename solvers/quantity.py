@@ -1,4 +1,4 @@
-"""Declarations of quantities (title, symbol, source, unit, range), each at the dataclass field of the quantity.
+"""Declarations of quantities (title, symbol, source, unit, range); each stands at the dataclass field of the quantity.
 
     @record
     class Coupling:
@@ -35,11 +35,11 @@ class Unit(NamedTuple):
     si: str | None = None
 
     def to_si(self, value: Any) -> Any:
-        """Return a number or an array in SI."""
+        """Convert a number or an array from this unit to SI."""
         return value * self.scale + self.offset
 
     def from_si(self, value: Any) -> Any:
-        """Return a number or an array of SI in this unit."""
+        """Convert a number or an array from SI to this unit."""
         return (value - self.offset) / self.scale
 
 
@@ -109,7 +109,7 @@ class Quantity:
     default : Any
         Default of an input or of an option; `...` if there is none.
     default_text : str, optional
-        What None means.
+        Words for the default if the default is None.
     assumed : str, optional
         Reason for a default that is our own and not that of the paper; a result that depends on the default lists it.
     advanced : bool
@@ -117,10 +117,11 @@ class Quantity:
     folded : bool
         Whether a form shows the input on demand only, because few users know it.
     tolerance, relative_tolerance : float, optional
-        Usual uncertainty from manufacture or measurement, in the shown unit and as a share of the value; the larger one
-        counts. Every input that may be zero has a tolerance, by which a sensitivity varies it.
+        Usual uncertainty from manufacture or measurement, in the shown unit and as a share of the value; the larger of
+        the two counts. Every input that may be zero has a tolerance, by which a sensitivity analysis varies the input.
     if_above, if_negative : str, optional
-        What to give instead of text or of a value above the range, and instead of a negative value.
+        Advice what to give instead of text or of a value above the range (`if_above`), and instead of a negative value
+        (`if_negative`).
     length : tuple of (int, int), optional
         Least and largest number of values of a list.
     detail : str
@@ -128,7 +129,7 @@ class Quantity:
     axis : str or tuple of (str, str), optional
         Field along which a curve runs, or both fields of a map; a dotted name starts at the whole result.
     index : str, optional
-        What the positions in a list mean, if no field says it.
+        Meaning of the positions in a list, if no field states this meaning.
     gaps : bool
         Whether NaN in an array marks a point without a value.
     """
@@ -159,7 +160,7 @@ class Quantity:
 
     @property
     def bounds(self) -> dict[str, float]:
-        """Ends of the range by name, without those that are not given."""
+        """Ends of the range by name; ends that are not given are left out."""
         return {name: end for name in ("ge", "gt", "le", "lt") if (end := getattr(self, name)) is not None}
 
     def to_si(self, value: Any) -> Any:
@@ -181,7 +182,7 @@ def quantity(
     kw_only: bool = False,
     **details: Any,
 ) -> Any:
-    """Return a dataclass field with its `Quantity`; the default is given in the shown unit and held in SI."""
+    """Return a dataclass field with its `Quantity`; the default is given in the shown unit and stored in SI."""
     declared = Quantity(title, symbol, source, default=default, **details)
     options: dict[str, Any] = {"metadata": {_KEY: declared}}
     if kw_only:
@@ -215,10 +216,10 @@ def record(cls: type[T], /) -> type[T]: ...
 def record(*, kw_only: bool = False, slots: bool = True) -> Callable[[type[T]], type[T]]: ...
 @dataclass_transform(frozen_default=True, field_specifiers=(quantity, described, field))
 def record(cls: Any = None, /, *, kw_only: bool = False, slots: bool = True) -> Any:
-    """Make a frozen dataclass whose fields may be declared by `quantity`; it prints its values with their units.
+    """Make a frozen dataclass whose fields may be declared by `quantity`.
 
-    The docstring of the class gets numpydoc's sections on its fields. A dataclass without slots can keep what it
-    computes (`cached_property`).
+    The `repr` of the dataclass shows the values with their units. The docstring of the class gets numpydoc's sections
+    on the fields. A dataclass without slots can keep computed values (`cached_property`).
     """
 
     def make(kind: Any) -> Any:
@@ -269,7 +270,10 @@ def allowed(declared: Quantity) -> str:
 
 
 def advice(declared: Quantity, value: Any) -> str:
-    """Return what to give instead of text or of a value outside the range, in the shown unit; may be empty."""
+    """Return advice what to give instead of text or of a value outside the range.
+
+    `value` is in the shown unit. The advice may be empty.
+    """
     is_number = isinstance(value, int | float) and not isinstance(value, bool)
     if is_number and value < 0:
         text = declared.if_negative
@@ -287,7 +291,9 @@ def converted(
     inside: Callable[[Any], Any] | None = None,
     listed: Callable[[Iterable[Any]], Any] = tuple,
 ) -> Any:
-    """Apply a conversion to every number in a value; between SI and shown units, numbers are converted only here.
+    """Apply a conversion to every number in a value.
+
+    All conversions between SI and shown units use this function.
 
     Parameters
     ----------
@@ -295,11 +301,11 @@ def converted(
         A number, an array, a dataclass, a section of a request, or lists of these. None, booleans and text are
         returned unchanged.
     number : callable
-        Converts a number or an array.
+        Function that converts a number or an array.
     inside : callable, optional
-        Converts a value that has fields of its own; None returns such a value unchanged.
+        Function that converts a value with fields of its own; if None, such a value is returned unchanged.
     listed : callable
-        Makes a list from its converted items.
+        Function that makes a list (or tuple) of the converted items.
 
     Returns
     -------
@@ -316,7 +322,10 @@ def converted(
 
 
 def as_json(value: Any) -> Any:
-    """Return an array as lists, with None for NaN, which marks a point without a value; return a number unchanged."""
+    """Return an array as nested lists; return any other value unchanged.
+
+    In the lists, None replaces NaN, which marks a point without a value.
+    """
     if not isinstance(value, np.ndarray):
         return value
     if value.dtype.kind == "f" and np.isnan(value).any():
@@ -326,7 +335,7 @@ def as_json(value: Any) -> Any:
 
 
 def to_dict(data: Any) -> dict[str, Any]:
-    """Return the declared values of a dataclass in the shown units, named as in the API: `module` as `module_mm`.
+    """Return the declared values of a dataclass in the shown units, named as in the API (`module_mm` for `module`).
 
     Arrays become lists, and inner dataclasses become dictionaries. NaN, which marks a point without a value, becomes
     None.
@@ -335,7 +344,7 @@ def to_dict(data: Any) -> dict[str, Any]:
 
 
 def _named(data: Any, outer: Quantity | None) -> dict[str, Any]:
-    """Return the declared values by name; `outer` declares the inner values that have no unit of their own."""
+    """Return the declared values by name; `outer` is the declaration of inner values that have no unit of their own."""
     kind: Any = type(data)
     named = {}
     for name, declared in quantities(kind).items():
@@ -347,18 +356,21 @@ def _named(data: Any, outer: Quantity | None) -> dict[str, Any]:
 
 
 def _shown(declared: Quantity, value: Any) -> Any:
-    """Return a number or an array in its unit, as JSON can hold it."""
+    """Return a number or an array in the shown unit, in a form that JSON can hold."""
     return None if isinstance(value, float) and np.isnan(value) else as_json(declared.from_si(value))
 
 
 class _Docstring:
-    """Docstring of a dataclass that is completed when it is read, so that the import does not take longer."""
+    """Docstring of a dataclass.
+
+    The docstring is completed only when it is read, so that the import does not take longer.
+    """
 
     def __init__(self, text: str) -> None:
         self.text = text
 
     def __get__(self, data: Any, kind: Any) -> str:
-        """Return the docstring with numpydoc's sections on the fields of `kind` and on what it computes."""
+        """Return the docstring with numpydoc's sections on the fields and the computed values of `kind`."""
         declared = quantities(kind)
         given = [item.name for item in sorted(fields(kind), key=lambda item: bool(item.kw_only)) if item.init]
         names = {
@@ -374,7 +386,10 @@ class _Docstring:
 
 
 def _entry(kind: Any, name: str, declared: Quantity | None) -> str:
-    """Return numpydoc's entry on one field: type, description with the SI unit; then symbol, source, range, default."""
+    """Return numpydoc's entry on one field.
+
+    The entry states the type, the description with the SI unit, and then symbol, source, range and default.
+    """
     item = kind.__dataclass_fields__.get(name)
     annotation = item.type if item else _function_of(getattr(kind, name)).__annotations__["return"]
     head = f"{name} : {_LEFT_OUT_OF_TYPES.sub('', formatannotation(annotation))}"
@@ -401,7 +416,7 @@ def _entry(kind: Any, name: str, declared: Quantity | None) -> str:
 
 
 def _summary(data: Any) -> str:
-    """Return one line: numbers with their units, lists and arrays by their shape, dataclasses by their class."""
+    """Return one line with the values: numbers with units, lists by length, arrays by shape, dataclasses by class."""
     kind: Any = type(data)
     declared = quantities(kind)
     parts = []

@@ -1,9 +1,10 @@
 """Gear couplings after Pahl.
 
-Data flows inputs -> kinematics -> tooth_loads -> lubrication -> sleeve (two meshes) -> friction (thrust, losses) ->
-notices; `model.solve` calls them all. The sleeve's orbit needs kinematics and tooth loads alone; crowning calls the
-model to recommend a crowning ratio. Inputs built by hand are in SI; the functions here refuse what lies outside the
-declared ranges, naming the argument.
+The data flow through the modules in this order: inputs -> kinematics -> tooth_loads -> lubrication -> sleeve (only with
+two meshes) -> friction (thrust, losses) -> notices. `model.solve` calls all these modules. The orbit of the sleeve
+(`orbit`) needs only kinematics and tooth_loads. `crowning` calls the model to recommend a crowning ratio. Inputs that
+are built in Python are in SI units. If an input lies outside its declared range, the functions exported here raise
+InvalidInput with the name of the input.
 """
 
 from solvers.coupling import crowning, model, orbit

@@ -1,9 +1,10 @@
-"""Which crowning suits a coupling whose misalignment stays within a range.
+"""Recommendation of a crowning ratio for a coupling whose misalignment stays within a range.
 
-The paper asks for a contact surface overlap below 1 and then for as much load capacity as possible. The overlap is
-largest at the smallest misalignment, and falls with the crowning ratio. The reach of the contact on the face is largest
-at the largest misalignment, and grows with the ratio. Both constraints leave a window of ratios, which may be a percent
-wide or empty. The ends of the window are solved for, and the load capacity is maximised between them.
+The paper asks for a contact surface overlap below 1, and then for the largest possible load capacity. The overlap is
+largest at the smallest misalignment, and falls as the crowning ratio rises. The contact reaches farthest from the
+middle of the face at the largest misalignment, and this distance grows as the crowning ratio rises. The two constraints
+leave a window of crowning ratios. This window may be empty, or only one percent wide. The module solves for both ends
+of the window, and finds the largest load capacity between these ends.
 """
 
 from collections.abc import Callable
@@ -34,7 +35,7 @@ from solvers.sources import PAHL
 
 @record
 class RecommendedPoint:
-    """The recommended coupling at one end of the misalignment range."""
+    """Results of the recommended coupling at one end of the misalignment range."""
 
     contact_overlap: float = quantity("contact surface overlap", "Pu", PAHL)
     load_capacity_coefficient: float = quantity("load capacity coefficient", "Tr", PAHL)
@@ -45,7 +46,7 @@ class RecommendedPoint:
 
 @record
 class CrowningScan:
-    """Smallest load capacity coefficient and largest overlap over the misalignment range, against the crowning ratio.
+    """Curves over the crowning ratio: smallest load capacity coefficient and largest overlap in the misalignment range.
 
     Each array has one value per crowning ratio whose contact can be computed.
     """
@@ -62,10 +63,11 @@ class CrowningScan:
 
 @record
 class Recommendation:
-    """The crowning ratio with the largest load capacity that meets every constraint over the range.
+    """The crowning ratio with the largest load capacity among the ratios that meet every constraint over the range.
 
-    If no ratio meets every constraint, `feasible` is False, `failed_constraint` names the constraint that excludes it
-    (`contact_overlap`, `edge_contact`, `hertz_pressure`, `contact_width`, `sliding_velocity`) and the rest is None.
+    If no ratio meets every constraint, `feasible` is False, and `failed_constraint` names the constraint that excludes
+    all ratios: `contact_overlap`, `edge_contact`, `hertz_pressure`, `contact_width` or `sliding_velocity`. The crowning
+    ratio, its load capacity and the results at both ends of the range are then None.
     """
 
     feasible: bool = quantity("feasible crowning", text="whether any crowning ratio meets every constraint")
@@ -81,12 +83,12 @@ class Recommendation:
     warnings: tuple[Notice, ...]
 
 
-MIN_CROWNING_RATIO = 0.2  # chosen, as the upper end: far outside practice
-MAX_CROWNING_RATIO = 1000.0  # chosen: nearly straight teeth
-# Public name of the constraint, and the quantity that falls with the crowning ratio.
+MIN_CROWNING_RATIO = 0.2  # chosen: far outside practice
+MAX_CROWNING_RATIO = 1000.0  # chosen: the teeth are nearly straight
+# Public name of each constraint, and the attribute of `CrowningState` that falls as the crowning ratio rises.
 _LOWER_BOUNDS = (("hertz_pressure", "pressure"), ("contact_width", "width"), ("contact_overlap", "overlap"))
 MAX_SCANNED_RATIO = 100.0  # chosen: end of the scanned range
-_SCAN_POINTS = 49  # chosen: a factor of 1.14 between two ratios
+_SCAN_POINTS = 49  # chosen: neighbouring ratios differ by a factor of 1.14
 _WINDOW_POINTS = 25  # chosen: points of the grid from which the search for the best ratio starts
 
 _REASONS = {
@@ -103,10 +105,11 @@ _REASONS = {
 
 @dataclass(frozen=True, slots=True)
 class CrowningState:
-    """Constraints and load capacity of a crowning ratio, each at its worst end of the range of misalignment.
+    """Constraints and load capacity of a crowning ratio, each at the worse end of the misalignment range.
 
-    `overlap`, `edge` (reach of the contact over half the face), `pressure` and `width` (both over their limits) must
-    stay below 1. `load_capacity_coefficient` is the smallest.
+    `overlap` must be below 1. `edge`, `pressure` and `width` must not exceed 1. `edge` is the distance that the contact
+    reaches from the middle of the face, divided by half the face width. `pressure` and `width` are divided by their
+    limits. `load_capacity_coefficient` is the smaller of the values at both ends.
     """
 
     overlap: float
@@ -137,7 +140,7 @@ def at_misalignment(inputs: RecommendationInputs, ratio: float, misalignment: fl
 
 
 def crowning_state(inputs: RecommendationInputs, ratio: float) -> CrowningState:
-    """Compute constraints and load capacity of a crowning ratio at both ends of the range."""
+    """Compute constraints and load capacity of a crowning ratio, each at the worse end of the misalignment range."""
     design = inputs.design
     crowned = replace(design, coupling=replace(design.coupling, crowning_ratio=ratio))
     geometry = tooth_geometry(crowned.coupling)
@@ -153,9 +156,9 @@ def crowning_state(inputs: RecommendationInputs, ratio: float) -> CrowningState:
 
 
 def _state_at(misalignment: float, crowned: CouplingInputs, geometry: Geometry) -> CrowningState:
-    """Compute constraints and load capacity at one misalignment [rad].
+    """Compute the constraints and the load capacity at one misalignment [rad].
 
-    Of the inputs of the film, only the motion of the mesh depends on the misalignment.
+    Among the arguments of `film_state`, only the motion of the mesh depends on the misalignment.
     """
     operation = replace(crowned.operation, misalignment=misalignment)
     mesh = mesh_motion(crowned.coupling, geometry, operation, crowned.model.kinematics)
@@ -171,12 +174,12 @@ def _state_at(misalignment: float, crowned: CouplingInputs, geometry: Geometry) 
 
 
 def crowning_window(state: Callable[[float], CrowningState]) -> tuple[float, float, str | None]:
-    """Find the smallest and largest crowning ratio that meet every constraint.
+    """Find the smallest and the largest crowning ratio that meet every constraint.
 
     Parameters
     ----------
     state : Callable[[float], CrowningState]
-        Returns the state of a crowning ratio.
+        Function that returns the state of a crowning ratio.
 
     Returns
     -------
@@ -185,11 +188,12 @@ def crowning_window(state: Callable[[float], CrowningState]) -> tuple[float, flo
     high : float
         Largest crowning ratio of the window [-].
     failed : str or None
-        Name of the constraint that leaves no crowning ratio, None if the window is not empty.
+        Name of the constraint that excludes every crowning ratio; None if the window is not empty.
 
     Notes
     -----
-    Eq. C32. Overlap, pressure and width each set a smallest crowning ratio; the edge sets the largest.
+    Eq. C32. Overlap, pressure and width each set a lower bound of the crowning ratio; the edge of the face sets the
+    upper bound.
     """
     low = MIN_CROWNING_RATIO
     for name, constraint in _LOWER_BOUNDS:
@@ -197,7 +201,7 @@ def crowning_window(state: Callable[[float], CrowningState]) -> tuple[float, flo
         if bound >= MAX_CROWNING_RATIO:
             return low, low, name
         low = max(low, bound)
-    # Inside both ends, whatever the rounding: the overlap must be below 1, not at it.
+    # A margin keeps the window inside both bounds despite rounding: the overlap must be below 1, not equal to 1.
     low *= 1.0 + 1e-9
     high = _root(state, "edge") * (1.0 - 1e-9)
     return low, high, None if low < high else "edge_contact"
@@ -233,21 +237,22 @@ def recommend(inputs: RecommendationInputs) -> Recommendation:
     Returns
     -------
     Recommendation
-        The crowning ratio with its operating points, or the constraint that leaves none.
+        The crowning ratio with the results at both ends of the range, or the constraint that excludes every ratio.
 
     Raises
     ------
     InvalidInput
-        As `solve`; also `misalignment_range`, `no_load` and `not_turning`.
+        The codes of `solve`; also `misalignment_range`, `no_load` and `not_turning`.
     NoSolution
-        As `solve`.
+        The codes of `solve`.
 
     Notes
     -----
-    Eq. C32. The load capacity coefficient is the one at the worse end of the range. The constraints are: overlap below
-    1 at both ends, contact within the face at the largest misalignment, and a contact within the limits of Hertz's
-    theory. If the range is a single value, the sliding velocity is a constraint too; a wider range only reports it. The
-    warnings are those of `solve` at both ends.
+    Eq. C32. The load capacity coefficient is taken at the end of the range where it is smaller. There are three
+    constraints: the overlap is below 1 at both ends of the range, the contact stays on the face at the largest
+    misalignment, and the contact stays within the limits of Hertz's theory. If the range is a single value, the limit
+    of the sliding velocity is a fourth constraint; with a wider range, exceeding this limit only causes a warning. The
+    warnings include those of `solve` at both ends of the range.
     """
     _check(inputs)
     state = cache(partial(crowning_state, inputs))
@@ -276,7 +281,10 @@ def recommend(inputs: RecommendationInputs) -> Recommendation:
 
 
 def _best_ratio(state: Callable[[float], CrowningState], low: float, high: float) -> float:
-    """Find the crowning ratio in the window with the largest load capacity, on a grid refined around its best point."""
+    """Find the crowning ratio with the largest load capacity in the window.
+
+    The search compares the points of a grid, and then refines the result between the neighbours of the best point.
+    """
     grid = np.geomspace(low, high, _WINDOW_POINTS)
     capacity = [state(float(ratio)).load_capacity_coefficient for ratio in grid]
     best = int(np.argmax(capacity))
@@ -290,7 +298,7 @@ def _best_ratio(state: Callable[[float], CrowningState], low: float, high: float
 
 
 def _merged(notices: tuple[Notice, ...]) -> tuple[Notice, ...]:
-    """Return the first notice of every code; notices about the misalignment point to its range."""
+    """Return the first notice of each code; a notice about `misalignment` is assigned to `misalignment_range`."""
     first: dict[str, Notice] = {}
     for notice in notices:
         first.setdefault(notice.code, notice)
@@ -314,7 +322,7 @@ def _point(result: CouplingResult) -> RecommendedPoint:
 
 
 def _scan(state: Callable[[float], CrowningState]) -> CrowningScan:
-    """Compute the trade-off over the crowning ratios whose contact can be computed."""
+    """Compute the curves over those crowning ratios whose contact can be computed."""
     ratios = np.geomspace(MIN_CROWNING_RATIO, MAX_SCANNED_RATIO, _SCAN_POINTS)
     points = [(ratio, point) for ratio in ratios if (point := state(float(ratio))).computable]
     return CrowningScan(
@@ -326,7 +334,7 @@ def _scan(state: Callable[[float], CrowningState]) -> CrowningScan:
 
 
 def _infeasible(failed: str, scan: CrowningScan, used: Derived, warnings: tuple[Notice, ...]) -> Recommendation:
-    """Return the recommendation if no crowning ratio serves the whole range."""
+    """Return the recommendation for the case that no crowning ratio meets every constraint."""
     return Recommendation(
         feasible=False,
         crowning_ratio=None,
@@ -341,7 +349,7 @@ def _infeasible(failed: str, scan: CrowningScan, used: Derived, warnings: tuple[
 
 
 def _sliding_notices(inputs: RecommendationInputs) -> tuple[Notice, ...]:
-    """Return a notice if the largest misalignment slides faster than the limit."""
+    """Return a notice if the sliding velocity at the largest misalignment exceeds its limit."""
     radius = tooth_geometry(inputs.design.coupling).pitch_radius
     sliding = abs(inputs.design.operation.speed) * radius * inputs.max_misalignment
     if sliding <= SLIDING_VELOCITY_LIMIT:

@@ -1,8 +1,8 @@
-"""Former names of inputs with the sections of a request; the next minor version removes them.
+"""Former classes of inputs, with the fields of a request; the next minor version removes these classes.
 
-`Coupling` itself has defaults for its proportions. `Operation` contains the tilt; `tilt_of_offset` computes it from a
-parallel offset. `Lubricant` contains the viscosity at the teeth; `OilSheet.viscosity` computes the viscosity of an oil
-by grade or data sheet.
+Use `Coupling`, `Operation` and `Lubricant` instead. `Coupling` has defaults for its proportions. `Operation` contains
+the tilt; `tilt_of_offset` computes the tilt from a parallel offset. `Lubricant` contains the viscosity at the teeth;
+`OilSheet.viscosity` computes this viscosity for an oil that is given by its grade or data sheet.
 """
 
 from dataclasses import fields
@@ -19,13 +19,13 @@ class CouplingDesign(Coupling):
     """Former name of `Coupling`."""
 
     def coupling(self) -> Coupling:
-        """Return the coupling."""
+        """Return the `Coupling` with these values."""
         return Coupling(**{item.name: getattr(self, item.name) for item in fields(Coupling)})
 
 
 @record
 class Load:
-    """Former part of `Operation`."""
+    """Former class with all fields of `Operation` except the misalignment."""
 
     torque: float = described("Transmitted torque [N m].")
     speed: float = described("Speed; the sign is the sense of rotation [rad/s].")
@@ -46,7 +46,7 @@ class Load:
 
 @record
 class OperatingPoint(Load):
-    """Former name of `Operation`, with the tilt or the offset of the shafts."""
+    """Former version of `Operation`, in which the offset of the shafts may be given instead of the tilt."""
 
     misalignment: float | None = described(
         "Tilt of the hub against the sleeve; None: by the parallel offset [rad].", default=None
@@ -54,9 +54,9 @@ class OperatingPoint(Load):
     parallel_offset: float | None = described("Parallel offset of the shafts, used without a tilt [m].", default=None)
 
     def operation(self, hub_distance: float) -> Operation:
-        """Return the operating point; `hub_distance` [m] lies between the tooth planes.
+        """Return the operating point; `hub_distance` [m] is the distance of the tooth planes.
 
-        Raises InvalidInput misalignment_or_offset if both are None.
+        Raises InvalidInput (`misalignment_or_offset`) if both the misalignment and the parallel offset are None.
         """
         if self.misalignment is not None:
             return self.at(self.misalignment)
@@ -67,7 +67,7 @@ class OperatingPoint(Load):
 
 @record
 class OperatingRange(Load):
-    """Former operating point with a range of misalignment, now `Operation` and the range in `RecommendationInputs`."""
+    """Former operating point with a range of misalignment; use `Operation` and `RecommendationInputs` instead."""
 
     misalignment_range: tuple[float, float] = described("Smallest and largest tilt of the hub [rad].", kw_only=True)
 
@@ -78,7 +78,10 @@ class OperatingRange(Load):
 
 @record
 class CouplingOil(OilBySheet):
-    """Former oil by viscosity, grade or data sheet, now `Lubricant` with the viscosity of an `OilSheet`."""
+    """Former class of an oil that is given by its viscosity, grade or data sheet.
+
+    Use `Lubricant` instead; `OilSheet.viscosity` computes the viscosity of an oil by its grade or data sheet.
+    """
 
     viscosity: float | None = described(
         "Viscosity at the teeth; not used with a grade or data sheet [Pa s].", default=0.025
@@ -91,7 +94,7 @@ class CouplingOil(OilBySheet):
     def lubricant(self) -> Lubricant:
         """Return the oil at the teeth; a grade or data sheet takes precedence over the viscosity.
 
-        Raises InvalidInput missing_property if neither is given.
+        Raises InvalidInput (`missing_property`) if neither viscosity, grade nor data sheet is given.
         """
         if sheet := self.sheet():
             viscosity = sheet.viscosity(self.temperature)

@@ -1,7 +1,7 @@
 """Effects of friction on the teeth of one mesh: axial thrust, losses and the moments that bend the hub.
 
-Means over one tooth pitch, or over one revolution with pitch deviations. Thrust: Figs 14 to 16, and the closed forms of
-two meshes, Figs 13 and 17.
+All values are means over one tooth pitch or, if there are pitch deviations, over one revolution. The thrust of one mesh
+follows Figs 14 to 16; the closed forms for two meshes follow Figs 13 and 17.
 """
 
 from dataclasses import dataclass
@@ -21,12 +21,13 @@ from solvers.coupling.tooth_loads import coaxial_limit, mesh_loads
 
 
 class ToothSums(NamedTuple):
-    """Sums over the teeth of the tangential force times direction and position, averaged over the rotor angles.
+    """Sums over the teeth of tangential force times factors of direction and position, averaged over the rotor angles.
 
-    With the direction of friction sgn(v_r): `load` is sum F_t, `axial` is sum F_t sgn(v_r), `still` is sum F_t of the
-    teeth without relative velocity, `tilting` is sum F_t sgn(v_r) sin(phi), `pivoting` is sum F_t sgn(v_r) cos(phi)
-    [N]; `power` is sum F_t |v_r| [W]. Without the direction: `tilted` is sum F_t sin^2(phi), `mixed` is sum F_t
-    sin(phi) cos(phi), `pivoted` is sum F_t cos^2(phi) [N].
+    Here v_r is the relative velocity, sgn(v_r) the direction of friction, and phi the tooth angle. Three sums contain
+    the direction: `axial` is sum F_t sgn(v_r), `tilting` is sum F_t sgn(v_r) sin(phi), and `pivoting` is sum F_t
+    sgn(v_r) cos(phi) [N]. `power` is sum F_t |v_r| [W]. The other sums do not contain the direction: `load` is sum F_t,
+    `still` is sum F_t of the teeth without relative velocity, `tilted` is sum F_t sin^2(phi), `mixed` is sum F_t
+    sin(phi) cos(phi), and `pivoted` is sum F_t cos^2(phi) [N].
     """
 
     load: float
@@ -44,7 +45,11 @@ class ToothSums(NamedTuple):
 def tooth_sums(
     force: FloatArray, sine: FloatArray, cosine: FloatArray, weight: FloatArray, sliding: float, axial_velocity: float
 ) -> ToothSums:
-    """Sum `force`, `sine` and `cosine` (rows, teeth) with the relative velocity v_r = v_ax + v_G sin(phi)."""
+    """Compute the sums from the `force` and the tooth positions `sine` and `cosine` (rows, teeth).
+
+    `weight` (rows) holds the weights of the rotor angles. The relative velocity is v_r = v_ax + v_G sin(phi), where
+    v_ax is `axial_velocity` and v_G is `sliding` [m/s].
+    """
     load = axial = still = tilting = pivoting = power = tilted = mixed = pivoted = 0.0
     for row in range(force.shape[0]):
         for i in range(force.shape[1]):
@@ -67,14 +72,14 @@ def tooth_sums(
 
 @dataclass(frozen=True, slots=True)
 class LoadedMesh:
-    """Motion of one mesh, and the sums over its loaded teeth."""
+    """Motion of one mesh, and the sums over the loaded teeth of this mesh."""
 
     motion: MeshMotion
     sums: ToothSums
 
 
 def loaded_mesh(inputs: CouplingInputs, mesh: MeshMotion) -> LoadedMesh:
-    """Compute the tooth loads of the single mesh over one tooth pitch (over one revolution with pitch deviations)."""
+    """Compute the tooth sums of a mesh over one tooth pitch or, if there are pitch deviations, over one revolution."""
     samples = rotor_samples(inputs.coupling, mesh, inputs.operation.axial_velocity)
     floating = inputs.model.sleeve == "floating"
     loads = mesh_loads(inputs.coupling, mesh, samples.teeth, inputs.operation.torque, floating=floating)
@@ -90,7 +95,7 @@ def loaded_mesh(inputs: CouplingInputs, mesh: MeshMotion) -> LoadedMesh:
 
 
 def mesh_thrust(loaded: LoadedMesh, friction: float, axial_velocity: float) -> tuple[float, float]:
-    """Compute the axial thrust of one mesh and its slack, both averaged over the rotor angles.
+    """Compute the axial thrust of one mesh and the slack of this thrust, both averaged over the rotor angles.
 
     Parameters
     ----------
@@ -106,13 +111,15 @@ def mesh_thrust(loaded: LoadedMesh, friction: float, axial_velocity: float) -> t
     thrust : float
         Axial thrust F_ax = sum mu F_n sgn(v_r) [N].
     slack : float
-        Friction of the teeth without relative velocity, by which the thrust may deviate to either side [N].
+        Largest friction of the teeth without relative velocity; the thrust may deviate by this force to either side
+        [N].
 
     Notes
     -----
     Eq. C19, the paper's general expression. A tooth without relative velocity may carry any friction between -mu F_n
-    and mu F_n. The thrust counts this friction as zero, the slack counts it as mu F_n. Without axial velocity the
-    thrust is zero: half a turn later every tooth has the same load and the opposite sliding.
+    and mu F_n. The thrust counts this friction as zero, and the slack counts this friction as mu F_n. Without axial
+    velocity the thrust is zero, because half a turn later every tooth has the same load and slides in the opposite
+    direction.
     """
     scale, sums = friction / cos(loaded.motion.pressure_angle), loaded.sums
     force = without_rounding(sums.axial, sums.load) if axial_velocity != 0.0 else 0.0
@@ -120,7 +127,7 @@ def mesh_thrust(loaded: LoadedMesh, friction: float, axial_velocity: float) -> t
 
 
 def uniform_load_thrust(limit: float, axial_velocity: float, max_sliding_velocity: float) -> float:
-    """Compute the axial thrust with equal tooth loads and many teeth.
+    """Compute the axial thrust of many teeth with equal loads.
 
     Parameters
     ----------
@@ -138,8 +145,8 @@ def uniform_load_thrust(limit: float, axial_velocity: float, max_sliding_velocit
 
     Notes
     -----
-    Eq. C21. For a centred sleeve without pitch deviations this thrust is an upper bound, if the teeth with the fastest
-    sliding carry the whole load.
+    Eq. C21. For a centred sleeve without pitch deviations this thrust is an upper bound, because the actual load is
+    concentrated on the teeth that slide fastest.
     """
     if axial_velocity == 0.0:
         return 0.0
@@ -151,13 +158,13 @@ def uniform_load_thrust(limit: float, axial_velocity: float, max_sliding_velocit
 def customary_thrust(operation: Operation) -> float | None:
     """Return 0.25 T/D [N] with the shaft diameter D, or None if no diameter is given.
 
-    The rule is practice under API 617 and 671, taken from a secondary source.
+    This rule is common practice with API 617 and 671; it is taken from a secondary source.
     """
     return None if operation.shaft_diameter is None else 0.25 * operation.torque / operation.shaft_diameter
 
 
 def simple_self_induced_thrust(coupling: Coupling, torque: float, friction: float, factor: float) -> float:
-    """Compute the self-induced thrust of the parallel offset with one tooth pair per mesh.
+    """Compute the self-induced thrust with a parallel offset and one tooth pair per mesh.
 
     Parameters
     ----------
@@ -177,14 +184,15 @@ def simple_self_induced_thrust(coupling: Coupling, torque: float, friction: floa
 
     Notes
     -----
-    Fig. 13; Eq. C23. Each tooth carries T/(d_o cos alpha). Friction overturns the sleeve with M_2 = 2 F_R d_o, and the
-    lateral force F_1 = M_2/l_H holds the sleeve. The paper does not state the share kappa of F_1.
+    Fig. 13; Eq. C23. Each tooth carries T/(d_o cos alpha). The moment of friction M_2 = 2 F_R d_o would overturn the
+    sleeve; the lateral force F_1 = M_2/l_H at each mesh holds the sleeve. The paper does not state the share kappa of
+    F_1.
     """
     return 2.0 * factor * friction**2 * torque / (coupling.hub_distance * cos(coupling.pressure_angle))
 
 
 def uniform_self_induced_thrust(coupling: Coupling, torque: float, friction: float) -> float:
-    """Compute the self-induced thrust of the parallel offset with every tooth loaded.
+    """Compute the self-induced thrust with a parallel offset and equal loads on all teeth.
 
     Parameters
     ----------
@@ -202,14 +210,14 @@ def uniform_self_induced_thrust(coupling: Coupling, torque: float, friction: flo
 
     Notes
     -----
-    Eq. C24. The overturning moment is M_2 = (4/pi) mu T/cos alpha. A sleeve on isotropic tooth springs has the share
-    kappa = (4/pi) sin alpha.
+    Eq. C24. The overturning moment is M_2 = (4/pi) mu T/cos alpha. If the tooth springs are equally stiff in all
+    lateral directions, the share kappa of `simple_self_induced_thrust` is (4/pi) sin alpha.
     """
     return 16.0 / pi**2 * friction**2 * torque * tan(coupling.pressure_angle) / coupling.hub_distance
 
 
 def axial_thrust(inputs: CouplingInputs, geometry: Geometry, loaded: LoadedMesh, friction: float) -> AxialThrust:
-    """Compute the thrust of one mesh, or of two meshes on one sleeve, with its limits and closed forms."""
+    """Compute the thrust of one mesh or of two meshes on one sleeve, and the limits and closed forms of this thrust."""
     coupling, operation = inputs.coupling, inputs.operation
     limit = coaxial_limit(coupling, operation.torque, friction)
     force, slack = mesh_thrust(loaded, friction, operation.axial_velocity)
@@ -236,11 +244,11 @@ def axial_thrust(inputs: CouplingInputs, geometry: Geometry, loaded: LoadedMesh,
 
 
 def self_induced_thrust(inputs: CouplingInputs, geometry: Geometry, friction: float) -> SelfInducedThrust:
-    """Compute the thrust of two meshes without axial velocity, and its closed forms.
+    """Compute the thrust of two meshes without axial velocity, and the closed forms of this thrust.
 
-    The closed forms are zero in the angular arrangement. With one tooth pair per mesh, or with equal loads, the moments
-    of friction in the two meshes are opposite, and the sleeve requires no lateral force at the teeth (the paper's "for
-    reasons of symmetry").
+    In the angular arrangement the closed forms are zero. If each mesh has one tooth pair, or equal loads on all teeth,
+    the moments of friction in the two meshes are opposite. The sleeve then requires no lateral force at the teeth. The
+    paper says "for reasons of symmetry".
     """
     coupling, torque = inputs.coupling, inputs.operation.torque
     equilibrium = sleeve_equilibrium(inputs, geometry, friction, 0.0)
@@ -256,7 +264,7 @@ def self_induced_thrust(inputs: CouplingInputs, geometry: Geometry, friction: fl
 
 
 def losses(inputs: CouplingInputs, geometry: Geometry, loaded: LoadedMesh, friction: float) -> Losses:
-    """Compute the friction power and the moments of the mesh at the driving hub.
+    """Compute the friction power of a mesh and the moments on the driving hub.
 
     Parameters
     ----------
@@ -276,10 +284,10 @@ def losses(inputs: CouplingInputs, geometry: Geometry, loaded: LoadedMesh, frict
 
     Notes
     -----
-    Eqs. C25, C28. The moment of friction about the pivot direction acts against the tilting motion. It is M_f = r_o sum
-    mu F_n sgn(v_r) sgn(v_G1) sin phi, with v_G1 the sliding velocity at 90 degrees. The power is then P = M_f omega
-    delta + F_ax v_ax. M_f is zero if nothing tilts, and undetermined if nothing slides at all. By the power balance the
-    part M_f - T delta/2 bends the driving hub, whatever the load distribution.
+    Eqs. C25, C28. The moment of friction M_f acts about the pivot direction, against the tilting motion. It is M_f =
+    r_o sum mu F_n sgn(v_r) sgn(v_G1) sin phi, where v_G1 is the sliding velocity at 90 degrees. The friction power is
+    then P = M_f omega delta + F_ax v_ax. M_f is zero without a tilt, and undetermined if nothing slides at all.
+    According to the power balance, the part M_f - T delta/2 bends the driving hub, whatever the load distribution is.
     """
     operation, sums = inputs.operation, loaded.sums
     scale = friction / cos(inputs.coupling.pressure_angle)
@@ -288,7 +296,7 @@ def losses(inputs: CouplingInputs, geometry: Geometry, loaded: LoadedMesh, frict
     shift_moment = contact_shift_moment(inputs, geometry, loaded)
     tilting_moment = shift_moment
     if inputs.model.kinematics == "spatial":
-        # Only the pivoting motion feels friction's moment about the tilt axis, -r_o sum mu F_n cos(phi) sgn.
+        # The moment of friction about the tilt axis, -r_o sum mu F_n cos(phi) sgn, acts only on the pivoting motion.
         tilting_moment -= lever * without_rounding(sums.pivoting, sums.load)
     return Losses(
         friction_power=scale * sums.power,
@@ -301,7 +309,7 @@ def losses(inputs: CouplingInputs, geometry: Geometry, loaded: LoadedMesh, frict
 
 
 def equal_loads_friction_moment(coaxial_limit: float, pitch_radius: float) -> float:
-    """Compute the moment of friction against a tilt with equal tooth loads.
+    """Compute the moment with which friction resists a tilt if all tooth loads are equal.
 
     Parameters
     ----------
@@ -323,7 +331,7 @@ def equal_loads_friction_moment(coaxial_limit: float, pitch_radius: float) -> fl
 
 
 def contact_shift_moment(inputs: CouplingInputs, geometry: Geometry, loaded: LoadedMesh) -> float:
-    """Compute the moment about the tilt axis of tooth forces that act off the middle of the face.
+    """Compute the moment about the tilt axis that arises because tooth forces act off the middle of the face.
 
     Parameters
     ----------
@@ -341,12 +349,12 @@ def contact_shift_moment(inputs: CouplingInputs, geometry: Geometry, loaded: Loa
 
     Notes
     -----
-    Eq. C27. Both factors of F_n are harmonics of phi; their product is a sum of sin^2, sin cos and cos^2.
-
-    `tangential` uses z_c = s_1 and the tangential part of n; the moment is R_t delta T/(2 r_o) for equal loads.
-    `spatial` uses z_c = s_1 - delta r_o cos phi, the position of the contact in the frame of the sleeve, and all of n.
-    Both moments equal sum F_t df_t/d delta. With spatial kinematics the y components of n add T delta/2 about the pivot
-    direction. The power balance of the hub already contains this moment.
+    Eq. C27. The factors z_c and n_x are harmonics of phi; their product is a sum of terms in sin^2, sin cos and cos^2.
+    With `tangential` kinematics z_c is s_1, and n_x contains only the tangential part of n; for equal loads the moment
+    is R_t delta T/(2 r_o). With `spatial` kinematics z_c = s_1 - delta r_o cos phi is the position of the contact in
+    the frame of the sleeve, and n_x contains the tangential and the radial part of n. With both kinematics the moment
+    equals sum F_t df_t/d delta. With `spatial` kinematics the y components of n cause a further moment T delta/2 about
+    the pivot direction. The power balance of the hub already contains this further moment.
     """
     motion, sums = loaded.motion, loaded.sums
     arm_sin, arm_cos, normal_sin, normal_cos = motion.travel_sin, 0.0, -motion.side, 0.0

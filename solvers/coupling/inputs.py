@@ -1,6 +1,6 @@
 """Inputs of a gear coupling: the coupling, its operation and the options of the model.
 
-Attributes are in SI; declarations give range and default in the unit shown.
+Attributes are in SI units. A declaration gives the range and the default in the unit in which the quantity is shown.
 """
 
 from dataclasses import field
@@ -17,17 +17,17 @@ KinematicModel = Literal["tangential", "spatial"]
 SleeveSupport = Literal["centred", "floating"]
 InletModel = Literal["face", "travel", "infinite"]
 
-MAX_MISALIGNMENT = radians(6.0)  # chosen: there a theory of small angles errs by half a percent
-LEAST_TORQUE = 1e-6  # N m, chosen: counts as none
-STEEL = 206e9  # Pa, for which ISO 6336-1 states its stiffness
+MAX_MISALIGNMENT = radians(6.0)  # chosen: at this angle a theory of small angles errs by half a percent
+LEAST_TORQUE = 1e-6  # N m, chosen: a smaller torque is not accepted as a load
+STEEL = 206e9  # Pa, Young's modulus for which ISO 6336-1 states the tooth stiffness
 STEEL_TOOTH_STIFFNESS = 280e6  # N/m, of a pair of steel teeth
 
 
 @record
 class Coupling:
-    """The coupling: crowned hub teeth in a straight internal sleeve.
+    """A gear coupling: a hub with crowned teeth in a sleeve with straight internal teeth.
 
-    If face width, tooth height or tooth pair stiffness is None, the new coupling has the default instead.
+    If face width, tooth height or tooth pair stiffness is None, the new coupling gets the default value.
     """
 
     teeth: int = quantity("number of teeth", "z", PAHL, ge=6, le=400)
@@ -116,7 +116,7 @@ class Coupling:
     )
 
     def __post_init__(self) -> None:
-        """Give the fields that are None their defaults; these fields are floats afterwards."""
+        """Replace None in face width, tooth height and tooth stiffness by the default values."""
         defaults = {
             "face_width": 8 * self.module,
             "tooth_height": 2 * self.module,
@@ -131,8 +131,8 @@ class Coupling:
 class Operation:
     """Operating point: torque, speed, tilt and arrangement.
 
-    `arrangement`: `single` is one mesh, `parallel_offset` (Z) two hubs tilted alike against the sleeve, `angular` (M)
-    two hubs tilted oppositely.
+    The `arrangement` is `single` for one mesh, `parallel_offset` (Z) for two hubs that tilt in the same direction
+    against the sleeve, or `angular` (M) for two hubs that tilt in opposite directions.
     """
 
     torque: float = quantity(
@@ -211,7 +211,7 @@ def tilt_of_offset(parallel_offset: float, hub_distance: float) -> float:
 
 @record
 class Lubricant:
-    """Oil at the teeth; the default viscosity is that of ISO VG 46 near 50 C."""
+    """Oil at the teeth; the default is the viscosity of ISO VG 46 near 50 C."""
 
     viscosity: float = quantity(
         "oil viscosity at the teeth", "η", f"{PAHL}, Fig. 8", unit="pa_s", default=0.025, ge=1e-5, le=100
@@ -243,10 +243,11 @@ class Lubricant:
 
 @record
 class MixedFrictionCurve:
-    """Our law of mixed friction against sliding velocity: falls from `highest` to `lowest` at `velocity` [m/s].
+    """Our own law of mixed friction: the coefficient falls from `highest` at rest to `lowest` at `velocity` [m/s].
 
-    The end values are the paper's band of area 1.1; `velocity` is a calibration: it puts the minimum of the heavily
-    crowned coupling at 0.4 degrees and 200 rad/s (the paper gives no speed for its Fig. 11).
+    The defaults of `highest` and `lowest` are the ends of the paper's band in area 1.1. The default of `velocity` is a
+    calibration, with which the friction of the heavily crowned coupling is lowest at 0.4 degrees and 200 rad/s. The
+    paper does not state the speed for Fig. 11.
     """
 
     highest: float = quantity(
@@ -277,7 +278,10 @@ class MixedFrictionCurve:
 
 @record
 class MixedFrictionTable:
-    """Measured mixed friction over rising sliding velocity, one point or more; constant outside the table."""
+    """Table of measured mixed friction at rising sliding velocities; the friction is constant outside the table.
+
+    A single point is sufficient.
+    """
 
     sliding_velocity: tuple[float, ...] = quantity(
         "table of sliding velocities",
@@ -297,7 +301,7 @@ class MixedFrictionTable:
 
 @record
 class Friction:
-    """Friction between the teeth: coefficients, or the law of the friction regime."""
+    """Friction between the teeth: either given coefficients, or the law of the friction regime."""
 
     coefficient: float | None = quantity(
         "coefficient of friction",
@@ -338,13 +342,13 @@ class Friction:
 
     @property
     def law(self) -> MixedFrictionCurve | MixedFrictionTable:
-        """The mixed-lubrication branch in force."""
+        """The law of mixed friction in use: the table if there is one, otherwise the curve."""
         return self.mixed_curve if self.mixed_law is None else self.mixed_law
 
 
 @record
 class ModelOptions:
-    """Choices where the paper leaves room."""
+    """Options of the model for which the paper is not definite."""
 
     kinematics: KinematicModel = quantity(
         "kinematics of the teeth",
@@ -424,9 +428,9 @@ class CouplingInputs:
 
 @record
 class RecommendationInputs:
-    """A coupling whose crowning is sought for a range of misalignment, 0 < minimum <= maximum.
+    """Inputs of the search for the best crowning ratio over a range of misalignment, with 0 < minimum <= maximum.
 
-    `design` gives everything else; its own crowning ratio and misalignment are not read.
+    `design` contains all other inputs; the search ignores the crowning ratio and the misalignment of `design`.
     """
 
     design: CouplingInputs
@@ -435,7 +439,10 @@ class RecommendationInputs:
 
 
 def check_inputs(inputs: CouplingInputs) -> None:
-    """Raise InvalidInput for what cannot be computed: out_of_range, pitch_errors_length, mixed_law, mixed_curve."""
+    """Raise InvalidInput if the inputs cannot be computed.
+
+    The codes are `out_of_range`, `pitch_errors_length`, `mixed_law` and `mixed_curve`.
+    """
     if not abs(inputs.operation.misalignment) <= MAX_MISALIGNMENT:
         raise InvalidInput(
             "out_of_range",
@@ -457,7 +464,7 @@ def check_inputs(inputs: CouplingInputs) -> None:
 
 
 def _check_pitch_errors(inputs: CouplingInputs) -> None:
-    """One finite pitch deviation a tooth."""
+    """Check that there is one finite pitch deviation per tooth."""
     errors = inputs.coupling.pitch_errors
     if errors is None:
         return
@@ -472,7 +479,7 @@ def _check_pitch_errors(inputs: CouplingInputs) -> None:
 
 
 def _check_mixed_curve(law: MixedFrictionCurve) -> None:
-    """Positive numbers, the lowest coefficient not above the highest."""
+    """Check that the lowest coefficient does not exceed the highest coefficient."""
     if law.lowest > law.highest:
         raise InvalidInput(
             "mixed_curve",
@@ -482,7 +489,7 @@ def _check_mixed_curve(law: MixedFrictionCurve) -> None:
 
 
 def _check_mixed_table(law: MixedFrictionTable) -> None:
-    """Positive coefficients over rising velocities >= 0; one point is a constant."""
+    """Check that the velocities rise from zero or more, and that there is one positive coefficient per velocity."""
     velocities, coefficients = law.sliding_velocity, law.coefficient
     rising = all(a < b for a, b in pairwise(velocities))
     if len(velocities) != len(coefficients) or not velocities or not rising or not velocities[0] >= 0.0:

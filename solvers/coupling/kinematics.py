@@ -1,9 +1,9 @@
 """Motion of the teeth of a tilted hub in the sleeve over one revolution.
 
-Frame: z along the sleeve's axis, y the tilt axis. The tooth angle phi counts from x: a tooth is tilted at 90 and 270
-degrees and pivoted at 0 and 180. To first order in the misalignment every quantity is a harmonic of phi. A mesh is
-therefore described by the coefficients of sin, cos and their products. The two kinematic models differ only in these
-coefficients.
+In the frame used here, z is along the axis of the sleeve and y is the tilt axis. The tooth angle phi is measured from
+x. A tooth is in a tilt position at 90 and 270 degrees, and in a pivot position at 0 and 180 degrees. To first order in
+the misalignment every quantity is a harmonic of phi. A mesh is therefore described by the coefficients of sin(phi), of
+cos(phi) and of their products. The two kinematic models, tangential and spatial, differ only in these coefficients.
 """
 
 from dataclasses import dataclass
@@ -18,8 +18,8 @@ from solvers.coupling.results import Geometry, KinematicCurves, Kinematics
 
 _LEAST_ROTOR_POSITIONS = 208  # rotor positions per revolution: 4 per pitch for the paper's 52 teeth
 _CURVE_ANGLE = frozen(np.linspace(0.0, 2.0 * pi, 181))  # curves in steps of 2°
-# Number of parts of a pitch; each part has a Gauss rule of _PITCH_NODES points. The number is even (chosen): half a
-# turn shifts the teeth by half a pitch if their number is odd, and then maps the parts onto themselves.
+# Number of parts of a pitch; each part has a Gauss rule of _PITCH_NODES points. The number of parts is chosen even,
+# because half a turn shifts an odd number of teeth by half a pitch, and must then map the parts onto each other.
 _PITCH_PARTS = 4
 _PITCH_NODES = 8  # chosen: 32 angles per pitch, and exact for polynomials up to degree 15 in each part
 _gauss_rule = cache(np.polynomial.legendre.leggauss)
@@ -45,10 +45,11 @@ def tooth_geometry(coupling: Coupling) -> Geometry:
 
     Notes
     -----
-    Eq. C1. The centre of the cutter moves on the crowning radius r_b. At the axial distance zeta the cutter therefore
-    feeds radially by zeta^2/(2 r_b). The flank recedes by this feed times tan(alpha) tangentially and times sin(alpha)
-    along its normal. Hence the flank radius is r_b/tan(alpha) in the tangential plane and r_b/sin(alpha) in the plane
-    of action; the latter is Pahl's "pressure line radius" R_e.
+    Eq. C1. The centre of the cutter moves on a circle with the crowning radius r_b. At the axial distance zeta from the
+    middle of the face, the cutter is therefore fed radially by zeta^2/(2 r_b). The flank recedes tangentially by this
+    feed times tan(alpha), and along the flank normal by this feed times sin(alpha). Hence the flank radius is
+    r_b/tan(alpha) in the tangential plane and r_b/sin(alpha) in the plane of action. The radius in the plane of action
+    is Pahl's "pressure line radius" R_e.
     """
     radius = pitch_radius(coupling)
     crowning_radius = coupling.crowning_ratio * radius
@@ -62,7 +63,7 @@ def tooth_geometry(coupling: Coupling) -> Geometry:
 
 @dataclass(frozen=True, slots=True)
 class ToothPositions:
-    """Sine and cosine of the tooth angles, one row per rotor angle and one column per tooth (or any other shape)."""
+    """Sine and cosine of tooth angles, usually with one row per rotor angle and one column per tooth."""
 
     sine: FloatArray
     cosine: FloatArray
@@ -72,8 +73,9 @@ class ToothPositions:
 class MeshMotion:
     """Motion of one mesh; `side` is +1 if the hub drives the sleeve, -1 if the sleeve drives the hub.
 
-    With s, c = sin(phi), cos(phi): the sliding velocity is `sliding` s [m/s]; the contact position on the hub flank is
-    `travel_sin` s + `travel_cos` c [m]; the tangential displacement is `tilt` s^2 + `mixed` s c + `pivot` c^2 [m].
+    Here s is sin(phi) and c is cos(phi). The sliding velocity is `sliding` s [m/s], the contact position on the hub
+    flank is `travel_sin` s + `travel_cos` c [m], and the tangential displacement is `tilt` s^2 + `mixed` s c + `pivot`
+    c^2 [m].
     """
 
     side: int
@@ -88,17 +90,17 @@ class MeshMotion:
 
 
 def positions_per_pitch(teeth: int) -> int:
-    """Return the number of rotor angles per tooth pitch: at least 208 per revolution, at most 1.7 degrees apart."""
+    """Return the smallest number of rotor angles per tooth pitch that gives at least 208 angles per revolution."""
     return ceil(_LEAST_ROTOR_POSITIONS / teeth)
 
 
 def revolution(teeth: int, refinement: int = 1) -> FloatArray:
-    """Return evenly spaced rotor angles [rad] of one revolution from zero, a whole number per tooth pitch."""
+    """Return evenly spaced rotor angles [rad] of one revolution, from zero up, with a whole number per tooth pitch."""
     return np.linspace(0.0, 2.0 * pi, refinement * positions_per_pitch(teeth) * teeth, endpoint=False)
 
 
 def tooth_positions(rotor_angles: FloatArray, teeth: int) -> ToothPositions:
-    """Compute the positions phi_i = 2 pi i / teeth + rotor angle, shape (rotor angles, teeth)."""
+    """Compute sine and cosine of phi_i = 2 pi i / teeth + rotor angle, both in the shape (rotor angles, teeth)."""
     pitch_angles = 2.0 * np.pi / teeth * np.arange(teeth)
     sin_pitch, cos_pitch = np.sin(pitch_angles), np.cos(pitch_angles)
     sin_rotor, cos_rotor = np.sin(rotor_angles)[:, None], np.cos(rotor_angles)[:, None]
@@ -126,7 +128,7 @@ def mesh_motion(
     side : int
         +1 if the hub drives the sleeve, -1 if the sleeve drives the hub.
     tilt : int
-        Direction of the hub's tilt, +1 or -1 times the misalignment.
+        +1 or -1; the tilt of the hub is the misalignment times this number.
 
     Returns
     -------
@@ -135,12 +137,14 @@ def mesh_motion(
 
     Notes
     -----
-    Eqs. C3, C5. With the tilt angle delta and the flank normal n, `spatial` has s_1 = R_e delta n_x. At side +1 it has
-    f_t = r_o delta^2/(2 cos alpha) sin(phi - alpha) [eps sin(phi - alpha)/sin alpha + cos phi], exact to first order
-    (confirmed by brute-force involute geometry). Side -1 replaces phi by pi - phi in f_t.
+    Eqs. C3, C5. Here delta is the tilt angle and n the flank normal. With `spatial` kinematics s_1 = R_e delta n_x. If
+    `side` is +1, f_t = r_o delta^2/(2 cos alpha) sin(phi - alpha) [eps sin(phi - alpha)/sin alpha + cos phi]; this is
+    exact to first order, as a numerical calculation with exact involutes has confirmed. If `side` is -1, f_t has pi -
+    phi in the place of phi.
 
-    `tangential` keeps the tilt alone: s_1 = -side R_t delta sin phi and f_t = R_t delta^2/2 sin^2 phi. The paper's
-    words describe this model, in which sliding, displacement and reversal peak together.
+    With `tangential` kinematics only the tilt is considered, without the pivot motion: s_1 = -side R_t delta sin phi
+    and f_t = R_t delta^2/2 sin^2 phi. The paper describes this model in words. In this model the sliding velocity and
+    the displacement are largest where the travel of the contact reverses.
     """
     delta = tilt * operation.misalignment
     alpha, ratio, radius = coupling.pressure_angle, coupling.crowning_ratio, geometry.pitch_radius
@@ -182,7 +186,7 @@ def sliding_velocity(mesh: MeshMotion, teeth: ToothPositions) -> FloatArray:
 
 
 def relative_velocity(mesh: MeshMotion, teeth: ToothPositions, axial_velocity: float) -> FloatArray:
-    """Return v_r = v_ax + v_G [m/s], the velocity that decides the direction of friction (Fig. 14)."""
+    """Return v_r = v_ax + v_G [m/s]; the sign of this velocity is the direction of friction (Fig. 14)."""
     return axial_velocity + sliding_velocity(mesh, teeth)
 
 
@@ -225,8 +229,8 @@ def hydrodynamic_velocity(mesh: MeshMotion, teeth: ToothPositions) -> FloatArray
 
     Notes
     -----
-    Eq. C6. The contact moves at s_1' on the hub flank and at s_1' + v_G on the sleeve flank. The constant 2.447 of the
-    load capacity belongs to the sum of both velocities, not to their mean.
+    Eq. C6. The contact moves with the velocity s_1' on the hub flank and with s_1' + v_G on the sleeve flank. The
+    constant 2.447 in the load capacity applies to the sum of both velocities, not to their mean.
     """
     contact_velocity = mesh.speed * (mesh.travel_sin * teeth.cosine - mesh.travel_cos * teeth.sine)
     return np.abs(2.0 * contact_velocity + mesh.sliding * teeth.sine)
@@ -258,7 +262,7 @@ def tangential_displacement(mesh: MeshMotion, teeth: ToothPositions) -> FloatArr
 
 
 def max_contact_travel(mesh: MeshMotion) -> float:
-    """Return s_1max [m]: R_t |delta| with tangential, R_e |delta| with spatial kinematics."""
+    """Return s_1max [m], which is R_t |delta| with tangential kinematics and R_e |delta| with spatial kinematics."""
     return hypot(mesh.travel_sin, mesh.travel_cos)
 
 
@@ -290,7 +294,7 @@ def displacement_peak_to_peak(mesh: MeshMotion) -> float:
 def displacement_peak(mesh: MeshMotion) -> float:
     """Return the tooth angle [rad] at which f_t is largest.
 
-    The angle is 90 degrees with tangential, 90 degrees + side (alpha - chi) with spatial kinematics.
+    With tangential kinematics this angle is 90 degrees; with spatial kinematics it differs from 90 degrees.
     """
     return pi / 2.0 + 0.5 * atan2(-mesh.mixed, mesh.tilt - mesh.pivot)
 
@@ -331,7 +335,7 @@ def flank_normals(mesh: MeshMotion, teeth: ToothPositions) -> FloatArray:
     Notes
     -----
     Eq. C4: n = side cos(alpha) e_t + sin(alpha) e_r. The tangential tooth force times n/cos(alpha) is the lateral force
-    on the sleeve. Its radial part points outward at both sides.
+    of the tooth on the sleeve. The radial part of this force points outward for both values of `side`.
     """
     radial = tan(mesh.pressure_angle)
     return np.stack(
@@ -341,7 +345,7 @@ def flank_normals(mesh: MeshMotion, teeth: ToothPositions) -> FloatArray:
 
 @dataclass(frozen=True, slots=True)
 class RotorSamples:
-    """Quadrature over rotor angles: `weight` (rows) adds up to one, `teeth` are the tooth positions (rows, teeth)."""
+    """Quadrature over rotor angles: `weight` (rows) adds up to one, `teeth` holds the tooth positions (rows, teeth)."""
 
     weight: FloatArray
     teeth: ToothPositions
@@ -357,11 +361,11 @@ def friction_reversals(mesh: MeshMotion, axial_velocity: float) -> list[float]:
 
 
 def rotor_samples(coupling: Coupling, mesh: MeshMotion, axial_velocity: float) -> RotorSamples:
-    """Return Gauss points between the rotor angles at which friction reverses at some tooth.
+    """Return Gauss points in the intervals between the rotor angles at which friction reverses at some tooth.
 
-    Friction jumps if a tooth's relative velocity changes sign. The pitch is divided at these angles, so that the
-    integrand of each part is continuous and has kinks only where a tooth comes under load. Several hundred midpoints
-    are no better.
+    The friction of a tooth jumps where the relative velocity of the tooth changes sign. The pitch is divided at these
+    rotor angles. In each part, the integrand is therefore continuous, and has kinks only where a tooth comes under
+    load. A midpoint rule with several hundred points is not more accurate.
     """
     uneven = coupling.pitch_errors is not None
     return _samples(coupling.teeth, uneven, tuple(friction_reversals(mesh, axial_velocity)))
@@ -369,9 +373,10 @@ def rotor_samples(coupling: Coupling, mesh: MeshMotion, axial_velocity: float) -
 
 @lru_cache(maxsize=4)
 def _samples(teeth: int, uneven: bool, reversals: tuple[float, ...]) -> RotorSamples:
-    """Return the quadrature of `rotor_samples`; the key of the cache does not hold the misalignment.
+    """Return the quadrature of `rotor_samples`.
 
-    Without axial velocity the reversals, and so the points, are the same at any misalignment.
+    The misalignment is not part of the cache key: without axial velocity, the reversals and therefore the points are
+    the same at every misalignment.
     """
     pitch = 2.0 * pi / teeth
     breaks = [angle % pitch for angle in reversals]

@@ -1,4 +1,4 @@
-"""Lubrication of the highest loaded tooth (Figs 7 and 8), and the friction regimes that follow (Figs 9, 10 and 11)."""
+"""Lubrication of the most heavily loaded tooth (Figs 7 and 8), and the resulting friction (Figs 9, 10 and 11)."""
 
 from dataclasses import dataclass
 from functools import lru_cache
@@ -32,16 +32,16 @@ from solvers.coupling.tooth_loads import largest_value, mesh_loads
 from solvers.errors import InvalidInput
 from solvers.materials import Solid
 
-MAX_CONTACT_PRESSURE = 2e9  # Pa, chosen: the model is elastic, hardened steel yields near it
+MAX_CONTACT_PRESSURE = 2e9  # Pa, chosen: the model is elastic, but hardened steel yields near this pressure
 MAX_CONTACT_WIDTH = 0.1
-"""Half contact width over flank radius beyond which a cylinder no longer acts as a half-space."""
+"""Largest ratio of half contact width to flank radius at which a cylinder still deforms like a half-space."""
 UNBOUNDED_LOAD = 0.20395702057972376
-"""W of an infinitely long inlet, whose exit lies at tan g = 0.47513; 12 W is Pahl's 2.447."""
+"""Load W of a gap with an infinitely long inlet, with the exit at tan g = 0.47513; 12 W is Pahl's constant 2.447."""
 OVERLAP_BOUNDARIES = (1.0, 2.0)  # Pahl, regimes of Figs 9 to 11
 CAPACITY_BOUNDARIES = (0.2, 0.8)  # Pahl, regimes of Figs 9 to 11
 UNSTABLE_AREA = "3.3"
 
-# Fig. 9: area -> name and the paper's band of friction; None if the paper states no end.
+# Name of each area of Fig. 9, and lower and upper end of the paper's band of friction; None if the paper states no end.
 _AREAS: dict[str, tuple[str, float | None, float | None]] = {
     "1.1": ("mixed lubrication", 0.05, 0.1),
     "1.2": ("transition from mixed to boundary lubrication", 0.1, 0.1),
@@ -57,9 +57,10 @@ _AREAS: dict[str, tuple[str, float | None, float | None]] = {
 
 @dataclass(frozen=True, slots=True)
 class FilmState:
-    """The two coordinates of the map of friction conditions, and the values from which they follow.
+    """The coordinates `overlap` and `load_capacity_coefficient` of the friction map, and the values behind them.
 
-    `overlap` is inf if the contact does not travel. `load_capacity_coefficient` is inf if the film carries no load.
+    `overlap` is inf if the contact does not travel. `load_capacity_coefficient` is inf if there is a film but no tooth
+    force.
     """
 
     max_normal_force: float
@@ -73,10 +74,11 @@ class FilmState:
 
 
 def max_normal_force(inputs: CouplingInputs, mesh: MeshMotion) -> float:
-    """Compute the largest normal tooth force [N] with a tooth in the tilt position, at 90 degrees.
+    """Compute the largest normal tooth force [N] while one tooth is in the tilt position, at 90 degrees.
 
-    With pitch deviations every tooth is different, and the result is the largest force of a revolution. With `spatial`
-    kinematics the largest displacement lies past the tilt position, and a tooth there carries more.
+    If the pitch deviations of the teeth differ, the result is the largest force in a whole revolution. With `spatial`
+    kinematics the displacement is largest beyond the tilt position, and a tooth there carries more than in the tilt
+    position.
     """
     if len(set(inputs.coupling.pitch_errors or ())) <= 1:
         return float(_largest_forces(inputs, mesh, _positions_at(pi / 2, inputs.coupling.teeth)).max())
@@ -102,7 +104,7 @@ def _largest_forces(inputs: CouplingInputs, mesh: MeshMotion, teeth: ToothPositi
 
 
 def hertz_contact(coupling: Coupling, geometry: Geometry, normal_force: float) -> tuple[float, float]:
-    """Compute the Hertzian contact of a cylinder with radius R_e on a plane, over the tooth height.
+    """Compute the Hertzian contact between a plane and a cylinder of radius R_e that is as long as the tooth height.
 
     Parameters
     ----------
@@ -131,10 +133,10 @@ def hertz_contact(coupling: Coupling, geometry: Geometry, normal_force: float) -
 
 
 def inlet_length(model: ModelOptions, face_width: float, max_travel: float) -> float:
-    """Return the length b_I of the converging gap ahead of the contact [m]; the paper does not define b_I.
+    """Return the length b_I [m] of the converging gap ahead of the contact; the paper does not define b_I.
 
-    `face` is the part of the face ahead of the contact at its reversal, where the paper finds the thickest film. A
-    contact that has left the tooth has no inlet, whatever the model of the inlet is.
+    With the inlet model `face`, b_I is the part of the face that is ahead of the contact when the contact reverses; the
+    paper finds the thickest film there. If the contact has left the tooth, b_I is zero with every inlet model.
     """
     if max_travel >= face_width / 2.0:
         return 0.0
@@ -161,9 +163,9 @@ def starved_load(inlet_ratio: float) -> float:
 
     Notes
     -----
-    Eqs. C15, C16. Reynolds equation for rigid surfaces and constant viscosity, with its exit condition (zero pressure
-    and gradient) at tan g, solved in closed form: [A2(g) + A2(g_B)] cos^2 g = A4(g) + A4(g_B), W = (1 - H_m/H_B)^2/(4
-    H_m). Bisection finds g in (0, g_B).
+    Eqs. C15, C16. The Reynolds equation for rigid surfaces and constant viscosity is solved in closed form. At the
+    exit, tan g, the pressure and its gradient are zero. This condition is [A2(g) + A2(g_B)] cos^2 g = A4(g) + A4(g_B),
+    and the load is W = (1 - H_m/H_B)^2/(4 H_m). Bisection finds g in (0, g_B).
     """
     inlet = atan(inlet_ratio)
     a2 = inlet / 2.0 + sin(2.0 * inlet) / 4.0
@@ -184,7 +186,7 @@ def starved_load(inlet_ratio: float) -> float:
 
 
 def inlet_factor(inlet_ratio: float) -> float:
-    """Compute the load capacity of a starved inlet over that of an infinitely long inlet.
+    """Compute the ratio of the load capacity with a starved inlet to that with an infinitely long inlet.
 
     Parameters
     ----------
@@ -201,7 +203,7 @@ def inlet_factor(inlet_ratio: float) -> float:
     Fig. 8; Eq. C16.
     """
     if inlet_ratio < 0.02:
-        # Series; the closed form loses its digits to cancellation here.
+        # Series, because the closed form loses its digits by cancellation at so small a ratio.
         return 0.68948 * inlet_ratio**4
     return 1.0 if inlet_ratio == inf else min(1.0, starved_load(inlet_ratio) / UNBOUNDED_LOAD)
 
@@ -214,7 +216,7 @@ def hydrodynamic_capacity(
     Parameters
     ----------
     tooth_height : float
-        Bearing tooth height h_trag [m].
+        Load-carrying tooth height h_trag [m].
     viscosity : float
         Dynamic viscosity eta [Pa s].
     velocity : float
@@ -233,15 +235,16 @@ def hydrodynamic_capacity(
 
     Notes
     -----
-    Eq. C14. Fig. 8 prints "h" above and "trag" below the fraction bar: the index of h_trag has slipped.
+    Eq. C14. Fig. 8 prints the "h" of h_trag above the fraction bar and the index "trag" below the bar, which is a
+    misprint.
     """
     return 12.0 * UNBOUNDED_LOAD * tooth_height * viscosity * velocity * radius / film * factor
 
 
 def film_velocity(mesh: MeshMotion, angle: float | None) -> float:
-    """Return the hydrodynamic velocity that builds the film [m/s].
+    """Return the hydrodynamic velocity [m/s] that builds the film.
 
-    This is the velocity at the tooth angle [rad], or the largest velocity if the angle is None.
+    This is the velocity at the given tooth angle [rad], or the largest velocity of a revolution if the angle is None.
     """
     if angle is None:
         return max_hydrodynamic_velocity(mesh)
@@ -250,7 +253,7 @@ def film_velocity(mesh: MeshMotion, angle: float | None) -> float:
 
 
 def film_state(inputs: CouplingInputs, geometry: Geometry, mesh: MeshMotion) -> FilmState:
-    """Compute contact overlap and load capacity coefficient of one mesh.
+    """Compute the contact overlap and the load capacity coefficient of one mesh.
 
     Parameters
     ----------
@@ -295,17 +298,17 @@ def film_state(inputs: CouplingInputs, geometry: Geometry, mesh: MeshMotion) -> 
 
 
 def _capacity_ratio(capacity: float, force: float) -> float:
-    """Return Tr: zero if there is no film, inf if the film carries no load."""
+    """Return Tr; it is zero if there is no film, and inf if there is a film but no force."""
     if capacity == 0.0:
         return 0.0
     return capacity / force if force > 0.0 else inf
 
 
 def friction_regime(overlap: float, load_capacity_coefficient: float) -> Regime:
-    """Find the area of Fig. 9.
+    """Find the area of the friction map (Fig. 9).
 
-    A load capacity coefficient on a boundary belongs to the row with the higher number. An overlap on a boundary
-    belongs to the middle column.
+    If the load capacity coefficient is on a boundary, the area is in the row with the higher number. If the overlap is
+    on a boundary, the area is in the middle column.
     """
     row = 1 + sum(load_capacity_coefficient >= boundary for boundary in CAPACITY_BOUNDARIES)
     column = 1 + (overlap >= OVERLAP_BOUNDARIES[0]) + (overlap > OVERLAP_BOUNDARIES[1])
@@ -321,19 +324,19 @@ def friction_regime(overlap: float, load_capacity_coefficient: float) -> Regime:
 
 
 def _distance_to_boundary(overlap: float, load_capacity_coefficient: float) -> float | None:
-    """Return the smallest |ln| of a coordinate over one of its boundaries, or None if all are infinitely far."""
+    """Return the smallest |ln(coordinate/boundary)| over all boundaries on both axes; None if all are infinite."""
     ratios = [overlap / boundary for boundary in OVERLAP_BOUNDARIES]
     ratios += [load_capacity_coefficient / boundary for boundary in CAPACITY_BOUNDARIES]
     return min((abs(log(ratio)) for ratio in ratios if 0.0 < ratio < inf), default=None)
 
 
 def mixed_friction(law: MixedFrictionCurve | MixedFrictionTable, sliding_velocity: float) -> float:
-    """Compute the friction in area 1.1.
+    """Compute the coefficient of friction in area 1.1, with mixed lubrication.
 
     Parameters
     ----------
     law : MixedFrictionCurve or MixedFrictionTable
-        Mixed friction over the sliding velocity.
+        Coefficient of mixed friction as a function of the sliding velocity.
     sliding_velocity : float
         Largest sliding velocity [m/s].
 
@@ -360,12 +363,16 @@ def lowest_mixed_friction(law: MixedFrictionCurve | MixedFrictionTable) -> float
 
 
 def _interpolate_logarithm(x: float, points: tuple[tuple[float, float], ...]) -> float:
-    """Interpolate ln(y) linearly in x; constant outside."""
+    """Interpolate ln(y) linearly in x between the `points` (x, y), and return y; outside the points y is constant."""
     return exp(float(np.interp(x, [p[0] for p in points], [log(p[1]) for p in points])))
 
 
 def _well_supplied(load_capacity_coefficient: float, mixed: float, lowest: float) -> float:
-    """Compute the friction at an overlap below 1: from mixed friction through its lowest value to a full film."""
+    """Compute the coefficient of friction at an overlap below 1.
+
+    As the load capacity coefficient rises, the friction changes from `mixed`, the mixed friction at the present
+    velocity, to `lowest`, the smallest mixed friction at any velocity, and then to the friction of a full film.
+    """
     full_film = min(0.01, lowest)
     if load_capacity_coefficient > 0.8:
         return min(full_film, max(0.003, 0.008 / load_capacity_coefficient))
@@ -373,9 +380,9 @@ def _well_supplied(load_capacity_coefficient: float, mixed: float, lowest: float
 
 
 def _poorly_supplied(overlap: float, load_capacity_coefficient: float) -> float:
-    """Compute the friction at an overlap above 2.
+    """Compute the coefficient of friction at an overlap of 2 or more.
 
-    Without film it rises to 0.16, the largest coefficient that Calistrat measured (1981).
+    Without a film the coefficient rises with the overlap to 0.16, the largest value that Calistrat measured (1981).
     """
     dry = 0.1 + 0.06 * min(1.0, (overlap - 2.0) / 2.0)
     points = ((0.0, dry), (0.2, 0.1), (0.8, 0.1), (1.6, 0.05))
@@ -383,7 +390,7 @@ def _poorly_supplied(overlap: float, load_capacity_coefficient: float) -> float:
 
 
 def regime_friction(overlap: float, load_capacity_coefficient: float, mixed: float, lowest: float) -> float:
-    """Compute the coefficient of friction anywhere on the map; the result is continuous.
+    """Compute the coefficient of friction at any point of the friction map; the coefficient is continuous.
 
     Parameters
     ----------
@@ -403,9 +410,10 @@ def regime_friction(overlap: float, load_capacity_coefficient: float, mixed: flo
 
     Notes
     -----
-    Eq. C18. The paper states bands. This law keeps to the end values of the bands, and lies inside the bands of areas
-    1.1, 1.3, 2.1, 2.2, 2.3 and 3.1. It blends across area 1.2, and may leave the band of area 3.2 near overlap 1: the
-    paper calls the boundaries fluid. The coefficient never rises with the load capacity coefficient.
+    Eq. C18. The paper states only a band of friction for each area. The law used here keeps to the end values of the
+    bands, and lies inside the bands of areas 1.1, 1.3, 2.1, 2.2, 2.3 and 3.1. In area 1.2 the law is a smooth
+    transition. Near overlap 1 the law may leave the band of area 3.2; the paper calls the boundaries of the areas
+    fluid. The coefficient of friction never rises when the load capacity coefficient rises.
     """
     if overlap > 2.0:
         return _poorly_supplied(overlap, load_capacity_coefficient)
@@ -419,7 +427,7 @@ def regime_friction(overlap: float, load_capacity_coefficient: float, mixed: flo
 def friction_coefficient(
     friction: Friction, overlap: float, load_capacity_coefficient: float, sliding_velocity: float
 ) -> float:
-    """Return the coefficient of friction: the user's, or that of the regime at the largest sliding velocity [m/s]."""
+    """Return the user's coefficient of friction, or that of the friction map at this largest sliding velocity [m/s]."""
     if friction.coefficient is not None:
         return friction.coefficient
     law = friction.law
@@ -430,7 +438,8 @@ def friction_coefficient(
 def static_friction(friction: Friction) -> float:
     """Return the coefficient of friction at rest.
 
-    The user's static coefficient comes first, then the user's coefficient, then the regime at rest without film.
+    The function returns the user's static coefficient if there is one, otherwise the user's coefficient of friction if
+    there is one, and otherwise the coefficient of the friction map at rest without a film.
     """
     if friction.static_coefficient is not None:
         return friction.static_coefficient
@@ -438,7 +447,7 @@ def static_friction(friction: Friction) -> float:
 
 
 def check_contact(film: FilmState, geometry: Geometry) -> None:
-    """Raise InvalidInput hertz_pressure (> 2 GPa) or contact_width (a_HZ > 0.1 R_e)."""
+    """Raise InvalidInput: `hertz_pressure` above 2 GPa, or `contact_width` if a_HZ exceeds 0.1 R_e."""
     if film.contact_pressure > MAX_CONTACT_PRESSURE:
         raise InvalidInput(
             "hertz_pressure",

@@ -1,4 +1,4 @@
-"""The gear coupling after Pahl, "The operating characteristics of gear-type couplings"."""
+"""Model of the gear coupling after Pahl, "The operating characteristics of gear-type couplings"."""
 
 from math import isfinite
 
@@ -65,7 +65,7 @@ def solve(inputs: CouplingInputs) -> CouplingResult:
 
 
 def _lubrication(film: FilmState, friction: float) -> Lubrication:
-    """Return the values of the film; a ratio without meaning is None."""
+    """Return the results of lubrication; a ratio that has no meaning is None."""
     tr = film.load_capacity_coefficient
     return Lubrication(
         max_normal_force=film.max_normal_force,

@@ -1,4 +1,4 @@
-"""Warnings of a coupling calculation: values outside their ranges, and values without meaning."""
+"""Warnings of a coupling calculation about values outside their ranges and values without meaning."""
 
 from collections.abc import Iterator
 from math import degrees
@@ -12,10 +12,10 @@ from solvers.lubricants import oil_temperature, thick_oil
 from solvers.notices import Notice, unusual_value
 
 ORBIT_RESOLUTION = 0.01
-"""Relative uncertainty of an orbit from which a notice is given."""
-TALLEST_TOOTH = 4.0  # modules, chosen
+"""Relative uncertainty of an orbit above which a notice is given."""
+TALLEST_TOOTH = 4.0  # in modules, chosen
 LEAST_ORBIT = 1e-10
-"""Largest displacement [m] below which an orbit counts as zero: with perfect teeth only rounding remains."""
+"""Largest displacement [m] below which an orbit counts as zero. With perfect teeth only rounding errors remain."""
 
 
 def motion_notices(
@@ -103,7 +103,7 @@ def load_notices(
 
 
 def contact_notices(inputs: CouplingInputs, kinematics: Kinematics, lubrication: Lubrication) -> Iterator[Notice]:
-    """Yield the notices about the oil, the contact on the face and the film."""
+    """Yield the notices about the oil, the position of the contact on the tooth face, and the oil film."""
     yield from thick_oil(inputs.lubricant.viscosity)
     if inputs.lubricant.temperature is not None:
         yield from oil_temperature(inputs.lubricant.temperature, "lubricant.temperature")
@@ -134,9 +134,10 @@ def orbit_notices(
     harmonic: float,
     harmonic_uncertainty: float | None,
 ) -> Iterator[Notice]:
-    """Yield the notices about the position and the resolution of an orbit.
+    """Yield the notices about an orbit: the sleeve's position may not be unique, or the orbit not accurate.
 
-    `displacement` [m] and `harmonic` [N] are the largest of the orbit.
+    `fewest_teeth` is the smallest number of loaded teeth at any rotor angle. `displacement` [m] is the largest
+    displacement of the orbit, and `harmonic` [N] the largest harmonic of the inertia force.
     """
     if fewest_teeth < 3:
         message = (
@@ -172,7 +173,7 @@ def unusual_values(inputs: CouplingInputs | RecommendationInputs, _result: objec
 
 
 def tall_tooth(height: float, module: float, section: str = "coupling") -> Iterator[Notice]:
-    """Warn of a tooth height [m] of a coupling that is unusual for its module [m]."""
+    """Warn if the tooth height [m] of a coupling is unusually large for the module [m]."""
     if height > TALLEST_TOOTH * module:
         message = (
             f"the tooth height of {height * 1e3:g} mm exceeds {TALLEST_TOOTH:g} modules; was a diameter entered "

@@ -21,15 +21,15 @@ from solvers.coupling.results import Geometry, InertiaForce, Orbit, OrbitResult
 from solvers.coupling.tooth_loads import LOADED, floating_loads, largest_value
 from solvers.errors import InvalidInput, NoSolution
 
-MAX_SWEEPS = 50  # limit; a path that has not settled by then does not settle
-REPEAT_TOLERANCE = 1e-12  # m, near the rounding of a path of some ten micrometres
-HIGHEST_ORDER = 12  # of the path; the result reports the change with twice as many
-REFINEMENTS = (2, 3)  # of the rotor angles, for the uncertainty of an orbit
+MAX_SWEEPS = 50  # limit; a path that has not settled after so many sweeps does not settle at all
+REPEAT_TOLERANCE = 1e-12  # m, close to the rounding error of a path of some ten micrometres
+HIGHEST_ORDER = 12  # highest Fourier order of the path; the result reports the change with twice as many orders
+REFINEMENTS = (2, 3)  # factors on the number of rotor angles, for the uncertainty of an orbit
 
 
 @dataclass(frozen=True, slots=True)
 class _SettledPath:
-    """Path (rows, 2) [m], its inertia force (rows, 2) [N] and its `farthest` displacement [m].
+    """Path of the sleeve (rows, 2) [m], inertia force on this path (rows, 2) [N], largest displacement `farthest` [m].
 
     `sweeps` is the number of sweeps, `change` [m] the change in the last sweep, and `fewest` the smallest number of
     loaded teeth at any rotor angle.
@@ -64,20 +64,21 @@ def solve_orbit(inputs: CouplingInputs) -> OrbitResult:
     Raises
     ------
     InvalidInput
-        As `solve`; also `torque_too_low` if the tooth forces cannot hold the sleeve.
+        The codes of `check_inputs`; also `torque_too_low` if the tooth forces cannot hold the sleeve.
     NoSolution
-        `sleeve_orbit` if the path does not repeat within 50 sweeps, or if a position is left without balance.
+        `sleeve_orbit` if the path does not repeat within 50 sweeps, or if the sleeve has no balance at some rotor
+        angle.
 
     Notes
     -----
-    Eq. C11: m_s omega^2 d2e/dtheta2 = sum F_n n. No weight acts. Each sweep balances the sleeve at every rotor angle
-    under the inertia force of the previous sweep, until the path repeats to 1e-12 m. The inertia force is derived in
-    Fourier space with orders up to 12. The sweeps contract while m_s (k omega)^2 stays well below the lateral
-    stiffness.
+    Eq. C11: m_s omega^2 d2e/dtheta2 = sum F_n n. The weight of the sleeve is neglected. Each sweep balances the sleeve
+    at every rotor angle under the inertia force of the previous sweep. The sweeps end when the path changes by less
+    than 1e-12 m. The inertia force follows from the path by differentiation in Fourier space, with orders k up to 12.
+    The sweeps converge as long as m_s (k omega)^2 is well below the lateral stiffness.
 
-    The uncertainty comes from two further paths with twice the orders, at two and at three times the rotor angles, both
-    started from the path. Two are needed: where teeth load and unload, the errors at two resolutions may happen to
-    agree.
+    The uncertainty follows from two further paths. They have twice as many orders; one has twice as many rotor angles,
+    the other three times as many. Both start from the settled path. One further path would not be enough, because the
+    errors at two resolutions may happen to agree if teeth load and unload.
     """
     check_inputs(inputs)
     if inputs.operation.torque == 0.0:
@@ -89,7 +90,7 @@ def solve_orbit(inputs: CouplingInputs) -> OrbitResult:
 
 
 def _finer_paths(inputs: CouplingInputs, settled: _SettledPath) -> list[_SettledPath]:
-    """Compute the paths at more rotor angles with twice the orders; return none if one of them does not settle."""
+    """Compute paths with more rotor angles and twice as many orders; return an empty list if one does not settle."""
     finer = []
     for refinement in REFINEMENTS:
         angles = revolution(inputs.coupling.teeth, refinement)
@@ -102,7 +103,10 @@ def _finer_paths(inputs: CouplingInputs, settled: _SettledPath) -> list[_Settled
 
 
 def _safe_force(inputs: CouplingInputs) -> float:
-    """Return a lateral force [N] that the teeth hold at every rotor angle; the sweeps shorten larger forces to it."""
+    """Return a lateral force [N] that the teeth hold at every rotor angle.
+
+    The sweeps limit the inertia force to this value.
+    """
     coupling = inputs.coupling
     holding_force = inputs.operation.torque / (pitch_radius(coupling) * cos(coupling.pressure_angle))
     return 0.999 * cos(pi / coupling.teeth) * holding_force
@@ -111,9 +115,10 @@ def _safe_force(inputs: CouplingInputs) -> float:
 def _settled_path(
     inputs: CouplingInputs, angles: FloatArray, force: FloatArray, highest_order: int, max_sweeps: int
 ) -> _SettledPath:
-    """Sweep from an inertia force (rows, 2) [N] until the path repeats.
+    """Repeat sweeps over the rotor angles until the path settles.
 
-    While teeth come under load, the change from sweep to sweep may grow for a dozen sweeps, and still die out.
+    The sweeps start with `force` (rows, 2) [N], a guess of the inertia force. While teeth come under load, the change
+    of the path from sweep to sweep may grow for a dozen sweeps before it dies out.
     """
     coupling, operation = inputs.coupling, inputs.operation
     mesh = mesh_motion(coupling, tooth_geometry(coupling), operation, inputs.model.kinematics)
@@ -145,8 +150,9 @@ def _farthest(
 ) -> float:
     """Find the largest displacement [m] under a settled inertia force (rows, 2) [N].
 
-    The search includes positions between the rotor angles: if few teeth are loaded, the displacement peaks within a
-    fraction of a pitch. The force is a sum of orders up to the highest, and is therefore known at these positions.
+    The search includes positions between the rotor angles, because a peak of the displacement lasts only a fraction of
+    a pitch if few teeth are loaded. The force is a sum of Fourier terms up to the highest order; the force is therefore
+    known at these positions.
     """
     coupling, limit = inputs.coupling, _safe_force(inputs)
     order = np.arange(highest_order + 1)
@@ -166,7 +172,7 @@ def _farthest(
 
 
 def _second_derivative(path: FloatArray, highest_order: int) -> FloatArray:
-    """Compute d2e/dtheta2 of a path (rows, 2) over one revolution, with orders up to the highest."""
+    """Compute d2e/dtheta2 of a path (rows, 2) over one revolution, with Fourier orders up to `highest_order`."""
     spectrum = np.fft.rfft(path, axis=0)
     order = np.arange(spectrum.shape[0])
     factor = np.where(order <= highest_order, -(order.astype(float) ** 2), 0.0)
@@ -174,13 +180,13 @@ def _second_derivative(path: FloatArray, highest_order: int) -> FloatArray:
 
 
 def _limited(force: FloatArray, limit: float) -> FloatArray:
-    """Shorten forces (rows, 2) to at most `limit`."""
+    """Shorten forces (rows, 2) that are larger than `limit` to this magnitude."""
     size = np.hypot(force[:, 0], force[:, 1])
     return force * (limit / np.maximum(size, limit))[:, None]
 
 
 def _check_holding(force: FloatArray, limit: float) -> None:
-    """Raise InvalidInput unless the teeth can hold the inertia force under the torque at every rotor angle."""
+    """Raise InvalidInput if the inertia force exceeds `limit`, the force that the teeth hold at every rotor angle."""
     needed = float(np.hypot(force[:, 0], force[:, 1]).max())
     if needed > limit:
         raise InvalidInput(
@@ -201,7 +207,7 @@ def _harmonics(force: FloatArray) -> FloatArray:
 def _result(
     angles: FloatArray, settled: _SettledPath, finer: Sequence[_SettledPath], geometry: Geometry
 ) -> OrbitResult:
-    """Return the settled orbit with its uncertainty, the largest difference from the finer paths."""
+    """Return the settled orbit and its uncertainty, the largest difference between this orbit and the finer paths."""
     harmonics = settled.harmonics
     displacement_uncertainty = max((abs(path.farthest - settled.farthest) for path in finer), default=None)
     harmonics_uncertainty = max((float(np.abs(path.harmonics - harmonics).max()) for path in finer), default=None)

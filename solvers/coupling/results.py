@@ -1,7 +1,7 @@
-"""Results of the coupling model at one operating point, in SI, arrays read-only.
+"""Results of the coupling model at one operating point, in SI units; arrays are read-only.
 
-Lengths [m], angles [rad], forces [N], moments [N m]. A value that has no meaning is None, and a notice in `warnings`
-says why.
+Lengths are in m, angles in rad, forces in N and moments in N m. A value that has no meaning is None, and a notice in
+`warnings` says why.
 """
 
 from typing import Self
@@ -27,10 +27,11 @@ class Geometry:
 
 @record
 class KinematicCurves:
-    """Motion over one revolution of a tooth of the driving hub, one value an angle.
+    """Motion of a tooth of the driving hub over one revolution, one value per angle.
 
-    `angle` counts from the pivot position (the tilt positions are at 90 and 270 degrees). `sliding_velocity` is
-    axial, hub against sleeve, signed; `hydrodynamic_velocity` a magnitude; `contact_position` axial on the hub tooth.
+    `angle` is measured from the pivot position; the tilt positions are at 90 and 270 degrees. `sliding_velocity` is the
+    axial velocity of the hub relative to the sleeve, with its sign. `hydrodynamic_velocity` is a magnitude.
+    `contact_position` is the axial position of the contact on the hub tooth.
     """
 
     angle: FloatArray = quantity("tooth angle", "φ", unit="deg", text="tooth angle from the pivot position")
@@ -72,7 +73,7 @@ class Kinematics:
 
 @record
 class LoadCurves:
-    """Tooth forces at the rotor angle asked for: tooth i stands at `angle` = 2 pi i / teeth + rotor angle."""
+    """Tooth forces at the requested rotor angle; the `angle` of tooth i is 2 pi i / teeth + rotor angle."""
 
     angle: FloatArray = quantity("angle of the tooth", "φ_i", unit="deg")
     tangential_force: FloatArray = quantity(
@@ -82,12 +83,13 @@ class LoadCurves:
 
 @record
 class LoadDistribution:
-    """One mesh, the one where the hub drives the sleeve, at the rotor angle asked for.
+    """Load distribution of the mesh in which the hub drives the sleeve, at the requested rotor angle.
 
-    `load_concentration` is largest over mean force (None without torque). `rotation` is the common rotation of the
-    hub against the sleeve as a length at the pitch radius. `unloading_misalignment`: beyond it some tooth carries
-    nothing (centred sleeve, many teeth, no pitch deviations). `sleeve_displacement` (x, y) is relative to the hub.
-    `iterations` of the floating sleeve, 0 for the centred one.
+    `load_concentration` is the ratio of the largest to the mean tooth force; it is None without torque. `rotation` is
+    the common rotation of the hub relative to the sleeve, as a length at the pitch radius. Beyond
+    `unloading_misalignment` some tooth carries no load; this limit applies to a centred sleeve with many teeth and no
+    pitch deviations. `sleeve_displacement` (x, y) is relative to the hub. `iterations` is the number of iterations for
+    a floating sleeve, and 0 for a centred sleeve.
     """
 
     mean_tangential_force: float = quantity("mean tangential force", "F_m", unit="n", text="of a tooth")
@@ -115,10 +117,11 @@ class LoadDistribution:
 
 @record
 class Regime:
-    """An area of the paper's map of friction conditions (Fig. 9); an open end of its friction band is None.
+    """An area of the paper's map of friction conditions (Fig. 9), and the friction band of this area.
 
-    `distance_to_boundary` is the smallest |ln| of overlap and load capacity against the map's boundaries; None where
-    both lie infinitely far (no misalignment).
+    If the paper states no lower or no upper end of the band, this end is None. `distance_to_boundary` is the smallest
+    |ln(coordinate/boundary)|, where the coordinates are the overlap and the load capacity coefficient. It is None if
+    all boundaries of the map are infinitely far away, which happens without misalignment.
     """
 
     area: str = quantity("friction area", None, f"{PAHL}, Fig. 9", text="area of the map of friction conditions")
@@ -133,10 +136,11 @@ class Regime:
 
 @record
 class Lubrication:
-    """Contact and film of the highest loaded tooth in the tilt position (of a revolution with pitch deviations).
+    """Contact and film of the most heavily loaded tooth while one tooth is in the tilt position.
 
-    `contact_overlap` None: the contact does not travel. `inlet_ratio` None: infinite inlet.
-    `load_capacity_coefficient` None: no load.
+    If there are pitch deviations, this is the most heavily loaded tooth in a whole revolution. `contact_overlap` is
+    None if the contact does not travel. `inlet_ratio` is None if the inlet is infinitely long.
+    `load_capacity_coefficient` is None without load.
     """
 
     max_normal_force: float = quantity(
@@ -161,10 +165,11 @@ class Lubrication:
 
 @record
 class SelfInducedThrust:
-    """Thrust that two meshes make without any axial motion, mean over one tooth pitch.
+    """Thrust that two meshes cause without axial motion, as a mean over one tooth pitch.
 
-    `overturning_moment` is friction's on the sleeve, both meshes. `simple_model_force` and `uniform_load_force` are
-    closed forms (one tooth pair a mesh; all teeth loaded alike), zero in the angular arrangement.
+    `overturning_moment` is the moment of friction of both meshes on the sleeve. There are two closed forms:
+    `simple_model_force` for one tooth pair per mesh, and `uniform_load_force` for equal loads on all teeth. Both closed
+    forms are zero in the angular arrangement.
     """
 
     force: float = quantity(
@@ -194,14 +199,15 @@ class SelfInducedThrust:
 
 @record
 class AxialThrust:
-    """Mean axial thrust over one tooth pitch (one revolution with pitch deviations).
+    """Mean axial thrust over one tooth pitch or, if there are pitch deviations, over one revolution.
 
-    `force`: of one mesh in the sense of the axial velocity (`single`), or on one shaft, positive = shafts pulled
-    together. The bounds differ from `force` only where friction is `indeterminate` (nothing slides).
-    `fraction_of_limit` is force over `coaxial_limit`; None without load. `breakaway_force` starts coaxial shafts
-    sliding from rest, where no film carries. `uniform_load_force` is the closed form of one mesh with equal tooth
-    loads. A thrust bearing must hold `design_force`, the larger of |force| and breakaway; `customary_force` is beside
-    it what practice reckons with, None without a shaft diameter.
+    In the arrangement `single`, `force` is the thrust of one mesh and is positive in the direction of the axial
+    velocity. In the other arrangements, `force` acts on one shaft and is positive if the shafts are pulled together.
+    The bounds differ from `force` only if friction is `indeterminate` because nothing slides. `fraction_of_limit` is
+    `force` divided by `coaxial_limit`; it is None without load. `breakaway_force` is the thrust at which coaxial shafts
+    start to slide from rest, without a film. `uniform_load_force` is the closed form of one mesh with equal tooth
+    loads. A thrust bearing must hold `design_force`, the larger of |force| and `breakaway_force`. `customary_force` is
+    the thrust by a rule of practice, for comparison; it is None without a shaft diameter.
     """
 
     force: float = quantity(
@@ -249,10 +255,11 @@ class AxialThrust:
 
 @record
 class Losses:
-    """Friction power [W] and moments [N m] of one mesh, means over one tooth pitch (revolution with pitch deviations).
+    """Friction power [W] and moments [N m] of one mesh, as means over one tooth pitch.
 
-    Axial velocity included: power is friction moment times tilting speed plus thrust times axial velocity. Where
-    nothing slides the friction moment is open and reported as zero.
+    If there are pitch deviations, the means are over one revolution. The friction power is the friction moment times
+    the tilting speed, plus the thrust times the axial velocity. If nothing slides, the friction moment is undetermined
+    and is reported as zero.
     """
 
     friction_power: float = quantity("friction power", "P_f", unit="w")
@@ -267,9 +274,10 @@ class Losses:
 
 @record
 class Limits:
-    """Design limits and linear stiffness with every tooth loaded [m/s, rad, N m, N m/rad, N/m].
+    """Design limits, and linear stiffness with every tooth loaded [m/s, rad, N m, N m/rad, N/m].
 
-    `allowable_misalignment` None: the coupling turns too slowly to reach the limit, or not at all.
+    `allowable_misalignment` is None if the coupling turns too slowly to reach the limit of the sliding velocity, or if
+    it does not turn.
     """
 
     sliding_velocity_limit: float = quantity(
@@ -299,7 +307,7 @@ class Limits:
 
 @record
 class Derived:
-    """The coupling with its proportions filled in, and the oil at its teeth: viscosity [Pa s], viscosity index."""
+    """The coupling with its default proportions filled in, and the oil used: viscosity [Pa s] and viscosity index."""
 
     coupling: Coupling
     viscosity: float = quantity("oil viscosity used", "η", unit="pa_s", text="at the teeth")
@@ -309,13 +317,13 @@ class Derived:
 
     @classmethod
     def of(cls, inputs: CouplingInputs) -> Self:
-        """Return what these inputs leave open, as it is used."""
+        """Return the values in use for inputs that may be left open."""
         return cls(inputs.coupling, inputs.lubricant.viscosity, inputs.lubricant.viscosity_index)
 
 
 @record
 class CouplingResult:
-    """Everything about one operating point; `derived` is the coupling and its oil with what the inputs left open."""
+    """All results at one operating point; `derived` contains the values in use for inputs that were left open."""
 
     geometry: Geometry = quantity("geometry", text="radii")
     kinematics: Kinematics = quantity("motion of the teeth")
@@ -330,7 +338,7 @@ class CouplingResult:
 
 @record
 class Orbit:
-    """Path of the sleeve centre against the hub over one revolution."""
+    """Path of the sleeve centre relative to the hub over one revolution."""
 
     rotor_angle: FloatArray = quantity("rotor angle", "θ", unit="deg")
     x: FloatArray = quantity("sleeve displacement in the pivot direction", "e_x", unit="um", axis="rotor_angle")
@@ -339,9 +347,10 @@ class Orbit:
 
 @record
 class InertiaForce:
-    """Inertia force of the sleeve mass of one mesh over the orbit's rotor angles; harmonics are amplitudes 2 |c_k|.
+    """Inertia force of the sleeve mass of one mesh at the rotor angles of the orbit.
 
-    Order 0 comes first and is the magnitude of the mean.
+    The harmonics are the amplitudes 2 |c_k| of the orders k from 0 up; the value of order 0 is the magnitude of the
+    mean.
     """
 
     x: FloatArray = quantity(
@@ -380,11 +389,13 @@ class InertiaForce:
 
 @record
 class OrbitResult:
-    """One revolution of a floating sleeve under its own inertia.
+    """Results for one revolution of a floating sleeve under its own inertia.
 
-    `sweeps` over the revolution until it repeated to `change` [m]. The uncertainties are how far the largest
-    displacement [m] and any harmonic of the force [N] move with two or three times the rotor angles and twice the
-    orders; None where such a path does not settle. `derived` is the tooth that moves.
+    `sweeps` is the number of sweeps over the revolution until the path settled, and `change` [m] is the change of the
+    path in the last sweep. For the uncertainties, the path is computed again with two and with three times as many
+    rotor angles and twice as many orders. The uncertainties are the largest changes that result in the largest
+    displacement [m] and in any harmonic of the force [N]. They are None if such a path does not settle. `derived`
+    contains the radii of the teeth.
     """
 
     orbit: Orbit = quantity("path of the sleeve centre", detail="curves")

@@ -1,12 +1,13 @@
-"""Equilibrium of a floating sleeve between two misaligned hubs, parallel offset (Z) or angular (M) (Fig. 13).
+"""Equilibrium of a floating sleeve between two misaligned hubs with a parallel offset (Z) or an angle (M) (Fig. 13).
 
-Units as in tooth_loads. First index of a pair: the mesh, left (0) or right (1).
+The units are those of `tooth_loads`. In arrays with an axis for the mesh, 0 is the left mesh and 1 the right mesh.
 
-The unknowns are (psi, e_x, e_y) of each mesh. The six equations are the torque at both meshes, the two lateral forces
-of the sleeve and its two moments. The direction of friction at a tooth does not depend on the unknowns. The friction
-moments therefore require a lateral force at the meshes, opposite in the two. For a given lateral force, each mesh is a
-floating sleeve of its own, which is a convex problem. Two equations remain for the force, Phi(g) = g; Newton's method
-solves them with the exact derivative of the tooth loads.
+The unknowns are (psi, e_x, e_y) of each mesh. The six equations are the balance of torque at each mesh, the balance of
+the two lateral forces on the sleeve, and the balance of the two moments on the sleeve. The direction of friction at a
+tooth does not depend on the unknowns. The moments of friction require a lateral force g at the left mesh and -g at the
+right mesh. For a given g, each mesh can be balanced alone, like a single floating sleeve; this problem is convex. Two
+equations remain for the two components of g: Phi(g) = g, where Phi(g) is the lateral force that the moments of friction
+require if g acts. Newton's method solves these equations with the exact derivative of the tooth loads.
 """
 
 from dataclasses import dataclass
@@ -39,18 +40,18 @@ from solvers.coupling.tooth_loads import (
 )
 from solvers.errors import NoSolution
 
-MAX_ITERATIONS = 150  # limit; an equilibrium that is not reached by then does not converge
+MAX_ITERATIONS = 150  # limit; an iteration that takes longer does not converge
 SUBSTITUTIONS = 5  # chosen: number of fixed-point steps in succession
-SHORTEST_STEP = 1.0 / 64.0  # of Newton's step; below it, substitutions are tried again
+SHORTEST_STEP = 1.0 / 64.0  # smallest share of a Newton step; if this share does not help, substitutions follow
 FORCE_TOLERANCE = 1e-9  # in units of T/r_o, chosen
-_LIMIT_MARGIN = 0.9999  # of the force that the teeth can hold, chosen
+_LIMIT_MARGIN = 0.9999  # chosen share of the force that the teeth can hold
 
 
 class Unbalance(NamedTuple):
-    """Residual of the sleeve's force balance and its derivatives.
+    """Residual of the sleeve's force balance, and its derivatives with the opposite sign.
 
-    `x` and `y` are the components of Phi(g) - g, `size` its magnitude. The others are derivatives of g - Phi(g) by g:
-    `xy` is the derivative of the x component by g_y.
+    `x` and `y` are the components of the residual Phi(g) - g, and `size` is its magnitude. `xx`, `xy`, `yx` and `yy`
+    are the derivatives of g - Phi(g) by g; for example, `xy` is the derivative of the x component by g_y.
     """
 
     size: float
@@ -66,10 +67,11 @@ class Unbalance(NamedTuple):
 def add_friction_moment(
     moment: float, ahead: FloatArray, normal: FloatArray, arm: FloatArray, hessian: Hessian
 ) -> tuple[float, float, float]:
-    """Add the friction moment of one mesh along one axis to `moment`.
+    """Add one component of the friction moment of a mesh to `moment`.
 
-    Returns the new moment, moment + sum F_t sgn(v_r) e_r, and the derivatives of the sum by the force (x, y) on the
-    mesh. `arm` (teeth) holds sgn(v_r) e_r. `ahead` and `hessian` describe the mesh as `float_sleeve` left it.
+    Returns the new moment, `moment` + sum F_t sgn(v_r) e_r, and the derivatives of this sum by the force (x, y) on the
+    mesh. `arm` (teeth) holds sgn(v_r) e_r, where e_r is a component of the tooth's radial direction. `ahead` and
+    `hessian` are the results of `float_sleeve` for this mesh.
     """
     normal_x, normal_y = normal
     torque, x, y = 0.0, 0.0, 0.0
@@ -79,7 +81,7 @@ def add_friction_moment(
             torque += arm[i]
             x -= arm[i] * normal_x[i]
             y -= arm[i] * normal_y[i]
-    # The Hessian is symmetric: its inverse times the weights is the derivative by (torque, force).
+    # The Hessian is symmetric. Its inverse times the weights (torque, x, y) gives the derivatives by torque and force.
     slope, _, _ = solve_loaded(hessian, Motion(torque, x, y))
     return moment, slope.x, slope.y
 
@@ -96,8 +98,9 @@ def unbalanced_force(
 ) -> Unbalance:
     """Return the residual Phi(g) - g of the sleeve's force balance, with g on the left mesh and -g on the right mesh.
 
-    Both meshes are balanced; the balance starts from their `places`, which are updated. The interference is left in
-    `ahead` (2, teeth). The size is inf if a mesh cannot hold the force.
+    The function balances both meshes under these forces. The balance starts from `places`, and the function updates
+    `places`. The function writes the interference of the teeth to `ahead` (2, teeth). The size of the residual is inf
+    if a mesh cannot hold the force.
     """
     moment_x, moment_y, xx, xy, yx, yy = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     for mesh in range(2):
@@ -126,7 +129,7 @@ def balance_sleeve(
     places: Places,
     ahead: FloatArray,
 ) -> float:
-    """Solve Phi(g) = g at one rotor angle, in place.
+    """Solve Phi(g) = g at one rotor angle; the solution replaces the start values.
 
     Parameters
     ----------
@@ -139,11 +142,11 @@ def balance_sleeve(
     lever : float
         Ratio (mu/cos alpha)(r_o/l_H) [-].
     force_limit : float
-        Largest lateral force that the teeth are asked to hold [T/r_o].
+        Largest lateral force that the iteration tries [T/r_o].
     force : FloatArray
-        Start of the force g, shape (2,); replaced by the solution [T/r_o].
+        Start value of the force g, shape (2,); replaced by the solution [T/r_o].
     places : Places
-        Starts of the rotation and the displacement of both meshes; replaced by the solution [T/(r_o c_t)].
+        Start values of the rotation and the displacement of both meshes; replaced by the solution [T/(r_o c_t)].
     ahead : FloatArray
         Receives the interference of the balanced meshes, shape (2, teeth) [T/(r_o c_t)].
 
@@ -154,8 +157,9 @@ def balance_sleeve(
 
     Notes
     -----
-    Eq. C22. Newton's method shortens its steps until the residual falls. If shortening fails, some damped substitutions
-    follow: Phi is piecewise linear, because teeth come under load, and Newton's method may cycle between its pieces.
+    Eq. C22. Each step of Newton's method is shortened until the residual falls. If shortening fails, some damped
+    fixed-point steps (substitutions) follow. These steps are necessary because Phi is piecewise linear (teeth come
+    under load), and Newton's method may cycle between the linear pieces.
     """
     accepted_x, accepted_y, step_x, step_y = 0.0, 0.0, 0.0, 0.0
     accepted_residual, length, substitutions = np.inf, 1.0, 0
@@ -195,10 +199,11 @@ def balance_rows(
     force_limit: float,
     share: FloatArray,
 ) -> float:
-    """Balance the sleeve at every rotor angle, and leave the tooth forces in `share` (rows, 2, teeth).
+    """Balance the sleeve at every rotor angle, and write the tooth forces to `share` (rows, 2, teeth).
 
-    The balance at each angle starts from the previous angle, and from rest if this fails. Returns the largest residual.
-    The first angle without balance is the last to be tried.
+    The balance at each angle starts from the solution at the previous angle. If this fails, the balance starts again
+    from zero force and zero displacement. The function stops at the first angle without balance. Returns the largest
+    residual.
     """
     force, places = np.zeros(2), Places(np.zeros(2), np.zeros(2), np.zeros(2))
     largest = 0.0
@@ -221,7 +226,7 @@ def balance_rows(
 
 @dataclass(frozen=True, slots=True)
 class SleeveEquilibrium:
-    """Means of two meshes on one sleeve over one tooth pitch (over one revolution with pitch deviations).
+    """Means of two meshes on one sleeve over one tooth pitch or, if there are pitch deviations, over one revolution.
 
     `thrust` [N] acts on one shaft and is positive if it pulls the shafts together. `overturning_moment` [N m] is the
     moment of friction on the sleeve.
@@ -234,7 +239,8 @@ class SleeveEquilibrium:
 def two_meshes(inputs: CouplingInputs, geometry: Geometry) -> tuple[MeshMotion, MeshMotion]:
     """Return the left mesh, where the hub drives the sleeve, and the right mesh.
 
-    The right hub tilts in the same direction (Z, parallel offset) or in the opposite direction (M, angular).
+    With a parallel offset (Z) the right hub tilts in the same direction as the left hub, with an angle (M) in the
+    opposite direction.
     """
     right_tilt = 1 if inputs.operation.arrangement == "parallel_offset" else -1
     left = mesh_motion(inputs.coupling, geometry, inputs.operation, inputs.model.kinematics)
@@ -256,12 +262,12 @@ def sleeve_equilibrium(
     friction : float
         Coefficient of friction [-].
     axial_velocity : float
-        Velocity at which the shafts move apart, per mesh [m/s].
+        Axial velocity at each mesh, positive if the shafts move apart [m/s].
 
     Returns
     -------
     SleeveEquilibrium
-        Thrust [N] and overturning moment [N m]; both zero without any sliding.
+        Thrust [N] and overturning moment [N m]; both are zero if nothing slides.
 
     Raises
     ------
@@ -270,9 +276,9 @@ def sleeve_equilibrium(
 
     Notes
     -----
-    Eq. C22. Without any sliding (no axial velocity, and no misalignment or no speed) the direction of friction is
-    undetermined. An equilibrium exists in any case if mu d_o/l_H < cos(pi/z): Phi then maps the set of forces that the
-    teeth hold into itself, and Brouwer's theorem applies.
+    Eq. C22. Nothing slides if the axial velocity is zero and, in addition, the misalignment or the speed is zero. The
+    direction of friction is then undetermined. If mu d_o/l_H < cos(pi/z), an equilibrium always exists. Phi then maps
+    the set of the forces that the teeth can hold into the same set, and Brouwer's theorem applies.
     """
     coupling, torque = inputs.coupling, inputs.operation.torque
     meshes = two_meshes(inputs, geometry)
@@ -304,9 +310,9 @@ def _tooth_forces(
     direction: FloatArray,
     friction: float,
 ) -> FloatArray:
-    """Compute the tangential tooth forces [N], shape (rotor angles, mesh, teeth) like `direction`.
+    """Compute the tangential tooth forces [N], in the shape of `direction` (rotor angles, meshes, teeth).
 
-    The residual of a NoSolution is the unbalanced lateral force over T/r_o, at most 1.
+    If a NoSolution is raised, its residual is the unbalanced lateral force divided by T/r_o, but at most 1.
     """
     coupling, teeth = inputs.coupling, samples.teeth
     unit, cosine = elastic_rotation(coupling, inputs.operation.torque), cos(coupling.pressure_angle)
@@ -314,7 +320,7 @@ def _tooth_forces(
     normal = np.stack([flank_normals(mesh, teeth) for mesh in meshes], axis=1)
     arm = direction[:, :, None] * np.stack((teeth.cosine, teeth.sine), axis=1)[:, None]
     lever = friction / cosine * geometry.pitch_radius / coupling.hub_distance
-    # The largest lateral force that the normals of z teeth, a regular polygon, hold at every rotor angle.
+    # Largest lateral force that z teeth hold at every rotor angle; their flank normals form a regular polygon.
     force_limit = _LIMIT_MARGIN * cos(pi / coupling.teeth) / cosine
     share = np.zeros_like(interference)
     residual = balance_rows(interference, normal, arm, lever, force_limit, share)

@@ -1,15 +1,18 @@
-"""How the teeth of one mesh share the torque, and with a floating sleeve a lateral force (Figs 3 and 4).
+"""Distribution of the torque over the teeth of one mesh; with a floating sleeve also of a lateral force (Figs 3, 4).
 
-Tooth i carries F_t = c_t max(0, psi + f_t + pitch deviation - e . n/cos(alpha)), because teeth never pull. Here psi is
-the common rotation as a length at the pitch radius, and e the sleeve's displacement against the hub.
+Tooth i carries F_t = c_t max(0, psi + f_t + pitch deviation - e . n/cos(alpha)); the maximum is taken because teeth
+never pull. Here psi is the common rotation as a length at the pitch radius, f_t the tangential displacement of the
+tooth, e the displacement of the sleeve relative to the hub, and n the flank normal.
 
 In the kernels, lengths are in T/(r_o c_t) and forces in T/r_o, so that the tooth forces add up to one. The interference
-of tooth i is u_i = psi + w_i - e . d_i, with its lead w_i and its flank normal over cos(alpha), d_i.
+of tooth i is u_i = psi + w_i - e . d_i, where w_i is the lead of the tooth and d_i is its flank normal divided by
+cos(alpha).
 
-The sleeve minimises the convex energy sum max(0, u_i)^2/2 - psi - force . e, which is piecewise quadratic. The length
-of each Newton step is the exact minimum along the step. The energy therefore falls in each step from any start, and
-every sleeve that can be balanced is balanced. The u_i are carried from step to step. If they were computed again from
-psi and e, a tooth force that is small against the leads would lose its digits.
+In equilibrium, psi and e minimise the convex energy sum max(0, u_i)^2/2 - psi - force . e, which is piecewise
+quadratic. The length of each Newton step is the length at which the energy along the step is lowest. The energy
+therefore falls in each step from any start, and every sleeve that can be balanced is balanced. The u_i are updated from
+step to step. If the u_i were computed again from psi and e, a tooth force that is small compared with the leads would
+lose its digits.
 """
 
 from collections.abc import Callable
@@ -36,24 +39,24 @@ from solvers.coupling.results import Geometry, Limits, LoadCurves, LoadDistribut
 from solvers.errors import NoSolution
 
 MAX_ITERATIONS = 10_000  # limit; no balance should reach it, because each step lowers the energy
-BALANCE_TOLERANCE = 1e-13  # in units of T/r_o: some hundred roundings
-LONGEST_STEP = 1e100  # stands for infinity without overflow when it is squared
+BALANCE_TOLERANCE = 1e-13  # in units of T/r_o; some hundred rounding errors
+LONGEST_STEP = 1e100  # used as infinity, because its square does not overflow
 STIFF = 1e-12
-"""Smallest stiffness of the sleeve that counts, over the stiffness of the loaded teeth; rounding is some 1e-16."""
+"""Smallest ratio of sleeve stiffness to loaded-tooth stiffness that counts; rounding errors are some 1e-16."""
 FLAT = 1e-12
-"""Slope along a step, over the slope at its start, that counts as zero: the lowest energy is reached."""
+"""Largest slope of the energy along a step that counts as zero, divided by the slope at the start of the step."""
 
 LOADED = 1e-6
-"""Tooth force, over the mean tooth force, from which a tooth counts as loaded."""
+"""Ratio of tooth force to mean tooth force above which a tooth counts as loaded."""
 SLIDING_VELOCITY_LIMIT = 0.12
-"""Steady sliding of gear couplings [m/s], Tribology Handbook B4.6; transients may tilt 1.6 times as far."""
+"""Limit of steady sliding in gear couplings [m/s] (Tribology Handbook B4.6); short tilts may be 1.6 times as large."""
 GRAVITY = 9.80665  # m/s^2, standard gravity (CGPM 1901)
 _SEARCHES = 2  # chosen: number of searches around the samples near which the highest value may lie
-_FINER = 8  # chosen: a step of the previous search over a step of this one; two searches meet a peak to 1/128 step
+_FINER = 8  # chosen: ratio of the steps of successive searches; two searches locate a peak to 1/128 of the first step
 
 
 class Motion(NamedTuple):
-    """Common rotation of the teeth and displacement of the sleeve, or the torque and lateral force on them."""
+    """Common rotation of the teeth and displacement of the sleeve; also used for torque and lateral force."""
 
     rotation: float
     x: float
@@ -69,7 +72,7 @@ class Places(NamedTuple):
 
 
 class Hessian(NamedTuple):
-    """Second derivatives of the energy: the sums over loaded teeth of 1, -d_x, -d_y, d_x^2, d_x d_y and d_y^2."""
+    """Second derivatives of the energy: the sums over the loaded teeth of 1, -d_x, -d_y, d_x^2, d_x d_y and d_y^2."""
 
     loaded: float
     x: float
@@ -81,9 +84,9 @@ class Hessian(NamedTuple):
 
 @kernel
 def _crossing(ahead: FloatArray, highest: float, psi: float) -> float:
-    """Return Newton's next value for the root of sum max(0, psi + lead_i) = 1, starting from psi > 0.
+    """Return the value that follows `psi` > 0 in Newton's method for the root of sum max(0, psi + lead_i) = 1.
 
-    At this value the teeth that `psi` loads would carry unit torque.
+    At the new value, the teeth that are loaded at the old value would carry unit torque.
     """
     count, total = 0, 0.0
     for lead in ahead:
@@ -96,7 +99,7 @@ def _crossing(ahead: FloatArray, highest: float, psi: float) -> float:
 
 @kernel
 def rotation_of_leads(ahead: FloatArray, highest: float, start: float) -> float:
-    """Find the common rotation psi at which the teeth carry unit torque, exactly.
+    """Find the exact common rotation psi at which the teeth carry unit torque.
 
     Parameters
     ----------
@@ -105,20 +108,20 @@ def rotation_of_leads(ahead: FloatArray, highest: float, start: float) -> float:
     highest : float
         The largest of the leads [T/(r_o c_t)].
     start : float
-        Positive value from which psi is sought [T/(r_o c_t)].
+        Positive start value of the iteration [T/(r_o c_t)].
 
     Returns
     -------
     float
-        Rotation psi against the tooth with the largest lead [T/(r_o c_t)].
+        Rotation psi, counted from the point where the tooth with the largest lead makes contact [T/(r_o c_t)].
 
     Notes
     -----
-    Eq. C8: sum max(0, psi + lead_i) = 1, with lead_i = w_i less the largest of the leads. Gives the same result as
-    sorting the leads in descending order and taking the largest k whose psi_k = (1 - sum_1..k lead)/k loads tooth k.
-
-    The sum is convex and piecewise linear. From any positive start, Newton's first step leads to psi or to its right.
-    Each further step falls and loses at least one loaded tooth, until the piece of the root is reached.
+    Eq. C8: sum max(0, psi + lead_i) = 1, where lead_i is w_i minus the largest of the leads. The result is the same as
+    by sorting: the leads are sorted in descending order, and k is the largest number for which psi_k = (1 - sum_1..k
+    lead)/k loads tooth k. The sum is a convex and piecewise linear function of psi. From any positive start, the first
+    step of Newton's method leads to the root or to a larger value. Each further step reduces psi and unloads at least
+    one tooth, until the linear piece that contains the root is reached.
     """
     psi = _crossing(ahead, highest, start)
     following = _crossing(ahead, highest, psi)
@@ -129,10 +132,10 @@ def rotation_of_leads(ahead: FloatArray, highest: float, start: float) -> float:
 
 @kernel
 def turn_to_torque(ahead: FloatArray, start: float) -> tuple[float, float]:
-    """Replace the lead w_i of each tooth by the interference u_i that carries unit torque, in place.
+    """Replace the lead w_i of each tooth by its interference u_i under unit torque, in place.
 
-    Returns the common rotation psi twice: counted from the largest lead, and counted from zero. The first is sought
-    from `start`.
+    Returns the common rotation psi twice: first counted from the largest lead, then counted from zero. `start` is a
+    start value for the first number.
     """
     highest: float = ahead[0]
     for lead in ahead:
@@ -145,7 +148,7 @@ def turn_to_torque(ahead: FloatArray, start: float) -> tuple[float, float]:
 
 @kernel
 def centred_rows(ahead: FloatArray, unit: float, unit_force: float, rotation: FloatArray) -> None:
-    """Replace the lead of each tooth by its force with a centred sleeve, in place, and write the rotation of each row.
+    """Replace the leads of teeth with a centred sleeve by their forces, in place, and write the rotation of each row.
 
     `unit` = T/(r_o c_t) and `unit_force` = T/r_o are the scales of lengths and forces.
     """
@@ -183,12 +186,13 @@ def add_up(ahead: FloatArray, normal: FloatArray) -> tuple[Motion, Hessian]:
 
 @kernel
 def solve_loaded(hessian: Hessian, right: Motion) -> tuple[Motion, float, float]:
-    """Solve hessian motion = right in the directions in which the loaded teeth are stiff.
+    """Solve `hessian` times motion = `right` in the directions in which the loaded teeth are stiff.
 
-    Returns the motion, and the lateral force (x, y) of `right` in the directions without stiffness. The rotation is
-    eliminated first. The remaining system, the scatter of the loaded flank normals, is solved along its principal
-    directions. Fewer than three loaded teeth have no stiffness in one or both of these directions; the sleeve does not
-    move in a direction without stiffness.
+    Returns the motion, and the part of the lateral force (x, y) of `right` in the directions without stiffness. The
+    rotation is eliminated first. The matrix of the remaining equations is the scatter of the flank normals of the
+    loaded teeth; the equations are solved along the principal directions of this matrix. If fewer than three teeth are
+    loaded, there is no stiffness in one or both of these directions. The sleeve does not move in a direction without
+    stiffness.
     """
     loaded = max(hessian.loaded, 1.0)
     mean_x, mean_y = hessian.x / loaded, hessian.y / loaded
@@ -213,10 +217,10 @@ def solve_loaded(hessian: Hessian, right: Motion) -> tuple[Motion, float, float]
 
 @kernel
 def next_step(hessian: Hessian, missing: Motion) -> tuple[Motion, float]:
-    """Return Newton's step towards the `missing` forces, and the rate at which the energy falls along this step.
+    """Return the Newton step for the `missing` forces, and the rate at which the energy falls along this step.
 
-    If most of the missing force acts in a direction without stiffness, the step is along this direction instead, and
-    leaves the forces of the loaded teeth as they are. The next tooth that meets the sleeve stops the step.
+    If more than half of the missing force acts in a direction without stiffness, the step is along this direction
+    instead. Such a step does not change the forces of the loaded teeth; it ends when another tooth meets the sleeve.
     """
     step, free_x, free_y = solve_loaded(hessian, missing)
     unheld = hypot(free_x, free_y)
@@ -228,10 +232,10 @@ def next_step(hessian: Hessian, missing: Motion) -> tuple[Motion, float]:
 
 @kernel
 def slope_along(ahead: FloatArray, change: FloatArray, start: float, length: float) -> tuple[float, float]:
-    """Compute the first and second derivative of the energy by the length of a step that changes u_i by `change`.
+    """Compute the first and the second derivative of the energy by the length of a step that changes u_i by `change`.
 
-    The first derivative is formed from its value at the `start`, because torque and tooth forces cancel near the
-    balance.
+    `start` is the first derivative at length zero. The function adds the change since then to `start`, because torque
+    and tooth forces would cancel near the balance.
     """
     first, second = start, 0.0
     for i in range(ahead.size):
@@ -246,9 +250,9 @@ def slope_along(ahead: FloatArray, change: FloatArray, start: float, length: flo
 def length_to_lowest(ahead: FloatArray, change: FloatArray, start: float) -> float:
     """Find the length of a step at which the energy is lowest, or LONGEST_STEP if the energy has no minimum.
 
-    The slope rises with the length, piecewise linearly, from its negative value at the `start`. Newton's method finds
-    its root, and is kept between a length before and a length behind the lowest energy. If no tooth resists, the next
-    tooth may be many steps away, and the length doubles.
+    The slope of the energy rises piecewise linearly with the length, from its negative value `start` at length zero.
+    Newton's method finds the length at which the slope is zero, and is kept between a length before and a length behind
+    the lowest energy. While no tooth resists, the length is doubled, because the next tooth may be many steps away.
     """
     before, behind, length = 0.0, LONGEST_STEP, 1.0
     while length < LONGEST_STEP:
@@ -277,13 +281,13 @@ def float_sleeve(
     Parameters
     ----------
     interference : FloatArray
-        Interference at rest of each tooth, shape (teeth,) [T/(r_o c_t)].
+        Interference at rest (lead w_i) of each tooth, shape (teeth,) [T/(r_o c_t)].
     normal : FloatArray
         Flank normals over cos(alpha), shape (2, teeth) [-].
     force : FloatArray
         External force on the sleeve, shape (2,) [T/r_o].
     places : Places
-        Rotations and displacements; entry `k` is the start and is replaced by the balance [T/(r_o c_t)].
+        Rotations and displacements; entry `k` holds the start values, which the solution replaces [T/(r_o c_t)].
     k : int
         Index into `places` [-].
     ahead : FloatArray
@@ -334,10 +338,10 @@ def floating_rows(
     places: Places,
     iterations: IntArray,
 ) -> None:
-    """Compute the shares and places of a floating sleeve under `force` (rows, 2).
+    """Compute the tooth forces `share` and the `places` of a floating sleeve under `force` (rows, 2).
 
-    Each row starts from the previous row. The first row without balance gets negative iterations; later rows are not
-    computed.
+    The balance of each row starts from the solution of the previous row. In the first row without balance the number of
+    iterations is negative; later rows are not computed.
     """
     for row in range(interference.shape[0]):
         before = max(row - 1, 0)
@@ -350,12 +354,12 @@ def floating_rows(
 
 
 def largest_value(angles: FloatArray, values_at: Callable[[FloatArray], FloatArray]) -> float:
-    """Find the largest value over evenly spaced rotor angles [rad] and between them.
+    """Find the largest value at evenly spaced rotor angles [rad] and between these angles.
 
-    Two further searches follow, each in steps eight times as fine as before. Each searches around those local maxima
-    that would reach the largest value if they continued to rise for half a step. With few loaded teeth a peak lasts
-    only a fraction of a pitch, and each tooth has its own peak. `values_at` takes rotor angles (rows) and returns one
-    value per angle.
+    `values_at` takes rotor angles (rows) and returns one value per angle. After the given angles, two searches follow,
+    each in steps that are eight times finer. A search covers the surroundings of all local maxima that would reach the
+    largest value if they continued to rise for half a step. The searches are necessary because with few loaded teeth a
+    peak lasts only a fraction of a pitch, and each tooth has its own peak.
     """
     coarse, step = values_at(angles), angles[1] - angles[0]
     places = angles[:, None] + step * np.array([-1.0, 0.0, 1.0])
@@ -379,8 +383,9 @@ def largest_value(angles: FloatArray, values_at: Callable[[FloatArray], FloatArr
 class ToothLoads:
     """Tooth loads of one mesh, one row per rotor angle.
 
-    `tangential_force` (rows, teeth) [N], `rotation` (rows) and `displacement` (rows, 2) [m]. `iterations` (rows) is
-    negative in the first row in which the floating sleeve was not balanced; later rows have no meaning.
+    `tangential_force` has the shape (rows, teeth) [N], `rotation` (rows) [m] and `displacement` (rows, 2) [m].
+    `iterations` (rows) is negative in the first row in which the floating sleeve was not balanced; later rows have no
+    meaning.
     """
 
     tangential_force: FloatArray
@@ -390,7 +395,7 @@ class ToothLoads:
 
 
 def interference_at_rest(coupling: Coupling, mesh: MeshMotion, teeth: ToothPositions) -> FloatArray:
-    """Compute the lead of each tooth of a coupling at rest.
+    """Compute the lead of each tooth: its interference without common rotation and without displacement of the sleeve.
 
     Parameters
     ----------
@@ -404,7 +409,7 @@ def interference_at_rest(coupling: Coupling, mesh: MeshMotion, teeth: ToothPosit
     Returns
     -------
     FloatArray
-        Tangential displacement f_t + pitch deviation, shape (rows, teeth) [m].
+        Tangential displacement f_t plus pitch deviation, shape (rows, teeth) [m].
 
     Notes
     -----
@@ -417,7 +422,7 @@ def interference_at_rest(coupling: Coupling, mesh: MeshMotion, teeth: ToothPosit
 
 
 def elastic_rotation(coupling: Coupling, torque: float) -> float:
-    """Return T/(r_o c_t) [m], the rotation of a coupling with one tooth as a length at the pitch radius."""
+    """Return T/(r_o c_t) [m], the rotation (as a length at the pitch radius) if a single tooth carries the torque."""
     return torque / (pitch_radius(coupling) * coupling.tooth_stiffness)
 
 
@@ -438,7 +443,7 @@ def centred_loads(coupling: Coupling, mesh: MeshMotion, teeth: ToothPositions, t
     Returns
     -------
     ToothLoads
-        Tooth loads at each rotor angle; exact for any torque [N].
+        Tooth loads at each rotor angle; they are exact at any torque [N].
 
     Notes
     -----
@@ -479,8 +484,8 @@ def floating_loads(
 
     Notes
     -----
-    Eq. C7. The iterations are negative in a row without balance: the external force exceeds the lateral force that the
-    teeth can hold at this torque.
+    Eq. C7. The number of iterations is negative in a row without balance. In such a row the external force exceeds the
+    lateral force that the teeth can hold at this torque.
     """
     unit = elastic_rotation(coupling, torque)
     unit_force = unit * coupling.tooth_stiffness
@@ -499,8 +504,8 @@ def mesh_loads(
 ) -> ToothLoads:
     """Compute the tooth loads of one mesh without external force.
 
-    Raises NoSolution `sleeve_balance` if a floating sleeve is not balanced; its residual is the lateral force over
-    T/r_o.
+    Raises NoSolution (`sleeve_balance`) if a floating sleeve cannot be balanced. The residual in NoSolution is the
+    lateral force divided by T/r_o.
     """
     if not floating or torque == 0.0:
         return centred_loads(coupling, mesh, teeth, torque)
@@ -518,7 +523,7 @@ def mesh_loads(
 
 
 def load_distribution(inputs: CouplingInputs, geometry: Geometry, mesh: MeshMotion) -> LoadDistribution:
-    """Compute the share of each tooth in the torque, and the displacement of the sleeve."""
+    """Compute how the teeth share the torque, and how far the sleeve is displaced."""
     coupling, torque, rotor_angle = inputs.coupling, inputs.operation.torque, inputs.model.rotor_angle
     positions = tooth_positions(np.array([rotor_angle]), coupling.teeth)
     loads = mesh_loads(coupling, mesh, positions, torque, floating=inputs.model.sleeve == "floating")
@@ -543,7 +548,7 @@ def load_distribution(inputs: CouplingInputs, geometry: Geometry, mesh: MeshMoti
 
 
 def coaxial_limit(coupling: Coupling, torque: float, friction: float) -> float:
-    """Compute the axial thrust if every tooth slides in the same direction.
+    """Compute the axial thrust that arises if all teeth slide in the same direction.
 
     Parameters
     ----------
@@ -590,7 +595,7 @@ def allowable_misalignment(speed: float, radius: float) -> float | None:
 
 
 def sleeve_centring_torque(coupling: Coupling, radius: float) -> float:
-    """Compute the torque at which every tooth is loaded while the teeth carry the weight of a horizontal sleeve.
+    """Compute the torque above which all teeth stay loaded under the weight of a horizontal sleeve.
 
     Parameters
     ----------
@@ -628,8 +633,9 @@ def unloading_misalignment(inputs: CouplingInputs, geometry: Geometry) -> float:
 
     Notes
     -----
-    Eq. C10. The peak-to-peak displacement grows with the square of the misalignment. At delta_L it reaches 2 F_m/c_t,
-    with F_m the mean tooth force. With tangential kinematics delta_L = sqrt(4 F_m/(c_t R_t)).
+    Eq. C10. The peak-to-peak tangential displacement grows with the square of the misalignment. At delta_L this
+    displacement reaches 2 F_m/c_t, where F_m is the mean tooth force. With tangential kinematics delta_L = sqrt(4
+    F_m/(c_t R_t)).
     """
     coupling, operation = inputs.coupling, inputs.operation
     mean_force = operation.torque / (geometry.pitch_radius * coupling.teeth)
@@ -650,8 +656,8 @@ def limits(inputs: CouplingInputs, geometry: Geometry) -> Limits:
     Returns
     -------
     Limits
-        Limits of sliding velocity [m/s], misalignment [rad] and torque [N m]; torsional [N m/rad] and lateral [N/m]
-        stiffness.
+        Limits of sliding velocity [m/s], misalignment [rad] and torque [N m]; torsional stiffness [N m/rad] and lateral
+        stiffness [N/m].
 
     Notes
     -----

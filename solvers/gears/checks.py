@@ -1,16 +1,16 @@
-"""Checks of the inputs of a gear pair, the same in every model."""
+"""Checks of the inputs of a gear pair; all models use the same checks."""
 
 from solvers.errors import InvalidInput
 from solvers.gears.gear import Gear, full_rack_tip_radius
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 
-# Publications print rounded centre distances, profile shifts and modules such as 25.4/3 mm. A centre distance that is
-# too small by this share counts as backlash-free.
+# Publications print rounded values of centre distance, profile shift and module (for example 25.4/3 mm). A centre
+# distance that is too small by at most this share counts as the backlash-free centre distance.
 PRINTED = 1e-4
 
 
 def check_rack(inputs: GearPairInputs, teeth: GearTeeth, name: str) -> None:
-    """Refuse a rack whose flanks meet above its tip line.
+    """Refuse a pointed rack, whose flanks meet before they reach the tip line.
 
     Raises
     ------
@@ -42,7 +42,7 @@ def check_teeth(gear: Gear, name: str) -> None:
 
 
 def check_working_involute(value: float) -> None:
-    """Refuse an involute function that no working pressure angle has.
+    """Refuse a value of the involute function that belongs to no working pressure angle.
 
     Raises
     ------
@@ -58,12 +58,16 @@ def check_working_involute(value: float) -> None:
 
 
 def centre_distance_in_use(given: float | None, backlash_free: float) -> float:
-    """Return the given centre distance, or the backlash-free one if none is given or the difference is a rounding [m].
+    """Return the centre distance in use [m].
+
+    This is the backlash-free centre distance if no centre distance is given, or if the given centre distance is smaller
+    only by a rounding. Otherwise it is the given centre distance.
 
     Raises
     ------
     InvalidInput
-        `flank_interference` if the given centre distance is smaller than the backlash-free one by more than a rounding.
+        `flank_interference` if the given centre distance is smaller than the backlash-free centre distance by more than
+        a rounding.
     """
     if given is None:
         return backlash_free
@@ -77,7 +81,7 @@ def centre_distance_in_use(given: float | None, backlash_free: float) -> float:
 
 
 def check_tips(pinion: Gear, wheel: Gear, centre_distance: float) -> None:
-    """Refuse a pair whose tips do not reach into the spaces of the mate or touch the root of the mate.
+    """Refuse a pair whose tooth tips do not reach into the mating gear, or touch the root of the mating gear.
 
     Raises
     ------
@@ -98,7 +102,7 @@ def check_tips(pinion: Gear, wheel: Gear, centre_distance: float) -> None:
 
 
 def check_usable_flank(gear: Gear, name: str) -> None:
-    """Refuse a gear whose fillet reaches its tip.
+    """Refuse a gear whose root fillet reaches the tooth tip.
 
     Raises
     ------
@@ -111,7 +115,7 @@ def check_usable_flank(gear: Gear, name: str) -> None:
 
 
 def check_path(tip_start: float, tip_end: float, start: float, end: float) -> None:
-    """Refuse a pair without a path of contact between the tips, or between the fillets.
+    """Refuse a pair if no path of contact remains between the tips, or between the fillets.
 
     All arguments are roll lengths of the pinion [m].
 

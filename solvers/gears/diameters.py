@@ -1,4 +1,4 @@
-"""Diameters of a pair's gears as drawings state them."""
+"""Diameters of the gears of a pair, as drawings state them."""
 
 from solvers.gears.pair import GearPair
 from solvers.quantity import quantity, record
@@ -16,7 +16,7 @@ class Diameters:
 
 
 def diameters_of(pair: GearPair) -> dict[str, float]:
-    """Return the fields of `Diameters`."""
+    """Return the diameters of a pair, by the names of the fields of `Diameters`."""
     return {
         f"{name}_{circle}_diameter": 2 * getattr(gear, f"{circle}_radius")
         for circle in ("tip", "root")

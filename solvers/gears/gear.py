@@ -1,7 +1,7 @@
-"""One gear in the transverse plane, cut by the rack of its pair: radii, thicknesses, involute and root fillet.
+"""One gear in the transverse plane, cut by a rack: radii, thicknesses, involute and root fillet.
 
-The arc of the rack tip has the parameter `t`: 0 on the tip line, pi/2 - alpha_n at the transition to the straight
-flank. Half space angles are measured from the centre line of the tooth space.
+The parameter `t` of a point on the arc of the rack tip is 0 on the tip line, and pi/2 - alpha_n at the transition to
+the straight flank. A half space angle is an angle that is measured from the centre line of the tooth space.
 """
 
 from dataclasses import dataclass
@@ -14,7 +14,7 @@ from scipy.optimize import brentq
 from solvers.compiled import kernel
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 
-_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(20)  # chosen
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(20)  # chosen number of points of the Gauss rule
 
 
 def involute(angle: float) -> float:
@@ -26,8 +26,8 @@ def involute(angle: float) -> float:
 class Gear:
     """One gear in the transverse plane; lengths [m], angles [rad].
 
-    `form_roll_length` is the roll length at which the involute meets the fillet of the rack; it is negative if the gear
-    is undercut.
+    `form_roll_length` is the roll length at which the involute meets the fillet that the rack cuts. This length is
+    negative if the gear is undercut.
     """
 
     teeth: int
@@ -46,12 +46,12 @@ class Gear:
 
     @property
     def usable_roll_length(self) -> float:
-        """Roll length at which the usable involute starts [m]; 0, at the base circle, if the gear is undercut."""
+        """Roll length at which the usable involute starts [m]; 0 (at the base circle) if the gear is undercut."""
         return max(self.form_roll_length, 0.0)
 
     @property
     def form_radius(self) -> float:
-        """Radius at which the usable involute starts [m]; the base radius if the gear is undercut."""
+        """Radius at which the usable involute starts [m]; if the gear is undercut, this is the base radius."""
         return hypot(self.base_radius, self.usable_roll_length)
 
     @property
@@ -65,13 +65,13 @@ class Gear:
         return 2 * self.tip_radius * self.half_tooth_angle(self.tip_radius)
 
     def half_tooth_angle(self, radius: float) -> float:
-        """Return half the angle of a tooth [rad] at a radius [m] not below the base radius."""
+        """Return half the angle of a tooth [rad] at a radius [m] that is not smaller than the base radius."""
         pressure_angle = acos(min(self.base_radius / radius, 1.0))
         return self.reference_half_angle + self.reference_involute - involute(pressure_angle)
 
 
 def full_rack_tip_radius(dedendum: float, normal_pressure_angle: float) -> float:
-    """Return the largest tip radius for which the rack has room, in normal modules; negative: the rack is pointed."""
+    """Return the largest possible tip radius of the rack, in normal modules; negative if the rack is pointed."""
     room = pi / 4 - dedendum * tan(normal_pressure_angle)
     return room * cos(normal_pressure_angle) / (1.0 - sin(normal_pressure_angle))
 
@@ -79,7 +79,7 @@ def full_rack_tip_radius(dedendum: float, normal_pressure_angle: float) -> float
 def rack_tip_radius(inputs: GearPairInputs, teeth: GearTeeth) -> float:
     """Return the tip radius of the rack that cuts the gear, in normal modules.
 
-    This is the given one, limited by the room of the rack.
+    This is the given tip radius, limited to the largest possible tip radius.
     """
     return min(inputs.rack_tip_radius, full_rack_tip_radius(teeth.dedendum, inputs.normal_pressure_angle))
 
@@ -105,7 +105,8 @@ def virtual_gear(inputs: GearPairInputs, teeth: GearTeeth, base_helix_angle: flo
     Returns
     -------
     Gear
-        Virtual gear of z/(cos^2 beta_b cos beta) teeth; `teeth` is the number of teeth of the real gear.
+        Virtual gear with z/(cos^2 beta_b cos beta) teeth; its attribute `teeth` is the number of teeth of the real
+        gear.
 
     Notes
     -----
@@ -116,10 +117,10 @@ def virtual_gear(inputs: GearPairInputs, teeth: GearTeeth, base_helix_angle: flo
 
 
 def _cut(inputs: GearPairInputs, teeth: GearTeeth, count: float, module: float, pressure_angle: float) -> Gear:
-    """Return a gear of `count` teeth in a plane of this module [m] and pressure angle [rad].
+    """Return a gear with `count` teeth in a plane with the given module [m] and pressure angle [rad].
 
-    Heights are in normal modules. The profile shift thickens a tooth by the tangent of the pressure angle in this
-    plane.
+    Heights are in normal modules. A profile shift makes a tooth thicker in proportion to the tangent of the pressure
+    angle in this plane.
     """
     height, normal_angle = inputs.normal_module, inputs.normal_pressure_angle
     radius = module * count / 2
@@ -139,10 +140,11 @@ def _cut(inputs: GearPairInputs, teeth: GearTeeth, count: float, module: float, 
 
 
 class RackFillet(NamedTuple):
-    """The rack tip that cuts a root; lengths [m].
+    """The rack tip that cuts a tooth root; lengths [m].
 
-    `centre_x` and `centre_y` are the centre of the tip arc in the normal plane, from the centre line of the rack tooth
-    and from the reference circle. `end` is the arc parameter at which the fillet meets the involute.
+    `centre_x` and `centre_y` are the coordinates of the centre of the tip arc in the normal plane. `centre_x` is
+    measured from the centre line of the rack tooth, `centre_y` from the reference circle. `end` is the arc parameter at
+    which the fillet meets the involute.
     """
 
     reference_radius: float
@@ -154,7 +156,7 @@ class RackFillet(NamedTuple):
 
 
 class RootProfile(NamedTuple):
-    """A root from the middle of its bottom land to the start of the involute.
+    """A tooth root, from the middle of the bottom land to the start of the involute.
 
     `root_half_angle` [rad] is half the angle of the bottom land. `involute_roll` [m] is the roll length at which the
     involute starts. `sector_area` [m^2] is the area between the centre of the gear and half the root, up to the start
@@ -173,7 +175,7 @@ def fillet_point(fillet: RackFillet, t: float) -> tuple[float, float]:
     """Return radius [m] and half space angle [rad] of the fillet at arc parameter t [rad]."""
     y = fillet.centre_y - fillet.tip_radius * np.cos(t)
     x = (fillet.centre_x + fillet.tip_radius * np.sin(t)) / fillet.cos_helix
-    across = -y * np.tan(t) * fillet.cos_helix  # X + d: the contact normal passes through the pitch point
+    across = -y * np.tan(t) * fillet.cos_helix  # x + shift; the normal at the contact passes through the pitch point
     shift = across - x
     up = y + fillet.reference_radius
     return np.hypot(across, up), np.arctan2(across, up) - shift / fillet.reference_radius
@@ -183,7 +185,7 @@ def fillet_point(fillet: RackFillet, t: float) -> tuple[float, float]:
 def fillet_sector_area(fillet: RackFillet, end: float) -> float:
     """Return the area between the centre of the gear and the fillet from t = 0 to `end` [m^2].
 
-    The area is 1/2 integral r^2 dpsi.
+    The area is 1/2 integral r^2 dpsi, where psi is the half space angle.
     """
     r, tip, cos_helix = fillet.reference_radius, fillet.tip_radius, fillet.cos_helix
     area = 0.0
@@ -200,7 +202,7 @@ def fillet_sector_area(fillet: RackFillet, end: float) -> float:
 def root_profile(pair: GearPairInputs, teeth: GearTeeth, gear: Gear) -> RootProfile:
     """Return the root of one gear of the pair.
 
-    If the gear is undercut, the root is the union of what the tip and the flank of the rack sweep.
+    If the gear is undercut, the root is the union of the areas that the tip and the flank of the rack sweep.
     """
     module, angle = pair.normal_module, pair.normal_pressure_angle
     tip = rack_tip_radius(pair, teeth) * module

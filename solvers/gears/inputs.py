@@ -1,4 +1,4 @@
-"""What describes a gear pair."""
+"""Inputs that describe a gear pair."""
 
 from math import atan, cos, tan
 from typing import Literal
@@ -7,8 +7,8 @@ from solvers.errors import InvalidInput
 from solvers.quantity import quantities, quantity, record
 from solvers.sources import ISO_21771
 
-GROUND_FILLET = 0.25  # normal modules; usual tip radius of the rack of ground teeth
-RACK_A = 0.38  # normal modules; rack A of ISO 53, assumed if the stiffness of the teeth matters
+GROUND_FILLET = 0.25  # normal modules; usual tip radius of the rack for ground teeth
+RACK_A = 0.38  # normal modules; tip radius of rack A of ISO 53, assumed if the stiffness of the teeth matters
 
 
 @record
@@ -142,8 +142,8 @@ class GearPairInputs:
         Raises
         ------
         InvalidInput
-            `missing_property` if neither addendum nor tip diameter is given; `tip_diameter` if no rack makes the given
-            one.
+            `missing_property` if neither addendum nor tip diameter is given; `tip_diameter` if the given tip diameter
+            leads to an addendum coefficient outside its range.
         """
         name = "pinion" if teeth is self.pinion else "wheel"
         if teeth.tip_diameter is None:

@@ -1,4 +1,4 @@
-"""Warnings about a gear pair that meshes and about its load; they are the same in every model."""
+"""Warnings about a gear pair and its load; all models give the same warnings."""
 
 from collections.abc import Iterator
 from math import cos
@@ -14,7 +14,7 @@ THIN_TIP = 0.2  # normal modules
 WIDEST_FACE = 3.0  # pitch diameters of the pinion
 NARROWEST_FACE = 0.5  # modules
 FASTEST = 250.0  # m/s at the pitch line
-HIGHEST_ROOT_LOAD = 400e6  # Pa, F_t/(b m_n); the stress in the root is four times it, beyond steel's strength
+HIGHEST_ROOT_LOAD = 400e6  # Pa, F_t/(b m_n); the stress in the root is four times as high, above the strength of steel
 LEAST_LOAD = 1e3  # N/m
 
 
@@ -84,7 +84,7 @@ def unusual_gears(pair: GearPairInputs, pinion_speed: float | None = None) -> It
 
 
 def tooth_load(pair: GearPairInputs, torque: float, line_load: float) -> Iterator[Notice]:
-    """Warn of a torque of the pinion [N m] or a largest line load [N/m] that is unusual for the teeth."""
+    """Warn if the torque of the pinion [N m] or the largest line load [N/m] is unusual for the teeth."""
     root = 2 * torque / pitch_diameter(pair) / (pair.face_width * pair.module)
     if root > HIGHEST_ROOT_LOAD:
         message = f"the tooth force of {root / 1e6:.4g} N per mm of face width and mm of module breaks a steel tooth"

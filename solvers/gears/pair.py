@@ -1,4 +1,4 @@
-"""An involute pair in the transverse plane (ISO 21771) and the path of contact A-E on its line of action."""
+"""An involute gear pair in the transverse plane (ISO 21771), and the path of contact A-E on the line of action."""
 
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
@@ -23,11 +23,13 @@ from solvers.gears.inputs import GearPairInputs, GearTeeth
 
 Real = TypeVar("Real", float, FloatArray)
 
-# A helical gear with less overlap is treated as a spur gear: a contact line would enter within rounding at once.
+# A helical gear with a smaller overlap ratio is treated as a spur gear, because within rounding errors a contact line
+# would enter the mesh over the whole face at once.
 LEAST_OVERLAP = 1e-9
-# Ratio of reduced radius to normal module below which the formulas of Hertz and Blok have no limit.
+# Ratio of reduced radius to normal module below which pressure and flash temperature have no meaning: the formulas of
+# Hertz and Blok grow without limit as the radius falls to zero.
 LEAST_RADIUS = 0.02
-ROUNDING = 1e-9  # of the line of action
+ROUNDING = 1e-9  # share of the line of action
 
 
 def inverse_involute(value: float) -> float:
@@ -39,7 +41,8 @@ def inverse_involute(value: float) -> float:
 class GearPair:
     """A meshing pair in the transverse plane; lengths [m], angles [rad].
 
-    `centre_distance` is the one in use. `line_of_action` is the distance N1 N2 of both base tangent points.
+    `centre_distance` is the centre distance in use. `line_of_action` is the distance N1 N2 between the two base tangent
+    points.
     """
 
     inputs: GearPairInputs
@@ -119,7 +122,7 @@ def _gear(inputs: GearPairInputs, teeth: GearTeeth, name: str) -> Gear:
 def _backlash_free_centre_distance(
     inputs: GearPairInputs, pinion: Gear, wheel: Gear, transverse_pressure_angle: float
 ) -> float:
-    """Return the centre distance [m] with inv alpha_wt = inv alpha_t + 2 (x1 + x2) tan alpha_n/(z1 + z2)."""
+    """Return the centre distance [m] at which inv alpha_wt = inv alpha_t + 2 (x1 + x2) tan alpha_n/(z1 + z2)."""
     shifts = inputs.pinion.profile_shift + inputs.wheel.profile_shift
     teeth = pinion.teeth + wheel.teeth
     working_involute = involute(transverse_pressure_angle) + 2 * tan(inputs.normal_pressure_angle) * shifts / teeth
@@ -128,11 +131,11 @@ def _backlash_free_centre_distance(
 
 
 class ContactPlane(NamedTuple):
-    """Rectangle of the plane of action: x from A to E, y from the end of the face that meshes first [m].
+    """Rectangle of the plane of action; x runs from A to E, y from the end of the face that meshes first [m].
 
-    Contact lines are x + y tan_base_helix = phase + j base_pitch. At x the roll length of the pinion is start + x, out
-    of line_of_action. If the reduced radius is below least_radius, near a base circle, pressure and flash temperature
-    have no meaning.
+    Contact line number j has the equation x + y `tan_base_helix` = phase + j `base_pitch`. At x the roll length of the
+    pinion is `start` + x, and the roll length of the wheel is `line_of_action` minus this length. If the reduced radius
+    is below `least_radius`, which happens near a base circle, pressure and flash temperature have no meaning.
     """
 
     path_length: float
@@ -164,8 +167,8 @@ def reduced_radius(plane: ContactPlane, x: Real) -> Real:
 
     Notes
     -----
-    The curvature of an involute helicoid across its straight generator is r_K/cos beta_b. Eq. 13 prints r_K cos^3
-    beta_b/(1 - 2 sin^2 beta_b), which is equal to second order in beta_b and singular at 45 degrees.
+    The radius of curvature of an involute helicoid across its straight generator is r_K/cos beta_b. Eq. 13 prints r_K
+    cos^3 beta_b/(1 - 2 sin^2 beta_b). This expression agrees to second order in beta_b, but is singular at 45 degrees.
     """
     s = plane.start + x
     return s * (plane.line_of_action - s) / (plane.line_of_action * plane.cos_base_helix)
@@ -175,7 +178,7 @@ def reduced_radius(plane: ContactPlane, x: Real) -> Real:
 class PathOfContact:
     """Path of contact in roll lengths of the pinion [m]: `start` at A, `end` at E, `pitch_point` at C.
 
-    `shortened_by` names the members whose fillet ends the path before the tip of the mate does.
+    `shortened_by` names the gears whose fillet ends the path before the tip of the mating gear does.
     """
 
     pair: GearPair
@@ -197,7 +200,7 @@ class PathOfContact:
     def transverse_contact_ratio(self) -> float:
         """Transverse contact ratio eps_alpha = g_alpha/p_bt [-].
 
-        Eq. 2, which prints the circular pitch pi m_t as the base pitch p_bt.
+        Eq. 2. The paper prints the circular pitch pi m_t instead of the base pitch p_bt.
         """
         return self.length / self.pair.transverse_base_pitch
 
@@ -252,7 +255,8 @@ class PathOfContact:
         Notes
         -----
         The velocity of a flank across the contact line is exactly omega times the transverse radius of curvature.
-        Eq. 18 takes the radius across the contact line, which is too large by 1/cos beta_b.
+        Instead, Eq. 18 takes the radius of curvature across the contact line, which is too large by the factor 1/cos
+        beta_b.
         """
         s = self.start + x
         wheel_speed = pinion_speed * self.pair.pinion.teeth / self.pair.wheel.teeth
@@ -261,7 +265,7 @@ class PathOfContact:
 
 @lru_cache(maxsize=64)
 def meshing_path(gears: GearPairInputs) -> PathOfContact:
-    """Return the path of contact of a pair; raise what `gear_pair` and `path_of_contact` raise."""
+    """Return the path of contact of a pair; the errors are those of `gear_pair` and `path_of_contact`."""
     return path_of_contact(gear_pair(gears))
 
 
@@ -282,7 +286,7 @@ def path_of_contact(pair: GearPair) -> PathOfContact:
     ------
     InvalidInput
         `form_diameter` if a fillet reaches the tip of its own gear; `no_contact` if the tips do not reach the line of
-        action; `involute_interference` if the fillets leave nothing of the path.
+        action; `involute_interference` if no part of the path is left between the fillets.
 
     Notes
     -----

@@ -1,8 +1,9 @@
-"""Heat balance of a gear pair or gear unit: losses, the oil that cools, and the temperatures of flanks and bodies.
+"""Heat balance of a gear pair or gear unit: losses, cooling by the oil, and temperatures of flanks and bodies.
 
-Data flows inputs, oil -> losses, bearings, fling_off, convection, conduction -> network (nodes and flows of heat) ->
-solution (equilibrium), calibration (by measured temperatures), band -> results, notices; `model.solve` calls these.
-`warm_up` follows the network over time with its capacities. Own derivation; sources are given with the equations.
+The data flow through the modules in this order: inputs and oil -> losses, bearings, fling_off, convection and
+conduction -> network (nodes and heat flows) -> solution (equilibrium), calibration (with measured temperatures) and
+band -> results and notices. `model.solve` calls these modules. `warm_up` computes the temperatures of the network over
+time, with the heat capacities of the nodes. The model is our own derivation; sources are given with the equations.
 """
 
 from solvers.guards import guarded

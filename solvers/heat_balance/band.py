@@ -1,4 +1,4 @@
-"""Band of the temperatures, if much or little oil reaches the flanks: a range, not a probability."""
+"""Band of the flank temperatures between much and little oil on the flanks; the band has no stated probability."""
 
 from dataclasses import dataclass, replace
 
@@ -14,9 +14,10 @@ MEASURED_WITHIN = 3.0  # K, chosen: uncertainty of a measured temperature
 
 @dataclass(frozen=True, slots=True)
 class Extreme:
-    """How well the oil cools at one end of the band; None leaves the value of the nominal case.
+    """Cooling by the oil at one end of the band.
 
-    `measured` is added to the measured temperature of a gear [K].
+    If `rewetting_share` is None, the nominal value is kept. `measured` [K] is added to the measured temperature of a
+    gear.
     """
 
     wetting_share: float
@@ -30,7 +31,7 @@ POORLY_COOLED = Extreme(wetting_share=0.2, fling_off_factor=0.7, measured=MEASUR
 
 
 def extreme_network(network: Network, cooling: Cooling, extreme: Extreme) -> Network:
-    """Return the network at one end of the band; what the user gives is not varied.
+    """Return the network at one end of the band; values that the user gives are not varied.
 
     Parameters
     ----------
@@ -44,12 +45,12 @@ def extreme_network(network: Network, cooling: Cooling, extreme: Extreme) -> Net
     Returns
     -------
     Network
-        With other shares and another factor; flow and losses are held.
+        The network with the shares and the factor of this end; flow and losses are unchanged.
 
     Notes
     -----
-    Eq. H21. With a measured temperature of a gear the wetting share is fitted again to the temperature at the end of
-    its own uncertainty, as near as it comes.
+    Eq. H21. If the temperature of a gear is measured, the wetting share is fitted again, to the measured temperature
+    plus or minus its uncertainty. If no share gives this temperature, the share that comes nearest is taken.
     """
     spray = network.spray
     if cooling.fling_off_factor is None:
@@ -64,10 +65,10 @@ def extreme_network(network: Network, cooling: Cooling, extreme: Extreme) -> Net
 
 
 def _fitted_again(network: Network, node: str, temperature: float) -> Network:
-    """Return the network with the wetting share that gives the node its temperature, or comes nearest to it."""
+    """Return the network with the wetting share that gives the node this temperature [K], or comes nearest to it."""
     place, wanted = network.nodes.index(node), temperature - network.oil.inlet
     all_oil = wetted(network, MOST_WETTING)
-    if float(equilibrium(all_oil).rises[place]) >= wanted:  # no share cools so well
+    if float(equilibrium(all_oil).rises[place]) >= wanted:  # no share cools the node to this temperature
         return all_oil
     try:
         return with_rotor(network, node, temperature)
@@ -76,7 +77,7 @@ def _fitted_again(network: Network, node: str, temperature: float) -> Network:
 
 
 def flank_cases(network: Network, cooling: Cooling, nominal: FloatArray) -> tuple[tuple[float, float], ...]:
-    """Compute the flanks at both ends of the band and in the nominal case.
+    """Compute the flank temperatures at both ends of the band and in the nominal case.
 
     Parameters
     ----------
@@ -85,12 +86,12 @@ def flank_cases(network: Network, cooling: Cooling, nominal: FloatArray) -> tupl
     cooling : Cooling
         What the user gives.
     nominal : FloatArray
-        Rises in the nominal case [K].
+        Temperature rises of the nodes in the nominal case [K].
 
     Returns
     -------
     tuple of (float, float)
-        Temperatures of pinion and wheel [K]: well cooled, nominal, poorly cooled.
+        Flank temperatures of pinion and wheel [K] in the well cooled, the nominal and the poorly cooled case.
     """
     ends = [extreme_network(network, cooling, extreme) for extreme in (WELL_COOLED, POORLY_COOLED)]
     rises = [equilibrium(ends[0], nominal).rises, nominal, equilibrium(ends[1], nominal).rises]
@@ -101,7 +102,10 @@ def flank_cases(network: Network, cooling: Cooling, nominal: FloatArray) -> tupl
 def flank_band(
     cases: tuple[tuple[float, float], ...], cooling: Cooling
 ) -> tuple[tuple[float, float], tuple[float, float]]:
-    """Return the least and the greatest temperature of each flank [K]; a measured one is known to within 3 K."""
+    """Return the lowest and the highest temperature [K] of each gear's flank.
+
+    If a flank temperature was measured and used for the calibration, its band is 3 K to either side.
+    """
     bands = []
     for gear, node in enumerate(("pinion_flank", "wheel_flank")):
         values = [case[gear] for case in cases]

@@ -1,4 +1,4 @@
-"""Plain bearings as the heat balance sees them: friction and the oil that leaves them."""
+"""Friction and oil flow of the plain bearings in the heat balance."""
 
 from collections.abc import Callable
 
@@ -26,13 +26,14 @@ def journal_leakage(surface_speed: float, width: float, clearance: float, eccent
 
     Notes
     -----
-    Eq. H12: U L c eps, what Couette flow brings into the half of the bearing that carries less what leaves it.
+    Eq. H12: U L c eps. This is the Couette flow into the half of the bearing that carries load, minus the Couette flow
+    out of this half.
     """
     return surface_speed * width * clearance * eccentricity
 
 
 Operation = Callable[[float], tuple[float, float]]
-"""Friction power [W] and eccentricity ratio of a plain bearing whose film has a viscosity [Pa s]."""
+"""Function of the film viscosity [Pa s] that returns friction power [W] and eccentricity ratio of a plain bearing."""
 
 
 @record
@@ -54,7 +55,7 @@ class Journal:
         return self.speed * self.diameter / 2
 
     def loss_and_flow(self, viscosity: float) -> tuple[float, float]:
-        """Return friction power [W] and flow of oil [m^3/s] at a viscosity of the film [Pa s]."""
+        """Return the friction power [W] and the oil flow [m^3/s] at a viscosity of the film [Pa s]."""
         power, eccentricity = self.operate(viscosity)
         if self.oil_flow is not None:
             return power, self.oil_flow

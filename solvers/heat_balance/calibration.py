@@ -1,4 +1,4 @@
-"""Calibration: a measured temperature of a gear fixes the wetting share, that of the drain fixes the other losses."""
+"""Calibration: a measured gear temperature fixes the wetting share, a measured drain temperature the other losses."""
 
 from dataclasses import replace
 
@@ -12,11 +12,11 @@ from solvers.heat_balance.solution import DIFFERENCE, equilibrium
 
 LEAST_WETTING, MOST_WETTING = 0.02, 1.0
 TRIED_SHARES = np.geomspace(MOST_WETTING, LEAST_WETTING, 8)
-CLOSE = 1e-7  # of the wetting share
-SHARE_STEP = 1e-5  # of the logarithm of the wetting share, and of the scale of the other losses, in differences
-MOST_FITS, LARGEST_FIT = 20, 1.0  # steps, and largest change of the logarithm of the share per step
-FITTED = 1e-6  # K; of the last step
-MET = 1e-5  # K; of the measured temperature
+CLOSE = 1e-7  # tolerance of the wetting share
+SHARE_STEP = 1e-5  # step of the logarithm of the wetting share in difference quotients
+MOST_FITS, LARGEST_FIT = 20, 1.0  # number of Newton steps, and largest change of the logarithm of the share per step
+FITTED = 1e-6  # K; tolerance of the last step
+MET = 1e-5  # K; tolerance of the measured temperature
 
 
 def wetted(network: Network, share: float) -> Network:
@@ -25,19 +25,19 @@ def wetted(network: Network, share: float) -> Network:
 
 
 def drain_rise(network: Network, rises: FloatArray) -> float:
-    """Compute how much all oil that leaves a unit has warmed.
+    """Compute the temperature rise of all oil that leaves a unit.
 
     Parameters
     ----------
     network : Network
         The network.
     rises : FloatArray
-        Rises of its nodes [K].
+        Temperature rises of the nodes [K].
 
     Returns
     -------
     float
-        Rise of the mixture of the gears' and the bearings' oil [K].
+        Temperature rise of the mixed oil of gears and bearings [K].
     """
     flows = oil_flows(network, rises)
     warmed = network.spray.flow * rises[MIST] + flows @ rises[MIST + 1 : MIST + 1 + flows.size]
@@ -51,7 +51,7 @@ def oil_flows(network: Network, rises: FloatArray) -> FloatArray:
 
 
 def with_drain(network: Network, drain: float) -> Network:
-    """Return the network with the other losses at which the drain has its measured temperature.
+    """Return the network with the value of the other losses at which the drain has the measured temperature.
 
     Parameters
     ----------
@@ -63,7 +63,7 @@ def with_drain(network: Network, drain: float) -> Network:
     Returns
     -------
     Network
-        With other losses, negative if the losses are overestimated.
+        The network with fitted other losses, which are negative if the calculated losses are too high.
 
     Raises
     ------
@@ -99,28 +99,29 @@ def with_drain(network: Network, drain: float) -> Network:
 
 
 def with_rotor(network: Network, node: str, temperature: float, drain: float | None = None) -> Network:
-    """Return the network with the wetting share at which a node of a gear has its measured temperature.
+    """Return the network with the wetting share at which a node of a gear has the measured temperature.
 
     Parameters
     ----------
     network : Network
         The network.
     node : str
-        Node that was measured, "pinion_flank" to "wheel_body".
+        Measured node: "pinion_flank", "pinion_body", "wheel_flank" or "wheel_body".
     temperature : float
-        Its temperature [K].
+        Measured temperature of the node [K].
     drain : float, optional
-        Measured temperature of all oil that leaves [K], which the other losses are fitted to.
+        Measured temperature of all oil that leaves; if given, the other losses are fitted to this temperature [K].
 
     Returns
     -------
     Network
-        With the largest wetting share that gives this temperature.
+        The network with the largest wetting share that gives this temperature.
 
     Raises
     ------
     InvalidInput
-        `measured_unreachable` with the range that shares of 0.02 to 1 reach.
+        `measured_unreachable` if no share from 0.02 to 1 gives this temperature; the message states the reachable
+        range.
 
     Notes
     -----
@@ -156,11 +157,11 @@ def with_rotor(network: Network, node: str, temperature: float, drain: float | N
 
 
 def _fitted(network: Network, place: int, wanted: float, drain: float | None) -> Network | None:
-    """Return the network whose share and other losses give a node its rise and the drain its rise [K].
+    """Return the network in which a node has the rise `wanted` [K] and, if given, the drain has the rise `drain` [K].
 
-    Newton's method solves for the rises of the other nodes, the logarithm of the share and the other losses together.
-    It starts with all oil on the flanks. The function returns None if the method does not converge to a share from 0.02
-    to 1 and an equilibrium at this share.
+    Newton's method solves for the rises of the other nodes, the logarithm of the wetting share and, if `drain` is
+    given, the other losses together. The method starts with all oil on the flanks. The function returns None if the
+    method does not converge to a share from 0.02 to 1 and an equilibrium at this share.
     """
     try:
         start = equilibrium(wetted(network, MOST_WETTING)).rises
@@ -192,7 +193,7 @@ def _fitted(network: Network, place: int, wanted: float, drain: float | None) ->
             unknown[free] += step * min(1.0, LARGEST_FIT / turn if turn > 0.0 else 1.0)
             if float(np.abs(step).max()) < FITTED:
                 break
-            if unknown[network.size] > LARGEST_FIT:  # far beyond all oil on the flanks
+            if unknown[network.size] > LARGEST_FIT:  # far more than all oil on the flanks
                 return None
         else:
             return None

@@ -56,7 +56,7 @@ def cylinders_capacity(
     density: float = STEEL_DENSITY,
     specific_heat: float = STEEL_HEAT,
 ) -> float:
-    """Compute the heat capacity of a rotor.
+    """Compute the heat capacity of a rotor that consists of hollow cylinders.
 
     Parameters
     ----------

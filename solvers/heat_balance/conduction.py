@@ -26,7 +26,7 @@ def tooth_conductance(teeth: int, face_width: float, module: float, height: floa
 
     Notes
     -----
-    Eq. H15: K = z b H k/(pi m_n/4), through half the thickness of a tooth.
+    Eq. H15: K = z b H k/(pi m_n/4); the heat flows through half the thickness of a tooth.
     """
     return teeth * face_width * height * conductivity / (pi * module / 4)
 
@@ -37,7 +37,7 @@ def rod_conductance(sections: tuple[tuple[float, float, float], ...], conductivi
     Parameters
     ----------
     sections : tuple of (float, float, float)
-        Length, outer and inner diameter of each section in between [m].
+        Length, outer diameter and inner diameter of each section between these two places [m].
     conductivity : float
         Thermal conductivity of the shaft [W/(m K)].
 
@@ -48,7 +48,7 @@ def rod_conductance(sections: tuple[tuple[float, float, float], ...], conductivi
 
     Notes
     -----
-    Eq. H14: 1/sum(L/(k A)), exact for a rod.
+    Eq. H14: 1/sum(L/(k A)); this is exact for a rod.
     """
     lengths = sum(length / (outer**2 - inner**2) for length, outer, inner in sections)
     return conductivity * pi / 4 / lengths

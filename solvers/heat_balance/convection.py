@@ -1,11 +1,11 @@
-"""Convection from the rim and the faces of a turning gear to air; mist cools by a multiple of it."""
+"""Convection from the rim and the faces of a rotating gear to air; oil mist cools better by a given factor."""
 
-RECOVERY = 0.88  # of a turbulent boundary layer
+RECOVERY = 0.88  # recovery factor of a turbulent boundary layer
 AIR_HEAT = 1006.0  # J/(kg K)
 
 
 def rim_convection(speed: float, radius: float) -> float:
-    """Compute the heat transfer coefficient of the rim, a turning cylinder.
+    """Compute the heat transfer coefficient of the rim, which is a rotating cylinder.
 
     Parameters
     ----------
@@ -21,13 +21,13 @@ def rim_convection(speed: float, radius: float) -> float:
 
     Notes
     -----
-    Eq. H16: 3.75 omega^0.7 r_a^0.4, after Jungnickel; agrees with Becker within 12 %.
+    Eq. H16: 3.75 omega^0.7 r_a^0.4, after Jungnickel; this agrees with the formula of Becker within 12 %.
     """
     return float(3.75 * speed**0.7 * radius**0.4)
 
 
 def face_convection(speed: float, radius: float) -> float:
-    """Compute the heat transfer coefficient of a face, a turning disc.
+    """Compute the heat transfer coefficient of a face, which is a rotating disc.
 
     Parameters
     ----------
@@ -43,13 +43,13 @@ def face_convection(speed: float, radius: float) -> float:
 
     Notes
     -----
-    Eq. H16: 2.73 omega^0.8 r_a^0.6, after Jungnickel; agrees with the free disc within 5 %.
+    Eq. H16: 2.73 omega^0.8 r_a^0.6, after Jungnickel; this agrees with the formula for a free disc within 5 %.
     """
     return float(2.73 * speed**0.8 * radius**0.6)
 
 
 def recovery_rise(speed: float, radius: float, recovery: float = RECOVERY) -> float:
-    """Compute how much friction warms the mist that passes the tips.
+    """Compute the temperature rise of the mist by friction at the tooth tips.
 
     Parameters
     ----------

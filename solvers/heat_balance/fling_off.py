@@ -1,9 +1,10 @@
-"""Fling-off cooling: the heat that an oil film takes from the teeth while the rotation throws it off (own derivation).
+"""Fling-off cooling: an oil film takes heat from the teeth while the rotation throws the film off (own derivation).
 
-A jet lays a fresh film on the flanks once a turn. The centrifugal acceleration omega^2 r drives the film along the
-tooth height H; it thins as h = min(h0, sqrt(nu x/(omega^2 r t))), while heat is conducted across it from an isothermal
-wall to an adiabatic surface. Scaled by t* = sqrt(nu H/(a r))/omega and sqrt(a t*), the heat that a turn takes depends
-on the film's thickness and on the duration of the turn only.
+A jet lays a fresh film on the flanks once per turn. The centrifugal acceleration omega^2 r drives the film along the
+tooth height H. The thickness of the film decreases as h = min(h0, sqrt(nu x/(omega^2 r t))). Meanwhile heat is
+conducted through the film, from an isothermal wall to an adiabatic free surface. If times are divided by t* = sqrt(nu
+H/(a r))/omega and thicknesses by sqrt(a t*), the heat per turn depends only on the thickness of the film as laid and on
+the duration of the turn.
 """
 
 from dataclasses import dataclass
@@ -11,12 +12,12 @@ from math import pi, sqrt
 
 from solvers.heat_balance.oil import CoolingOil
 
-TOOTH_HEIGHT = 2.25  # H over the normal module: addendum, dedendum and tip clearance of the basic rack
-LONG_TURN = 0.98  # q of thick films and long turns, by similarity
-FLOODED = 50.0  # scaled thickness above which a film cools no better
-USED_SHARE = 0.9  # of the flooded heat; a turn can use the film that takes this share
-LIMITED_FROM = 0.98  # chosen: of the oil's heat capacity; a higher conductance does not depend on the film
-FILM_POWER, TIME_POWER = -5.5, -8.0  # of the closed form, fitted to the solved film (2.5 %)
+TOOTH_HEIGHT = 2.25  # H in normal modules: addendum, dedendum and tip clearance of the basic rack
+LONG_TURN = 0.98  # heat number q of thick films and long turns, from a similarity solution
+FLOODED = 50.0  # scaled thickness above which a thicker film does not cool better
+USED_SHARE = 0.9  # share of the heat of a flooded flank; `turn_film` is the thickness of a film that takes this share
+LIMITED_FROM = 0.98  # chosen: share of the oil's heat capacity above which the oil flow limits the cooling
+FILM_POWER, TIME_POWER = -5.5, -8.0  # exponents of the closed form, fitted to numerical solutions within 2.5 %
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,7 +36,7 @@ class TurningTeeth:
 
 
 def turning_teeth(teeth: int, face_width: float, module: float, radius: float, speed: float) -> TurningTeeth:
-    """Describe the flanks that a jet wets: both flanks of every tooth over the tooth height 2.25 m_n.
+    """Describe the flanks that a jet wets: both flanks of every tooth, over the whole tooth height of 2.25 m_n.
 
     Parameters
     ----------
@@ -53,7 +54,7 @@ def turning_teeth(teeth: int, face_width: float, module: float, radius: float, s
     Returns
     -------
     TurningTeeth
-        Their area, height, radius and speed.
+        Area, height, radius and speed of the teeth.
 
     Notes
     -----
@@ -64,24 +65,25 @@ def turning_teeth(teeth: int, face_width: float, module: float, radius: float, s
 
 
 def heat_number(film: float, turn: float) -> float:
-    """Compute the heat that a film takes in one turn, over that of a film that reaches the wall's temperature.
+    """Compute the dimensionless heat that a film takes from the flank in one turn.
 
     Parameters
     ----------
     film : float
-        Thickness of the film as laid, over sqrt(a t*) [-].
+        Thickness of the film as laid, divided by sqrt(a t*) [-].
     turn : float
-        Duration of a turn over t* [-].
+        Duration of a turn, divided by t* [-].
 
     Returns
     -------
     float
-        Heat per area, kelvin and turn over sqrt(k rho c t*) [-].
+        Heat per area, kelvin and turn, divided by sqrt(k rho c t*) [-].
 
     Notes
     -----
-    Eq. H2. A thin film takes all that it can, q = h0'; after a short time the film is a half space, q = 2 sqrt(t'/pi);
-    a thick film ends at 0.98, by similarity. The closed form joins the three within 2.5 % of the solved film.
+    Eq. H2. There are three limits. A thin film reaches the temperature of the wall: q = h0'. In a short turn the film
+    acts as a half space: q = 2 sqrt(t'/pi). For a thick film and a long turn a similarity solution gives q = 0.98. The
+    closed form joins these three limits, and agrees with numerical solutions within 2.5 %.
     """
     short = 2 * sqrt(turn / pi)
     unlimited = short**TIME_POWER + LONG_TURN**TIME_POWER
@@ -137,10 +139,12 @@ def laid_film(teeth: TurningTeeth, flow: float) -> float:
 
 @dataclass(frozen=True, slots=True)
 class FlingOff:
-    """Cooling of one gear by its film: conductances [W/K] of the film as laid and of a film that floods the flank.
+    """Cooling of one gear by its oil film.
 
-    `film` is the thickness that the jets lay per turn, and `turn_film` the thickness that can take heat in a turn [m].
-    `limited` is true if the heat capacity of the oil limits the conductance.
+    `conductance` [W/K] is the conductance of the film as laid. `flooded` [W/K] is the conductance of a film that is so
+    thick that more oil does not help. `film` [m] is the thickness that the jets lay per turn. `turn_film` [m] is the
+    thickness of a film that takes 0.9 of the heat of a flooded flank. `limited` is true if the heat capacity of the oil
+    flow limits the conductance.
     """
 
     conductance: float
@@ -151,7 +155,7 @@ class FlingOff:
 
 
 def fling_off(oil: CoolingOil, teeth: TurningTeeth, flow: float, factor: float, flank: float) -> FlingOff:
-    """Compute how well the film cools both flanks of a gear.
+    """Compute the cooling of both flanks of a gear by the oil film.
 
     Parameters
     ----------
@@ -162,18 +166,18 @@ def fling_off(oil: CoolingOil, teeth: TurningTeeth, flow: float, factor: float, 
     flow : float
         Oil that wets the flanks of this gear [m^3/s].
     factor : float
-        Factor on the conductance of the film [-].
+        Factor by which the conductance of the film is multiplied [-].
     flank : float
         Temperature of the flank [K].
 
     Returns
     -------
     FlingOff
-        Conductances from both flanks to the oil, at most the heat capacity of the flow, and thicknesses of the film.
+        Conductances from both flanks to the oil, and thicknesses of the film.
 
     Notes
     -----
-    Eq. H5: G = f omega/(2 pi) A sqrt(k rho c t*) q(h0', t'), G <= rho c Q_i; flooded: h0' = 50.
+    Eq. H5: G = f omega/(2 pi) A sqrt(k rho c t*) q(h0', t'), G <= rho c Q_i. For a flooded flank h0' is 50.
     """
     time = fling_off_time(oil, teeth, (flank + oil.inlet) / 2)
     length, turn = sqrt(oil.diffusivity * time), 1 / (teeth.turns * time)
@@ -190,6 +194,6 @@ def fling_off(oil: CoolingOil, teeth: TurningTeeth, flow: float, factor: float, 
 
 
 def _thickness_of(heat: float, turn: float) -> float:
-    """Return the scaled thickness at which a film takes `heat`; inverse of `heat_number`."""
+    """Return the scaled thickness at which a film takes `heat`; this is the inverse of `heat_number`."""
     unlimited = (2 * sqrt(turn / pi)) ** TIME_POWER + LONG_TURN**TIME_POWER
     return float((heat**FILM_POWER - unlimited ** (FILM_POWER / TIME_POWER)) ** (1 / FILM_POWER))

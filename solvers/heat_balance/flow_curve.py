@@ -1,4 +1,4 @@
-"""Temperatures over the oil flow: what more oil brings."""
+"""Temperatures as functions of the oil flow, which show the effect of more oil."""
 
 from dataclasses import replace
 
@@ -15,7 +15,7 @@ from solvers.quantity import described, record
 
 @record
 class FlowCurve:
-    """Temperatures over the oil flow to the gears; NaN at flows without an equilibrium."""
+    """Temperatures at several oil flows to the gears; NaN at flows without an equilibrium."""
 
     flow: FloatArray = described("Oil flows to the gears [m^3/s].")
     pinion_flank: FloatArray = described("Temperatures of the loaded flanks of the pinion [K].")
@@ -24,24 +24,24 @@ class FlowCurve:
 
 
 def over_the_flow(inputs: HeatBalanceInputs, flows: FloatArray) -> FlowCurve:
-    """Solve the balance at other oil flows.
+    """Solve the heat balance at other oil flows.
 
     Parameters
     ----------
     inputs : HeatBalanceInputs
-        The pair or unit; what was measured fixes the wetting share at its own flow.
+        The pair or unit; measured temperatures belong to the oil flow of these inputs and are used for calibration.
     flows : FloatArray
         Flows to the gears, rising [m^3/s].
 
     Returns
     -------
     FlowCurve
-        Temperatures at these flows; losses follow the temperatures only.
+        Temperatures at these flows.
     """
     network = calibrated(network_of(inputs), inputs.cooling)
     start: FloatArray | None = None
     rows = []
-    for flow in flows[::-1]:  # from the coolest case on
+    for flow in flows[::-1]:  # starts with the coolest case
         varied = replace(network, spray=replace(network.spray, flow=float(flow)))
         start, row = _solved(varied, start)
         rows.append(row)
@@ -50,7 +50,10 @@ def over_the_flow(inputs: HeatBalanceInputs, flows: FloatArray) -> FlowCurve:
 
 
 def _solved(network: Network, start: FloatArray | None) -> tuple[FloatArray | None, tuple[float, float, float]]:
-    """Return the rises to start the next case from, and those of flanks and drain [K]."""
+    """Return the rises [K] of all nodes, and those of both flanks and the drain.
+
+    The next case starts from the rises of all nodes. If there is no equilibrium, the function returns None and NaN.
+    """
     try:
         rises = equilibrium(network, start).rises
     except NoSolution:

@@ -14,7 +14,7 @@ WETTING_SHARE, FLING_OFF_FACTOR, REWETTING_SHARE = 0.5, 1.0, 0.0
 
 @record
 class Casing:
-    """The casing of a gear unit; without an area it is left out of the balance."""
+    """The casing of a gear unit; if no area is given, the casing is left out of the heat balance."""
 
     area: float | None = quantity(
         "area of the casing",
@@ -60,7 +60,7 @@ class Casing:
 
 @record
 class Measured:
-    """Temperatures measured on the running gear: at most one per gear, and that of the drained oil.
+    """Temperatures measured in operation: at most one temperature per gear, and the temperature of the drained oil.
 
     A thermocouple in a tooth or in the rim measures the body, an infrared sensor the flank.
     """
@@ -119,14 +119,14 @@ class Measured:
 
     @property
     def rotors(self) -> dict[str, float]:
-        """Measured temperatures of the gears by node [K], that of the pinion first."""
+        """Measured temperatures of the gears [K] by the name of the node; the pinion comes first."""
         given = {item.name: getattr(self, item.name) for item in fields(self) if item.name != "drain"}
         return {name: value for name, value in given.items() if value is not None}
 
 
 @record
 class Cooling:
-    """How the oil reaches the teeth, what else heats it, and what was measured."""
+    """Supply of oil to the teeth, further losses that heat the oil, and measured temperatures."""
 
     gear_flow: float | None = quantity(
         "oil flow to the gears",
@@ -294,26 +294,26 @@ class Cooling:
     casing: Casing = quantity("casing", default_factory=Casing)
 
     def jet_velocity(self) -> float:
-        """Return the velocity of the jets [m/s], negative against the outlet."""
+        """Return the velocity of the jets [m/s]; negative if they point against the teeth that leave the mesh."""
         return self.jet_speed if self.jets == "into_mesh" else -self.jet_speed
 
     @property
     def wetting(self) -> float:
-        """The wetting share in force."""
+        """The wetting share in use."""
         return WETTING_SHARE if self.wetting_share is None else self.wetting_share
 
     @property
     def rewetting(self) -> float:
-        """The rewetting share in force."""
+        """The rewetting share in use."""
         return REWETTING_SHARE if self.rewetting_share is None else self.rewetting_share
 
     @property
     def factor(self) -> float:
-        """The fling-off factor in force."""
+        """The fling-off factor in use."""
         return FLING_OFF_FACTOR if self.fling_off_factor is None else self.fling_off_factor
 
     def check(self) -> None:
-        """Refuse two measured temperatures of one gear, and a value that a measured temperature fixes.
+        """Refuse two measured temperatures of one gear, and a given value that a measured temperature also determines.
 
         Raises
         ------

@@ -1,6 +1,7 @@
-"""Losses of a gear pair and how they follow temperature: mesh, windage, oil brought to speed.
+"""Losses of a gear pair: friction of the mesh as a function of temperature, windage, and acceleration of the oil.
 
-The friction of the mesh is the load distribution's own; here it only follows the oil's viscosity.
+The friction of the mesh is computed with the load distribution. This module only adapts the friction to the viscosity
+of the oil.
 """
 
 import numpy as np
@@ -9,8 +10,8 @@ from solvers.arrays import FloatArray
 from solvers.heat_balance.oil import CoolingOil
 from solvers.quantity import described, record
 
-VISCOSITY_EXPONENT = -0.05  # of Schlenk's mean coefficient of friction (quoted, not verified)
-LARGEST_ACCELERATION_SHARE = 0.5  # chosen: largest share of the rise by which the flow is sized
+VISCOSITY_EXPONENT = -0.05  # exponent of the viscosity in Schlenk's mean coefficient of friction (quoted, not verified)
+LARGEST_ACCELERATION_SHARE = 0.5  # chosen: largest share of the rise that `flow_by_rise` attributes to the acceleration
 
 
 @record
@@ -80,8 +81,8 @@ def share_to_pinion(
 
     Notes
     -----
-    Eq. H7: phi = int q sqrt(u_1)/(sqrt(u_1) + sqrt(u_2)) / int q: both surfaces have the same temperature in the
-    contact, which they pass as half spaces under a moving source.
+    Eq. H7: phi = int q sqrt(u_1)/(sqrt(u_1) + sqrt(u_2)) / int q. Both surfaces are half spaces under a moving heat
+    source, and have the same temperature in the contact.
     """
     total = float(np.trapezoid(heat, position))
     if total == 0.0:
@@ -91,7 +92,7 @@ def share_to_pinion(
 
 
 def windage(pitch_line_velocity: float, diameter: float, face_width: float, module: float, speed: float) -> float:
-    """Compute the windage of one gear by Mauz.
+    """Compute the windage loss of one gear with the formula of Mauz.
 
     Parameters
     ----------
@@ -113,14 +114,15 @@ def windage(pitch_line_velocity: float, diameter: float, face_width: float, modu
 
     Notes
     -----
-    Eq. H8: torque 1.37e-9 v^1.9 d^1.6 b^0.52 m_n^0.69 N m with lengths in mm; the lowest of three formulas.
+    Eq. H8: torque 1.37e-9 v^1.9 d^1.6 b^0.52 m_n^0.69 N m with lengths in mm. Of three published formulas, this formula
+    gives the lowest loss.
     """
     sizes = (diameter * 1e3) ** 1.6 * (face_width * 1e3) ** 0.52 * (module * 1e3) ** 0.69
     return float(1.37e-9 * pitch_line_velocity**1.9 * sizes * speed)
 
 
 def acceleration_power(oil: CoolingOil, flow: float, velocity: float, jet: float) -> float:
-    """Compute the power that brings oil from the speed of its jet to that of the pitch line.
+    """Compute the power that accelerates oil from the speed of the jet to the speed of the pitch line.
 
     Parameters
     ----------
@@ -140,14 +142,14 @@ def acceleration_power(oil: CoolingOil, flow: float, velocity: float, jet: float
 
     Notes
     -----
-    Eq. H9: rho Q v (v - v_jet). Per mass, (v - v_jet)^2/2 of it becomes heat as the oil hits the teeth, the
-    rest as the casing stops the oil.
+    Eq. H9: rho Q v (v - v_jet). Of this energy, (v - v_jet)^2/2 per unit mass of oil becomes heat when the oil hits the
+    teeth; the rest becomes heat when the casing stops the oil.
     """
     return oil.density * flow * velocity * (velocity - jet)
 
 
 def impact_rise(oil: CoolingOil, velocity: float, jet: float) -> float:
-    """Compute how much the oil warms as it hits the teeth.
+    """Compute the temperature rise of the oil when it hits the teeth.
 
     Parameters
     ----------
@@ -173,7 +175,7 @@ def impact_rise(oil: CoolingOil, velocity: float, jet: float) -> float:
 def flow_by_rise(
     oil: CoolingOil, losses: float, rise: float, wetting_share: float, velocity: float, jet: float
 ) -> float:
-    """Size the flow to the gears by the rise of its temperature.
+    """Compute the oil flow to the gears for a given rise of the oil temperature.
 
     Parameters
     ----------
@@ -205,7 +207,7 @@ def flow_by_rise(
 
 
 def ts_6336_22_bulk_rise(loss: float, centre_distance: float, face_width: float, supply_factor: float) -> float:
-    """Estimate the rise of the bulk over the oil by ISO/TS 6336-22, without tip relief.
+    """Estimate the difference between bulk and oil temperature by ISO/TS 6336-22, for gears without tip relief.
 
     Parameters
     ----------
@@ -216,15 +218,15 @@ def ts_6336_22_bulk_rise(loss: float, centre_distance: float, face_width: float,
     face_width : float
         Face width [m].
     supply_factor : float
-        X_S, 1.2 of jets [-].
+        Factor X_S of the oil supply, 1.2 for jets [-].
 
     Returns
     -------
     float
-        Rise [K].
+        Temperature difference [K].
 
     Notes
     -----
-    Eq. H13: 7400 (P mu H_v/(a b))^0.72 X_S/1.2, in kW and mm.
+    Eq. H13: 7400 (P mu H_v/(a b))^0.72 X_S/1.2, with power in kW and lengths in mm.
     """
     return float(7400 * (loss * 1e-3 / (centre_distance * face_width * 1e6)) ** 0.72 * supply_factor / 1.2)

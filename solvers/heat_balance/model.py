@@ -1,4 +1,4 @@
-"""The heat balance: network from the inputs, calibration, equilibrium, band."""
+"""Heat balance: build the network from the inputs, calibrate the network, find the equilibrium and the band."""
 
 from collections.abc import Iterator
 from dataclasses import replace
@@ -52,7 +52,7 @@ class GearGeometry:
 
     @property
     def face_area(self) -> float:
-        """Area of both faces that the shaft leaves free [m^2]."""
+        """Area of both faces of the gear without the cross-sections of the shaft [m^2]."""
         return pi * sum(max(self.tip_radius**2 - radius**2, 0.0) for radius in self.shaft_radii)
 
 
@@ -86,14 +86,14 @@ def solve(inputs: HeatBalanceInputs) -> Heat:
     Returns
     -------
     Heat
-        Temperatures of all nodes, flows of heat, losses, and the band.
+        Temperatures of all nodes, heat flows, losses, and the band.
 
     Raises
     ------
     InvalidInput
         `exclusive` or `measured_unreachable` for measured temperatures.
     NoSolution
-        `heat_balance`, `thermal_runaway`, or what a bearing raises.
+        `heat_balance`, `thermal_runaway`, or the code of an error in a bearing.
     """
     cooling = inputs.cooling
     cooling.check()
@@ -167,7 +167,9 @@ def network_of(inputs: HeatBalanceInputs) -> Network:
 
 
 def calibrated(network: Network, cooling: Cooling) -> Network:
-    """Return the network that meets what was measured: one gear, the pinion if both are, and the drain.
+    """Return the network that reproduces the measured temperatures of one gear and of the drain.
+
+    If the temperatures of both gears were measured, the temperature of the pinion is used.
 
     Parameters
     ----------
@@ -179,7 +181,8 @@ def calibrated(network: Network, cooling: Cooling) -> Network:
     Returns
     -------
     Network
-        With a fitted wetting share and fitted other losses, where these are measured.
+        The network with a fitted wetting share if a gear was measured, and fitted other losses if the drain was
+        measured.
     """
     measured = cooling.measured
     if measured.rotors:
@@ -204,7 +207,10 @@ def _cooled(gear: GearGeometry, pumping: float) -> CooledGear:
 def _cases(
     network: Network, cooling: Cooling, state: Equilibrium
 ) -> tuple[tuple[tuple[float, float], ...], tuple[Notice, ...]]:
-    """Return the flanks over the band, or those of the nominal case with the reason why there is no band."""
+    """Return the flank temperatures in all cases of the band, and a notice if the band cannot be computed.
+
+    Without a band, only the flank temperatures of the nominal case are returned.
+    """
     inlet = network.oil.inlet
     nominal = ((inlet + float(state.rises[FLANKS[0]]), inlet + float(state.rises[FLANKS[1]])),)
     if not cooling.band:
@@ -276,7 +282,7 @@ def _estimates(inputs: HeatBalanceInputs) -> BulkEstimates:
 
 
 def _deviation(network: Network, cooling: Cooling, rises: FloatArray) -> float | None:
-    """Return calculated minus measured temperature of the wheel [K], if the share was fitted to the pinion."""
+    """Return the calculated minus the measured temperature of the wheel [K]; None unless both gears were measured."""
     rotors = list(cooling.measured.rotors.items())
     if len(rotors) < 2:
         return None
@@ -287,7 +293,7 @@ def _deviation(network: Network, cooling: Cooling, rises: FloatArray) -> float |
 def backlash_loss(
     heat: Heat, working_radii: tuple[float, float], working_pressure_angle: float, expansion: float
 ) -> Heat:
-    """Add the backlash that the gears lose as they are warmer than the casing.
+    """Add to the result the backlash that is lost because the gears are warmer than the casing.
 
     Parameters
     ----------
@@ -303,11 +309,12 @@ def backlash_loss(
     Returns
     -------
     Heat
-        With the loss [m], None without a casing.
+        The result with `backlash_loss` [m], which is None without a casing.
 
     Notes
     -----
-    Eq. H22: 2 tan(alpha_wt) alpha_L sum r_wi (B_i - C).
+    Eq. H22: 2 tan(alpha_wt) alpha_L sum r_wi (B_i - C), where B_i is the temperature of gear body i and C that of the
+    casing.
     """
     if heat.casing is None:
         return heat
@@ -317,7 +324,7 @@ def backlash_loss(
 
 
 def cooling_in_force(cooling: Cooling, heat: Heat) -> CoolingInForce:
-    """Return the values in use for what the inputs of the cooling leave open.
+    """Return the values in use for those inputs of the cooling that may be left open.
 
     Parameters
     ----------

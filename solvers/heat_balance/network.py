@@ -1,8 +1,8 @@
 """The network of a gear pair or gear unit: its nodes, and all heat flows between them.
 
-Nodes: flank and body of each gear, the mist, one node per plain bearing (the oil that leaves it), and the casing if
-there is one. A flow is booked once, from one place to another, so that supplied heat equals removed heat. Temperatures
-are rises over the temperature at which the oil is supplied [K].
+The nodes are the flank and the body of each gear, the mist, the oil that leaves each plain bearing, and the casing if
+there is one. Each heat flow is entered once, with an origin and a target, so that the supplied heat equals the removed
+heat. Temperatures are rises over the supply temperature of the oil [K].
 """
 
 from collections.abc import Iterator
@@ -29,7 +29,7 @@ GEAR_NODES = ("pinion_flank", "pinion_body", "wheel_flank", "wheel_body", "mist"
 class CooledGear:
     """A gear in the network: its teeth, lengths [m], conductivity [W/(m K)] and heat of the pumped gas [W].
 
-    `face_area` is the area of both faces that the shaft leaves free [m^2].
+    `face_area` is the area of both faces of the gear without the cross-sections of the shaft [m^2].
     """
 
     teeth: int
@@ -48,7 +48,7 @@ class CooledGear:
 
     @cached_property
     def rim(self) -> float:
-        """Conductance from the rim to air, half of it from the flanks and half from the body [W/K]."""
+        """Conductance from the rim to air [W/K]; one half belongs to the flanks, the other half to the body."""
         area = 2 * pi * self.tip_radius * self.face_width
         return area * rim_convection(self.flanks.speed, self.tip_radius)
 
@@ -60,9 +60,10 @@ class CooledGear:
 
 @dataclass(frozen=True, slots=True)
 class Spray:
-    """Oil on its way to the teeth: flow [m^3/s], shares, factor of its cooling, speeds of pitch line and jet [m/s].
+    """Oil of the jets: flow [m^3/s], speeds of pitch line and jet [m/s], shares, and factor on the fling-off cooling.
 
-    The velocity of the jet is positive into the mesh, and negative for jets against the teeth that leave the mesh.
+    The velocity of the jet is positive if the jet is directed into the mesh, and negative if it is directed against the
+    teeth that leave the mesh.
     """
 
     flow: float
@@ -90,7 +91,7 @@ class CasingWalls:
 
 
 class Flow(NamedTuple):
-    """Heat [W] that flows between two places of the network, given by their index, and the carrier of the heat."""
+    """Heat flow [W] between two places of the network, given by their indices, and the carrier of the heat."""
 
     origin: int
     target: int
@@ -100,7 +101,10 @@ class Flow(NamedTuple):
 
 @dataclass(frozen=True)
 class Network:
-    """A gear pair or gear unit with its losses [W]; `windage` and `other` of both gears heat the mist."""
+    """A gear pair or gear unit with its losses [W].
+
+    `windage` and `other` are losses of both gears together; these losses heat the mist.
+    """
 
     oil: CoolingOil
     gears: tuple[CooledGear, CooledGear]
@@ -123,7 +127,7 @@ class Network:
 
     @cached_property
     def places(self) -> tuple[str, ...]:
-        """Names of the nodes, then of the oil that leaves, the surroundings, and the source of losses."""
+        """Names of the nodes, followed by the names of the leaving oil, the surroundings and the source of losses."""
         return (*self.nodes, "oil", "ambient", "source")
 
     @property
@@ -133,12 +137,15 @@ class Network:
 
     @property
     def coldest(self) -> float:
-        """Lowest given temperature [K]."""
+        """Lowest temperature among the inputs [K]."""
         return min(self.oil.inlet, self.casing.ambient) if self.casing else self.oil.inlet
 
     @cached_property
     def _coolings(self) -> dict[tuple[int, float], FlingOff]:
-        """Fling-off cooling by gear and flank temperature; a Jacobian by differences asks for few different ones."""
+        """Cache of the fling-off cooling by gear and flank temperature.
+
+        A Jacobian by differences needs the cooling at few different flank temperatures.
+        """
         return {}
 
     def cooling(self, gear: int, rises: FloatArray) -> FlingOff:
@@ -153,11 +160,11 @@ class Network:
 
     @cached_property
     def _operations(self) -> dict[tuple[int, float], tuple[float, float]]:
-        """Friction power and flow of each bearing by the rise of the oil that leaves it."""
+        """Cache of friction power and oil flow by the number of the bearing and the rise of the leaving oil."""
         return {}
 
     def operation(self, number: int, outlet: float) -> tuple[float, float]:
-        """Return friction power [W] and flow [m^3/s] of a bearing by the rise of the oil that leaves it [K]."""
+        """Return friction power [W] and oil flow [m^3/s] of a bearing; `outlet` [K] is the rise of the leaving oil."""
         operation = self._operations.get((number, outlet))
         if operation is None:
             viscosity = self.oil.viscosity(self.film_temperature(outlet))
@@ -165,7 +172,7 @@ class Network:
         return operation
 
     def flows(self, rises: FloatArray) -> list[Flow]:
-        """List every flow of heat in the network.
+        """List every heat flow in the network.
 
         Parameters
         ----------
@@ -208,7 +215,11 @@ class Network:
         return np.asarray(incoming - np.bincount([flow.origin for flow in flows], powers, places))
 
     def _sources(self, gear: int, rises: FloatArray) -> Iterator[Flow]:
-        """Friction, pumped gas and the oil brought to speed; the body's half of the pumped heat goes to the body."""
+        """Yield the heat flows of mesh friction, pumped gas and accelerated oil of one gear.
+
+        The share of the pumped heat that enters the teeth goes half to the flank and half to the body; the other pumped
+        heat goes to the mist.
+        """
         source, flank, body = self.size + 2, FLANKS[gear], BODIES[gear]
         flanks = self.oil.inlet + float(rises[FLANKS[0]] + rises[FLANKS[1]]) / 2
         share = self.mesh.share_to_pinion if gear == 0 else 1 - self.mesh.share_to_pinion
@@ -221,7 +232,10 @@ class Network:
         yield Flow(source, MIST, thrown, "oil brought to speed")
 
     def _oil_cooling(self, gear: int, rises: FloatArray) -> Iterator[Flow]:
-        """Flank and body to the oil, flank to body through the tooth, rewetting out of the mist."""
+        """Yield the heat flows from the flank and the body of a gear to the oil, and through the teeth.
+
+        The oil is partly the oil of the jets, and partly oil out of the mist.
+        """
         flank, body, mist = float(rises[FLANKS[gear]]), float(rises[BODIES[gear]]), float(rises[MIST])
         cooling, tooth = self.cooling(gear, rises), self.gears[gear].to_body
         side = cooling.conductance / 2
@@ -235,7 +249,10 @@ class Network:
         yield Flow(BODIES[gear], MIST, rewetting * (body - mist), "oil out of the mist")
 
     def _mist_convection(self, gear: int, rises: FloatArray) -> Iterator[Flow]:
-        """Mist that the friction at the tips warms to the rim and to the faces of a gear."""
+        """Yield the heat flows from the mist to the rim and the faces of a gear.
+
+        Friction at the tooth tips warms this mist.
+        """
         flank, body, mist = float(rises[FLANKS[gear]]), float(rises[BODIES[gear]]), float(rises[MIST])
         wheel = self.gears[gear]
         rise = recovery_rise(wheel.flanks.speed, wheel.tip_radius, self.recovery)
@@ -245,7 +262,7 @@ class Network:
         yield Flow(MIST, BODIES[gear], faces * (mist + rise / 2 - body), "mist on the faces")
 
     def _bearing(self, number: int, rises: FloatArray) -> Iterator[Flow]:
-        """Friction of a bearing, the oil that leaves it, the shaft that leads to it."""
+        """Yield the heat flows of a bearing: friction, leaving oil, and conduction along the shaft."""
         journal, node = self.journals[number], MIST + 1 + number
         outlet, body = float(rises[node]), BODIES[journal.gear]
         power, flow = self.operation(number, outlet)
@@ -254,11 +271,11 @@ class Network:
         yield Flow(body, node, journal.shaft_conductance * (float(rises[body]) - outlet), "shaft")
 
     def film_temperature(self, outlet: float) -> float:
-        """Return the temperature of a bearing's film [K] by the rise of the oil that leaves it [K]."""
+        """Return the film temperature of a bearing [K]; `outlet` [K] is the rise of the leaving oil."""
         return self.oil.inlet + self.bearing_film_share * outlet
 
     def _casing(self, walls: CasingWalls, rises: FloatArray) -> Iterator[Flow]:
-        """Mist to the casing, casing to the surroundings."""
+        """Yield the heat flows from the mist to the casing and from the casing to the surroundings."""
         node, ambient = self.size - 1, walls.ambient - self.oil.inlet
         wall = float(rises[node])
         yield Flow(MIST, node, walls.area * walls.inside * (float(rises[MIST]) - wall), "mist on the casing")

@@ -10,14 +10,14 @@ from solvers.heat_balance.oil import CoolingOil
 from solvers.heat_balance.results import Heat
 from solvers.notices import Notice, unusual_value
 
-SLOW = 40.0  # m/s; below this speed the flanks are not wetted by the jets alone
-TURBULENT = 41.0  # times sqrt(R/c): Reynolds number at which vortices begin in a plain bearing (Taylor)
-KNOWN_WITHIN = 15.0  # K, chosen
-USUAL_RISE = (2.0, 60.0)  # K, chosen: of the oil by the losses of the gears
+SLOW = 40.0  # m/s; below this speed the oil of the jets is not the only oil that wets the flanks
+TURBULENT = 41.0  # this number times sqrt(R/c) is the Reynolds number at which Taylor vortices begin in a plain bearing
+KNOWN_WITHIN = 15.0  # K, chosen: uncertainty of flank temperatures without a measured gear temperature
+USUAL_RISE = (2.0, 60.0)  # K, chosen: usual temperature rise of the oil by the losses of the gears
 
 
 def heat_notices(network: Network, rises: FloatArray, cooling: Cooling) -> Iterator[Notice]:
-    """Return warnings about speed, oil, films and measured temperatures for which the balance is doubtful."""
+    """Yield warnings about speed, oil, bearing films and missing measurements that make the heat balance doubtful."""
     if network.spray.velocity < SLOW:
         message = (
             f"the heat balance considers only the oil of the jets. At {network.spray.velocity:.4g} m/s, below {SLOW:g} "
@@ -42,7 +42,7 @@ def heat_notices(network: Network, rises: FloatArray, cooling: Cooling) -> Itera
 
 
 def _oil_notices(network: Network, rises: FloatArray) -> Iterator[Notice]:
-    """Flanks that use all heat capacity of their oil, bearings with turbulent films."""
+    """Yield warnings if the oil flow limits the cooling of a gear, or if the film of a bearing is turbulent."""
     for gear, name in enumerate(("pinion", "wheel")):
         if network.cooling(gear, rises).limited:
             message = (
@@ -62,7 +62,7 @@ def _oil_notices(network: Network, rises: FloatArray) -> Iterator[Notice]:
 
 
 def unusual_flow(gear_flow: float | None, heat: Heat, oil: CoolingOil) -> Iterator[Notice]:
-    """Tell of a given oil flow [m^3/s] that the losses warm by very little or very much."""
+    """Warn if the losses would warm the given oil flow [m^3/s] very little or very much."""
     if gear_flow is None:
         return
     losses = heat.losses.mesh + heat.losses.pumping + heat.losses.windage + heat.losses.other

@@ -1,4 +1,4 @@
-"""The oil that cools: what the heat balance needs to know of it, at the temperature at which it is supplied."""
+"""Properties of the cooling oil that the heat balance needs, at the supply temperature of the oil."""
 
 from collections.abc import Callable
 from functools import partial
@@ -30,7 +30,7 @@ class CoolingOil:
 
 
 def cooling_oil(oil: OilSheet | Lubricant, inlet: float) -> CoolingOil:
-    """Return an oil of the other models as the heat balance takes it.
+    """Convert an oil of the other models into the cooling oil of the heat balance.
 
     Parameters
     ----------
@@ -42,7 +42,7 @@ def cooling_oil(oil: OilSheet | Lubricant, inlet: float) -> CoolingOil:
     Returns
     -------
     CoolingOil
-        Its density at the supply temperature and its viscosity at any temperature without pressure.
+        The oil with its density at the supply temperature, and its viscosity without pressure at any temperature.
     """
     supplied = lubricant_at(oil, inlet)
     return CoolingOil(

@@ -9,7 +9,7 @@ Range = tuple[float, float]
 
 @record
 class GearTemperatures:
-    """Temperatures of a gear, its frictional heat, and the cooling by its film."""
+    """Temperatures of a gear, frictional heat that enters the gear, and cooling by the oil film."""
 
     flank: float = quantity("flank temperature", "θ_F", OWN, unit="c", text="loaded flank")
     body: float = quantity("body temperature", "θ_B", OWN, unit="c", text="unloaded flank, rim and shaft")
@@ -80,7 +80,7 @@ class BulkEstimates:
 
 @record
 class HeatBand:
-    """Lowest and highest flank temperatures if much or little oil reaches the flanks, and the safety with them."""
+    """Band between much and little oil on the flanks: flank temperatures, and safety at these temperatures."""
 
     pinion_flank: Range = quantity("band of the pinion's flank", "θ_F1", unit="c", index="low, high")
     wheel_flank: Range = quantity("band of the wheel's flank", "θ_F2", unit="c", index="low, high")
@@ -89,7 +89,7 @@ class HeatBand:
 
 @record
 class CoolingInForce:
-    """Values in use for what a request may leave open of the cooling."""
+    """Values in use for those inputs of the cooling that a request may leave open."""
 
     gear_flow: float = quantity("oil flow to the gears used", "Q_g", unit="l_per_min")
     wetting_share: float = quantity("wetting share used", "w")

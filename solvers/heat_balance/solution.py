@@ -1,4 +1,4 @@
-"""Equilibrium of the network: Newton's method with a Jacobian by differences."""
+"""Equilibrium of the network by Newton's method with a Jacobian by finite differences."""
 
 from dataclasses import dataclass
 
@@ -8,17 +8,17 @@ from solvers.arrays import FloatArray
 from solvers.errors import NoSolution
 from solvers.heat_balance.network import Network
 
-TOLERANCE = 1e-5  # K; of the last full Newton step, whose square is about the error left
+TOLERANCE = 1e-5  # K; tolerance of the last full Newton step; the remaining error is about the square of this step
 DIFFERENCE = 1e-4  # K; step of the Jacobian's differences
 MOST_STEPS, MOST_HALVINGS = 50, 30
 LARGEST_STEP = 100.0  # K
-COLDEST = 0.75  # of the lowest temperature given [K]; below it the laws of viscosity do not hold
-HOTTEST = 1200.0  # K over the supply temperature; steel melts
+COLDEST = 0.75  # share of the lowest given temperature [K] below which the laws of viscosity do not hold
+HOTTEST = 1200.0  # K over the supply temperature; steel melts at such temperatures
 
 
 @dataclass(frozen=True, slots=True)
 class Equilibrium:
-    """Rises of the nodes over the supplied oil [K], number of Newton steps, and residual [W]."""
+    """Temperature rises of the nodes over the supplied oil [K], number of Newton steps, and residual [W]."""
 
     rises: FloatArray
     iterations: int
@@ -33,7 +33,7 @@ def equilibrium(network: Network, start: FloatArray | None = None) -> Equilibriu
     network : Network
         The network.
     start : FloatArray, optional
-        Rises over the supplied oil to start from [K].
+        Start values of the rises over the supplied oil [K].
 
     Returns
     -------
@@ -48,9 +48,10 @@ def equilibrium(network: Network, start: FloatArray | None = None) -> Equilibriu
 
     Notes
     -----
-    Eq. H18. Minus the Jacobian -J is an M-matrix: no element beside its diagonal is positive, and every node warms if
-    every node gains a little heat more. Then the equilibrium is stable. Where all row sums of -J are positive it is the
-    only one; hot, starved flanks can violate that and are not refused for it.
+    Eq. H18. The negative Jacobian -J is an M-matrix if it has no positive element off the diagonal, and if every node
+    becomes warmer when every node gains a little more heat. The equilibrium is then stable. If all row sums of -J are
+    positive, it is also the only equilibrium. Hot flanks with little oil can violate this last condition; they are not
+    refused for this reason.
     """
     rises = np.zeros(network.size) if start is None else np.array(start, dtype=float)
     residual = network.residual(rises)
@@ -69,7 +70,7 @@ def equilibrium(network: Network, start: FloatArray | None = None) -> Equilibriu
 
 
 def jacobian(network: Network, rises: FloatArray, residual: FloatArray) -> FloatArray:
-    """Return the derivatives of the residual by the temperatures [W/K], by differences."""
+    """Compute the derivatives of the residual by the temperatures [W/K] with finite differences."""
     columns = []
     for node in range(network.size):
         moved = rises.copy()
@@ -81,7 +82,7 @@ def jacobian(network: Network, rises: FloatArray, residual: FloatArray) -> Float
 def _descend(
     network: Network, step: FloatArray, rises: FloatArray, residual: FloatArray
 ) -> tuple[FloatArray, FloatArray, float]:
-    """Take the step, halved until the residual falls; return rises, residual and the share of the step taken."""
+    """Halve the step until the residual falls; return new rises, new residual and the fraction of the step taken."""
     size, share = float(np.abs(residual).max()), 1.0
     final = float(np.abs(step).max()) <= TOLERANCE
     for _ in range(MOST_HALVINGS):
@@ -94,7 +95,7 @@ def _descend(
 
 
 def _residual_where_defined(network: Network, rises: FloatArray) -> FloatArray | None:
-    """Return the residual, None where a bearing cannot carry its load with oil that hot."""
+    """Return the residual, or None if a bearing cannot carry its load with the oil at these temperatures."""
     try:
         return network.residual(rises)
     except NoSolution:
@@ -102,7 +103,7 @@ def _residual_where_defined(network: Network, rises: FloatArray) -> FloatArray |
 
 
 def _check_stability(network: Network, slopes: FloatArray) -> None:
-    """Raise NoSolution thermal_runaway unless every node warms if every node gains a watt more."""
+    """Raise NoSolution (`thermal_runaway`) if some node does not become warmer when every node gains one watt more."""
     response = np.linalg.solve(-slopes, np.ones(network.size))
     if float(response.min()) <= 0.0:
         node = network.nodes[int(np.argmin(response))]

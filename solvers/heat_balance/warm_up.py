@@ -1,6 +1,6 @@
-"""Warm-up of a gear pair or unit: the network with the heat capacities of its nodes, over time.
+"""Warm-up of a gear pair or gear unit: temperatures of the network over time, with heat capacities of the nodes.
 
-Losses are those of the running unit from the beginning; only the viscosity of the oil changes them.
+From the beginning, the losses are those of the running unit; they change only with the viscosity of the oil.
 """
 
 from typing import Any
@@ -15,15 +15,15 @@ from solvers.heat_balance.network import BODIES, Network
 from solvers.heat_balance.solution import equilibrium, jacobian
 from solvers.quantity import quantity, record
 
-LONGEST = 6.0  # time constants; a four hundredth of the change is left then
+LONGEST = 6.0  # time constants; after this time 1/400 of the change remains
 WARM = 0.95
-POINTS = 2000  # of the times in search of `WARM`
+POINTS = 2000  # number of times among which the time to `WARM` is searched
 SHOWN = 200
 
 
 @record
 class WarmUpCurves:
-    """Temperatures [K] over time [s]; columns of `temperature` are the nodes."""
+    """Temperatures [K] over time [s]; the columns of `temperature` are the nodes."""
 
     time: FloatArray = quantity("time", "t", unit="s")
     temperature: FloatArray = quantity("temperatures of the nodes", "θ", unit="c", axis=("time", "warm_up.nodes"))
@@ -47,14 +47,14 @@ class WarmUp:
 
 
 def warm_up(network: Network, capacities: Capacities, start: float, until: float | None = None) -> WarmUp:
-    """Compute how a gear pair or unit warms up.
+    """Compute the warm-up of a gear pair or gear unit.
 
     Parameters
     ----------
     network : Network
         The network, calibrated if a temperature was measured.
     capacities : Capacities
-        Heat capacities of its nodes.
+        Heat capacities of the nodes.
     start : float
         Temperature of everything at the beginning [K].
     until : float, optional
@@ -63,16 +63,16 @@ def warm_up(network: Network, capacities: Capacities, start: float, until: float
     Returns
     -------
     WarmUp
-        Temperatures over time, times to 95 % of the change, and the greatest difference of pinion and wheel.
+        Temperatures over time, times to 95 % of the change, and greatest difference between pinion and wheel body.
 
     Raises
     ------
     NoSolution
-        As `equilibrium` does; `warm_up` if the integration fails.
+        The codes of `equilibrium`; also `warm_up` if the integration fails.
 
     Notes
     -----
-    Eq. H24: C dT/dt = residual of the network, by backward differentiation.
+    Eq. H24: C dT/dt = residual of the network, integrated with backward differentiation formulas.
     """
     final, capacity = equilibrium(network).rises, capacities.of(network)
     rates = jacobian(network, final, network.residual(final)) / capacity[:, None]
@@ -100,7 +100,7 @@ def warm_up(network: Network, capacities: Capacities, start: float, until: float
 
 
 def _integrated(network: Network, capacity: FloatArray, begin: FloatArray, end: float) -> Any:
-    """Return the rises as a function of time."""
+    """Integrate the rises from time zero to `end`, and return them as a function of time."""
     solution = solve_ivp(
         lambda _, rises: network.residual(rises) / capacity,
         (0.0, end),
@@ -116,7 +116,10 @@ def _integrated(network: Network, capacity: FloatArray, begin: FloatArray, end: 
 
 
 def _time_95(times: FloatArray, rises: FloatArray, final: float) -> float | None:
-    """Return the time after which a node stays within 5 % of its change; None if it never does or does not change."""
+    """Return the time after which the difference from the final rise stays below 5 % of the whole change.
+
+    Returns None if there is no such time, or if the temperature of the node does not change.
+    """
     left = np.abs(rises - final)
     outside = np.flatnonzero(left > (1 - WARM) * left[0])
     if outside.size == 0 or outside[-1] == times.size - 1:

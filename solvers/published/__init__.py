@@ -1,6 +1,6 @@
-"""Numbers that papers, books and standards print, beside the numbers that the solvers compute.
+"""Numbers from papers, books and standards, beside the numbers that the solvers compute.
 
-Pages and tests read the same table.
+The pages of the service and the tests read the same table.
 """
 
 from solvers.published import coupling, micropitting, pumping, scuffing

@@ -10,14 +10,14 @@ from solvers.coupling.results import CouplingResult
 TORQUE, DIAMETER, FACE, FRICTION = 21806.0, 0.2286, 0.033, 0.3  # N m, m, m, -
 MISALIGNMENT = radians(0.057)  # 0.001 mm per mm
 END_CONTACT = FACE / 2 * tan(radians(20.0)) / (DIAMETER / 2 * MISALIGNMENT)
-"""The crowning ratio whose contact just reaches the end of the face."""
+"""The crowning ratio at which the contact just reaches the end of the face."""
 
 
 @cache
 def bloch(crowning: float = 1.0, stiffness: float = 2.8e8, axial_velocity: float = 0.0) -> CouplingResult:
     """Solve Bloch's coupling.
 
-    The book does not give the teeth; 72 teeth of diametral pitch 8 fit the diameter.
+    The book does not give the number of teeth; 72 teeth of diametral pitch 8 agree with the diameter.
     """
     design = Coupling(
         teeth=72,

@@ -1,4 +1,4 @@
-"""Micropitting by method B of ISO/TR 15144-1: test gears, and FZG C gears with numbers printed by an FVA program."""
+"""Micropitting by method B of ISO/TR 15144-1: gears of the oil test, and FZG C gears with results of an FVA program."""
 
 from collections.abc import Callable
 from functools import cache, partial
@@ -17,7 +17,7 @@ REPORT = "ISO/TR 15144-1:2014, secondary source"
 FVA = "report of an FVA program"
 DIAGRAM = "printed diagram of permissible ratios"
 ZERO = 273.15  # K
-PRINTED = 1e-3  # of what is printed
+PRINTED = 1e-3  # relative tolerance of printed numbers
 POINTS = ("A", "AB", "B", "C", "D", "DE", "E")
 
 
@@ -28,7 +28,7 @@ def mineral(grade: float, thin: float, density_15: float | None = None) -> OilSh
 
 @cache
 def gears_of_the_test() -> StandardFilms:
-    """Return the films of the test gears C-GF at stage 8 in VG 220."""
+    """Return the films of the gears of the oil test (type C-GF) at stage 8 with an oil VG 220."""
     load = Load(oil_test.STAGE_TORQUE[8], oil_test.SPEED)
     given = LoadDistributionInputs(oil_test.GEARS, load, pinion_material=oil_test.STEEL, wheel_material=oil_test.STEEL)
     return solve_standard(given, meshing_path(oil_test.GEARS), mineral(220, 19.0), 90 + ZERO, "dip", 7)
@@ -55,11 +55,11 @@ ASKED_FOR = {
     (220, 19.0): (0.398, 0.331, 0.271, 0.224, 0.185, 0.153),
     (460, 30.6): (0.567, 0.464, 0.375, 0.304, 0.245, 0.201),
 }
-"""Permissible ratios of mineral oils, by viscosities at 40 and 100 C, at stages 5 to 10; read off to 0.003."""
+"""Permissible film ratios at stages 5 to 10, by the viscosities of a mineral oil at 40 and 100 C; read off to 0.003."""
 
 
 def asked_over_test() -> list[float]:
-    """Return the ratios of the permissible values in the diagram to the film ratios of the oil test."""
+    """Return each permissible film ratio of the diagram, divided by the film ratio in the oil test."""
     return [
         ratio / oil_test.film_of_test(mineral(*oil), stage).ratio
         for oil, ratios in ASKED_FOR.items()

@@ -1,7 +1,8 @@
 """The gears of Milian, Distretti, Leoni and Velex (Gear Technology, May/June 2004), and their operating points.
 
-The tables give no face width, backlash, groove width or ambient; 200 mm, 0.3 mm, 16 mm, 101325 Pa and 50 degC are
-assumed. The module of the tables is the normal module: only then are the centre distances the round 590 and 455 mm.
+The tables give no face width, backlash, groove width or ambient conditions. A face width of 200 mm, a backlash of 0.3
+mm, a groove width of 16 mm, and 101325 Pa and 50 degC are assumed. The module of the tables must be the normal module,
+because only then do the centre distances have the round values of 590 and 455 mm.
 """
 
 from dataclasses import replace
@@ -13,7 +14,7 @@ from solvers.pumping import Closure, Flow, Gap, Groove, PumpingInputs, PumpingMo
 from solvers.pumping.model import solve
 from solvers.pumping.results import SpacesResult
 
-# Table 1, and Tables 2 and 3 with the speeds of the text
+# Gears of Table 1; gears of Tables 2 and 3, whose speeds are stated in the text
 TABLE_1 = GearPairInputs(
     GearTeeth(47, 0.291, 1.0, 1.475),
     GearTeeth(103, 0.322, 1.0, 1.474),
@@ -43,8 +44,8 @@ CASE_2 = GearPairInputs(
     rack_tip_radius=GROUND_FILLET,
 )
 SPEED_1, SPEED_2 = 9267.0, 8962.0  # rpm of the pinion
-GROOVE = (Groove(0.1, 0.016),)  # in the middle of the face, as the paper has it; its width is assumed
-PRINTED = PumpingModel(wall_transport=False, spaces=Spaces.PINION)  # as the paper's equations
+GROOVE = (Groove(0.1, 0.016),)  # in the middle of the face, as in the paper; the width of the groove is assumed
+PRINTED = PumpingModel(wall_transport=False, spaces=Spaces.PINION)  # the model of the paper's equations
 TIP = replace(PRINTED, gap=Gap.TIP)
 CHAIN = replace(PRINTED, flow=Flow.POCKET_CHAIN)
 ISENTROPIC = replace(CHAIN, closure=Closure.ISENTROPIC)
@@ -60,12 +61,12 @@ def run(
     backlash: float = 0.3e-3,
     grooves: tuple[Groove, ...] = (),
 ) -> PumpingResult:
-    """Solve one operating point at a speed in rpm; a result is kept for the next call."""
+    """Solve one operating point at a speed [rpm] of the pinion; the result is cached."""
     setup = PumpingSetup(gears, backlash, grooves, model=replace(model, slices=slices))
     return solve(PumpingInputs(setup, speed * pi / 30))
 
 
 def pinion(result: PumpingResult) -> SpacesResult:
-    """Return the result of the tooth spaces of the pinion, the only ones that the paper calculates."""
+    """Return the result for the tooth spaces of the pinion; the paper calculates no other spaces."""
     assert result.pinion_spaces is not None
     return result.pinion_spaces

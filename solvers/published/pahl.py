@@ -1,4 +1,4 @@
-"""The coupling of Pahl's figures (1978): 52 teeth of module 3 mm, and the numbers read from its figures."""
+"""The coupling in the figures of Pahl 1978, with 52 teeth of module 3 mm, and the numbers read from these figures."""
 
 from dataclasses import replace
 from functools import cache
@@ -50,12 +50,15 @@ def pahl_coupling(
 
 @cache
 def pahl(misalignment_deg: float, **changes: Any) -> CouplingResult:
-    """Solve the coupling of the paper; a result is kept for the next call."""
+    """Solve the coupling of the paper; the result is cached."""
     return solve(pahl_coupling(misalignment_deg, **changes))
 
 
 def harmonic_pitch_errors(*orders: tuple[int, float, float]) -> tuple[float, ...]:
-    """Return the sum of amplitude [m] times cos(order phi + phase) at all teeth, for (order, amplitude, phase)."""
+    """Return the pitch deviations [m] of all teeth: the sum of amplitude cos(order phi + phase) over `orders`.
+
+    An item of `orders` is (order, amplitude [m], phase [rad]).
+    """
     phi = 2.0 * pi / TEETH * np.arange(TEETH)
     return tuple(sum(amplitude * np.cos(order * phi + phase) for order, amplitude, phase in orders))
 
@@ -66,13 +69,13 @@ def concentration(misalignment_deg: float) -> float:
 
 
 def loaded(misalignment_deg: float) -> float:
-    """Return the number of teeth that carry (Fig. 3)."""
+    """Return the number of teeth that carry load (Fig. 3)."""
     return float(pahl(misalignment_deg).load_distribution.loaded_teeth)
 
 
 @cache
 def _orbit(misalignment_deg: float) -> OrbitResult:
-    """Solve the orbit with 2 um of first and third harmonic in the pitch deviations, at 1000 1/s (Fig. 5)."""
+    """Solve the orbit at 1000 1/s, with a first and a third harmonic of 2 um each in the pitch deviations (Fig. 5)."""
     errors = harmonic_pitch_errors((1, 2e-6, 0.0), (3, 2e-6, 0.7))
     return solve_orbit(pahl_coupling(misalignment_deg, speed=1000.0, pitch_errors=errors))
 
@@ -93,7 +96,7 @@ def overlap_one(crowning: float) -> float:
 
 
 def film(misalignment_deg: float, crowning: float) -> CouplingResult:
-    """Solve the coupling with the friction of its own film (Fig. 8)."""
+    """Solve the coupling with the coefficient of friction that follows from the film (Fig. 8)."""
     return pahl(misalignment_deg, friction=None, crowning_ratio=crowning)
 
 
@@ -108,7 +111,7 @@ def least_friction(crowning: float, low: float, high: float) -> tuple[float, flo
 
 
 def fraction(speed: float) -> float:
-    """Return the share of the coaxial thrust that is left at 0.05 deg and this speed [1/s] (Figs. 15, 16)."""
+    """Return the ratio of the thrust at 0.05 deg and this speed [1/s] to the coaxial thrust (Figs. 15, 16)."""
     return pahl(0.05, speed=speed, axial_velocity=CREEP).axial_thrust.fraction_of_limit or 0.0
 
 

@@ -1,4 +1,4 @@
-"""Gears of standards: FZG type A of ISO 14635-1, example 1 of ISO/TR 6336-30."""
+"""Gears of standards: FZG type A of ISO 14635-1, and example 1 of ISO/TR 6336-30."""
 
 from math import radians
 
@@ -40,7 +40,7 @@ def fzg_pressure(torque: float) -> float:
 def example_stress() -> float:
     """Return the nominal contact stress [MPa] of example 1 divided by its helix factor.
 
-    The torque is 9 kN m; the contact ratio shares the load.
+    The torque is 9 kN m. The load is divided by the transverse contact ratio.
     """
     path = meshing_path(EXAMPLE_1)
     return _pitch_pressure(EXAMPLE_1, 9000 / path.pair.pinion.base_radius / (0.1 * path.transverse_contact_ratio))

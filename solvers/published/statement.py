@@ -46,7 +46,7 @@ class Statement:
 
 @record
 class Says:
-    """The words of a source; the methods add the printed number and the function that computes it here."""
+    """The words of a source; the methods add the printed number and the function that computes this number here."""
 
     source: str
     words: str
@@ -73,9 +73,10 @@ class Says:
     def not_reproduced(
         self, number: float, unit: str, compute: Callable[[], float], by_equations: float, remark: str
     ) -> Statement:
-        """Return the statement of a printed number that the equations of its source do not give.
+        """Return the statement of a printed number that does not agree with the equations of its source.
 
-        The statement holds if the computed number stays within 3 % of `by_equations`, which the equations give.
+        The statement holds if the computed number is within 3 % of `by_equations`, the number that follows from the
+        equations.
         """
         least, most = 0.97 * by_equations, 1.03 * by_equations
         return Statement(self.words, self.source, f"{number:g}", unit, compute, least, most, number, remark)
