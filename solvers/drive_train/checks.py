@@ -8,8 +8,8 @@ from solvers.gears.pair import PathOfContact
 
 NAMES = ("pinion_shaft", "wheel_shaft")
 COLLAR_BEYOND_TEETH = 3.0  # normal modules; largest distance of the collar radius from the pitch circle
-LEAST_BEARING_DISTANCE = 0.5  # face widths between the two bearings of a shaft
-LEAST_STIFFNESS = 1e6  # N/m, of the symmetric part in its weakest direction
+LEAST_BEARING_DISTANCE = 0.5  # in face widths; least distance between the two bearings of a shaft
+LEAST_STIFFNESS = 1e6  # N/m; of the symmetric part of the stiffness matrix in the weakest direction
 ROUNDING = 1e-9  # relative rounding error of numbers that were converted from other units
 
 
@@ -84,9 +84,9 @@ def _check_bearings(inputs: DriveTrainInputs, shaft: Shaft, name: str) -> None:
 
 
 def _is_on(shaft: Shaft, position: float) -> bool:
-    """Return True if a position [m] is on the shaft, which includes the ends.
+    """Return True if a position [m] is on the shaft. The ends belong to the shaft.
 
-    The ends are sums of lengths. The comparison therefore allows for rounding errors.
+    The positions of the ends are sums of lengths. The comparison therefore allows for rounding errors.
     """
     return shaft.start - COINCIDENT <= position <= shaft.end + COINCIDENT
 

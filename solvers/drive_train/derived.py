@@ -36,7 +36,7 @@ class DerivedShaft:
 
 @record
 class DerivedCoupling:
-    """The values used for a coupling, for the oil at its teeth, and for the teeth."""
+    """The values used for a coupling: for the coupling itself, for the oil at its teeth, and for the teeth."""
 
     coupling: Coupling = quantity("proportions used")
     viscosity: float = quantity("oil viscosity used", "η", unit="pa_s", text="at the teeth")
@@ -104,7 +104,7 @@ def derived(inputs: DriveTrainInputs, mesh: LoadDistribution, heat: Heat | None 
     mesh : LoadDistribution
         Load distribution of the mesh of the unit.
     heat : Heat, optional
-        Heat balance of the unit, if one was asked for.
+        Heat balance of the unit, if the inputs request a heat balance.
 
     Returns
     -------

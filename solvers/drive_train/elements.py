@@ -1,4 +1,4 @@
-"""Results of the shafts and couplings: bearings, deflection, thrust, loads of the hubs."""
+"""Results of the shafts and couplings: bearing loads, deflection, thrust and hub loads."""
 
 from math import hypot
 
@@ -33,7 +33,7 @@ def warnings_of(unit: Unit, equilibrium: Equilibrium) -> list[tuple[Notice, ...]
 
 
 def _tilt_sizes(unit: Unit, equilibrium: Equilibrium) -> list[Vector2]:
-    """Return the sizes of the tilts [rad] of both hubs of every coupling; smaller sizes are raised to `LEAST_TILT`."""
+    """Return the sizes of the tilts [rad] of both hubs of every coupling, but at least `LEAST_TILT`."""
     tilts = equilibrium.hubs.tilts.reshape(len(unit.couplings), 2, 2)
     return [(max(hypot(*a), LEAST_TILT), max(hypot(*b), LEAST_TILT)) for a, b in tilts]
 
@@ -93,7 +93,7 @@ def shaft_results(
 
 
 def _hub_diameter(inputs: DriveTrainInputs, index: int) -> float | None:
-    """Return the diameter of a shaft under its hub [m], or None if the shaft has no coupling."""
+    """Return the diameter of a shaft under the hub of its coupling [m], or None if the shaft has no coupling."""
     shaft, name = inputs.shafts[index], ("pinion", "wheel")[index]
     for coupling in inputs.couplings:
         if coupling.shaft == name:
@@ -115,7 +115,7 @@ def _bearing(state: BearingState) -> BearingResult:
 
 
 def _curves(side: ShaftPorts, loads: FloatArray, bearings: list[BearingState], offsets: FloatArray) -> ShaftCurves:
-    """Return the elastic line of a shaft on its displaced bearings, and the twist of the shaft."""
+    """Return the elastic line of a shaft in its displaced bearings, and the twist of the shaft."""
     nodes = side.model.z.size
     displacement = np.array([state.displacement for state in bearings]) + offsets.reshape(2, 2)
     motion = side.motion(side.loads @ loads + side.fixed) + displacement.T @ side.model.bearing_share

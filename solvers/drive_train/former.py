@@ -1,4 +1,4 @@
-"""The former class of all bearings, with the fields of a request. The next minor version removes this class."""
+"""The former class of bearings of any type, with the fields of a request. The next minor version removes this class."""
 
 from typing import Literal
 
@@ -60,8 +60,8 @@ class ShaftBearing:
         Raises
         ------
         InvalidInput
-            `no_oil` if a plain bearing has neither a viscosity nor an oil, `bearing_data` if data
-            that the type of the bearing requires are missing.
+            `no_oil` if a plain bearing has neither a viscosity nor an oil; `bearing_data` if data are missing that the
+            type of the bearing requires.
         """
         if self.type == "rigid":
             return RigidBearing(self.position, offset=self.offset)

@@ -23,8 +23,8 @@ CouplingFriction = Literal["elastic_plastic", "sliding"]
 ShaftName = Literal["pinion", "wheel"]
 State = Literal["hot", "cold"]
 ASSUMED_RESPONSE = 0.5  # chosen within the range of published values, 0.2 to 1
-FILM_ABOVE_OIL = 15.0  # K; assumed temperature of a bearing film above that of the oil
-COINCIDENT = 1e-9  # m; positions that are closer together count as the same
+FILM_ABOVE_OIL = 15.0  # K; assumed difference between the temperatures of a bearing film and of the oil
+COINCIDENT = 1e-9  # m; positions that are closer together count as one position
 
 
 @record
@@ -156,7 +156,7 @@ def gear_oil_viscosity(oil: OilSheet | Lubricant, oil_temperature: float, film_t
     oil_temperature : float
         Temperature of the gears' oil [K].
     film_temperature : float or None
-        Temperature of the film; if None, the film is 15 K warmer than the oil [K].
+        Temperature of the film [K]; if None, the film is assumed to be 15 K warmer than the oil.
 
     Returns
     -------
@@ -217,7 +217,7 @@ class Shaft:
 
 @record
 class Alignment:
-    """Heights of the shafts of unit and machine above their feet, and temperature rises of the supports of both."""
+    """Heights above the feet for the shafts of unit and machine, and temperature rises of the supports of both."""
 
     unit_height: float | None = quantity(
         "height of the unit's shaft",
@@ -373,12 +373,12 @@ class Arrangement:
 
 @record
 class Heat:
-    """Tooth temperatures without the pumping heat, and how strongly the metal follows the temperature rise of the gas.
+    """Tooth temperatures without the pumping heat, and the shares of the gas's temperature rise that reach the metal.
 
-    If `wall_response` is None, 0.5 is assumed and a warning says so. If `wall_response_wheel` is None, the response of
-    the wheel is the response of the pinion times z1/z2, because a wheel tooth meets the hot gas once per turn of the
-    wheel. If the tooth temperatures already include the pumping heat, only the difference between the temperature rise
-    of the gas and the mean of this rise over the face counts.
+    If `wall_response` is None, a response of 0.5 is assumed and a warning states this. If `wall_response_wheel` is
+    None, the response of the wheel is the response of the pinion times z1/z2, because a wheel tooth meets the hot gas
+    once per turn of the wheel. If the tooth temperatures already include the pumping heat, only the difference between
+    the temperature rise of the gas and the mean of this rise over the face counts.
     """
 
     wall_response: float | None = quantity(

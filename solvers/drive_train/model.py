@@ -32,7 +32,7 @@ def solve(inputs: DriveTrainInputs, start: FloatArray | None = None) -> DriveTra
     inputs : DriveTrainInputs
         The unit.
     start : FloatArray of shape (stations,), optional
-        Gap by the shafts of a similar unit; the iteration starts from this gap [m].
+        Gap due to the shafts of a similar unit, from which the iteration starts [m].
 
     Returns
     -------

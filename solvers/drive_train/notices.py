@@ -20,7 +20,7 @@ from solvers.notices import Notice
 from solvers.pumping.notices import thin_air
 from solvers.scuffing.notices import unusual_modifications, unusual_temperatures
 
-SHORT_BEARING = 0.7  # largest ratio of width to diameter
+SHORT_BEARING = 0.7  # ratio of width to diameter above which the theory of short bearings is inaccurate
 ROUNDING = 1e-9  # relative rounding error of lengths that were converted from other units
 THIN_FILM = 15e-6  # m; thinner films give a warning
 LARGE_ECCENTRICITY = 0.9  # customary design limit, at which the thinnest film is a tenth of the clearance
@@ -28,7 +28,7 @@ LIFTED = 0.9  # contact fraction below which flanks count as lifted off
 
 
 def shaft_notices(inputs: DriveTrainInputs, shafts: tuple[ShaftResult, ShaftResult]) -> Iterator[Notice]:
-    """Warn of thin films, bearing losses left out, thrust that may reverse or is too high, and long overhangs."""
+    """Warn of thin films, omitted bearing losses, thrust that may reverse or is too high, and long overhangs."""
     for shaft, result, name in zip(inputs.shafts, shafts, NAMES, strict=True):
         for k, (bearing, state) in enumerate(zip(shaft.bearings, result.bearings, strict=True)):
             field = f"{name}.bearings.{k}"
@@ -104,7 +104,7 @@ def coupling_notices(
 ) -> Iterator[Notice]:
     """Report hubs that stick, and pass on the warnings of the coupling model.
 
-    `of_model` holds the warnings of the coupling model for each coupling. If a coupling has several warnings with the
+    For each coupling, `of_model` holds the warnings of the coupling model. If a coupling has several warnings with the
     same code, only one of these warnings is passed on.
     """
     for k, (coupling, notices) in enumerate(zip(couplings, of_model, strict=True)):

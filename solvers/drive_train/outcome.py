@@ -1,4 +1,4 @@
-"""The main results of a drive train. They do not need the thermal film, so they take little time."""
+"""The main results of a drive train. These results do not need the thermal film and take little time to compute."""
 
 from dataclasses import dataclass, replace
 
@@ -17,7 +17,7 @@ from solvers.scuffing.thermal.temperatures import in_force
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
-    """Main results of a unit: pressure [Pa], line load [N/m], slopes of the gap and transmission error [m].
+    """Main results of a unit: pressure [Pa], line load [N/m], slopes of the gap [m] and transmission error [m].
 
     `safety` is the safety factor over the flank by Blok's method. It compares Blok's contact temperature `temperature`
     [profile, face] [K] with the scuffing temperature `limit` [K]. `shares` is the load along the face divided by the
@@ -40,7 +40,8 @@ class Outcome:
 def outcome(inputs: DriveTrainInputs, start: FloatArray | None = None) -> Outcome:
     """Compute the main results of a unit.
 
-    If `start` is given, the iteration starts from this gap of a similar unit [m]. Raises the errors of `model.solve`.
+    If `start` [m] is given, the iteration starts from this gap, the gap of a similar unit. Raises the errors of
+    `model.solve`.
     """
     if asks_for_balance(inputs):
         warm = warm_unit(

@@ -1,4 +1,4 @@
-"""Preparation of the parts of a unit for the iteration on their common gap, and the call of this iteration."""
+"""Preparation of the parts of a unit for the iteration that finds the gap, and the call of this iteration."""
 
 from dataclasses import dataclass, replace
 
@@ -18,10 +18,10 @@ LEAST_POINTS = 400  # least number of points of the gap over the face; the stati
 
 @dataclass(frozen=True, slots=True)
 class Prepared:
-    """The parts of a unit whose gap is not known yet.
+    """The parts of a unit before the iteration that finds the gap.
 
     `unit` holds shafts, bearings and couplings as one elastic system, `mesh` holds the mesh of the heated gears, and
-    `thermal` holds the gap by heat.
+    `thermal` holds the gap that heat causes.
     """
 
     unit: Unit
@@ -60,7 +60,7 @@ def prepare(inputs: DriveTrainInputs) -> Prepared:
 def settle(inputs: DriveTrainInputs, prepared: Prepared, start: FloatArray | None = None) -> Equilibrium:
     """Find the gap at which mesh, shafts and couplings are in equilibrium.
 
-    If the effect of the shafts is switched off, the gap by the shafts is zero. Raises NoSolution `drive_train`,
+    If the effect of the shafts is switched off, the gap due to the shafts is zero. Raises NoSolution `drive_train`,
     `load_balance` or `journal`.
     """
     if inputs.effects.shafts:

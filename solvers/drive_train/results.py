@@ -21,11 +21,11 @@ from solvers.sources import ISO_6336, OCVIRK
 
 @record
 class Parts:
-    """Parts of the slope of the shafts' gap over the face, one for each cause, under the load in equilibrium.
+    """Parts of the slope of the shafts' gap over the face. There is one part per cause, under the load in equilibrium.
 
-    `bending`, `torsion` and `tilting_moment` are elastic deformations by the mesh force. `films` is the part of the
-    displacements in all bearings under all loads. `coupling`, `collar` and `weight` are the elastic bending by the
-    loads of the couplings, of the thrust collar and of the weight.
+    `bending`, `torsion` and `tilting_moment` are parts from the elastic deformation that the mesh force causes. `films`
+    is the part from the displacements in all bearings under all loads. `coupling`, `collar` and `weight` are parts from
+    the elastic bending that the loads of the couplings, of the thrust collar and of the weight cause.
     """
 
     bending: float = quantity("slope by bending", "f_b", unit="um", text="of the mesh's transverse force")
@@ -50,7 +50,7 @@ class Parts:
 class GapCurves:
     """Gaps and force at stations of the face; the first station is at the end that meshes first.
 
-    `total` is the sum of the gaps by the shafts, by heat and by the lead part of the modification.
+    `total` is the sum of the gaps due to the shafts, due to heat and due to the lead modifications.
     """
 
     position: FloatArray = quantity("position on the face", "y", unit="mm", text="from the end that meshes first")
@@ -68,7 +68,7 @@ class GapCurves:
 
 @record
 class Misalignment:
-    """Slope, crown and range of the gap by shafts and heat, and the modifications that compensate both.
+    """Slope, crown and range of the gap due to shafts and heat, and the modifications that compensate this gap.
 
     The recommended modifications replace the present modifications and are not added to them. They are the negative
     slope and the negative crown of the gap under a load that is spread evenly over the face, because a corrected flank
@@ -156,7 +156,8 @@ class ShaftResult:
 class CouplingResult:
     """Tilts and friction of both hubs of a coupling, and the loads of the coupling on the unit's hub.
 
-    In a pair of values, the first belongs to hub A on the unit's shaft, the second to hub B on the machine's shaft.
+    In a pair of values, the first value belongs to hub A on the unit's shaft, and the second value to hub B on the
+    machine's shaft.
     """
 
     tilt: Vector2 = quantity(
@@ -187,7 +188,7 @@ class CouplingResult:
 
 @record
 class FlashPlaces:
-    """Largest flash temperatures by Blok; they are None if the contact reaches a base circle.
+    """Largest flash temperatures by Blok's formula; the values are None if the contact reaches a base circle.
 
     `contact_max` is the largest sum of bulk and flash temperature at one place.
     """
@@ -213,8 +214,8 @@ class FlashPlaces:
 class TrainSafety:
     """Safety factors by Blok on the feature line and over the flank, and by thermal EHL on two lines.
 
-    The profile line runs from A to E through `blok_at`, the hottest place by Blok. A factor that is not known is None;
-    then `minimum` is None too.
+    The profile line runs from A to E through `blok_at`, the hottest place by Blok. A factor that is not known is None.
+    If one of the factors is not known, `minimum` is None too.
     """
 
     blok_feature: float | None = quantity("safety factor on the feature line (flash temperature method)", "S_B,1")
@@ -259,7 +260,7 @@ class TrainLosses:
 class ForceBalance:
     """Largest unbalanced force on a shaft divided by F_bt, and largest unbalanced moment divided by F_bt b.
 
-    Both are None without load.
+    Both values are None if the unit has no load.
     """
 
     force_error: float | None = quantity("unbalanced force", "ΣF/F_bt", text="largest of a shaft, over the tooth force")

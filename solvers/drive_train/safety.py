@@ -46,7 +46,8 @@ class FlankHeat:
 def contact_of(inputs: DriveTrainInputs) -> ScuffingInputs:
     """Return the inputs of the mesh with a bulk temperature.
 
-    If the bulk temperature is neither given nor to be calculated, it is the mean of the tooth temperatures.
+    If the inputs neither give a bulk temperature nor ask for its calculation, the mean of the tooth temperatures is
+    used.
     """
     temperatures = inputs.mesh.temperatures
     if temperatures.bulk is not None or temperatures.bulk_method != "given":
@@ -135,7 +136,7 @@ def _feature_points(inputs: DriveTrainInputs, mesh: LoadDistribution, bulk: Face
 
 
 def _with_line(peak: Peak | None, along: FloatArray, across: FloatArray, on_line: FloatArray) -> Peak | None:
-    """Return the higher of the peaks over the flank and on the feature line; None if one of the two is unknown."""
+    """Return the higher of two peaks: over the flank, and on the feature line. Return None if either is unknown."""
     if peak is None or np.isnan(on_line).any():
         return None
     top = int(np.argmax(on_line))
@@ -154,7 +155,8 @@ def _place(mesh: LoadDistribution, peak: Peak) -> Place:
 def _bulk(inputs: DriveTrainInputs, thermal: ThermalLead, y: FloatArray) -> FloatArray:
     """Return the bulk temperature of the contact [K] at the positions y [m], or NaN if there is no bulk temperature.
 
-    If `local_bulk` is on, add the temperature rise by pumping. This rise is the mean of pinion and wheel.
+    If `local_bulk` is on, add the temperature rise that pumping causes. This rise is the mean of the rises of pinion
+    and wheel.
     """
     temperature = inputs.mesh.temperatures.bulk
     bulk = np.full(y.shape, np.nan if temperature is None else temperature)
@@ -185,7 +187,7 @@ def _thermal_lines(
 
 
 def _of_both_surfaces(inputs: DriveTrainInputs, bulk: FloatArray) -> FloatArray:
-    """Return the bulk temperatures of pinion and wheel in two rows [K]; `bulk` is the mean of both at points [K]."""
+    """Return the bulk temperatures of pinion and wheel in two rows [K]; `bulk` [K] is the mean of both rows."""
     surfaces, mean = inputs.mesh.temperatures.surfaces, inputs.mesh.temperatures.bulk
     assert surfaces is not None
     assert mean is not None

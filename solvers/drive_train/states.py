@@ -19,14 +19,14 @@ def solve(inputs: DriveTrainInputs, start: FloatArray | None = None) -> DriveTra
     inputs : DriveTrainInputs
         The unit.
     start : FloatArray of shape (stations,), optional
-        Gap by the shafts of a similar unit; the iteration starts from this gap [m].
+        Gap due to the shafts of a similar unit, from which the iteration starts [m].
 
     Returns
     -------
     DriveTrainResult
         Results of the hot unit, and of the cold unit if requested. Warnings that only the cold unit has are added to
-        the warnings of the hot unit. If the cold unit has no solution, or if the oil is out of range at the reference
-        temperature, a warning says so.
+        the warnings of the hot unit. A warning also reports a cold unit without a solution, and an oil that is out of
+        range at the reference temperature.
 
     Raises
     ------

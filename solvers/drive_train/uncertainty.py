@@ -1,4 +1,4 @@
-"""Uncertain inputs of a gear unit, and the values between which they are expected.
+"""Uncertain inputs of a gear unit, and the values between which these inputs are expected to lie.
 
 The combinations of these values are the corners of the unit.
 """
@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from solvers.drive_train.inputs import DriveTrainInputs, JournalBearing, Shaft
 from solvers.notices import Notice
 
-MOST_CORNERS = 256  # eight uncertainties with two values each
-FRICTION = (0.05, 0.25)  # coefficients of the best mixed lubrication and of the customary thrust 0.25 T/D
+MOST_CORNERS = 256  # number of combinations of eight uncertain inputs with two values per input
+FRICTION = (0.05, 0.25)  # coefficient with the best mixed lubrication, and coefficient of the customary thrust 0.25 T/D
 THRUST = (0.0, 1.0)  # thrust as a share of the friction limit of the coupling
 RESPONSE = (0.3, 1.0)  # wall response; chosen for a wall cooled by oil, and for a wall as warm as the gas
 CLEARANCE = 0.1  # relative change of the clearance, up and down
@@ -24,7 +24,7 @@ QUARTERS: tuple[Callable[[float, float], tuple[float, float]], ...] = (
 
 @dataclass(frozen=True, slots=True)
 class Range:
-    """Values of one uncertain `quantity`: each row of `values` belongs to the inputs at the dotted `names`."""
+    """Values of one uncertain `quantity`. Each row of `values` holds one value for each input in the dotted `names`."""
 
     quantity: str
     names: tuple[str, ...]
@@ -36,8 +36,8 @@ def uncertain_inputs(inputs: DriveTrainInputs) -> tuple[Range, ...]:
 
     These inputs are uncertain: the wall response, the bearing clearances of each shaft, and friction, direction of the
     offset and thrust of the couplings. The clearances of a shaft's two bearings change by 10 % in opposite senses,
-    because a change common to both bearings does not tilt the shaft. All couplings change together. If they varied
-    independently, two couplings would need 2,048 runs.
+    because the same change in both bearings would not tilt the shaft. All couplings change together. If the couplings
+    varied independently, a unit with two couplings would need 2,048 runs.
     """
     ranges = (
         [Range("wall response", ("heat.wall_response",), tuple((value,) for value in RESPONSE))]
@@ -72,7 +72,7 @@ def _together(inputs: DriveTrainInputs, quantity: str, name: str, values: tuple[
 
 
 def _offsets(inputs: DriveTrainInputs) -> Range:
-    """Return the range of the coupling offsets: the offsets other than zero, turned by quarters of a revolution."""
+    """Return the range of the coupling offsets: all offsets that are not zero, turned by quarters of a revolution."""
     given = [(k, coupling.offset) for k, coupling in enumerate(inputs.acting_couplings) if any(coupling.offset)]
     names = tuple(f"couplings.{k}.offset.{axis}" for k, _ in given for axis in range(2))
     turned = ([pair for _, (x, y) in given for pair in turn(x, y)] for turn in QUARTERS)

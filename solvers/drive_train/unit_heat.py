@@ -70,7 +70,7 @@ def warm_unit(inputs: DriveTrainInputs, start: FloatArray | None = None) -> Warm
     inputs : DriveTrainInputs
         The unit with a known oil and its cooling.
     start : FloatArray, optional
-        Gap by the shafts of a similar unit; the iteration starts from this gap [m].
+        Gap due to the shafts of a similar unit, from which the iteration starts [m].
 
     Returns
     -------

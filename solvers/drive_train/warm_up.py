@@ -122,7 +122,7 @@ def solve(inputs: WarmUpInputs) -> UnitWarmUp:
 
     Notes
     -----
-    The losses are those of the warm unit, except that they follow the viscosity during the warm-up (Eq. H24).
+    The losses are those of the warm unit, but change with the viscosity during the warm-up (Eq. H24).
     """
     unit = inputs.unit
     if not asks_for_balance(unit):
@@ -217,9 +217,9 @@ def _rotor(shaft: Shaft, material: Solid, solid: float, reference: float) -> flo
 def _times(course: WarmUp) -> FloatArray:
     """Return the five points in time of the alignment.
 
-    They are the start, the end, the time of the greatest temperature difference between the gear bodies, one time
-    before this greatest difference and one time after it. If the difference is greatest at the start or at the end, the
-    five points are equidistant.
+    The five points are the start, the end, the time of the greatest temperature difference between the gear bodies, one
+    time before this greatest difference and one time after the greatest difference. If the difference is greatest at
+    the start or at the end, the five points are equidistant.
     """
     end = float(course.curves.time[-1])
     greatest = course.greatest_difference_at
@@ -229,7 +229,7 @@ def _times(course: WarmUp) -> FloatArray:
 
 
 def _outcome_at(unit: DriveTrainInputs, network: Network, course: WarmUp, time: float) -> Outcome:
-    """Solve the alignment of the unit with the temperatures at a time [s]."""
+    """Compute the main results of the unit with the temperatures at a point in time [s]."""
     curves = course.curves
     now = np.array([np.interp(time, curves.time, curve) for curve in curves.temperature.T])
     outlets = iter(now[MIST + 1 :])
@@ -262,7 +262,7 @@ def _least_backlash(unit: DriveTrainInputs, warm: WarmUnit, course: WarmUp) -> f
     Returns
     -------
     float or None
-        Least normal backlash [m]; None without a casing in the balance.
+        Least normal backlash [m]; None if the heat balance has no casing.
 
     Notes
     -----

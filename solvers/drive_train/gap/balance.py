@@ -1,11 +1,12 @@
 """The gap over the face at which mesh and shafts are in equilibrium.
 
-The gap determines how the load is distributed over the face. This load bends the shafts, and the bent shafts have a
-gap. Both gaps have to be equal. The unknown is the gap g at the stations. The residual R is g minus the gap of shafts,
-bearings and couplings under the load that belongs to g. Newton's step dg follows from (I - D B) dg = -R. B = dQ/dg is
-the derivative of the mesh force Q, which is a mean over a base pitch. The shafts follow only this mean, because the
-mesh frequency lies far above any frequency of bending or of the bearing films. D is the derivative of the gap by Q and
-includes the couplings. The mean of the gap belongs to the transmission error and is subtracted. The first steps, which
+The gap determines how the load is distributed over the face. This load bends the shafts, and the bent shafts in turn
+cause a gap. Both gaps have to be equal. The unknown is the gap g at the stations. The residual R is g minus the gap
+that shafts, bearings and couplings cause under the load that belongs to g. Newton's step dg is the solution of the
+linear equations (I - D B) dg = -R. Here B = dQ/dg is the derivative of the mesh force Q, which is a mean over a base
+pitch. The shafts follow only this mean, because the mesh frequency is far higher than the natural frequencies of
+bending and of the bearing films. D is the derivative of the shafts' gap with respect to Q; the response of the
+couplings is part of D. The mean of the gap belongs to the transmission error and is subtracted. The first steps, which
 are most of the steps, are made with fewer roll positions and slices.
 """
 
@@ -54,7 +55,7 @@ class LoadedMesh:
         return self.scale * self.force * self.prepared.path.plane.cos_base_helix
 
     def under(self, gap: FloatArray) -> Mesh:
-        """Return the mesh after adding the gap by the shafts at the stations [m]."""
+        """Return the mesh with the gap [m] that the shafts cause at the stations."""
         points = np.linspace(0.0, self.stations[-1], self.fixed.size)
         mesh = self.prepared.mesh
         lead = self.fixed + np.interp(points, self.stations, gap)
@@ -78,7 +79,7 @@ class LoadedMesh:
         return face_response(self.under(gap), self.prepared.rolls, self.force, slices, count, start)
 
     def balance(self, gap: FloatArray, near: FaceResponse | None = None) -> LoadBalance:
-        """Solve the load balance with a gap by the shafts [m]. The iteration starts from `near`, a similar response."""
+        """Solve the load balance with the shafts' gap [m]. The iteration starts from `near`, a similar response."""
         start = None if near is None else (near.error, near.log_load)
         return balance_load(self.under(gap), self.prepared.rolls, self.force, self.slices, start)
 
@@ -87,9 +88,9 @@ class LoadedMesh:
 class Equilibrium:
     """Equilibrium of mesh and shafts.
 
-    `gap` [m] is the gap by the shafts at the stations minus the mean, `mean_gap` [m] is this mean. `loads` are the
-    loads of all ports [N, N m]. `by_gap` [N/m] is the derivative of the force at the stations by an additional gap at
-    the stations; both mesh and shafts respond to this gap.
+    `gap` [m] is the gap that the shafts cause at the stations, minus the mean over the face; `mean_gap` [m] is this
+    mean. `loads` are the loads of all ports [N, N m]. `by_gap` [N/m] is the derivative of the force at the stations
+    with respect to an additional gap at the stations. This derivative includes the responses of both mesh and shafts.
     """
 
     gap: FloatArray
@@ -201,7 +202,8 @@ def _matrix(mesh: LoadedMesh, state: _State) -> FloatArray:
 def _advance(unit: Unit, mesh: LoadedMesh, state: _State) -> _State:
     """Return the state after Newton's step.
 
-    The step is halved as long as the residual does not fall or a part of the unit has no solution after the step.
+    The step is halved as long as the residual does not fall, or as long as a part of the unit has no solution after the
+    step.
     """
     step, share = remove_mean(solve_linear(_matrix(mesh, state), -state.residual)), 1.0
     while True:
@@ -217,7 +219,7 @@ def _advance(unit: Unit, mesh: LoadedMesh, state: _State) -> _State:
 
 
 def uniform_force(force: float, stations: int) -> FloatArray:
-    """Return the forces at the stations [N] if a force [N] is spread evenly over the face."""
+    """Spread a force [N] evenly over the face, and return the forces at the stations [N]."""
     weights = np.ones(stations)
     weights[0] = weights[-1] = 0.5
     return force * weights / (stations - 1)

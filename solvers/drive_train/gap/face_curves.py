@@ -14,7 +14,7 @@ def face_mean(values: FloatArray) -> float:
 
 
 def face_slope(values: FloatArray) -> float:
-    """Compute the slope of a curve: the rise over the face of the straight line that fits best by least squares.
+    """Compute the slope of a curve: the rise, over the face, of the straight line with the best least-squares fit.
 
     Parameters
     ----------
@@ -35,7 +35,7 @@ def face_slope(values: FloatArray) -> float:
 
 
 def face_crown(values: FloatArray) -> float:
-    """Compute the crown of a curve: the height C of the parabola C (2 eta - 1)^2 that fits best by least squares.
+    """Compute the crown of a curve: the height C of the parabola C (2 eta - 1)^2 with the best least-squares fit.
 
     Parameters
     ----------

@@ -1,8 +1,8 @@
 """Tilts of the coupling hubs in equilibrium with the loads of the couplings.
 
-A hub has the tilt x = rest + lever (motion of the hub). The loads p(x) of the coupling bend the shaft, and the bent
-shaft moves the hub. Newton's step on x has the matrix I - lever D dp/dx, where D is the derivative of the motion of the
-hubs by the loads of the couplings.
+A hub that moves by u has the tilt x = rest + lever u. The loads p(x) of the coupling bend the shaft, and the bent shaft
+moves the hub. Newton's step on x has the matrix I - lever D dp/dx, where D is the derivative of the hubs' motion with
+respect to the loads of the couplings.
 """
 
 from dataclasses import dataclass
@@ -19,7 +19,7 @@ TILT_ITERATIONS = 30  # chosen: after these iterations the solution path is foll
 LEAST_STEP = 1 / 64  # chosen: a step shortened below this share is accepted
 LEAST_SIZE = 1e-9  # rad; least scale of the tilts along the path
 LONGEST, SHORTEST, LONGER = 0.3, 1e-6, 1.5  # steps along the path, in scales of the tilts; growth factor of a step
-FARTHEST = 2.0  # largest distance of a solution from the end of a step, in step lengths
+FARTHEST = 2.0  # in step lengths; largest distance between the end of a step and the solution found from there
 PATH_POINTS = 500  # chosen: after these points the search ends without a balance
 PATH_ITERATIONS = 6  # chosen: after these iterations a shorter step is tried
 PATH_TOLERANCE = 1e-6  # in scales of the tilts
@@ -29,8 +29,8 @@ PATH_TOLERANCE = 1e-6  # in scales of the tilts
 class HubLoads:
     """Tilts of all hubs, and the loads of the couplings.
 
-    Each coupling has four `tilts` [rad] and five `loads` [N, N m]. `by_tilts` is the derivative of the loads by the
-    tilts, dp/dx.
+    Each coupling has four `tilts` [rad] and five `loads` [N, N m]. `by_tilts` is the derivative dp/dx of the loads with
+    respect to the tilts.
     """
 
     tilts: FloatArray
@@ -43,7 +43,8 @@ class Yielding:
     """Motion of the ports under a force over the face, with the hubs in balance.
 
     `hubs` holds the tilts of the hubs and the loads of the couplings in this balance. `derivative` (stations, stations)
-    [m/N] is the derivative of the motion of the stations by the force, including the response of the hubs.
+    [m/N] is the derivative of the stations' motion with respect to the force. The response of the hubs is part of this
+    derivative.
     """
 
     hubs: HubLoads
@@ -52,10 +53,11 @@ class Yielding:
 
 
 def free_hubs(unit: Unit, force: FloatArray) -> HubLoads:
-    """Return the hubs on shafts that are bent by a force over the face [N], but not by the couplings.
+    """Return the hubs on shafts that carry a force over the face [N], but no loads of the couplings.
 
-    The iteration starts from these hubs. On straight shafts a hub may have no tilt at all, and the friction of a hub is
-    stiffest without tilt. Raises InvalidInput if a tilt is out of the range of the coupling model.
+    The iteration starts from these hubs and not from the hubs of straight shafts: a hub on a straight shaft may have no
+    tilt, and the friction of a hub is stiffest at zero tilt. Raises InvalidInput if a tilt is out of the range of the
+    coupling model.
     """
     ports = unit.couplings
     if not ports:
@@ -110,7 +112,7 @@ class _State:
     """Hubs at assumed tilts, the motion of the ports, and the residual.
 
     The residual is the assumed tilts minus the tilts that follow from the motion. `by_tilts` and `by_share` are the
-    derivatives of the residual by the tilts and by the share of the coupling loads that acts.
+    derivatives of the residual with respect to the tilts and to the acting share of the coupling loads.
     """
 
     hubs: HubLoads
@@ -143,7 +145,7 @@ def _evaluate(unit: Unit, force: FloatArray, hubs: HubLoads, share: float = 1.0)
 def _solve(unit: Unit, force: FloatArray, hubs: HubLoads) -> tuple[Yielding | None, float]:
     """Find the balance of the tilts by Newton's iteration.
 
-    Return the balance, or None if the iteration fails, and the last residual [rad].
+    Return the balance and the last residual [rad]. The balance is None if the iteration fails.
     """
     state = _evaluate(unit, force, hubs)
     for _ in range(TILT_ITERATIONS):
@@ -169,7 +171,8 @@ def solve_linear(matrix: FloatArray, right: FloatArray) -> FloatArray:
 def _advance(unit: Unit, force: FloatArray, state: _State, step: FloatArray) -> _State:
     """Return the state after a step of the tilts.
 
-    The step is halved as long as the residual does not fall or the model of a coupling or bearing rejects the tilts.
+    The step is halved as long as the residual does not fall, or as long as the model of a coupling or bearing rejects
+    the tilts.
     """
     share = 1.0
     while True:
@@ -188,7 +191,7 @@ def _try_tilts(unit: Unit, force: FloatArray, tilts: FloatArray, share: float = 
 
 
 def _yielding(unit: Unit, count: int, state: _State) -> Yielding:
-    """Return the motion of the ports at a state with balanced hubs, and the derivative of this motion by the force."""
+    """Return the motion of the ports at a state with balanced hubs, with the derivative with respect to the force."""
     mesh, hubs = state.derivative[:count], state.derivative[count:]
     through = solve_linear(state.by_tilts, _levers(unit.couplings) @ hubs[:, :count])
     return Yielding(state.hubs, state.motion, mesh[:, :count] + mesh[:, count:] @ state.hubs.by_tilts @ through)
@@ -199,9 +202,9 @@ def _raise_loads(unit: Unit, force: FloatArray, free: HubLoads) -> HubLoads:
 
     The path begins at `free`, the hubs without coupling loads. If friction falls with the sliding velocity, a hub can
     jump between sliding and sticking. At such a jump the share of the coupling loads decreases along the path. The
-    steps are therefore taken along the length of the path, on which the tilts of each hub are divided by the size of
-    the hub's tilt. Newton's iteration finds the next point of the path on the plane at the end of a step, normal to the
-    step (Allgower and Georg 2003, chapter 2).
+    steps are therefore taken along the length of the path. For this length, the tilts of each hub are divided by the
+    size of the hub's tilt. The next point of the path lies in the plane that is normal to the step and contains the end
+    of the step; Newton's iteration finds this point (Allgower and Georg 2003, chapter 2).
     """
     share, state, length = 0.0, _evaluate(unit, force, free, 0.0), LONGEST
     direction = np.append(np.zeros(free.tilts.size), 1.0)
@@ -224,7 +227,7 @@ def _raise_loads(unit: Unit, force: FloatArray, free: HubLoads) -> HubLoads:
 
 
 def _sizes(tilts: FloatArray) -> FloatArray:
-    """Return the scale of every component of a tilt: the size of the tilt [rad], the same for both components."""
+    """Return the scales of both components of every tilt. Both scales are the size of the tilt [rad]."""
     return np.repeat(np.maximum(np.hypot(tilts[::2], tilts[1::2]), LEAST_SIZE), 2)
 
 
@@ -251,7 +254,8 @@ def _find_on_path(
 ) -> tuple[float, _State] | None:
     """Return the share of the coupling loads and the state at the next point of the path.
 
-    The point lies on the plane at the end of `step`, normal to `step`. Return None if Newton's iteration fails.
+    The point lies on the plane through the end of `step` that is normal to `step`. Return None if Newton's iteration
+    fails.
     """
     length = float(np.linalg.norm(step))
     place = step
@@ -272,7 +276,7 @@ def _find_on_path(
 
 
 def _hub_loads(ports: tuple[CouplingPort, ...], tilts: FloatArray) -> HubLoads:
-    """Return the loads of all couplings at the tilts of the hubs, and the derivative of the loads by the tilts."""
+    """Return the loads of all couplings at the tilts of the hubs, with the derivative with respect to the tilts."""
     loads, derivative = np.zeros(LOADS * len(ports)), np.zeros((LOADS * len(ports), tilts.size))
     for k, port in enumerate(ports):
         own, by = slice(LOADS * k, LOADS * (k + 1)), slice(TILTS * k, TILTS * (k + 1))

@@ -1,10 +1,12 @@
-"""Lead and profile errors of gears that are warmer than the reference temperature of their drawings.
+"""Lead and profile errors of gears whose temperature differs from the reference temperature of the drawings.
 
-The gears have the temperature of the teeth, and the pumped gas heats the gears further. A heated body grows in
-proportion by the strain eps = alpha_L dT. A point moves away from the axis by eps times its distance from the axis, and
-along the axis by the integral of eps. In the direction of the line of action the flanks of the pinion grow by
-eps_1 (s_A + x) + tan beta_b int_0^y eps_1, and the flanks of the wheel grow by
-eps_2 (N - s_A - x) - tan beta_b int_0^y eps_2. If both gears are equally hot, only the base pitch changes and the
+The gear bodies are assumed to be as warm as the teeth, and the pumped gas heats the gears further. A heated body keeps
+its shape and grows by the strain eps = alpha_L dT; alpha_L is the coefficient of expansion and dT is the temperature
+rise. A point of the body moves away from the axis by eps times the distance between point and axis, and moves along the
+axis by the integral of eps. In the direction of the line of action the flanks of the pinion grow by eps_1 (s_A + x) +
+tan beta_b int_0^y eps_1, and the flanks of the wheel grow by eps_2 (N - s_A - x) - tan beta_b int_0^y eps_2. Here s_A
+is the distance from the pinion's base tangent point to A, x is the distance from A along the path of contact, and N is
+the distance between both base tangent points. If both gears are equally hot, only the base pitch changes and the
 contact lines stay parallel. Own derivation, checked against the numerical geometry of a heated helicoid.
 """
 
@@ -29,7 +31,7 @@ EXPANSION = 12e-6  # 1/K; coefficient of thermal expansion of steel
 class GasHeat:
     """Temperature rise of the gas above the ambient in the tooth spaces [K], at positions on the face [m].
 
-    `power` [W] is the total pumping power, `powers` [W] are the pumping powers of pinion and wheel.
+    `power` [W] is the total pumping power; `powers` [W] are the pumping powers of pinion and wheel.
     """
 
     pinion_position: FloatArray
@@ -43,11 +45,11 @@ class GasHeat:
 
 @dataclass(frozen=True, slots=True)
 class ThermalLead:
-    """Gap by heat, and the temperature rise of the metal by pumping [K].
+    """Gap that heat causes, and the temperature rise of the metal that pumping causes [K].
 
-    `lead` [m] is the gap at the stations; its mean is 0. `profile_slope` [m] belongs to the lead, because parallel
-    contact lines stay parallel only with both. `base_pitch` [m] is the growth of the pinion's base pitch minus the
-    growth of the wheel's base pitch.
+    `lead` [m] is the gap at the stations; its mean is 0. `profile_slope` [m] belongs to the lead: only lead and profile
+    slope together keep parallel contact lines parallel. `base_pitch` [m] is the growth of the pinion's base pitch minus
+    the growth of the wheel's base pitch.
     """
 
     lead: FloatArray
@@ -59,7 +61,7 @@ class ThermalLead:
 
 @lru_cache(maxsize=64)
 def gas_heat(setup: PumpingSetup, pinion_speed: float) -> GasHeat:
-    """Compute the temperature rise of the pumped gas; results are cached, because most studies vary other inputs.
+    """Compute the temperature rise of the pumped gas. The results are cached, because most studies vary other inputs.
 
     Raises the errors of `pumping.solve`.
     """
@@ -80,7 +82,7 @@ def _profile(spaces: SpacesResult | None) -> tuple[FloatArray, FloatArray]:
 
 
 def thermal_lead(inputs: DriveTrainInputs, path: PathOfContact, stations: FloatArray) -> ThermalLead:
-    """Compute the gap by heat over the face, and the profile slope that belongs to this gap.
+    """Compute the gap that heat causes over the face, and the profile slope that belongs to this gap.
 
     Parameters
     ----------
@@ -94,7 +96,7 @@ def thermal_lead(inputs: DriveTrainInputs, path: PathOfContact, stations: FloatA
     Returns
     -------
     ThermalLead
-        Gap, profile slope and base pitch deviation [m], and temperature rises by pumping [K].
+        Gap, profile slope and base pitch deviation [m], and temperature rises that pumping causes [K].
 
     Notes
     -----
@@ -126,7 +128,7 @@ def thermal_lead(inputs: DriveTrainInputs, path: PathOfContact, stations: FloatA
 
 
 def no_heat(stations: FloatArray) -> ThermalLead:
-    """Return the thermal lead of gears at the reference temperature of their drawings, which is zero."""
+    """Return the thermal lead of gears at the reference temperature of the drawings: all values are zero."""
     nothing = np.zeros(stations.size)
     return ThermalLead(nothing, 0.0, 0.0, nothing, nothing)
 

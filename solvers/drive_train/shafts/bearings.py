@@ -22,9 +22,9 @@ class BearingState:
     """A loaded bearing.
 
     `displacement` [m] is the displacement of the shaft without the offset of the bore. `flexibility` [m/N] is the
-    derivative of the displacement by the load. Only plain bearings have an eccentricity ratio [-], an attitude angle
-    between load and displacement [rad], a thinnest film [m] and a load per projected area [Pa]; for other bearings
-    these values are None. The friction power [W] of other bearings is 0.
+    derivative of the displacement with respect to the load. Only plain bearings have an eccentricity ratio [-], an
+    attitude angle between load and displacement [rad], a thinnest film [m] and a load per projected area [Pa]; for
+    other bearings these values are None. The friction power [W] of other bearings is 0.
     """
 
     load: FloatArray
@@ -162,7 +162,7 @@ def _journal(bearing: JournalBearing, load: FloatArray, speed: float, rotation: 
 
 
 def _friction(bearing: JournalBearing, speed: float, eccentricity: float) -> float:
-    """Return the friction power [W]: the power of the concentric bearing divided by sqrt(1 - e^2)."""
+    """Return the friction power [W], which is the power of the concentric bearing divided by sqrt(1 - e^2)."""
     concentric = 2 * pi * bearing.viscosity * speed**2 * (bearing.diameter / 2) ** 3 * bearing.width
     return concentric / (bearing.clearance * sqrt(1 - eccentricity**2))
 

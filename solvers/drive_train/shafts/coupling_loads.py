@@ -1,6 +1,6 @@
 """Moments and forces of a gear coupling on a shaft of the unit, as functions of the tilts of both hubs.
 
-Hub A sits on the unit's shaft, hub B on the machine's shaft. The distance of the hubs is l; `towards` is +1 if the
+Hub A sits on the unit's shaft, hub B on the machine's shaft. The distance of the hubs is l. `towards` is +1 if the
 machine lies towards +Z, else -1. The slope of the sleeve is (c_B - c_A) / (towards l), where c_A and c_B are the
 positions of the hubs in X and Y. The tilt of a hub is the slope of the hub minus the slope of the sleeve. This tilt is
 a vector d = delta e with the size delta and the direction e. Moments m are conjugate to slopes: m = -Z x M for a moment
@@ -42,8 +42,8 @@ LEAST_TILT = 1e-12  # rad; below this tilt the moments are proportional to the t
 class HubMoments:
     """Moments of one hub [N m], and the limit of the hub's thrust [N].
 
-    `straightening` is the moment a = M_s + M_e, `loss` is the moment M_l. The hub `sticks` if no tooth slides. `share`
-    is the friction moment divided by the friction moment of full sliding.
+    `straightening` is the moment a = M_s + M_e, `loss` is the moment M_l. The hub `sticks` if none of its teeth slides.
+    `share` is the friction moment divided by the friction moment of full sliding.
     """
 
     straightening: float
@@ -81,7 +81,7 @@ class CouplingPort:
 
     @property
     def driving(self) -> tuple[float, float]:
-        """Signs s_d of hubs A and B. A machine drives the pinion; the wheel drives another machine."""
+        """Signs s_d of hubs A and B. One machine drives the pinion, and the wheel drives another machine."""
         return (-1.0, 1.0) if self.inputs.shaft == "pinion" else (1.0, -1.0)
 
 
@@ -142,7 +142,7 @@ def sliding_tilt(port: CouplingPort, friction: float) -> float:
 
 
 def axial_share(port: CouplingPort) -> float:
-    """Compute the share of the friction that resists the tilting if the share tau acts axially.
+    """Compute the share of the friction that resists tilting if the share tau of the friction limit acts axially.
 
     Parameters
     ----------
@@ -186,7 +186,7 @@ def elastic_plastic(ratio: float) -> tuple[float, float]:
 
 
 def regularised(ratio: float) -> tuple[float, float]:
-    """Return the moments of `elastic_plastic` for a hub that slides at all but the smallest tilts.
+    """Return the moments as `elastic_plastic` does, but for a hub that slides at all except the smallest tilts.
 
     This friction law is for comparison only.
     """
@@ -211,7 +211,7 @@ def hub_moments(port: CouplingPort, tilt: float) -> HubMoments:
     Raises
     ------
     InvalidInput
-        The errors of `coupling.solve`; their fields begin with the path of the coupling in the unit.
+        The errors of `coupling.solve`, with field names that begin with the path of the coupling in the unit.
     NoSolution
         The errors of `coupling.solve`.
 
@@ -258,7 +258,7 @@ def _operating_point(port: CouplingPort, tilt: float) -> CouplingInputs:
 
 @contextmanager
 def _prefixed(port: CouplingPort) -> Iterator[None]:
-    """Put the path of the coupling in the unit before the fields in errors of the coupling model."""
+    """If the coupling model raises an error, prefix the error's field names with the coupling's path in the unit."""
     try:
         yield
     except InvalidInput as error:
@@ -267,7 +267,7 @@ def _prefixed(port: CouplingPort) -> Iterator[None]:
 
 
 def coupling_loads(port: CouplingPort, tilts: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Compute the loads of a coupling on the unit's shaft, and the derivative of these loads by the tilts.
+    """Compute the loads of a coupling on the unit's shaft, and the derivative of these loads with respect to the tilts.
 
     Parameters
     ----------
@@ -281,7 +281,7 @@ def coupling_loads(port: CouplingPort, tilts: FloatArray) -> tuple[FloatArray, F
     loads : FloatArray of shape (5,)
         F_X, F_Y [N], m_X, m_Y [N m], F_Z [N].
     derivative : FloatArray of shape (5, 4)
-        Derivative of the loads by the tilts [N/rad, N m/rad].
+        Derivative of the loads with respect to the tilts [N/rad, N m/rad].
 
     Notes
     -----
@@ -308,10 +308,12 @@ def coupling_loads(port: CouplingPort, tilts: FloatArray) -> tuple[FloatArray, F
 
 
 def _polar(tilt: FloatArray, moments: FloatArray, slopes: FloatArray, torque: float) -> tuple[FloatArray, FloatArray]:
-    """Return the vector -a e + (b + torque delta) Z x e at a tilt delta e, and its derivative by the tilt.
+    """Return the vector -a e + (b + torque delta) Z x e at a tilt delta e, and the derivative of the vector.
 
-    `moments` begins with a and b; `slopes` begins with the derivatives of a and b by delta. Below `LEAST_TILT`, a and b
-    are proportional to delta.
+    The derivative is with respect to the tilt.
+
+    `moments` begins with a and b; `slopes` begins with the derivatives of a and b with respect to delta. Below
+    `LEAST_TILT`, a and b are proportional to delta.
     """
     size = hypot(*tilt)
     direction = tilt / size if size > 0.0 else np.array([1.0, 0.0])

@@ -2,9 +2,10 @@
 
 The ports of the system are the stations of the face and the hubs of the couplings. The transverse force Q at a station
 loads both shafts with a force, a tilting moment and a torque. The matrix A holds the coefficients of these loads, and
-its transpose gives the gap from the motion of the shafts. With the shafts' flexibility C the elastic gap is A^T C A Q.
-The matrix A^T C A is symmetric and positive semidefinite, and Q^T A^T C A Q is twice the strain energy. Loads q of the
-ports load the bearings with L q, and displacements u in the bearings move the ports by L^T u.
+the transpose of A converts the motion of the shafts into the gap. If C is the flexibility of the shafts, the elastic
+gap is A^T C A Q. The matrix A^T C A is symmetric and positive semidefinite, and Q^T A^T C A Q is twice the strain
+energy. If the ports carry loads q, the bearings carry the loads L q; if the shaft moves by u in the bearings, the ports
+move by L^T u.
 """
 
 from dataclasses import dataclass
@@ -89,7 +90,10 @@ class Unit:
         ]
 
     def motion(self, loads: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return the motion of the ports under loads of the ports, and the derivative (ports, ports) of this motion."""
+        """Return the motion of the ports under loads of the ports.
+
+        Also return the derivative (ports, ports) of the motion with respect to the loads.
+        """
         states = self.bearings(loads)
         displacement = np.concatenate([state.displacement for state in states]) + self.offsets
         yielding = np.zeros((8, 8))
@@ -163,7 +167,7 @@ def _elastic(side: ShaftPorts) -> FloatArray:
 
 
 def torque_position(inputs: DriveTrainInputs, index: int) -> float:
-    """Return the position at which torque enters a shaft [m]: as given, else the position of the coupling."""
+    """Return the position at which torque enters a shaft [m]. If no position is given, it is that of the coupling."""
     given = inputs.shafts[index].torque_position
     if given is not None:
         return given
@@ -228,10 +232,11 @@ def _collar_loads(
     position: float,
     index: int,
 ) -> FloatArray:
-    """Return the nodal loads of a unit axial force at the thrust collar; without a collar they are 0.
+    """Return the nodal loads of a unit axial force at the thrust collar; without a collar the loads are 0.
 
     The force points towards +Z on the pinion and towards -Z on the wheel. The force acts at the radius of the collar
-    and at y = b as a tilting moment. The force balances the axial forces of mesh and couplings on the pinion.
+    and therefore loads the shaft with a tilting moment at y = b. The force balances the axial forces of mesh and
+    couplings on the pinion.
     """
     loads = np.zeros((2, 2 * model.z.size))
     if inputs.collar_radius is not None:

@@ -1,9 +1,9 @@
 """Shafts in two bearings: displacements of the nodes under nodal loads, by statics and strain energy.
 
-A shaft in two bearings is statically determinate: shear force V and bending moment M of every element follow from the
-loads alone. Between nodes V is constant and M is linear. The flexibility is the second derivative of the strain energy
-int [M^2 / (2 E I) + V^2 / (2 kappa G A)] dz of Timoshenko's beam. The flexibility is exact for stepped cylinders under
-nodal loads. It is symmetric and positive semidefinite by construction, even for very short elements.
+A shaft in two bearings is statically determinate, that is, shear force V and bending moment M of every element follow
+from the loads alone. Between nodes V is constant and M is linear. The flexibility is the second derivative of the
+strain energy int [M^2 / (2 E I) + V^2 / (2 kappa G A)] dz of Timoshenko's beam. The flexibility is exact for stepped
+cylinders under nodal loads. It is symmetric and positive semidefinite by construction, even for very short elements.
 """
 
 from dataclasses import dataclass
@@ -122,8 +122,8 @@ def _flexibility(
 ) -> FloatArray:
     """Return the flexibility as the product G^T G.
 
-    Three rows of G belong to each element: one for the strain energy of the mean bending moment, one for that of the
-    slope of the bending moment, and one for that of the shear force.
+    Three rows of G belong to each element: one for the strain energy of the mean bending moment, one for the strain
+    energy of the slope of the bending moment, and one for the strain energy of the shear force.
     """
     nodes = z.size
     forces = np.hstack([np.eye(nodes), np.zeros((nodes, nodes))])
@@ -154,8 +154,8 @@ def _flexibility(
 def _torsion(shaft: Shaft, z: FloatArray, elements: list[ShaftSection], torque_position: float) -> FloatArray:
     """Return the twist at node i per torque at node j.
 
-    The twist is that of the part of the shaft between the torque input and the nearer of both nodes. It is 0 if the
-    nodes lie on different sides of the torque input.
+    This is the twist of the shaft between the torque input and the nearer of the two nodes. The twist is 0 if the nodes
+    lie on different sides of the torque input.
     """
     modulus = shaft.youngs_modulus / (2 * (1 + shaft.poisson_ratio))
     twist = np.diff(z) / (2 * modulus * np.array([second_moment(part) for part in elements]))
@@ -166,7 +166,10 @@ def _torsion(shaft: Shaft, z: FloatArray, elements: list[ShaftSection], torque_p
 
 
 def _weight(shaft: Shaft, z: FloatArray, elements: list[ShaftSection]) -> FloatArray:
-    """Return the consistent nodal loads of the weight: q L / 2 and +-q L^2 / 12 at both ends of every element."""
+    """Return the consistent nodal loads of the weight.
+
+    At both ends of every element act the force q L / 2 and the moment +-q L^2 / 12.
+    """
     lengths = np.diff(z)
     load = GRAVITY * shaft.density * np.array([area(part) for part in elements]) * lengths
     forces, moments = np.zeros(z.size), np.zeros(z.size)

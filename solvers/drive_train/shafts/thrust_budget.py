@@ -1,8 +1,8 @@
 """The axial forces on both shafts.
 
-The axial force of the mesh is known. The axial force by friction in a coupling has a known limit, but its sign is not
-known. API 613 (5th ed., 2003) adds the magnitudes of both forces, and allows half the ultimate rating of a thrust
-bearing as the load.
+The axial force of the mesh is known. The axial force that friction causes in a coupling has a known limit, but an
+unknown sign. API 613 (5th ed., 2003) adds the magnitudes of both forces, and allows a load on the thrust bearing of at
+most half the bearing's ultimate rating.
 """
 
 from solvers.drive_train.inputs import DriveTrainInputs
@@ -104,7 +104,7 @@ def thrust_budget(
     limits : tuple of float
         Friction limits of the thrust of the couplings [N].
     diameters : tuple of float or None
-        Diameters of the shafts at their couplings; None for a shaft without a coupling [m].
+        Diameters of the shafts at their couplings [m]; None for a shaft without a coupling.
 
     Returns
     -------
@@ -145,7 +145,7 @@ def thrust_budget(
 
 
 def _use(lower: float | None, upper: float | None, ultimate: float | None) -> float | None:
-    """Return the largest load divided by the usable half of the rating; None without a rating or without a bearing."""
+    """Return the largest load divided by the usable half of the rating; None if there is no rating or no bearing."""
     if lower is None or upper is None or ultimate is None:
         return None
     return max(abs(lower), abs(upper)) / (USABLE * ultimate)
