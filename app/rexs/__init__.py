@@ -1,4 +1,4 @@
-"""Gear units from REXS files: the files are read, turned into requests, and completed with results.
+"""Gear units from REXS files. This package reads such files, converts them into requests, and adds results to them.
 
 model          components, relations and load cases of a file
 document       conversion between the bytes of a file and a model

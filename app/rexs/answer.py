@@ -1,4 +1,4 @@
-"""What a worker returns for the file of a gear unit: the answer of /v1/rexs, a page, and the file with results."""
+"""Results that a worker returns for the file of a gear unit: the answer of /v1/rexs, a page, the file with results."""
 
 import json
 from hashlib import sha256
@@ -92,11 +92,11 @@ def unit_html(root: str, content: bytes, most_bytes: int, name: str = "") -> byt
 
 
 def with_results(content: bytes, most_bytes: int, stage: int, request: bytes | None, deadline_s: float) -> File:
-    """Calculate a stage and return the file with the answer in it.
+    """Calculate a stage and return the file with the answer added.
 
-    `request` is the stage's request as the user edited it. If `request` is None, a request that follows from the file
-    is solved: the request of the drive train if the file describes one, else the request of /v1/scuffing. Raises
-    Unprocessable if the file is not readable or has no such stage, and the errors of reading a request.
+    `request` is the stage's request as the user edited it. If `request` is None, the request is made from the file: a
+    drive-train request if the file describes a drive train, else a request of /v1/scuffing. Raises Unprocessable if the
+    file is not readable or does not contain the stage. Also raises the errors that reading a request raises.
     """
     document = read(content, most_bytes)
     row = next((row for row in gear_unit(document.model)["stages"] if row["id"] == stage), None)

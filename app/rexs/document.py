@@ -26,7 +26,7 @@ MOST_ELEMENTS = 1_500_000  # tags and attributes of XML, or containers of JSON; 
 VERSIONS = ("1", "2")
 SUFFIXES = (".rexs", ".rexsj", ".rexs.json", ".rexs.xml")
 MODELS = ", ".join(SUFFIXES)
-PACKINGS = {zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED}  # other methods may need gigabytes of memory
+PACKINGS = {zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED}  # other methods of compression may need gigabytes of memory
 CODES = {"float32": "<f4", "float64": "<f8", "int32": "<i4"}
 SAFE = {"resolve_entities": False, "load_dtd": False, "no_network": True, "huge_tree": False, "remove_pis": False}
 """Options of lxml: no entities, no other files, and the limits of libxml2 on depth and length."""
@@ -70,15 +70,15 @@ def read(content: bytes, most_bytes: int) -> Document:
 
 
 def with_attributes(file: File, component: int, attributes: Iterable[Attribute]) -> File:
-    """Return the file with new attributes of a component. They replace attributes of the same names."""
+    """Return the file with new attributes of a component. The new attributes replace attributes with the same names."""
     write = _json_with if file.suffix == ".rexsj" else _xml_with
     return file._replace(content=write(file.content, component, attributes))
 
 
 def _unpacked(content: bytes, most_bytes: int) -> bytes:
-    """Return the model in a zip archive, but at most `most_bytes` + 1 bytes of the model.
+    """Unpack the model in a zip archive, and return at most the first `most_bytes` + 1 bytes.
 
-    The size that the archive states is not trusted.
+    The size that the archive states for the model may be wrong, so this size is not used.
     """
     try:
         with zipfile.ZipFile(io.BytesIO(content)) as archive:
@@ -131,7 +131,7 @@ def _numbers(code: object, text: object) -> list[Any] | None:
 
 
 def _model_of_xml(content: bytes) -> Model:
-    """Read the model part by part, so that the tree of a large file is never in memory as a whole."""
+    """Read the model part by part, so that the whole tree of a large file is never in memory at once."""
     if content.count(b"<") + content.count(b"=") > MOST_ELEMENTS:
         raise not_rexs(f"the file has more than {MOST_ELEMENTS} tags and attributes")
     readers = {"component": _xml_component, "relation": _xml_relation, "load_case": _xml_load_case}
@@ -255,14 +255,14 @@ def _refuse_constant(name: str) -> float:
 
 
 def _finite(text: str) -> float:
-    """Return a number. A number that is infinite as a float is rejected, because it could not be written again."""
+    """Convert a text into a number. Reject a number that is infinite as a float, because JSON cannot represent it."""
     if not isfinite(number := float(text)):
         raise not_rexs(f"the number {text[:20]} is too large")
     return number
 
 
 def _objects(of: Any, name: str) -> list[dict[str, Any]]:
-    """Return the list of objects under a name. The list is empty if the name is absent."""
+    """Return the objects that an object lists under a name, or an empty list if the name is absent."""
     items = of.get(name, []) if isinstance(of, dict) else None
     if not isinstance(items, list) or not all(isinstance(item, dict) for item in items):
         raise not_rexs(f"{name} must be a list of objects")

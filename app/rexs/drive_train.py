@@ -1,4 +1,4 @@
-"""The drive-train request of a stage: its two shafts and their bearings, with positions along the pinion's axis.
+"""The drive-train request of a stage, with both shafts and their bearings at positions along the pinion's axis.
 
 A stage has such a request if both shafts carry only the gears of this stage, and if each shaft runs in two radial
 bearings in the casing. Z is the u axis of the pinion's shaft; X and Y are the v and w axes of this shaft.
@@ -17,13 +17,13 @@ from app.rexs.stages import StageDraft
 MOST_PIECES = 10  # largest number of pieces per cone; a request allows 40 sections per shaft
 LONGEST_PIECE = 10.0  # mm; length of a cylinder that replaces a part of a cone
 SHORTEST_SECTION = 0.1  # mm
-RIGID_FROM_N_PER_UM = 1e5  # chosen: some hundred times the stiffness of a plain bearing
+RIGID_FROM_N_PER_UM = 1e5  # chosen: about a hundred times the stiffness of a plain bearing
 STANDARD_GRAVITY = 9.80665  # m/s^2
 NAMES = ("pinion_shaft", "wheel_shaft")
 
 
 class Section(NamedTuple):
-    """A cylinder of a shaft: its ends along Z and its diameters [mm]."""
+    """A cylinder of a shaft, with the positions of both ends along Z and both diameters [mm]."""
 
     begin: float
     end: float
@@ -32,9 +32,9 @@ class Section(NamedTuple):
 
 
 def add_drive_train(stage: StageDraft) -> bool:
-    """Add the fields of the drive train to the draft of a stage.
+    """Add the fields of the drive train to the draft of a stage, and return True on success.
 
-    Return False if the file describes no drive train that can be calculated. The draft then states the reasons.
+    Return False if the file does not describe a drive train that can be calculated; the draft then states the reasons.
     """
     reasons = list(_obstacles(stage))
     for component, reason in reasons:
@@ -125,7 +125,7 @@ class _DriveTrain:
         self._stage.put(path, self._angle(self._in_file(unit, (u, v, w))), unit, "direction_vector_gravity_v")
 
     def _temperatures(self) -> None:
-        """Fill in the temperature of the drawing and of the teeth of both gears."""
+        """Fill in the reference temperature of the drawings and the tooth temperatures of both gears."""
         stage = self._stage
         stage.take(table.REFERENCE_TEMPERATURE, self._reading.model.first("gear_unit"))
         for gear, row in zip(stage.gears, table.TOOTH_TEMPERATURES, strict=True):
@@ -168,7 +168,7 @@ class _DriveTrain:
         return True
 
     def _sections(self, shaft: Component) -> list[Section]:
-        """Return the cylinders of a shaft. Cones are replaced by cylindrical pieces with their mean diameters."""
+        """Return the cylinders of a shaft. Each cone is replaced by short cylinders with mean diameters."""
         reading, stage = self._reading, self._stage
         base, sense = stage.position_of_coordinate(shaft, 0.0) or 0.0, stage.along(shaft)
         cylinders, stacked = [], 0.0
@@ -196,7 +196,7 @@ class _DriveTrain:
         return self._contiguous(sorted(cylinders), shaft)
 
     def _contiguous(self, sections: list[Section], shaft: Component) -> list[Section]:
-        """Join the sections without gaps and overlaps. Gaps and overlaps of the file are recorded as findings."""
+        """Make the sections adjoin without gaps or overlaps. Gaps and overlaps in the file are recorded as findings."""
         joined: list[Section] = []
         for section in sections:
             here = joined[-1].end if joined else section.begin
@@ -243,14 +243,14 @@ class _DriveTrain:
             for row in table.JOURNAL:
                 if (value := reading.number(bearing, row)) is not None:
                     fields[row.field] = value / 2.0 if row.field == "radial_clearance_um" else value
-            if fields.get("oil_flow_l_per_min", 1.0) <= 0.0:  # not known; the heat balance uses the side leakage
+            if fields.get("oil_flow_l_per_min", 1.0) <= 0.0:  # unknown flow; the heat balance uses the side leakage
                 del fields["oil_flow_l_per_min"]
             relative = reading.number(bearing, "relative_clearance_plain_bearing")
             bore = reading.number(bearing, table.BEARING_BORE)
             if "radial_clearance_um" not in fields and relative is not None and bore is not None:
                 fields["radial_clearance_um"] = (
                     relative * bore * 500.0
-                )  # from mm to um; the radial clearance is half of the diametral clearance
+                )  # from mm to um; the radial clearance is half the diametral clearance
             return fields
         stiffness = reading.number(bearing, "radial_stiffness", "N/um")
         if stiffness is not None and stiffness >= RIGID_FROM_N_PER_UM:

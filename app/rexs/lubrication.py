@@ -1,4 +1,4 @@
-"""Oil and oil supply of a mesh, temperatures of oil and teeth, and friction, as the file states them."""
+"""Oil, oil supply, temperatures of oil and teeth, and friction of a mesh, as the file states these values."""
 
 from app.rexs import table
 from app.rexs.model import Component
@@ -38,9 +38,9 @@ class Lubrication:
         self._base_oil(oil)
 
     def _base_oil(self, oil: Component) -> None:
-        """Fill in the kind of oil from the attribute of the standard, else from other texts.
+        """Fill in the kind of base oil from the attribute of the standard, or else from other texts.
 
-        A kind of oil that is not modelled is recorded as a finding.
+        If there is no model of this kind of oil, this is recorded as a finding.
         """
         path, texts = "lubricant.kind", {}
         for name in (*table.OIL_TYPES, *table.OIL_WORDS):
@@ -69,10 +69,10 @@ class Lubrication:
         )
 
     def _temperatures(self) -> None:
-        """Fill in temperature and supply of the oil, and the bulk temperature.
+        """Fill in the temperature and the supply of the oil, and the bulk temperature.
 
-        The bulk temperature is the mean of both gears. If the gears state none, it is the bulk temperature of the
-        stage.
+        The bulk temperature is the mean of the bulk temperatures of both gears. If the file states none for the gears,
+        the bulk temperature of the stage is used.
         """
         for origin in self._stage.oil_origins:
             if self._stage.take(table.OIL_TEMPERATURE, origin) is not None:

@@ -17,8 +17,8 @@ ASSEMBLIES = ("ordered_assembly", "assembly")  # types of the relations between 
 class Attribute:
     """A value and its unit in the file.
 
-    `unit` is empty if the value has no unit. In XML, `value` is a text; in JSON, a number, a text or a boolean. In
-    both, the value of an array is a list, and an absent value is None.
+    `unit` is empty if the value has no unit. In XML, `value` is a text. In JSON, `value` is a number, a text or a
+    boolean. In both formats, the value of an array is a list, and a missing value is None.
     """
 
     name: str
@@ -51,7 +51,7 @@ class Relation:
 
 @dataclass(frozen=True, slots=True)
 class LoadCase:
-    """A case of the load spectrum. The attributes, by component, replace the attributes of the model."""
+    """A case of the load spectrum. Its attributes, listed by component, replace the attributes of the model."""
 
     name: str
     attributes: dict[int, dict[str, Attribute]]
@@ -93,7 +93,7 @@ class Model:
         return None if id_ is None else self.components.get(id_)
 
     def relations_of(self, type_: str, role: str, component: int) -> Sequence[Relation]:
-        """Return the relations of a type in which the component has the role.
+        """Return the relations of a type in which the component has the role `role`.
 
         Relations that state an order come first, sorted by this order.
         """
@@ -116,7 +116,7 @@ class Model:
         return next((whole for whole in wholes if whole.type == type_), None)
 
     def reference_of(self, origins: Iterable[Component | None], type_: str) -> Component | None:
-        """Return the first component of a type to which one of the origins refers."""
+        """Return the first component of a type to which one of the `origins` refers."""
         given = (origin for origin in origins if origin is not None)
         return next((reference for origin in given for reference in self.references_of(origin.id, type_)), None)
 

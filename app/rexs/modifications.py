@@ -1,7 +1,8 @@
-"""Modifications of the mesh: the sums of the modifications of both gears, on the flanks that carry the load.
+"""Modifications of the mesh, which are the sums of the modifications of both gears on the loaded flanks.
 
-Tip relief of the pinion and root relief of the wheel act at E; root relief of the pinion and tip relief of the wheel
-act at A. The sign of a slope depends on the end of the face that meshes first.
+Tip relief of the pinion and root relief of the wheel act at E, the end of contact. Root relief of the pinion and tip
+relief of the wheel act at A, the start of contact. The sign of a slope depends on the end of the face that meshes
+first.
 """
 
 from math import sqrt
@@ -45,10 +46,10 @@ class Modifications:
         return [item for item in modifications if item.type in table.MODIFICATIONS]
 
     def _working_side(self, place: int) -> str | None:
-        """Return the loaded flank as the file states it, else by the sense of rotation and the driving gear.
+        """Return the loaded flank as stated in the file, or else from the sense of rotation and the driving gear.
 
         Seen from the end of the shaft at which u is least (the datum face), a gear with positive speed turns clockwise.
-        Then the right flank of a driving gear is loaded, and the left flank of a driven gear.
+        At this sense of rotation, the right flank of a driving gear and the left flank of a driven gear are loaded.
         """
         stage = self._stage
         for data in stage.gear_data(place):
@@ -81,8 +82,8 @@ class Modifications:
     def _relief(self, name: str, kinds: tuple[str, str]) -> None:
         """Fill in the relief at one end of the path of contact.
 
-        The amount is the sum of both gears; length and shape are those of the larger relief. `kinds` names the reliefs
-        of pinion and wheel that act at this end.
+        The amount is the sum of the amounts of both gears; length and shape are taken from the larger relief. `kinds`
+        names the reliefs of pinion and wheel that act at this end.
         """
         reliefs = []
         for place, item in self._carried:
@@ -117,7 +118,7 @@ class Modifications:
             self._stage.put(path, exponent, component, "shape_of_relief")
 
     def _relief_length(self, component: Component, kind: str, place: int) -> float | None:
-        """Return the length of a relief along the line of action [mm], as given or from the start diameter."""
+        """Return the length of a relief along the line of action [mm], as given or computed from the start diameter."""
         length = self._reading.number(component, f"{kind}_datum_length", "mm")
         if length is not None:
             return length
@@ -141,7 +142,7 @@ class Modifications:
         return gear.roll_length(gear.reference_diameter + 2.0 * gear.module * (addendum + gear.shift))
 
     def _slopes(self) -> None:
-        """Fill in profile and helix slopes; positive amounts remove material at the tip and at the non-datum face."""
+        """Fill in profile and helix slopes. Positive slopes remove material at the tip and at the non-datum face."""
         sums, origins = {"profile_slope": 0.0, "helix_slope": 0.0}, {}
         for place, item in self._carried:
             amount = self._reading.number(item, item.type, "um") if item.type in sums else None
@@ -179,7 +180,7 @@ class Modifications:
         return -(1.0 if speed > 0.0 else -1.0) * hand * stage.along(stage.shafts[place])
 
     def _end_relief(self) -> None:
-        """Fill in the end relief. The request has one relief for both ends. It is the mean of both ends in the file."""
+        """Fill in the end relief. The request has one relief for both ends: the mean of both reliefs in the file."""
         depths, lengths, origins = {"datum_face": 0.0, "non_datum_face": 0.0}, list[float](), list[Component]()
         for end in depths:
             for _, item in self._carried:

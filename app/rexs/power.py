@@ -2,7 +2,8 @@
 
 Shafts joined by a coupling turn as one. In a cylindrical stage, n_1 z_1 = -n_2 z_2. The mesh loads both gears with
 torques of the same sign in the ratio z_1 : z_2. The torques on a shaft add up to zero. In a unit without power
-splitting the equations can be solved one after another, because at each step one equation has a single unknown.
+splitting these equations can be solved one after another, because at each step there is an equation with a single
+unknown.
 """
 
 from collections import defaultdict
@@ -15,11 +16,11 @@ from app.rexs.reading import Reading
 from app.rexs.table import REVOLUTION_PER_MINUTE
 
 MOST_SHAFTS = 200  # chosen: far beyond any gear unit
-BALANCE = 0.02  # tolerated relative difference; torques in some files include efficiencies
+BALANCE = 0.02  # tolerated relative unbalance of torques, because the torques in some files include efficiencies
 
 
 class Pair(NamedTuple):
-    """A stage of two external gears on their shafts, in the order of the file."""
+    """A stage: two external gears and their shafts, in the order of the file."""
 
     stage: Component
     gears: tuple[Component, Component]
@@ -45,7 +46,7 @@ class Flow:
         return pair.stage.id in self.mesh_torque and pair.shafts[0].id in self.speed
 
     def driver(self, pair: Pair) -> int | None:
-        """Return the place of the driving gear in the pair, 0 or 1; None if the driving gear is not known."""
+        """Return the place (0 or 1) of the driving gear in the pair, or None if the driving gear is not known."""
         for place, torque in enumerate(self.mesh_torque.get(pair.stage.id, ())):
             speed = self.speed.get(pair.shafts[place].id)
             if speed and torque:
@@ -65,7 +66,7 @@ class Train:
             self._shafts, self._pairs = [], []
         self._group = self._groups()
         self._elsewhere = self._not_modelled()
-        self._at: dict[int, list[tuple[Pair, int]]] = defaultdict(list)  # meshes of each group, and place of its gear
+        self._at: dict[int, list[tuple[Pair, int]]] = defaultdict(list)  # meshes of each group, and place of the gear
         for pair in self._pairs:
             for place, shaft in enumerate(pair.shafts):
                 self._at[self._group[shaft.id]].append((pair, place))
@@ -113,7 +114,7 @@ class Train:
             if group not in speeds:
                 self._spread(group, speed, speeds)
             elif restated and shaft.id not in restated:
-                continue  # this speed is of the model, but the load case states other speeds
+                continue  # the model states this speed, but the load case states other speeds
             elif abs(speeds[group] - speed) > BALANCE * max(abs(speed), abs(speeds[group])):
                 message = (
                     f"the stated speed is {speed:.6g} 1/min, but the numbers of teeth give {speeds[group]:.6g} 1/min; "
@@ -123,7 +124,7 @@ class Train:
         return speeds
 
     def _spread(self, group: int, speed: float, speeds: dict[int, float]) -> None:
-        """Set the speed of a group and of all groups that mesh with it."""
+        """Set the speed of a group, and then the speeds of all groups that are connected to it by meshes."""
         speeds[group] = speed
         for pair, place in self._at[group]:
             other = self._group[pair.shafts[1 - place].id]
@@ -131,7 +132,7 @@ class Train:
                 self._spread(other, -speed * pair.teeth[place] / pair.teeth[1 - place], speeds)
 
     def _forces(self, speeds: dict[int, float], reading: Reading) -> dict[int, float]:
-        """Return the mesh torque per tooth [N m] of all stages for which the torques in the file determine it."""
+        """Return the mesh torque per tooth [N m] of each stage in which the torques in the file determine it."""
         torques, opened = self._loads(speeds, reading)
         forces: dict[int, float] = {}
         waiting = list(self._at) if torques else []
@@ -170,7 +171,7 @@ class Train:
         return torques, opened
 
     def _not_modelled(self) -> set[int]:
-        """Return the groups with gears in stages that are not modelled. The torques of these stages are not known."""
+        """Return the groups that have gears in stages without a model. The torques of these stages are not known."""
         model, modelled = self._reading.model, {pair.stage.id for pair in self._pairs}
         stages = (relation for relation in model.relations if relation.type == "stage")
         others = (relation for relation in stages if relation.part("stage") not in modelled)
@@ -179,9 +180,9 @@ class Train:
         return {self._group[shaft.id] for shaft in shafts if shaft is not None and shaft.id in self._group}
 
     def _stated_torque(self, load: Component, shaft: Component, speed: float | None, reading: Reading) -> float | None:
-        """Return the torque of a load on a shaft about the unit's axis [N m], or None if it is not stated.
+        """Return the torque of a load on a shaft about the unit's axis [N m], or None if the torque is not stated.
 
-        If a load case states the power but no torque, the torque follows from this power, even if the model states a
+        If a load case states a power but no torque, the torque is computed from this power, even if the model states a
         torque.
         """
         if reading.flag(load, "defines_torque") is False:
@@ -205,4 +206,4 @@ class Train:
                 "stated torque is used"
             )
             reading.find("power_conflict", load, "power", message)
-        return torque * reading.sense(shaft)  # the u axis of a load is the u axis of its shaft
+        return torque * reading.sense(shaft)  # a load is stated about the u axis of its shaft

@@ -1,6 +1,6 @@
 """Attributes of a file as numbers in the units of the requests, and the draft of a request that these numbers fill.
 
-`Reading` and `Draft` record for the answer what is wrong in the file, and what is missing, assumed or not used.
+`Reading` and `Draft` record for the answer the faults of the file, and the values that are missing, assumed or unused.
 """
 
 import re
@@ -20,7 +20,7 @@ from app.rexs.table import APPLICATION_FACTOR, IGNORED, SCUFFING_FACTOR, Row, co
 from app.schema.quantities import Output
 from app.schema.reading import validated
 
-LARGEST = 1e30  # largest number in any unit; keeps sums and products finite even if the file is hostile
+LARGEST = 1e30  # largest number accepted in any unit; keeps sums and products finite even for a malicious file
 DIGITS = 7
 SCUFFING = "/v1/scuffing"
 MESH = {"gears", "load", "materials", "modifications", "friction_coefficient"}
@@ -94,10 +94,10 @@ class Unused(BaseModel):
 
 @dataclass
 class Reading:
-    """Reader of a model. It records which attributes were asked for, and records faults as findings.
+    """Reader of a model. The reader records which attributes were requested, and records faults as findings.
 
-    The attributes of the load case `case` replace the attributes of the model. `used` and `used_of_case` are the
-    attributes of the model and of the load case that were asked for, as pairs of component and name.
+    The attributes of the load case `case` replace the attributes of the model. `used` holds the requested attributes of
+    the model, and `used_of_case` the requested attributes of the load case, as pairs of component and name.
     """
 
     model: Model
@@ -129,7 +129,7 @@ class Reading:
         self.findings[Fault(code=code, component=id_, attribute=attribute, message=message)] = None
 
     def number(self, component: Component | None, wanted: Row | str, unit: str = "") -> float | None:
-        """Return the value of a row in the unit of the row, or the value of an attribute in `unit`.
+        """Return the number of a row in the unit of the row, or the number of a named attribute in `unit`.
 
         Return None if the file has no such value. If a row names several attributes, the first attribute that the file
         has is used. A value that is not a number, or whose unit belongs to another quantity, is recorded as a finding
@@ -140,7 +140,7 @@ class Reading:
         return None if first is None else first.value
 
     def first_of(self, component: Component | None, names: Iterable[str], unit: str) -> "Number | None":
-        """Return value and name of the first of these attributes that is a number of the quantity of `unit`."""
+        """Return value and name of the first of these attributes that is a number with the quantity of `unit`."""
         if component is None:
             return None
         for name in names:
@@ -156,7 +156,7 @@ class Reading:
         return str(attribute.value).lower() if attribute is not None and isinstance(attribute.value, str) else ""
 
     def flag(self, component: Component, name: str) -> bool | None:
-        """Return a truth value, or None if the file does not have it."""
+        """Return a boolean, or None if the file does not have this attribute."""
         attribute = self._attribute(component, name)
         text = "" if attribute is None else str(attribute.value).lower()
         return {"true": True, "1": True, "false": False, "0": False}.get(text)
@@ -178,7 +178,7 @@ class Reading:
         return x * scale, y * scale, z * scale
 
     def axis(self, shaft: Component) -> Axis | None:
-        """Return the axis of a shaft, or None if the file does not say where the shaft lies."""
+        """Return the axis of a shaft, or None if the file does not state the position of the shaft."""
         origin, direction = self.vector(shaft, "support_vector"), self.vector(shaft, "u_axis_vector")
         if origin is None:
             return None
@@ -190,9 +190,9 @@ class Reading:
         return Axis(origin, (x / size, y / size, z / size))
 
     def sense(self, shaft: Component) -> float:
-        """Return -1 if the u axis of a shaft is opposite to the u axis of the first shaft with an axis, else +1.
+        """Return -1 if the u axes of a shaft and of the first shaft with an axis have opposite directions, else +1.
 
-        For a shaft without an axis, return +1.
+        Also return +1 for a shaft without an axis.
         """
         return self._senses.get(shaft.id, 1.0)
 
@@ -204,14 +204,14 @@ class Reading:
         return {id_: 1.0 if cosine >= 0.0 else -1.0 for id_, cosine in cosines.items()}
 
     def ignored(self, components: Iterable[Component]) -> Iterator[Unused]:
-        """Yield the attributes of these components that were not asked for."""
+        """Yield the attributes of these components that were not requested."""
         for component in components:
             for name in component.attributes:
                 if (component.id, name) not in self.used:
                     yield Unused(component=component.id, attribute=name, reason=why_unused(component.type, name))
 
     def ignored_of_case(self, elsewhere: Collection[int]) -> Iterator[Unused]:
-        """Yield the attributes of the load case that were not asked for, except those of the components `elsewhere`."""
+        """Yield the unrequested attributes of the load case, except the attributes of the components `elsewhere`."""
         if (case := self.case) is None:
             return
         for id_, attributes in case.attributes.items():
@@ -262,17 +262,17 @@ class Draft:
     assumed: dict[str, AssumedValue] = field(default_factory=dict)
 
     def put(self, path: str, value: Any, component: Component, attribute: str | None = None) -> None:
-        """Set a field to a value of the file."""
+        """Set a field to a value from the file."""
         self.fields[path] = value
         self.origins[path] = component, attribute
 
     def assume(self, path: str, value: Any, reason: str) -> None:
-        """Set a field that the file does not give, and record the reason for the value."""
+        """Assume a value for a field that the file does not give, and record the reason for this value."""
         self.fields[path] = value
         self.note(path, value, reason)
 
     def note(self, path: str, value: Any, reason: str) -> None:
-        """Record why a field has this value if the file leaves a choice."""
+        """Record why a field has this value although the file permits other values."""
         self.assumed[path] = AssumedValue(field=path, value=value, reason=reason)
 
     def lacks(self, path: str, component: Component | None, attribute: str | None, message: str) -> None:
@@ -281,7 +281,7 @@ class Draft:
         self.missing.setdefault(path, MissingValue(field=path, component=id_, attribute=attribute, message=message))
 
     def take(self, row: Row, component: Component | None, prefix: str = "") -> float | None:
-        """Set a field to a number of the file as it is. Return this number, or None if the file does not have it."""
+        """Copy a number of the file into a field. Return this number, or None if the file does not contain it."""
         number = self.reading.first_of(component, row.attributes, row.unit)
         if component is None or number is None:
             return None
@@ -291,9 +291,9 @@ class Draft:
     def request(self, endpoint: str, paths: Iterable[str]) -> dict[str, Any]:
         """Return the request of an endpoint from these fields.
 
-        Fields that the endpoint does not know or rejects are left out. If the endpoint rejects a value of the file, the
-        value is recorded as a finding with the permitted range. If a field that the endpoint requires has no value, the
-        field is recorded as missing.
+        Fields that the endpoint does not have, and fields whose values it rejects, are left out. If the rejected value
+        comes from the file, the value is recorded as a finding with the permitted range. If a field that the endpoint
+        requires has no value, the field is recorded as missing.
         """
         replaced = endpoint == SCUFFING and SCUFFING_FACTOR in self.fields
         places = {
@@ -315,7 +315,7 @@ class Draft:
             for fault in faults:
                 at = fault.pointer.strip("/").replace("/", ".")
                 if any(_within(path, at) or _within(at, path) for path in self.missing):
-                    continue  # recorded as missing already
+                    continue  # already recorded as missing
                 ours = next((path for path, theirs in own.items() if _within(at, theirs)), None)
                 if ours is None:
                     back = next((path for path, theirs in places.items() if theirs == at), at)

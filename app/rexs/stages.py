@@ -11,16 +11,16 @@ from solvers.gears.gear import involute
 from solvers.gears.pair import inverse_involute
 
 ISO_53_A = {"addendum": 1.0, "dedendum": 1.25, "gears.rack_tip_radius": 0.38}  # in modules
-SAME = 1e-6  # chosen: two statements of a number count as equal if they differ by less
-OFF_CENTRE = 1e-3  # chosen: tolerated share of the centre distance, because positions in files are often rounded
-MOST_INVOLUTE = 1e8  # the inverse function works up to 1e9; only absurd profile shifts give larger values
+SAME = 1e-6  # chosen: two stated numbers count as equal if their difference is smaller
+OFF_CENTRE = 1e-3  # chosen: tolerated share of the centre distance; positions in files are often rounded
+MOST_INVOLUTE = 1e8  # only absurd profile shifts give larger values; the inverse function works up to 1e9
 NORMAL_ANGLE = 20.0  # deg, ISO 53
 ROLES = ("pinion", "wheel")
 TORQUE, SPEED = "load.pinion_torque_n_m", "load.pinion_speed_rpm"
 
 
 def pairs(reading: Reading) -> Iterator[Pair]:
-    """Yield the cylindrical stages of two external gears on shafts. Every other stage is recorded as a finding."""
+    """Yield the cylindrical stages with two external gears on shafts. Record every other stage as a finding."""
     for stage in reading.model.components.values():
         if stage.type in table.OTHER_STAGES:
             reading.find("stage_not_modelled", stage, None, f"{table.OTHER_STAGES[stage.type]}; the stage is left out")
@@ -48,7 +48,7 @@ def _pair(reading: Reading, stage: Component) -> Pair | None:
 
 
 def _teeth(reading: Reading, stage: Component, gear: Component) -> int | None:
-    """Return the number of teeth of an external gear. Any other gear is recorded as a finding."""
+    """Return the number of teeth of an external gear. Record any other gear as a finding."""
     if gear.type != "cylindrical_gear":
         what = "pairs with a ring gear" if gear.type == "ring_gear" else "other pairs than two external gears"
         reading.find("stage_not_modelled", stage, None, f"{what} are not modelled; the stage is left out")
@@ -65,7 +65,7 @@ def _teeth(reading: Reading, stage: Component, gear: Component) -> int | None:
 
 
 def _shaft_of(reading: Reading, gear: Component) -> Component | None:
-    """Return the shaft that a gear is part of, else the shaft to which a coupling fastens the gear."""
+    """Return the shaft that has the gear as a part, or else the shaft to which a coupling fastens the gear."""
     partners = reading.model.related("side", "outer_part", gear.id, "inner_part")
     return reading.model.whole_of(gear.id, "shaft") or next((part for part in partners if part.type == "shaft"), None)
 
@@ -85,7 +85,7 @@ class StageDraft(Draft):
     """
 
     def __init__(self, pair: Pair, flow: Flow, pinion: int | None = None) -> None:
-        """Begin the draft of a stage; `pinion` is the place of the pinion, if another draft has chosen the pinion."""
+        """Begin the draft of a stage. `pinion` is the place of the pinion if another draft has chosen the pinion."""
         super().__init__(flow.reading)
         self.flow, self.pair = flow, pair
         self.driver = self._driver()
@@ -119,7 +119,7 @@ class StageDraft(Draft):
                 self.take(row, self.material(place), f"materials.{role}.")
 
     def _driver(self) -> int | None:
-        """Return the place of the driving gear by torque and speed, else as the file states it."""
+        """Return the place of the driving gear as follows from torque and speed, or else as the file states."""
         by_power, pair = self.flow.driver(self.pair), self.pair
         stated = [place for place in (0, 1) for data in _gear_data(self.reading, pair, pair.gears[place])
                   if self.reading.flag(data, "is_driving_gear")]  # fmt: skip
@@ -131,7 +131,7 @@ class StageDraft(Draft):
         return by_power
 
     def flanks(self, place: int) -> dict[str, Component]:
-        """Return the left and the right flank of pinion (0) or wheel (1), as far as the file has them."""
+        """Return the left and the right flank of pinion (0) or wheel (1) by side, if the file has them."""
         relation = "flank", "gear", self.gears[place].id
         flanks = {side: next(self.reading.model.related(*relation, side), None) for side in ("left", "right")}
         return {side: flank for side, flank in flanks.items() if flank is not None}
@@ -142,7 +142,7 @@ class StageDraft(Draft):
 
     @property
     def load_sources(self) -> set[int]:
-        """Components whose attributes in a load case change only torque, speed and shares."""
+        """Components whose attributes in a load case change nothing but torque, speed and shares."""
         model = self.reading.model
         sources = (model.first("gear_unit"), *model.by_type["shaft"], *model.by_type["external_load"])
         return {source.id for source in sources if source is not None}
@@ -171,7 +171,7 @@ class StageDraft(Draft):
         return self.reading.model.reference_of(self.oil_origins, "lubricant")
 
     def load(self, flow: Flow) -> dict[str, float]:
-        """Return torque and speed of the pinion as fields of the request, as far as they are known."""
+        """Return torque and speed of the pinion as fields of the request. Unknown values are left out."""
         torques, speed = flow.mesh_torque.get(self.stage.id), flow.speed.get(self.shafts[0].id)
         fields = {} if torques is None else {TORQUE: abs(torques[self.order[0]])}
         return fields if speed is None else fields | {SPEED: abs(speed)}
@@ -185,10 +185,10 @@ class StageDraft(Draft):
         return middle - width / 2.0, middle + width / 2.0
 
     def position(self, part: Component, shaft: Component) -> float | None:
-        """Return the position of a part's middle along the axis of the pinion's shaft [mm]; None if it is not known.
+        """Return the position of a part's middle along the axis of the pinion's shaft [mm]; None if this is not known.
 
-        The origin of a part is the middle of its width. If the file gives an origin and a coordinate that differ by
-        half the width, the coordinate belongs to an end of the part.
+        The origin of a part is the middle of the part's width. If the file gives both an origin and a coordinate, and
+        if both differ by half the width, the coordinate is that of an end of the part.
         """
         reading = self.reading
         stated = reading.number(part, table.POSITION)
@@ -221,7 +221,7 @@ class StageDraft(Draft):
         return self.reading.sense(shaft) * self.reading.sense(self.shafts[0])
 
     def involute(self, place: int) -> "Involute | None":
-        """Return the transverse geometry of a gear; None if the file does not give enough."""
+        """Return the transverse geometry of a gear; None if the file does not contain enough data."""
         fields, module = self.fields, self.fields.get(table.MODULE.field)
         angle, helix = fields.get(table.PRESSURE_ANGLE.field), fields.get(table.HELIX_ANGLE.field, 0.0)
         if not module or module < 0.0 or angle is None or not 0.0 < angle < 45.0 or not helix < 80.0:
@@ -246,7 +246,7 @@ class StageDraft(Draft):
         self.put(row.field, *modules[0], row.name)
 
     def _transverse_modules(self) -> list[tuple[float, Component]]:
-        """Return pairs of normal module and gear. The normal modules follow from transverse modules of the file."""
+        """Return pairs of normal module and gear. The normal modules follow from the transverse modules in the file."""
         cosine = cos(radians(self.fields.get(table.HELIX_ANGLE.field, 0.0)))
         modules = self.values_of(self.gears, table.TRANSVERSE_MODULE)
         if modules:
@@ -268,9 +268,9 @@ class StageDraft(Draft):
         self.put("gears.hand", "right" if pinion >= 0.0 else "left", gear, row.name)
 
     def _helix_angle(self, gear: Component) -> float | None:
-        """Return the helix angle at the reference circle [deg], as stated or from the base helix angle.
+        """Return the helix angle at the reference circle [deg], as stated or computed from the base helix angle.
 
-        sin beta = sin beta_b / cos alpha_n, tan beta = tan beta_b / cos alpha_t.
+        The equations are sin beta = sin beta_b / cos alpha_n and tan beta = tan beta_b / cos alpha_t.
         """
         stated = self.reading.number(gear, table.HELIX_ANGLE)
         base = self.reading.number(gear, table.BASE_HELIX_ANGLE) if stated is None else None
@@ -310,7 +310,7 @@ class StageDraft(Draft):
 
     def _pressure_angle(self) -> None:
         row = table.PRESSURE_ANGLE
-        # The pinion comes last, so that the field keeps the angle of the pinion.
+        # The pinion is read last, so that the field keeps the angle of the pinion.
         wheel, pinion = self._of_flanks(1, row, row.field), self._of_flanks(0, row, row.field)
         if wheel is None and pinion is None:
             self._from_transverse_angle()
@@ -330,7 +330,7 @@ class StageDraft(Draft):
         self.put(row.field, normal, angles[0][1], table.TRANSVERSE_PRESSURE_ANGLE.name)
 
     def _profile_shift(self, place: int) -> None:
-        """Fill in the nominal profile shift, else the shift after finishing, which includes the thickness allowance."""
+        """Fill in the nominal profile shift, or else the finished shift, which includes the thickness allowance."""
         path = f"gears.{ROLES[place]}.profile_shift"
         if self._of_flanks(place, table.PROFILE_SHIFT, path) is not None:
             return
@@ -348,7 +348,7 @@ class StageDraft(Draft):
             self.assume(path, 0.0, "the file has no profile shift")
 
     def _of_flanks(self, place: int, row: table.Row, path: str) -> float | None:
-        """Fill in a number that must be the same for both flanks. Return this number, or None if the file has none."""
+        """Fill in a number that must be the same for both flanks. Return this number; None if the file has none."""
         values = self.values_of(self.flanks(place).values(), row)
         if not values:
             return None
@@ -361,8 +361,8 @@ class StageDraft(Draft):
     def _rack(self, place: int) -> None:
         """Fill in addendum and dedendum.
 
-        The addendum comes from the tip diameter or the basic profile, the dedendum from the tool or the root diameter.
-        If the file has none of these values, ISO 53, profile A is assumed.
+        The addendum comes from the tip diameter or the basic profile. The dedendum comes from the tool or the root
+        diameter. If the file does not contain these values, profile A of ISO 53 is assumed.
         """
         prefix, tool = f"gears.{ROLES[place]}.", self.tool(place)
         path, module = f"{prefix}addendum", self.fields.get(table.MODULE.field)
@@ -385,13 +385,13 @@ class StageDraft(Draft):
         self.assume(path, ISO_53_A[name], f"the file gives no {name}; the value of ISO 53, profile A, is used")
 
     def _of_tool(self, tool: Component | None, row: table.Row, length_row: table.Row) -> float | None:
-        """Return a coefficient of the rack, which the file gives in modules or as a length."""
+        """Return a coefficient of the rack. The file gives the coefficient in modules or as a length."""
         coefficient, length = self.reading.number(tool, row), self.reading.number(tool, length_row)
         module = self.fields.get(table.MODULE.field)
         return length / module if coefficient is None and length is not None and module else coefficient
 
     def _from_diameter(self, place: int, row: table.Row) -> bool:
-        """Fill in a coefficient of the rack from tip or root diameter. Return True on success.
+        """Fill in a coefficient of the rack that follows from the tip or root diameter. Return True on success.
 
         An impossible diameter is recorded as a finding and is not used.
         """
@@ -430,9 +430,9 @@ class StageDraft(Draft):
             self.note(path, smallest, "the tools differ; the smaller radius is used for both gears")
 
     def _backlash(self) -> None:
-        """Fill in the normal backlash of the file minus the backlash that follows from the centre distance.
+        """Fill in the normal backlash in the file minus the backlash that results from the centre distance.
 
-        If the file states no backlash, the value follows from the profile shifts before and after finishing.
+        If the file states no backlash, the value is computed from the profile shifts before and after finishing.
         """
         path, name = "gears.normal_backlash_mm", table.BACKLASH[0]
         limits = self._stated_backlash()
@@ -457,9 +457,9 @@ class StageDraft(Draft):
             self.note(path, stated - own, "mean of the least and the largest backlash")
 
     def _stated_backlash(self) -> list[float]:
-        """Return the least and the largest normal backlash [mm], as stated or from the transverse backlash.
+        """Return the least and the largest normal backlash [mm], as stated or computed from the transverse backlash.
 
-        With the transverse backlash j_t, the normal backlash is j_bn = j_t cos alpha_wt cos beta_b.
+        The normal backlash is j_bn = j_t cos alpha_wt cos beta_b, where j_t is the transverse backlash.
         """
         normal, transverse = (
             [value for name in names if (value := self.reading.number(self.stage, name, "mm")) is not None]
@@ -487,7 +487,7 @@ class StageDraft(Draft):
         return 2.0 * pinion.module * sin(pinion.normal_angle) * total
 
     def working_distance(self) -> float | None:
-        """Return the stated centre distance [mm], else the distance at which the teeth mesh without backlash."""
+        """Return the stated centre distance [mm], or else the distance at which the teeth mesh without backlash."""
         pinion, wheel = self.involute(0), self.involute(1)
         if pinion is None or wheel is None:
             return None
@@ -537,7 +537,7 @@ class StageDraft(Draft):
             self.reading.find("centre_distance", self.stage, "center_distance", message)
 
     def _load(self) -> None:
-        """Fill in torque and speed from the loads of the shafts, else as the file states them for the gear."""
+        """Fill in torque and speed from the loads of the shafts, or else from the values stated for the gear."""
         load = self.load(self.flow)
         own = (table.GEAR_TORQUE, self.gear_data(0)), (table.GEAR_SPEED, (self.gears[0],))
         for (row, origins), what in zip(own, ("torque", "speed"), strict=True):
@@ -565,14 +565,14 @@ class Involute:
         self.base_diameter = self.reference_diameter * cos(self.transverse_angle)
 
     def roll_length(self, diameter: float) -> float:
-        """Return the distance of a diameter [mm] from the base tangent point along the line of action [mm].
+        """Return the distance along the line of action [mm] from the base tangent point to a diameter [mm].
 
         Inside the base circle the distance is 0.
         """
         return sqrt(max(diameter**2 - self.base_diameter**2, 0.0)) / 2.0
 
     def tip_fault(self, diameter: float) -> str | None:
-        """Return what is wrong with a tip diameter [mm], or None if the diameter is possible."""
+        """Return the reason why a tip diameter [mm] is impossible, or None if the diameter is possible."""
         half = pi / (2 * self.teeth) + 2.0 * self.shift * tan(self.normal_angle) / self.teeth
         reach = min(max(half + involute(self.transverse_angle), 0.0), MOST_INVOLUTE)
         pointed = self.base_diameter / cos(inverse_involute(reach))
@@ -583,7 +583,7 @@ class Involute:
         return None
 
     def root_fault(self, diameter: float) -> str | None:
-        """Return what is wrong with a root diameter [mm], or None if the diameter is possible."""
+        """Return the reason why a root diameter [mm] is impossible, or None if the diameter is possible."""
         low, high = self.reference_diameter - 6.0 * self.module, self.reference_diameter + 2.0 * self.module
         return (
             None

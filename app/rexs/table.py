@@ -29,15 +29,15 @@ UNITS = (
 )
 """Units of each quantity as files spell them, without blanks, and the size of each unit in SI.
 
-A file states the unit of every attribute. Values are converted by this unit and never by the version of the file,
-because versions spell units differently: degrees are "°" up to version 1.3 and "deg" from 1.4; modifications are in
-"mum" or in "mm".
+A file states the unit of every attribute. This unit decides how a value is converted, and the version of the file does
+not matter. The versions spell units differently: degrees are "°" up to version 1.3 and "deg" from 1.4; modifications
+are in "mum" or in "mm".
 """
 ZEROS = {"C": 273.15, "°C": 273.15}  # K
 
 
 def convert(value: float, stated: str, wanted: str) -> float | None:
-    """Convert a value to the wanted unit; return None if the stated unit is unknown or of another quantity."""
+    """Convert a value to the wanted unit. Return None if the stated unit is unknown or belongs to another quantity."""
     stated = "".join(stated.split())
     sizes = next(units for units in UNITS if wanted in units)
     if stated not in sizes:
@@ -49,7 +49,7 @@ def convert(value: float, stated: str, wanted: str) -> float | None:
 
 
 class Row(NamedTuple):
-    """A number taken from the file as it is: field of the request, attributes by preference, unit of the field."""
+    """A number that is copied from the file: field of the request, attributes by preference, unit of the field."""
 
     field: str
     attributes: tuple[str, ...]
@@ -185,7 +185,7 @@ SUPPLY_FACTOR, SUPPLY_FACTORS = (
 )
 SUPPLIES = {"splash": "dip", "dip": "dip", "bath": "dip", "submerged": "submerged", "spray": "spray",
             "injection": "spray", "circulating": "spray"}  # fmt: skip
-"""Words in files by which the oil supply of a mesh is recognised."""
+"""Words in files that identify the oil supply of a mesh."""
 REFERENCE_TEMPERATURE = Row("thermal.reference_c", ("reference_temperature",), "C")
 TOOTH_TEMPERATURES = (
     Row("thermal.pinion_bulk_c", ("bulk_temperature",), "C"),
@@ -195,7 +195,7 @@ BEARING_BORE = Row("diameter_mm", ("reference_diameter_relative_clearance_plain_
 JOURNAL = (
     Row("diameter_mm", ("inner_diameter",), "mm"),
     Row("width_mm", ("width",), "mm"),
-    Row("radial_clearance_um", ("diameter_clearance_plain_bearing",), "um"),  # half of the value is used
+    Row("radial_clearance_um", ("diameter_clearance_plain_bearing",), "um"),  # half this value is used
     Row("film_temperature_c", ("lubricant_feed_temperature",), "C"),
     Row("oil_flow_l_per_min", ("lubricant_flow_through_bearing",), "l/min"),
 )
@@ -211,7 +211,7 @@ BASE_OILS = {"phosphat": None, "traction": None, "silicon": None, "polyglycol": 
              "polyalpha": "pao", "polyalfa": "pao",
              "ester": "ester", "mil_l_": "ester", "miner": "mineral", "synthetic": None, "biologic": None,
              "food": None}  # fmt: skip
-"""Words in files by which the base oil is recognised, the most specific first; None is an oil without a model."""
+"""Words in files that identify the base oil, the most specific words first. None stands for an oil without a model."""
 BACKLASH = ("minimum_normal_backlash", "maximum_normal_backlash")
 TRANSVERSE_BACKLASH = ("minimum_transverse_backlash", "maximum_transverse_backlash")
 
@@ -339,11 +339,11 @@ IGNORED = (
     (".*", _RESULTS, "a result of the program that wrote the file"),
     (".*", "", "the models have no such input"),
 )
-"""Reasons why attributes are not used, by component type and attribute. The first pattern that fits counts."""
+"""Reasons why attributes are not used, by component type and attribute. The first matching pattern counts."""
 
 CUSTOM = "custom_tribodrive_"
 STANDARD_FROM = {"face_load_factor_contact_stress": 2}
-"""Attributes of the standard for results, and the major version that introduced each of them."""
+"""Attributes of the standard for results. Each has the major version of REXS that introduced the attribute."""
 LOAD_RESULTS = (
     ("load.face_load_factor", "face_load_factor_contact_stress", "none"),
     ("load.max_line_load_n_per_mm", "maximum_line_load", "N / mm"),
@@ -357,7 +357,8 @@ MICROPITTING_RESULTS = (
     ("wear.pinion_max_um_per_million", "maximum_wear_pinion_per_million_revolutions", "mum"),
     ("wear.wheel_max_um_per_million", "maximum_wear_wheel_per_million_revolutions", "mum"),
 )
-"""REXS has no attribute for the failure load stage of a micropitting test; the user enters it on the page."""
+"""REXS has no attribute for the failure load stage of a micropitting test. The user enters this load stage on the page.
+"""
 RESULTS = {
     "/v1/scuffing": (
         *LOAD_RESULTS,

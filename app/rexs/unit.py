@@ -1,4 +1,4 @@
-"""A gear unit from its file: stages with ready requests, load cases, and missing, assumed and ignored fields."""
+"""Content of a gear unit's file: stages with ready requests, load cases, and missing, assumed and ignored fields."""
 
 from collections.abc import Iterable, Iterator
 from itertools import chain, islice
@@ -15,12 +15,12 @@ from app.rexs.power import Flow, Pair, Train
 from app.rexs.reading import MESH, SCUFFING, SECTIONS, Reading, path_in, rounded
 from app.rexs.stages import SPEED, TORQUE, StageDraft, pairs
 
-MOST_FINDINGS = 1000  # in an answer; the author of the file sees the pattern from fewer findings
+MOST_FINDINGS = 1000  # largest number in an answer; more findings would not help the author of the file
 MOST_STAGES = 50  # chosen: far beyond any unit
-MOST_CASES = 200  # load cases of a file; further load cases are not read
-MOST_DRAFTS = 2000  # stages times load cases; a draft takes 2 ms
+MOST_CASES = 200  # largest number of load cases; further load cases of a file are not read
+MOST_DRAFTS = 2000  # largest number of stages times load cases; a draft takes 2 ms
 LONGEST_NAME, MOST_SPECTRUM_CASES = 100, 100  # limits of /v1/spectrum
-MOST_IGNORED = 2000  # ignored attributes per stage
+MOST_IGNORED = 2000  # largest number of ignored attributes per stage
 SHARES = {"operating_time_fraction": "", "load_duration_fraction": "", "operating_time": "h", "load_duration": "h"}
 """Attributes that state the share of a load case in the operating time, and the units of these attributes."""
 
@@ -56,7 +56,8 @@ def gear_unit(model: Model) -> dict[str, Any]:
 def _stages(reading: Reading, all_pairs: list[Pair], base: Flow, flows: list[Flow]) -> list[dict[str, Any]]:
     """Return the stages of the answer.
 
-    If a load case has unused attributes of components that belong to no stage, all stages list them as ignored.
+    If a load case has unused attributes of components that belong to no stage, every stage lists these attributes as
+    ignored.
     """
     rows, parts, all_parts = [], [], set[int]()
     for pair in all_pairs:
@@ -79,8 +80,8 @@ def _stages(reading: Reading, all_pairs: list[Pair], base: Flow, flows: list[Flo
 def _stage(pair: Pair, base: Flow, flows: list[Flow]) -> tuple[dict[str, Any], StageDraft]:
     """Return a stage of the answer and its draft.
 
-    The load is that of the base model. If the base model states no load, the load is that of the first load case that
-    states a load.
+    The load is taken from the base model. If the base model states no load, the load is taken from the first load case
+    that states a load.
     """
     flow = next((flow for flow in (base, *flows) if flow.knows(pair)), base)
     stage = _draft_of(pair, flow)
@@ -147,11 +148,11 @@ class _Case(NamedTuple):
 
     @property
     def of_scuffing(self) -> dict[str, Any]:
-        """The case with the fields of the request of /v1/scuffing."""
+        """The case with the field names of a request to /v1/scuffing."""
         return {"name": self.name, "share": self.share, "overrides": self._in(SCUFFING)}
 
     def as_spectrum(self, endpoint: str) -> dict[str, Any]:
-        """Return the case in the form of /v1/spectrum, without fields that the endpoint does not know."""
+        """Return the case in the form that /v1/spectrum takes. Fields that `endpoint` does not have are left out."""
         return {"name": self.name[:LONGEST_NAME], "share": self.share, "set": self._in(endpoint)}
 
     def _in(self, endpoint: str) -> dict[str, Any]:
@@ -189,7 +190,8 @@ def _rows(models: Iterable[BaseModel]) -> list[dict[str, Any]]:
 def _shares(readings: list[Reading]) -> tuple[list[float], str | None]:
     """Return the shares of all load cases in the operating time.
 
-    If the file states no shares in attributes of the standard, also return how the shares were chosen.
+    If the file states no shares in attributes of the standard, also return a text that states how the shares were
+    chosen.
     """
     if not readings:
         return [], None
