@@ -13,11 +13,11 @@ INTERRUPTED = 130  # exit status that shells give to a process ended by Ctrl-C
 def main() -> None:
     """Run the command line.
 
-    While uvicorn serves, uvicorn handles Ctrl-C. It sends the signal again after it has stopped serving.
+    While uvicorn serves, uvicorn handles Ctrl-C. After uvicorn has stopped serving, it sends the signal again.
     """
-    # An exception could get lost or change its type in the extension modules that are being imported.
+    # Ctrl-C must not raise an exception: extension modules that are being imported could lose it or change its type.
     signal.signal(signal.SIGINT, lambda *_: os._exit(INTERRUPTED))
-    gc.disable()  # imports leave no garbage, and the search for garbage takes a third of their time
+    gc.disable()  # imports leave no garbage, and the search for garbage takes a third of the time of the imports
     from app.command import main as run_command  # noqa: PLC0415
 
     run_command()

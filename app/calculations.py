@@ -24,7 +24,7 @@ from solvers.contact.ehl.continuation import Resolution, price
 
 
 class Cost(NamedTuple):
-    """Estimated time on one core [s], and the field to make smaller if the time is too long."""
+    """Estimated time on one core [s], and the field whose value the user should reduce if the time is too long."""
 
     seconds: float
     field: str
@@ -32,10 +32,10 @@ class Cost(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Stage:
-    """Kernels that are compiled and loaded together, before the endpoints that need these kernels answer.
+    """Kernels that are compiled and loaded together. Endpoints that need these kernels answer only afterwards.
 
-    Together the `examples` call all kernels of these endpoints that no earlier stage has compiled. `kernels` is the
-    approximate number of these kernels.
+    The `examples` together call all kernels of these endpoints, except kernels that an earlier stage has compiled.
+    `kernels` is the approximate number of kernels in the stage.
     """
 
     name: str
@@ -47,8 +47,8 @@ class Stage:
 class Calculation:
     """One endpoint.
 
-    The endpoint answers as soon as the kernels of its `stage` are compiled. `figures` are drawn from its answers. If
-    the schema allows requests that take too long, `cost` estimates their time.
+    The endpoint answers as soon as the kernels of its `stage` are compiled. `figures` are the figures that show its
+    answers. If the schema allows requests that take too long, `cost` estimates the time of a request.
     """
 
     path: str
@@ -67,7 +67,7 @@ def _thermal_path(request: Any) -> Cost:
     """Estimate the time to solve the contacts along the path.
 
     A contact with 121 x 21 nodes takes 4 to 8 ms. A contact with a Newtonian film takes up to 20 ms. The estimate uses
-    the least time, so that no request that can finish in time is rejected.
+    the shortest time, so that the service does not reject a request that could finish in time.
     """
     model = request.model
     if model.lubrication == "closed_form":

@@ -7,8 +7,8 @@
     table = service.sweep({"endpoint": "/v1/coupling", "request": {...}, "vary": [...]}).frame()
 
 Requests and answers are the JSON of the interface as dictionaries. `AsyncTribodrive` has the same methods as
-coroutines. If the service is too busy for a request, the client sends the request again after the time that the service
-states in `Retry-After`.
+coroutines. If the service is too busy to answer a request, the client repeats the request after the time that the
+service states in `Retry-After`.
 """
 
 import asyncio
@@ -32,7 +32,7 @@ Http = TypeVar("Http", bound=httpx.Client | httpx.AsyncClient)
 
 ADDRESS = "http://127.0.0.1:8000"
 OPTIONS: dict[str, Any] = {
-    "timeout": 60.0,  # s: longer than the default deadline of a calculation, 30 s
+    "timeout": 60.0,  # s: longer than the default deadline of a calculation, which is 30 s
     "limits": httpx.Limits(keepalive_expiry=3.0),  # s: the service closes idle connections after 5 s
 }
 PATIENCE_S = 120.0  # longest wait for an answer; chosen: four times the service's deadline
@@ -59,7 +59,7 @@ class ProblemError(ServiceError):
     def __init__(self, response: httpx.Response) -> None:
         try:
             document = _json_of(response)
-        except ServiceError:  # not from the service, but from a proxy
+        except ServiceError:  # the answer comes not from the service, but from a proxy
             document = {}
         self.status = response.status_code
         self.code = str(document.get("type", "")).rpartition(":")[2]
@@ -181,7 +181,7 @@ class _Endpoints(ABC, Generic[Answer, Stream]):
 
 
 class _Study(Generic[Http]):
-    """The lines of a study, divided into header, results, progress and end."""
+    """Reader of the lines of a study: header, results, progress and end."""
 
     def __init__(self, http: Http, endpoint: str, request: Json, patience_s: float, *, progress: bool) -> None:
         self.header: Json = {}
@@ -194,7 +194,7 @@ class _Study(Generic[Http]):
         self._bar: Any = None
 
     def _begin(self) -> float:
-        """Begin the study again. Return the time [s] at which to give up if the service is still busy then."""
+        """Prepare a run of the study. Return the time [s] at which to give up if the service is still busy then."""
         self.header, self.end = {}, {}
         if self._progress:
             from tqdm.auto import tqdm  # noqa: PLC0415  only progress bars need it
@@ -251,9 +251,9 @@ class _Study(Generic[Http]):
 
 
 class Study(_Study[httpx.Client]):
-    """A study: iterate over its results, or ask for all results as a table.
+    """A study. Iterate over its results, or call `frame` for a table of all results.
 
-    `header` and `end` are its first and last line. They are empty until these lines have been read.
+    `header` and `end` are the first and the last line of the study; each is empty until its line has been read.
     """
 
     def __iter__(self) -> Iterator[Json]:
@@ -295,7 +295,7 @@ class Study(_Study[httpx.Client]):
 
 
 class AsyncStudy(_Study[httpx.AsyncClient]):
-    """A study: iterate over its results with `async for`, or await all results as a table."""
+    """A study. Iterate over its results with `async for`, or await `frame` for a table of all results."""
 
     async def __aiter__(self) -> AsyncIterator[Json]:
         """Run the study and yield its results as they come.

@@ -12,14 +12,14 @@ from typing import Any
 
 from app.settings import MEBIBYTE, Settings, settings
 
-PROGRESS_S = 1.0  # between two lines of progress
+PROGRESS_S = 1.0  # time between two lines of progress
 EXIT_STATUS = {"ok": 0, "ok_with_warnings": 3, "no_solution": 4}  # 1: rejected or not written, 2: wrong arguments
 
 
 def main() -> None:
     """Serve until a signal stops the service, or run a command."""
     open_standard_streams()
-    os.environ.pop("WEB_CONCURRENCY", None)  # it is meant for servers with several processes
+    os.environ.pop("WEB_CONCURRENCY", None)  # this variable is meant for servers with several processes
     parser = argparse.ArgumentParser(
         prog="python -m app",
         description="Serve the tribodrive calculations.",
@@ -88,7 +88,7 @@ def print_answer(endpoint: str, file: Path) -> None:
 
 
 def compile_kernels(names: Sequence[str]) -> None:
-    """Compile stages, by default all. Print the progress every second; a stage at 100 % is stored on disk."""
+    """Compile stages, by default all stages. Print the progress every second; a stage at 100 % is stored on disk."""
     from numba.core import event  # noqa: PLC0415
 
     from app.workers.stages import STAGES, warm  # noqa: PLC0415
@@ -119,7 +119,7 @@ def _show(name: str, kernels: int, events: Sequence[object], done: threading.Eve
 
 
 def _tell(name: str, percent: int) -> None:
-    """Print the progress of a stage; end the process if nobody can read the output any more."""
+    """Print the progress of a stage. End the process if no reader of the output is left."""
     try:
         print(f"{name}: {percent} %", flush=True)  # noqa: T201
     except OSError:
@@ -136,7 +136,7 @@ def _print_json(content: dict[str, Any]) -> None:
     try:
         print(text, flush=True)  # noqa: T201  a command's output
     except OSError as error:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # for the flush at the end
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # the flush at the end must not fail
         if not isinstance(error, BrokenPipeError):  # the reader of a pipe has closed it
             sys.exit(f"tribodrive: cannot write the answer: {error.strerror}")
 

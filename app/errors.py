@@ -1,6 +1,6 @@
 """The exceptions of the service: reasons why a request has no answer.
 
-The table `PROBLEMS` gives their status, code and title.
+The table `PROBLEMS` gives status, code and title of each exception.
 """
 
 from collections.abc import Iterable
@@ -10,7 +10,7 @@ LONGEST_POINTER_PART = 100  # characters; all fields are shorter
 
 
 class Fault(NamedTuple):
-    """The error of one field: JSON Pointer into the request, stable code, what to change."""
+    """The error of one field: JSON Pointer into the request, stable code, and a message on what to change."""
 
     pointer: str
     code: str
@@ -28,7 +28,7 @@ def printable(name: str | int) -> str:
 
 
 class ServiceError(Exception):
-    """Base class of exceptions in `PROBLEMS`; `detail` says more about the present case, or is empty."""
+    """Base class of exceptions in `PROBLEMS`. `detail` says more about the present case; it may be empty."""
 
     def __init__(self, detail: str = "") -> None:
         super().__init__(detail)
@@ -52,7 +52,7 @@ class InvalidBody(Exception):
 
 
 class Unprocessable(Exception):
-    """Input that the schema allows but physics does not; `path` is the dotted path of the field in the request."""
+    """Input that the schema allows but that is physically impossible; `path` is the dotted path of the field."""
 
     def __init__(self, code: str, message: str, path: str | None = None) -> None:
         super().__init__(code, message, path)
@@ -70,7 +70,7 @@ def faults_of(error: InvalidBody | Unprocessable) -> list[dict[str, str]]:
 
 
 class QueueFull(ServiceError):
-    """As many requests wait as the settings allow."""
+    """The number of waiting requests has reached the limit in the settings."""
 
 
 class StudiesFull(ServiceError):
@@ -98,11 +98,11 @@ class WarmingUp(ServiceError):
 
 
 class Stopping(ServiceError):
-    """The service stops and does not wait for the calculation."""
+    """The service is stopping and does not wait for the calculation."""
 
 
 class ClientGone(ServiceError):
-    """The client closed the connection, so the calculation is given up."""
+    """The client closed the connection, so the service gave up the calculation."""
 
 
 class Kind(NamedTuple):
@@ -140,5 +140,5 @@ PROBLEMS: dict[type[Exception], Kind] = {
 
 
 def kind_of(error: Exception) -> Kind:
-    """Return the kind of problem of an exception whose class, or base class, is in the table."""
+    """Return the kind of problem of an exception. The table contains the class of the exception or a base class."""
     return next(PROBLEMS[base] for base in type(error).__mro__ if base in PROBLEMS)

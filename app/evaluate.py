@@ -1,4 +1,4 @@
-"""Reading of requests, solving, and writing of answers, for JSON, pages, figures and studies."""
+"""Functions that read requests, solve them and write answers. JSON, pages, figures and studies use these functions."""
 
 import json
 from collections import Counter
@@ -20,16 +20,16 @@ from app.sources import SOURCES
 from solvers import notices
 from solvers.errors import InvalidInput, NoSolution
 
-MOST_MEMBERS = 1000  # fields per object; chosen: far more than a section has
-MOST_OBJECTS = 10_000  # per body; chosen: far more than a study within its limits needs
+MOST_MEMBERS = 1000  # largest number of fields per object; chosen: far more than a section has
+MOST_OBJECTS = 10_000  # largest number of objects per body; chosen: far more than the largest study needs
 _CANONICAL = json.JSONEncoder(sort_keys=True, separators=(",", ":"), ensure_ascii=False, allow_nan=False)
 
 
 def content_of(body: bytes) -> Any:
     """Return the content of a JSON body.
 
-    Raises InvalidBody if the body is empty, not valid JSON, or has more objects or fields than a request can need.
-    Raises Unreadable if a name occurs twice in one object, or the body cannot be decoded.
+    Raises InvalidBody if the body is empty, is not valid JSON, or has more objects or fields than any request needs.
+    Raises Unreadable if a name occurs twice in one object, or if the body cannot be decoded.
     """
     objects = 0
 
@@ -87,19 +87,20 @@ def answer(endpoint: str, request: dict[str, Any]) -> dict[str, Any]:
     endpoint : str
         Address of the calculation, such as "/v1/coupling".
     request : dict
-        Body of the request, as it would be posted there.
+        Body of the request, in the same form as a request over HTTP.
 
     Returns
     -------
     dict
-        The answer, as the service would send it.
+        The answer, in the same form as an answer over HTTP.
 
     Raises
     ------
     InvalidBody
         If the body is not a valid request; its `faults` have pointer, code and message.
     Unprocessable
-        If there is no such endpoint, or the input is impossible; `code` and `message` say why, `path` is the field.
+        If there is no such endpoint, or if the input is impossible. `code` and `message` state the reason; `path` names
+        the field.
     """
     calculation = calculation_at(endpoint)
     content: dict[str, Any] = json.loads(json_answer(calculation, validated(calculation.request, request)))
@@ -149,7 +150,7 @@ def evaluate(calculation: Calculation, request: Request) -> Response:
 
 
 def solve(calculation: Calculation, request: Request) -> Any:
-    """Return the solver's result, or the NoSolution with the reason. Raises Unprocessable as `evaluate` does."""
+    """Return the solver's result, or the NoSolution that the solver raised. Raises Unprocessable as `evaluate` does."""
     try:
         return calculation.solve(request.inputs())
     except InvalidInput as error:
@@ -194,7 +195,7 @@ def response_to(calculation: Calculation, request: Request, result: Any) -> Resp
 def case_of(endpoint: str, inputs: dict[str, Any], sources: str) -> str:
     """Return the SHA-256 of a case in hex.
 
-    The hash is that of the case as JSON in UTF-8, with sorted keys, without blanks, and with floats in their shortest
+    The hashed text is the case as JSON in UTF-8, with sorted keys, without blanks, and with floats in their shortest
     form.
     """
     content = {"endpoint": endpoint, "inputs": inputs, "sources": sources}
@@ -204,7 +205,7 @@ def case_of(endpoint: str, inputs: dict[str, Any], sources: str) -> str:
 def _assumptions(
     section: Section, derived: dict[str, Any], prefix: str = "", unused: frozenset[str] = frozenset()
 ) -> Iterator[dict[str, Any]]:
-    """Yield the assumed defaults on which the result depends, with the values used.
+    """Yield the fields for which the result depends on an assumed default, with the values used.
 
     `derived` holds these values by the names of the fields, in groups and lists that have the names of the sections.
     `unused` holds the dotted names of fields that the outer sections do not use.

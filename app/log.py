@@ -1,8 +1,8 @@
 """Log and metrics of the service.
 
-A separate thread writes the log, so that no request is delayed if the reader of the log stops reading. Lines that do
-not fit into the queue are dropped and counted. Lines about answered requests go to the standard output, all other lines
-to the standard error.
+A separate thread writes the log, so that requests are not delayed if the reader of the log stops reading. Lines that do
+not fit into the queue of this thread are dropped and counted. Lines about answered requests go to the standard output,
+all other lines to the standard error.
 """
 
 import logging
@@ -16,8 +16,8 @@ from logging.handlers import QueueHandler, QueueListener
 
 from prometheus_client import Counter, Gauge, Histogram
 
-LINES_KEPT = 10_000  # for a reader that stalls; further lines are dropped and counted
-LAST_LINES_S = 1.0  # longest time to write the remaining lines at the end
+LINES_KEPT = 10_000  # lines kept while the reader of the log stalls; further lines are dropped and counted
+LAST_LINES_S = 1.0  # longest time to write the remaining lines when the service stops
 REQUEST_LOG = "tribodrive.requests"
 
 # At /metrics, in the Prometheus text format.
@@ -34,7 +34,7 @@ LINES_DROPPED = Counter("tribodrive_log_lines_dropped", "Log lines dropped becau
 
 
 class _Handler(QueueHandler):
-    """Handler that puts records into the queue. It counts records that do not fit or have a wrong format."""
+    """Handler that puts records into the queue. Records that do not fit or have a wrong format are counted."""
 
     def handleError(self, record: logging.LogRecord) -> None:  # noqa: N802  logging's name
         del record
@@ -42,7 +42,7 @@ class _Handler(QueueHandler):
 
 
 class _Writer(logging.Handler):
-    """Handler that writes records without the locks of `logging`; the end of the process would wait for these locks."""
+    """Handler that writes records without the locks of `logging`, which could delay the end of the process."""
 
     def handle(self, record: logging.LogRecord) -> bool:
         """Write a record. A failure does not end the thread."""

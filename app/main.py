@@ -30,7 +30,7 @@ Units are in the field names; every example below runs as it stands."""
 MODULES = ("app.pages.views", "app.pages.studies.page", "app.rexs.answer")
 """Modules that workers load when they start."""
 COMPRESSED_FROM = 4096  # bytes
-# Content that is compressed already, and studies, whose lines have to arrive one by one.
+# Media types that are already compressed, and media types of studies, whose lines have to arrive one by one.
 NOT_COMPRESSED = (*DEFAULT_EXCLUDED_CONTENT_TYPES, "application/pdf", "application/x-ndjson", "text/csv")
 
 logger = logging.getLogger("tribodrive")
@@ -42,7 +42,7 @@ def create_app() -> FastAPI:
 
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
-        gc.freeze()  # imported objects stay in memory; the collector need not search them
+        gc.freeze()  # imported objects stay in memory, so the garbage collector need not examine them
         gc.enable()
         app.state.settings = limits
         app.state.pool = pool = Pool(limits, MODULES)
@@ -69,7 +69,7 @@ def create_app() -> FastAPI:
         lifespan=lifespan,
         docs_url=None,  # app.http.routes.service serves this page
         redoc_url=None,
-        redirect_slashes=False,  # redirects would repeat the host that the client names
+        redirect_slashes=False,  # such redirects would contain the host name that the client sent
     )
     app.include_router(calculations.router)
     app.include_router(calculations.figures)

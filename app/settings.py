@@ -1,4 +1,7 @@
-"""Limits and addresses of the service, read from environment variables: `TRIBODRIVE_` plus the name in capitals."""
+"""Limits and addresses of the service, read from environment variables.
+
+The variable of a setting is `TRIBODRIVE_` followed by the name of the setting in capitals.
+"""
 
 import os
 import sys
@@ -12,11 +15,11 @@ from pydantic_core import ErrorDetails
 from pydantic_settings import BaseSettings, NoDecode, SettingsConfigDict
 
 MEBIBYTE = 2**20  # bytes
-CLUSTER_POINTS = 100_000  # chosen; most points of one study if a cluster solves the study
+CLUSTER_POINTS = 100_000  # chosen; largest number of points of a study that a cluster solves
 
 
 def _share_of_cores() -> int:
-    """Return the number of cores per process of the server.
+    """Return the number of cores that each process of the server may use.
 
     uvicorn and gunicorn take the number of processes from the same command-line argument or environment variable.
     """
@@ -75,7 +78,7 @@ class Settings(BaseSettings):
 
     @property
     def most_study_points(self) -> int:
-        """Most points of one study: the setting, or a larger default if a cluster solves the studies."""
+        """Largest number of points of one study: the setting, or a larger default if a cluster solves the studies."""
         return CLUSTER_POINTS if self.scheduler and "study_points" not in self.model_fields_set else self.study_points
 
 
@@ -83,7 +86,7 @@ class Settings(BaseSettings):
 def settings() -> Settings:
     """Return the settings of this process, which are read from the environment only once.
 
-    If settings are wrong, end the process and print a line for each wrong setting.
+    If settings are wrong, print a line for each wrong setting and end the process.
     """
     try:
         return Settings()

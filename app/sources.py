@@ -7,16 +7,16 @@ from solvers.digest import package_digest
 
 
 def changes_since(sources: str) -> list[str]:
-    """Return the newest entries of the changelog if results were calculated by other sources, else an empty list.
+    """Return the newest entries of the changelog if other sources calculated the results, else an empty list.
 
-    `sources` is the hash, or the beginning of the hash, of the sources that calculated the results. It is empty if the
-    hash is not known.
+    `sources` is the hash, or the beginning of the hash, of the sources that calculated the results. If this hash is not
+    known, `sources` is empty.
     """
     return [] if SOURCES.startswith(sources) else recent_changes()
 
 
 def recent_changes() -> list[str]:
-    """Return the entries of the newest section of the changelog, newest first, without the hashes in them."""
+    """Return the entries of the newest section of the changelog, newest first. Hashes in the entries are left out."""
     section = files("app").joinpath("CHANGELOG.md").read_text("utf-8").split("\n## ")[1]
     entries = re.split(r"^\* ", section, flags=re.MULTILINE)[1:]
     return [" ".join(re.sub(r"`[0-9a-f]{64}`", "", entry).replace("`", "").split()) for entry in reversed(entries)]
@@ -24,4 +24,4 @@ def recent_changes() -> list[str]:
 
 SOURCES = package_digest()
 SHORT_SOURCES = SOURCES[:16]
-"""The part of the hash that links carry."""
+"""The part of the hash that links contain."""

@@ -1,4 +1,4 @@
-"""Rows as CSV in which no cell is a formula for a spreadsheet."""
+"""Conversion of rows into CSV. Spreadsheets do not take any cell of this CSV for a formula."""
 
 import csv
 import re
@@ -21,7 +21,7 @@ def csv_of(rows: Iterable[Iterable[Any]], digits: int | None = None) -> bytes:
 
 
 def _cell(value: Any, digits: int | None) -> Any:
-    """Return a cell that no spreadsheet interprets as a formula."""
+    """Return a cell that spreadsheets do not take for a formula."""
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, float) and digits is not None:
