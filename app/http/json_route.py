@@ -1,4 +1,4 @@
-"""A route that reads its JSON body strictly before FastAPI validates the body by the signature of the handler."""
+"""A route that reads its JSON body by strict rules. Then FastAPI validates the body by the signature of the handler."""
 
 from collections.abc import Callable, Coroutine
 from typing import Any, cast
@@ -26,7 +26,8 @@ class _ReadRequest(Request):
 class JsonRoute(APIRoute):
     """A route with a JSON body.
 
-    It answers 415 to other media types, and 400 if a name occurs twice. `schema.reading` words the messages.
+    The route answers 415 to other media types, and 400 if a name occurs twice in one object. `schema.reading` words the
+    messages.
     """
 
     def get_route_handler(self) -> Callable[[Request], Coroutine[Any, Any, Response]]:
@@ -46,7 +47,7 @@ class JsonRoute(APIRoute):
                 return await answer(read)
             except RequestValidationError as error:
                 in_body = [item | {"loc": item["loc"][1:]} for item in error.errors() if item["loc"][0] == "body"]
-                if len(in_body) < len(error.errors()):  # errors of the address are reported first
+                if len(in_body) < len(error.errors()):  # there are errors of the address, which are reported first
                     raise
                 raise InvalidBody(faults(model, in_body)) from None
 

@@ -1,4 +1,4 @@
-"""The outermost layer (pure ASGI): request id, limit of bodies, security headers, timing, log, metrics, status 500."""
+"""The outermost layer of the application: request id, limit of bodies, security headers, log, metrics, status 500."""
 
 import asyncio
 import json
@@ -27,12 +27,13 @@ SECURITY_HEADERS = (
     (b"cache-control", b"no-store"),
     (b"content-security-policy", CONTENT_POLICY),
 )
-# A format is faster than json.dumps. Only the address of the client needs escaping, because a proxy may state it.
+# A format string is faster than json.dumps. Only the address of the client needs escaping, because it may be a text
+# from a proxy.
 LOG_LINE = (
     '{"time": %.3f, "request_id": "%s", "client": %s, "method": "%s", "endpoint": "%s", "status": %d, '
     '"duration_ms": %.3f}'
 )
-CLIENT_GONE = 499  # nginx's status for a client that left; it appears only in the log
+CLIENT_GONE = 499  # nginx's status for a client that closed the connection; this status appears only in the log
 
 logger = logging.getLogger(REQUEST_LOG)
 
@@ -62,7 +63,7 @@ class Protection:
             message = await receive()
             received += len(message.get("body", b""))
             if received > most_bytes:
-                while message.get("more_body", False):  # an early close could lose the answer
+                while message.get("more_body", False):  # closing the connection early could lose the answer
                     message = await receive()
                 raise ContentTooLarge(f"The request body is larger than {most_bytes} bytes")
             return message
@@ -84,8 +85,8 @@ class Protection:
             pass
         except (Exception, asyncio.CancelledError) as error:
             if status != CLIENT_GONE:
-                raise  # too late for another answer: the connection is cut
-            # A server that stops cancels the requests that have not ended in time.
+                raise  # an answer has begun, so another answer is impossible; the connection is cut
+            # A server that is stopping cancels the requests that have not ended in time.
             stopping = answer(Request(inner), Stopping())
             failure = internal_error(identifier, error) if isinstance(error, Exception) else stopping
             await failure(inner, receive, send_decorated)
@@ -100,11 +101,11 @@ class Protection:
     def _inner(self, scope: Scope, identifier: str) -> Scope:
         """Return the scope for the application.
 
-        The path in the scope has the prefix of the settings, even if a proxy strips this prefix.
+        The path in the scope begins with the prefix from the settings, even if a proxy has removed this prefix.
         """
         root, path = self._settings.root_path or scope.get("root_path", ""), scope["path"]
         path = path if f"{path}/".startswith(f"{root}/") else root + path
         path = f"{root}/" if path == root else path
-        method = "GET" if scope["method"] == "HEAD" else scope["method"]  # the server omits the body
+        method = "GET" if scope["method"] == "HEAD" else scope["method"]  # the server leaves out the body of the answer
         state = {**scope.get("state", {}), "request_id": identifier}
         return {**scope, "root_path": root, "path": path, "method": method, "state": state}

@@ -99,7 +99,7 @@ def problem(
 
 
 def code_of(phrase: str) -> str:
-    """Return the code of a problem that has only an HTTP status, from the phrase of this status."""
+    """Return a code made from the phrase of an HTTP status, for a problem that has no code of its own."""
     return phrase.lower().replace(" ", "_").replace("-", "_")
 
 
@@ -107,7 +107,7 @@ def answer(request: Request, error: Exception) -> JSONResponse:
     """Return the problem document of an exception."""
     instance = str(request.state.request_id)
     match error:
-        case RequestValidationError():  # faults of an address; faults of a body are InvalidBody
+        case RequestValidationError():  # faults of an address; for faults of a body the error is InvalidBody
             items = error.errors()[:MOST_FAULTS]
             faults = [Fault(pointer(item["loc"][1:]), item["type"], _message(item)) for item in items]
             return answer(request, InvalidBody(faults))

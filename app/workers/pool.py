@@ -1,9 +1,10 @@
 """A fixed number of worker processes, and the queue of their calls.
 
 The owner of a call is a client or a study. A free worker gets a call of the owner with the fewest running calls. If
-several owners have equally few, the owner whose last call began longest ago is next. If the queue is full, the newest
-call of the owner with the most places is rejected. If nobody waits for a running call any more, the call has `GRACE_S`
-to end by itself. After this time the worker of the call is killed and replaced.
+several owners have the same number of running calls, the owner whose last call began longest ago is next. If the queue
+is full, the newest waiting call of the owner with the most calls, waiting or running, is rejected. If nobody waits for
+the result of a running call any more, the call may run for the further time `GRACE_S`. After this time the worker of
+the call is killed and replaced.
 """
 
 import asyncio
@@ -24,8 +25,8 @@ from app.log import CALCULATIONS, DEADLINES_MISSED, REFUSED, WAITING, WORKERS_LO
 from app.settings import MEBIBYTE, Settings
 from app.workers.worker import perform, prepare
 
-GRACE_S = 2.0  # nearly all calculations end in this time, so a user who pages through the site costs no worker
-START_S = 30.0  # longest time of a worker's start, chosen: it takes 2 s on a quiet core
+GRACE_S = 2.0  # nearly all calculations end in this time, so users who leave a page early rarely cost a worker
+START_S = 30.0  # longest time of a worker's start, chosen: a start takes 2 s on an idle core
 IDLE_S = 5.0  # time between two checks that idle workers answer
 PAUSE_S = 0.1  # pause before a lost worker is replaced
 
@@ -35,7 +36,7 @@ Outcome = asyncio.Future[Any]
 
 @dataclass(eq=False, slots=True)
 class Job:
-    """A call of an owner: a pickled function with its arguments; `timeout` ends the call while it runs."""
+    """A call of an owner: a pickled function with its arguments. `timeout` can end the call while it runs."""
 
     owner: Hashable
     call: bytes
@@ -45,7 +46,7 @@ class Job:
 
 
 class Pool:
-    """The workers and their calls; a worker loads `modules` before its first call."""
+    """The workers and their calls. Each worker loads `modules` before its first call."""
 
     def __init__(self, settings: Settings, modules: Sequence[str]) -> None:
         self.size = settings.workers
@@ -71,7 +72,7 @@ class Pool:
         return await unless_gone(http, self.submit(owner, function, *arguments), self._settings.deadline_s)
 
     def submit(self, owner: Hashable, function: Callable[..., Any], *arguments: Any, is_single: bool = True) -> Outcome:
-        """Queue a call for a worker. Return the future of the result; cancelling the future gives up the call."""
+        """Queue a call for a worker and return the future of its result. To give up the call, cancel the future."""
         job = Job(owner, pickle.dumps((function, arguments)), is_single, asyncio.get_running_loop().create_future())
         job.outcome.add_done_callback(lambda _: self._let_go(job))
         self._waiting.append(job)
@@ -79,7 +80,10 @@ class Pool:
         return job.outcome
 
     def _admit(self, owner: Hashable) -> None:
-        """Make room for a call if all places are taken: reject a waiting call, or raise QueueFull for the new call."""
+        """Make room for a new call if all places are taken.
+
+        Reject a waiting call, or raise QueueFull for the new call.
+        """
         queue = [job for job in self._waiting if job.is_single and not job.outcome.done()]
         places = Counter(job.owner for job in (*self._running, *queue) if job.is_single)
         if places.total() < self.size + self._settings.queue:
@@ -91,7 +95,7 @@ class Pool:
         refused.outcome.set_exception(QueueFull())
 
     def _let_go(self, job: Job) -> None:
-        """Remove a waiting call whose future is done from the queue. Limit the remaining time of a running call."""
+        """Remove a call from the queue, or limit the time of the call if it runs. The future of the call is done."""
         if job in self._waiting:
             self._waiting.remove(job)
         elif job in self._running and job.timeout is not None and not job.timeout.expired():
@@ -137,10 +141,10 @@ class Pool:
                 self._running.remove(job)
             if not is_usable:
                 self._trouble.set()
-                await self._is_prepared()  # at once, because AnyIO forgets a worker cancelled at its start
+                await self._is_prepared()  # at once, because AnyIO loses a worker whose start is cancelled
 
     async def _carry_out(self, job: Job) -> bool:
-        """Run a call and set its result or exception. Return True if the worker can be used again."""
+        """Run a call and set the result or the exception of its future. Return True if the worker can be used again."""
         job.timeout = asyncio.timeout(None if job.is_single else self._settings.deadline_s)
         try:
             async with job.timeout:

@@ -8,7 +8,7 @@ STAGES = (COUPLING, SLEEVE, LOADS, PUMPING, DRIVE_TRAIN, LINE_CONTACT)
 BESIDE = LINE_CONTACT
 """This stage takes as long as all other stages together.
 
-It needs only one of them, the load distribution, and needs it only near the end.
+Of the other stages this stage needs only the load distribution, and only near its end.
 """
 
 

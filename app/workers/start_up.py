@@ -1,4 +1,4 @@
-"""Start-up of the service: `tribodrive compile` runs beside the workers; endpoints open when their stage is ready."""
+"""Start-up of the service: `tribodrive compile` runs beside the workers. Endpoints open when their stage is ready."""
 
 import asyncio
 import logging
@@ -81,7 +81,7 @@ class StartUp:
                     other = asyncio.create_task(self._compile([BESIDE]))
                 if other is not None and {stage.name for stage in stages} - {BESIDE.name} <= {*self.warm}:
                     return await other
-            return await process.wait() in {0, 130}  # 130 after Ctrl-C
+            return await process.wait() in {0, 130}  # the exit status after Ctrl-C is 130
         finally:
             if other is not None:
                 other.cancel()

@@ -35,10 +35,10 @@ def prepare(memory_bytes: int, modules: Sequence[str]) -> None:
 
     Only the first call has an effect.
     """
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C reaches every process of the terminal
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # ignored here, because Ctrl-C reaches every process of the terminal
     os.environ.update(ONE_THREAD)
     threading.Thread(target=_end_with_the_service, args=(os.getppid(),), daemon=True).start()
-    gc.disable()  # imports leave no garbage, and the search for garbage takes a third of their time
+    gc.disable()  # imports leave no garbage, and the search for garbage takes a third of the time of the imports
     for name in modules:
         import_module(name)
     gc.freeze()
@@ -52,14 +52,14 @@ def prepare(memory_bytes: int, modules: Sequence[str]) -> None:
 
 
 def _end_with_the_service(service: int) -> None:
-    """End this process, whatever it is doing, as soon as the service is no longer its parent."""
+    """End this process, whatever it does, as soon as the service is no longer the parent process."""
     while os.getppid() == service:
         time.sleep(0.5)
     os._exit(1)
 
 
 def perform(memory_bytes: int, modules: Sequence[str], call: bytes) -> tuple[Any, list[str]]:
-    """Call a pickled function with its arguments. Return the result and the lines logged meanwhile.
+    """Call a pickled function with its arguments. Return the result and the lines that were logged during the call.
 
     Raises the error of the function, or RuntimeError with the traceback if this error cannot be pickled.
     """

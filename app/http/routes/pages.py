@@ -1,4 +1,4 @@
-"""Start page, manual and pages of cases. Other views of a case have the same query as the page."""
+"""Start page, manual and pages of cases. The addresses of a case's other views have the same query as the page."""
 
 import json
 from collections.abc import Callable
@@ -147,7 +147,10 @@ def _add(calculation: Calculation) -> None:
 async def _answer(
     http: Request, calculation: Calculation, media: str, view: Callable[..., views.Shown], *arguments: Any
 ) -> Response:
-    """Send a view of the case in the query or form. Redirect a query with empty fields to a query without them."""
+    """Send a view of the case in the query or form.
+
+    If the query has empty fields, redirect to a query without these fields.
+    """
     asked, clean = await asked_of(http, calculation)
     if not clean and http.scope["method"] == "GET" and (asked.pairs or not asked.pressed):
         return redirected(path_of(http), asked)
@@ -165,7 +168,7 @@ def redirected(place: str, asked: Asked) -> Response:
 
 
 async def asked_of(http: Request, calculation: Calculation) -> tuple[Asked, bool]:
-    """Return the requested case, and True if its query is a link in the shortest form, without empty fields."""
+    """Return the requested case, and True if the query is already in its shortest form, without empty fields."""
     text = http.url.query
     if http.scope["method"] == "POST":
         if http.headers.get("content-type", "").partition(";")[0].strip() != FORM:
@@ -186,11 +189,11 @@ def _kept(http: Request, path: str) -> Asked:
 async def _shown(http: Request, asked: Asked, view: Callable[..., views.Shown], *arguments: Any) -> views.Shown:
     """Have a worker make a view of a case, and return the view.
 
-    Keep the answers used, so that other views of the case can reuse them.
+    Keep the answers that the worker used, so that other views of the case can reuse these answers.
     """
     shown: views.Shown = await http.app.state.pool.calculate(http, view, asked, *arguments)
     for key, content in shown.keep.items():
-        with suppress(ValueError):  # larger than all that may be kept
+        with suppress(ValueError):  # the answers are larger than the space for kept answers
             http.app.state.answers[key] = content
     return shown
 
@@ -198,7 +201,7 @@ async def _shown(http: Request, asked: Asked, view: Callable[..., views.Shown], 
 def failed(http: Request, error: Exception) -> Response:
     """Return an error as a page or as a problem document.
 
-    It is a page if the route sends pages, or if a browser asks for an unknown address.
+    The result is a page if the route sends pages, or if a browser asks for an unknown address.
     """
     if isinstance(error, HTTPException):
         if "text/html" not in http.headers.get("accept", "") or path_of(http).startswith("/v1/"):
@@ -236,9 +239,10 @@ def path_of(http: Request) -> str:
 
 
 def printed_host(http: Request) -> str:
-    """Return scheme and host for printed reports if the host is in the settings or is this machine, else an empty text.
+    """Return scheme and host for printed reports, or an empty text if the host is not to be printed.
 
-    A host that only the client names is not printed, because it could lead the reader of a report to another service.
+    The host is printed if it is in the settings or is this computer. Any other host comes from the client alone and
+    could lead the reader of a report to another service.
     """
     limits: Settings = http.app.state.settings
     is_trusted = http.url.netloc in limits.hosts or http.url.hostname in {
@@ -251,7 +255,7 @@ def printed_host(http: Request) -> str:
 
 
 def html(content: str | bytes, status: int = 200, headers: dict[str, str] | None = None) -> Response:
-    """Return a page with the strict policy for its content."""
+    """Return a page with a strict content security policy."""
     policy = {"Content-Security-Policy": PAGE_POLICY}
     return Response(content, status, media_type=HTML, headers=policy | (headers or {}))
 

@@ -23,7 +23,7 @@ FILE = {"type": "string", "format": "binary"}
 
 
 def _body(types: tuple[str, ...], **form: dict[str, str]) -> dict[str, Any]:
-    """Describe the body of an operation: a file of one of the types, or a form with the file and the parts `form`."""
+    """Describe the body of an operation: a file of one of the `types`, or a form with the file and the parts `form`."""
     schema = {
         "type": "object",
         "required": ["file"],
@@ -39,7 +39,7 @@ UPLOAD_WITH_REQUEST = _body((), request={"type": "string", "description": "the s
 
 
 class Upload(NamedTuple):
-    """A file as it was sent: its content, its name if a form states one, and the request that was sent with it."""
+    """A file that was sent: content, name if a form states a name, and the request that was sent with the file."""
 
     content: bytes
     name: str = ""
@@ -110,7 +110,7 @@ async def open_unit(http: Request) -> Response:
     name = sha256(upload.content).hexdigest()
     try:
         http.app.state.answers[_key(root, name)] = shown
-    except ValueError:  # larger than all that may be kept
+    except ValueError:  # the page is larger than the space for kept pages
         return html(shown)
     return RedirectResponse(f"{root}/rexs/{name}", 303)
 
@@ -125,12 +125,12 @@ async def show_unit(http: Request, name: str) -> Response:
 
 
 def _key(root: str, name: str) -> str:
-    """Return the key of the page of a unit. The links of the page depend on the prefix of a proxy."""
+    """Return the key of the page of a unit. The key contains `root`, the prefix of the page's links."""
     return f"unit {name} {root}"
 
 
 async def _upload(http: Request) -> Upload:
-    """Return the file. Raises HTTPException for an unknown media type, Unprocessable for a form without a file."""
+    """Return the file. Raises HTTPException for an unknown media type, and Unprocessable for a form without a file."""
     media_type = http.headers.get("content-type", "").partition(";")[0].strip().lower()
     if media_type in TYPES:
         return Upload(await http.body())

@@ -21,11 +21,11 @@ from app.studies.runner import PROGRESS_S, Clock, Lines, Study, encoded, guarded
 
 Format = Literal["ndjson", "csv"]
 MEDIA_TYPES: dict[Format, str] = {"ndjson": "application/x-ndjson", "csv": "text/csv"}
-READING_S = 10.0  # further time after the deadline of the study, for a client that reads slowly
+READING_S = 10.0  # additional time after the deadline of the study for a client that reads slowly
 
 
 class StudyStream(StreamingResponse):
-    """A response with the lines of a study as they come.
+    """A response that sends each line of a study as soon as the line exists.
 
     The study ends if the client leaves, or if the client has not read all lines within `seconds`.
     """
@@ -49,7 +49,7 @@ async def planned(http: Request, planner: Callable[[int, float], Any], most: int
 
 
 async def begun(http: Request, study: Study, progress_s: float = PROGRESS_S) -> tuple[Lines, Clock]:
-    """Return the lines and the clock of a study that already has a place among the running studies."""
+    """Begin a study that already has a place among the running studies, and return its lines and its clock."""
     clock = Clock(study.total)
     lines = study.lines(await http.app.state.studies.pool(), clock)
     return guarded(lines, clock, http.app.state.settings.study_deadline_s, progress_s), clock
@@ -73,7 +73,7 @@ async def streamed(
 
 
 async def started(http: Request, kind: type[Study], body: BaseModel, written_as: Format = "ndjson") -> Response:
-    """Check a study in a worker, then return the stream of its lines."""
+    """Check a study in a worker, then return the response with the stream of its lines."""
     http.app.state.start_up.require()
     study: Study = await planned(http, partial(kind, body), getattr(http.app.state.settings, kind.most))
     http.app.state.start_up.require(study.question.endpoint)

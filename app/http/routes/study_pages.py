@@ -1,4 +1,4 @@
-"""Pages of studies, which are sent while the lines of the study arrive, and the files of these pages."""
+"""Pages of studies, and the files of these pages. A page is sent piece by piece while the lines of its study arrive."""
 
 import asyncio
 from collections.abc import Callable
@@ -26,11 +26,11 @@ from app.workers.pool import unless_gone
 
 LINE_TYPES = {str(name): media for name, media in MEDIA_TYPES.items()}
 IMAGE_TYPES = {str(name): media for name, media in figures.MEDIA_TYPES.items()}
-PROGRESS_S = 0.5  # time without a line of the study after which its progress is reported
+PROGRESS_S = 0.5  # if a study has no line for this time, its progress is reported
 
 
 def not_from_another_site(http: Request) -> None:
-    """Answer 403 if a page of another site asks for a study, which would occupy all cores for minutes."""
+    """Answer 403 if a page of another site asks for a study, because a study occupies all cores for minutes."""
     asks = http.url.query or http.method == "POST"
     if asks and http.headers.get("sec-fetch-site") == "cross-site":
         raise HTTPException(403, "A page of another site cannot start a study; open the address directly")
@@ -40,7 +40,7 @@ router = APIRouter(include_in_schema=False, dependencies=[Depends(not_from_anoth
 
 
 def _add(calculation: Calculation, own: type[StudyPage]) -> None:
-    """Add the page of a study of a calculation, with its lines, figures and report."""
+    """Add the page of one kind of study of a calculation, with the lines, figures and report of the study."""
     path = f"{page_path(calculation)}/{own.link.name}"
     policy = {"Content-Security-Policy": pages.DOCUMENT_POLICY}
 
@@ -77,7 +77,7 @@ def _add(calculation: Calculation, own: type[StudyPage]) -> None:
 
 
 async def _page(http: Request, calculation: Calculation, own: type[StudyPage], path: str) -> Response:
-    """Send the page of a study: as a stream, or as a whole if there is nothing to calculate."""
+    """Send the page of a study as a stream, or as a whole if there is nothing to calculate."""
     asked, clean = await pages.asked_of(http, calculation)
     if not clean and http.scope["method"] == "GET":
         return pages.redirected(path, asked)
@@ -91,17 +91,17 @@ async def _page(http: Request, calculation: Calculation, own: type[StudyPage], p
 
 
 async def _planned(http: Request, own: type[StudyPage], asked: Asked, view: Callable[..., Any]) -> Any:
-    """Return the study of a case, or its page, from a worker."""
+    """Have a worker make the study of a case, or the page of this study, and return the result."""
     if asked.pairs:
         http.app.state.start_up.require(asked.calculation.path)
     return await planned(http, partial(view, own, asked), getattr(http.app.state.settings, own.plan.most))
 
 
 async def _made(http: Request, study: StudyPage, view: Callable[..., bytes | str], *arguments: Any) -> bytes:
-    """Run a study to its end and return a view of its lines from a worker.
+    """Run a study to its end, have a worker make a view of its lines, and return the view.
 
-    Raises StudyEnded if the study ends with an error, HTTPException with the reason if there is nothing to show, and
-    ClientGone if the client leaves. In this last case the study ends too.
+    Raises StudyEnded if the study ends with an error. Raises HTTPException with the reason if there is nothing to show.
+    Raises ClientGone if the client leaves; the study then ends too.
     """
 
     async def work() -> bytes:
