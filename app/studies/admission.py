@@ -1,4 +1,4 @@
-"""Admission of studies: a limited number runs at once, on the service's own workers or on a cluster."""
+"""Admission of studies. A limited number of studies runs at once, on the service's own workers or on a cluster."""
 
 import asyncio
 import logging
@@ -19,7 +19,7 @@ logger = logging.getLogger("tribodrive")
 
 
 class StudyPool:
-    """The service's own workers, as one study uses them; the study has the same share of them as any other client."""
+    """The service's own workers for one study. The study has the same share of these workers as any other client."""
 
     def __init__(self, workers: WorkerPool) -> None:
         self._workers = workers
@@ -42,7 +42,7 @@ class StudyAdmission:
         self._running = 0
         self._cluster: DaskCluster | None = None
         if settings.scheduler:
-            from app.studies import cluster  # noqa: PLC0415  an extra, and a second of imports
+            from app.studies import cluster  # noqa: PLC0415  Dask is an extra, and its import takes a second
 
             self._cluster = cluster.DaskCluster(settings.scheduler, settings.study_deadline_s)
 
@@ -61,7 +61,7 @@ class StudyAdmission:
     def own(self) -> Pool:
         """Return the service's own workers for one study.
 
-        They draw the figures of the study, even if a cluster solves its points.
+        These workers draw the figures of the study, even if a cluster solves the points of the study.
         """
         return StudyPool(self._workers)
 

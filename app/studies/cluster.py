@@ -16,11 +16,11 @@ from app.sources import SOURCES
 from app.studies.runner import OtherSources, PoolLost
 from app.workers.stages import STAGES, warm
 
-CONNECT_S = 10.0  # for one call to the scheduler
-ANSWER_S = 15.0  # for two calls: to connect and to list the workers
-WARM_S = 600.0  # for the workers to load their kernels, which may include compiling them
-WATCH_S = 0.5  # between two checks whether the cluster still runs while a call is under way
-PACKAGES = ("tribodrive", "numpy", "scipy", "numba", "pydantic")  # whose versions change the results
+CONNECT_S = 10.0  # longest time of one call to the scheduler
+ANSWER_S = 15.0  # longest time of two calls: to connect and to list the workers
+WARM_S = 600.0  # longest time in which the workers load their kernels; they may have to compile the kernels first
+WATCH_S = 0.5  # time between two checks, during a call, that the cluster still runs
+PACKAGES = ("tribodrive", "numpy", "scipy", "numba", "pydantic")  # packages whose versions change the results
 LOST = "the connection to the Dask scheduler is lost; start the study again"
 
 
@@ -37,10 +37,10 @@ class DaskCluster:
         self.slots = 1
 
     async def ready(self) -> "DaskCluster":
-        """Return the cluster when it is connected and every worker is prepared; raises SchedulerUnavailable.
+        """Wait until the cluster is connected and every worker is prepared, and return the cluster.
 
-        Only one preparation runs at a time. It continues if a study that waits for it is refused, because a call to a
-        scheduler that does not answer cannot be cancelled.
+        Only one preparation runs at a time. The preparation continues even if a study that waits for it is refused,
+        because a call to a scheduler that does not answer cannot be cancelled. Raises SchedulerUnavailable.
         """
         if self._preparation is None or self._preparation.done():
             self._answered = False
@@ -63,7 +63,7 @@ class DaskCluster:
             raise SchedulerUnavailable(f"The Dask scheduler cannot be used: {reason}") from error
 
     def _prepare(self) -> None:
-        """Connect, then compare the versions and load the kernels on every new worker. Blocks."""
+        """Connect, then compare the versions and load the kernels on every new worker. This call blocks."""
         if self._client is None or self._client.status != "running":
             self.close()
             self._client = Client(self._address, timeout=CONNECT_S, set_as_default=False)
@@ -81,13 +81,13 @@ class DaskCluster:
         self.slots = sum(threads.values())
 
     def _call_on(self, function: Callable[[], Any], workers: set[str]) -> dict[str, Any]:
-        """Call a function on each of the workers, wait, and return the result of each worker."""
+        """Call a function on each of the workers, wait for the results, and return them by worker."""
         assert self._client is not None
         calls = {name: self._client.submit(function, workers=[name], pure=False, retries=0) for name in workers}
         return {name: call.result(timeout=WARM_S) for name, call in calls.items()}
 
     def submit(self, function: Callable[..., Any], *arguments: Any) -> asyncio.Future[Any]:
-        """Send a call to the cluster; cancelling the future also cancels the call if it has not begun."""
+        """Send a call to the cluster. Cancelling the future also cancels the call if the call has not begun."""
         return asyncio.ensure_future(self._result(function, *arguments))
 
     async def _result(self, function: Callable[..., Any], *arguments: Any) -> Any:
@@ -107,7 +107,7 @@ class DaskCluster:
             future.cancel()
 
     def close(self) -> None:
-        """Disconnect from the cluster. Blocks."""
+        """Disconnect from the cluster. This call blocks."""
         self._prepared.clear()
         if self._client is not None:
             self._client.close(timeout=1)
@@ -121,10 +121,10 @@ def prepare() -> None:
 
 
 def solved_with(sources: str, function: Callable[..., Any], *arguments: Any) -> Any:
-    """Return the result of a call; runs in a worker, which may have joined the cluster during the study.
+    """Return the result of a call. This function runs in a worker, which may have joined the cluster during the study.
 
-    `sources` is the digest of the service's solvers, which the answers carry. Raises OtherSources if the worker has
-    other solvers.
+    `sources` is the hash of the service's solvers; the answers contain this hash. Raises OtherSources if the solvers of
+    the worker are not the same.
     """
     if sources != SOURCES:
         raise OtherSources(

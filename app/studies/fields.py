@@ -1,4 +1,4 @@
-"""Single values of requests and answers, which a study names by their dotted paths."""
+"""Single values of requests and answers. A study names these values by their dotted paths."""
 
 import operator
 from collections.abc import Iterable
@@ -57,7 +57,7 @@ def did_you_mean(path: str, known: Iterable[str]) -> str:
 
 
 def fault(leaf: Leaf, value: Scalar) -> tuple[str, str] | None:
-    """Return the code and the message of the reason why a field does not accept a value; None if the field does."""
+    """Return code and message of the reason why a field does not accept a value; None if the field accepts it."""
     code = "out_of_range"
     if value is None:
         wrong, message = not leaf.nullable, "null is not accepted here"
@@ -95,15 +95,16 @@ def value_at(content: Any, path: str) -> Any:
 
 
 def is_number(value: Any) -> bool:
-    """Return whether a value can be compared with numbers; true counts as 1."""
+    """Return True if a value can be compared with numbers. A boolean counts as a number, because true equals 1."""
     return isinstance(value, int | float)
 
 
 def set_value(model: type[Documented], body: dict[str, Any], path: str, value: Scalar) -> None:
-    """Set the value at a dotted path of a request; sections and lists on the path that are missing are inserted.
+    """Set the value at a dotted path of a request. Sections and lists that are missing on the path are inserted.
 
-    A list is inserted with its default items. Raises IndexError if a list is too short. If something else is at the
-    place of a section or a list, nothing is set, and the validation of the request reports the error.
+    A list is inserted with its default items. Raises IndexError if a list is too short. If the request has a different
+    kind of value at the place of a section or a list, nothing is set, and the validation of the request reports the
+    error.
     """
     parts = path.split(".")
     here: Any = body
@@ -133,7 +134,7 @@ def clear_excluded(model: type[Documented], body: dict[str, Any], path: str) -> 
 
 
 def indexed(path: str, case: dict[str, Any]) -> list[str]:
-    """Return the path once for each item of the lists on it, with the index of the item."""
+    """Return one path per item of the lists on a path, with the index of the item inserted."""
     before, star, after = path.partition(f".{ITEM}")
     if not star:
         return [path]

@@ -18,8 +18,8 @@ from solvers.arrays import FloatArray
 from solvers.drive_train.uncertainty import uncertain_inputs
 from solvers.quantity import allowed
 
-CUT = 4.0  # standard deviations from the mean, beyond which a distribution is cut off
-LEAST_SHARE = 1e-9  # of a distribution inside the range of its field; leaves the six digits that tables show
+CUT = 4.0  # in standard deviations; distance from the mean beyond which a distribution is cut off
+LEAST_SHARE = 1e-9  # least share of a distribution inside the range of its field; leaves the six digits of tables
 
 
 def common_unit(leaves: Sequence[Leaf]) -> str | None:
@@ -29,7 +29,7 @@ def common_unit(leaves: Sequence[Leaf]) -> str | None:
 
 
 class CheckedAxis(NamedTuple):
-    """An axis with its fields and its values; `values` is None if the values are random."""
+    """An axis with its fields and values. `values` is None if the values are random."""
 
     path: str | list[str]
     leaves: tuple[Leaf, ...]
@@ -43,8 +43,8 @@ class CheckedAxis(NamedTuple):
 class PointSet(NamedTuple):
     """Points in order.
 
-    Each of the `rows` has the coordinates of a point along the `axes`; if there are no axes, it has the values that the
-    point sets, by path. `varied` are the fields that differ between points.
+    Each of the `rows` holds the coordinates of a point along the `axes`. If there are no axes, the row maps the paths
+    that the point sets to their values. `varied` holds the fields that differ between points.
     """
 
     axes: list[CheckedAxis]
@@ -69,21 +69,21 @@ class PointSet(NamedTuple):
 
 
 def _values_of_fields(value: Scalar | list[Scalar], leaves: tuple[Leaf, ...]) -> list[Scalar]:
-    """Return one value per field of an axis from a value of the axis."""
+    """Convert a value of an axis into one value per field of the axis."""
     return value if isinstance(value, list) else [value] * len(leaves)
 
 
 def listed(cases: list[Overrides], base: BaseRequest, most: int, place: str) -> PointSet:
-    """Return the points of the list of cases at `place` of a study; raises Unprocessable if they exceed `most`."""
+    """Return the points of the listed cases at `place` of a study. Raises Unprocessable if `most` is exceeded."""
     check_count(len(cases), most, place)
     return PointSet([], tuple(fields_set(cases, base, place + ".{}").values()), cases)
 
 
 def fields_set(cases: Sequence[Overrides], base: BaseRequest, place: str) -> dict[str, Leaf]:
-    """Return the fields that cases set, by their paths.
+    """Return the fields that the cases set, by path.
 
-    Raises Unprocessable if a path does not exist or if a field does not accept a value. The location of the error is
-    `place`, in which `{}` is replaced by the number of the case.
+    Raises Unprocessable if a path does not exist or if a field does not accept a value. The error is located at
+    `place`, with `{}` replaced by the number of the case.
     """
     fields: dict[str, Leaf] = {}
     for number, case in enumerate(cases):
@@ -95,7 +95,7 @@ def fields_set(cases: Sequence[Overrides], base: BaseRequest, place: str) -> dic
 
 
 def grid(axes: list[Axis], base: BaseRequest, most: int, place: str) -> PointSet:
-    """Return all combinations of the values of the axes at `place` of a study; the first axis varies slowest.
+    """Return all combinations of the values of the axes at `place` of a study. The first axis varies slowest.
 
     Raises Unprocessable if an axis is wrong, or if there are more than `most` points.
     """
@@ -108,7 +108,7 @@ def grid(axes: list[Axis], base: BaseRequest, most: int, place: str) -> PointSet
 
 
 def _length(axis: Axis, place: str) -> int:
-    """Return the number of values of an axis, which are either listed or spread between its ends."""
+    """Return the number of values of an axis. The values are either listed or spread between the ends of the axis."""
     spread = (axis.start, axis.stop, axis.count)
     if axis.values is not None and spread == (None, None, None):
         return len(axis.values)
@@ -132,9 +132,10 @@ def _check_axis(axis: Axis, base: BaseRequest, place: str) -> CheckedAxis:
 
 
 def _spread(axis: Axis, leaves: tuple[Leaf, ...], place: str) -> list[Any]:
-    """Return values from start to stop with even steps or even ratios; raises Unprocessable at the end that is wrong.
+    """Return values from start to stop with even steps or even ratios.
 
-    A field may reject an end, and a logarithmic axis rejects an end that is not positive.
+    Raises Unprocessable, located at an end, if a field rejects the end, or if a logarithmic axis has an end that is not
+    positive.
     """
     ends: dict[str, Any] = {"start": axis.start, "stop": axis.stop}
     for name, end in ends.items():
@@ -148,7 +149,7 @@ def _spread(axis: Axis, leaves: tuple[Leaf, ...], place: str) -> list[Any]:
 
 
 def scattering(scatters: Sequence[Range | Scatter], base: BaseRequest, place: str) -> tuple[Leaf, ...]:
-    """Return the fields of the distributions at `place` of a study; raises Unprocessable."""
+    """Return the fields of the distributions at `place` of a study. Raises Unprocessable."""
     check_distinct([scatter.path for scatter in scatters], place)
     leaves = []
     for number, scatter in enumerate(scatters):
@@ -174,7 +175,8 @@ def scattering(scatters: Sequence[Range | Scatter], base: BaseRequest, place: st
 def _check_digits(scatter: Range | Scatter, leaf: Leaf, place: str) -> None:
     """Raise Unprocessable if almost all of a normal distribution lies outside the range of its field.
 
-    The values inside the range are computed from cumulative probabilities, which then have too few digits.
+    The values inside the range are computed from cumulative probabilities. If almost all of the distribution lies
+    outside, these probabilities have too few digits.
     """
     if isinstance(scatter, Normal) and 1.0 - cut(scatter, leaf).cut_off < LEAST_SHARE:
         message = (
@@ -185,12 +187,12 @@ def _check_digits(scatter: Range | Scatter, leaf: Leaf, place: str) -> None:
 
 
 def anchors(scatter: Range | Scatter) -> dict[str, float]:
-    """Return the parameters of a distribution that its field has to accept as values, in rising order."""
+    """Return those parameters of a distribution that have to be valid values of the field, in ascending order."""
     return {name: getattr(scatter, name) for name in ("min", "mode", "mean", "median", "max") if hasattr(scatter, name)}
 
 
 class Cut(NamedTuple):
-    """A distribution of scipy, cut off at two ends."""
+    """A distribution of SciPy that is cut off at two ends."""
 
     law: Any
     low: float
@@ -208,7 +210,7 @@ class Cut(NamedTuple):
 
     @property
     def cut_off(self) -> float:
-        """The share of the distribution beyond its ends; 0 if the ends are equal."""
+        """The share of the distribution beyond the ends; 0 if both ends are equal."""
         low, high = self.shares
         return low + 1.0 - high if self.low < self.high else 0.0
 
@@ -246,8 +248,8 @@ def drawn(scatters: Sequence[Range | Scatter], leaves: Sequence[Leaf], cube: Flo
 def unit_cube(method: Method, count: int, dimensions: int, seed: Any, place: str) -> FloatArray:
     """Draw random points in the unit cube, one row per point.
 
-    `seed` is a number or a generator of NumPy. A Sobol sample raises Unprocessable at `place`, which is the location of
-    the count in the study, if the count is not a power of two.
+    `seed` is a number or a generator of NumPy. `place` is the location of the count in the study. A Sobol sample raises
+    Unprocessable at `place` if the count is not a power of two.
     """
     from scipy.stats import qmc  # noqa: PLC0415  half a second that only random samples need
 
@@ -272,7 +274,7 @@ def usual_corners(request: Request) -> dict[str, Axis]:
 
 
 def _in_own_unit(path: str, value: float) -> Scalar:
-    """Return a value of the solver in the unit of the field at this path, rounded to 12 digits."""
+    """Convert a value of the solver to the unit of the field at this path, and round the result to 12 digits."""
     field = next(part for part in reversed(path.split(".")) if not part.isdecimal())
     unit = split_unit(field)[1]
     return float(f"{value if unit is None else unit.from_si(value):.12g}") + 0.0

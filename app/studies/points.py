@@ -20,8 +20,8 @@ from app.studies.requests import DRIVE_TRAIN, Overrides
 from solvers.notices import Rank
 
 Status = Literal["ok", "ok_with_warnings", "no_solution", "refused", "failed"]
-SOLVED = ("ok", "ok_with_warnings")  # statuses of points with an answer
-CHUNK_SECONDS = 0.25  # of work that is handed out at once; after this time a study gives way to other work
+SOLVED = ("ok", "ok_with_warnings")  # statuses of points that have an answer
+CHUNK_SECONDS = 0.25  # computing time of one chunk; after this time a study gives way to other work
 COLD = "states.cold."
 BY_FILM = {
     DRIVE_TRAIN: {"safety.minimum"},
@@ -35,9 +35,9 @@ logger = logging.getLogger("tribodrive")
 class Point(NamedTuple):
     """The answer at a point, reduced to the requested outputs.
 
-    `error` is set if the point was refused or failed. `warnings` holds the codes of the warnings, the gravest first,
-    and `ranks` their ranks in the same order. `assumptions` is empty if the assumptions are the same as at the
-    preceding point of the chunk.
+    `error` is set if the point was refused or failed. `warnings` holds the codes of the warnings, the gravest warning
+    first; `ranks` holds the ranks of these warnings in the same order. `assumptions` is empty if the assumptions are
+    the same as at the preceding point of the chunk.
     """
 
     status: Status
@@ -62,7 +62,7 @@ class Question(NamedTuple):
 
 
 class BaseRequest(NamedTuple):
-    """An endpoint, and the request to it that a study varies.
+    """An endpoint, and the request to this endpoint that a study varies.
 
     The methods raise Unprocessable if a path cannot be used. `place` is the field of the study that holds the path.
     """
@@ -73,7 +73,7 @@ class BaseRequest(NamedTuple):
     def leaf(self, path: str, place: str) -> Leaf:
         """Return the leaf of a single value at a path of the request.
 
-        Raises Unprocessable also if the value cannot be set because a list on the way to the value is too short.
+        Also raises Unprocessable if a list on the path is too short, so that the value cannot be set.
         """
         leaf = scalar_at(self.calculation.request, path, place, "unknown_path")
         try:
@@ -102,8 +102,8 @@ class BaseRequest(NamedTuple):
     def checked(self, first: Overrides) -> Request:
         """Return the request of the first point.
 
-        Raises InvalidBody, with pointers into the study, if the schema does not allow the request. If the schema allows
-        the request but the solver refuses it, the study goes on, and the point is refused.
+        Raises InvalidBody, with pointers into the study, if the schema does not allow the request. If only the solver
+        refuses the request, the study goes on and this point is refused.
         """
         try:
             return validated(self.calculation.request, with_overrides(self.calculation, self.body, first))
@@ -113,20 +113,20 @@ class BaseRequest(NamedTuple):
 
 
 def check_count(count: int, most: int, place: str) -> None:
-    """Refuse a study of too many points."""
+    """Raise Unprocessable if a study has more than `most` points."""
     if count > most:
         raise Unprocessable("too_many_points", f"the study has {count} points; the limit is {most}", place)
 
 
 def check_distinct(paths: Sequence[str], place: str, *, numbered: bool = False) -> None:
-    """Refuse a path that is given twice. If `numbered` is set, the refusal names the index of the path in the list."""
+    """Raise Unprocessable if a path is given twice. If `numbered` is set, the error names the index of the path."""
     for number, path in enumerate(paths):
         if path in paths[:number]:
             raise Unprocessable("duplicate_path", f"{path} is given twice", f"{place}.{number}" if numbered else place)
 
 
 def needs_film(endpoint: str, output: str) -> bool:
-    """Return whether an output needs the thermal film, which costs more than all other parts of the answer."""
+    """Return True if an output needs the thermal film. The film takes more time than all other parts of the answer."""
     return "thermal_ehl" in output or output.removeprefix(COLD) in BY_FILM[endpoint]
 
 
@@ -146,9 +146,9 @@ def reduced_request(endpoint: str, request: dict[str, Any], outputs: Sequence[st
 
 
 def with_overrides(calculation: Calculation, base: dict[str, Any], overrides: Overrides) -> dict[str, Any]:
-    """Return the base request with the values of a point.
+    """Return the base request after setting the values of a point.
 
-    If a value is given for a field, the fields that this field excludes are removed.
+    If a point sets a field, the fields that must not be given together with this field are removed.
     """
     body = copy.deepcopy(base)
     for path, value in overrides.items():
@@ -161,14 +161,14 @@ def with_overrides(calculation: Calculation, base: dict[str, Any], overrides: Ov
 
 
 class Chunk(NamedTuple):
-    """The answers at the first of the requested points, and the time that their solution took [s]."""
+    """The answers at the first of the requested points, and the computing time of these answers [s]."""
 
     points: list[Point]
     seconds: float
 
 
 def solve_chunk(question: Question, overrides: Sequence[Overrides]) -> Chunk:
-    """Solve consecutive points, at least one, until the time of a chunk is used up."""
+    """Solve consecutive points until the time of a chunk is used up. Solve at least one point."""
     started = time.perf_counter()
     points: list[Point] = []
     preceding: tuple[dict[str, Any], ...] = ()
@@ -182,7 +182,7 @@ def solve_chunk(question: Question, overrides: Sequence[Overrides]) -> Chunk:
 
 
 def solve_point(question: Question, overrides: Overrides) -> Point:
-    """Solve one point. If its request is refused, return a point with status `refused`."""
+    """Solve one point. If the request of the point is refused, return a point with status `refused`."""
     calculation = BY_PATH[question.endpoint]
     try:
         request = validated(calculation.request, with_overrides(calculation, question.base, overrides))

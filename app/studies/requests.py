@@ -11,8 +11,8 @@ from pydantic_core import PydanticCustomError
 from app.examples import examples
 from app.schema.quantities import Input
 
-MOST_FIELDS_TOGETHER = 50  # that one axis moves, chosen
-LARGEST = 1e300  # of any number given: its square may overflow, itself not
+MOST_FIELDS_TOGETHER = 50  # largest number of fields that one axis moves, chosen
+LARGEST = 1e300  # largest number accepted; the number itself is finite, although its square may overflow
 _PATH = re.compile(r"[A-Za-z0-9_]{1,60}(\.[A-Za-z0-9_]{1,60}){0,9}")
 
 
@@ -48,7 +48,8 @@ _NUMBER_SCHEMA = {"type": "number", "minimum": -LARGEST, "maximum": LARGEST}
 _SCALAR_SCHEMA = {"anyOf": [_NUMBER_SCHEMA, {"type": "string"}, {"type": "boolean"}, {"type": "null"}]}
 _SCALARS_SCHEMA = {"anyOf": [*_SCALAR_SCHEMA["anyOf"], {"type": "array", "items": _SCALAR_SCHEMA}]}
 
-# One validator for each alternative, so that an error points at the value and not at one of its types.
+# There is one validator per alternative, so that the location of an error is the value and not one of the alternative
+# types.
 FieldPath = Annotated[Any, AfterValidator(_field_path), WithJsonSchema(_PATH_SCHEMA)]
 FieldPaths = Annotated[Any, AfterValidator(_field_paths), WithJsonSchema({"anyOf": [_PATH_SCHEMA, _PATHS_SCHEMA]})]
 Value = Annotated[Any, AfterValidator(_scalar), WithJsonSchema(_SCALAR_SCHEMA)]
@@ -65,7 +66,7 @@ class Part(BaseModel):
 
     @model_validator(mode="after")
     def one_is_given(self) -> Self:
-        """Refuse none and several of the fields that exclude each other."""
+        """Raise an error unless exactly one of the fields that exclude each other is given."""
         if self.exactly_one and sum(getattr(self, name) is not None for name in self.exactly_one) != 1:
             *names, last = self.exactly_one
             known = ", ".join(names)
@@ -199,7 +200,7 @@ class DriveTrainStudy(Part):
 
 
 EXAMPLES: dict[str, dict[str, Any]] = json.loads(files("app.studies").joinpath("examples.json").read_text("utf-8"))
-"""Bodies to start from, by the path of the study, each as OpenAPI has it: a `summary` and a `value`."""
+"""Example bodies by the path of the study. Each has the form of an OpenAPI example, with a `summary` and a `value`."""
 
 for _bodies in EXAMPLES.values():
     for _each in _bodies.values():

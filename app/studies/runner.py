@@ -1,6 +1,6 @@
-"""The common part of all studies: a pool of processes solves the points in chunks, and the study returns lines.
+"""The common part of all studies. A pool of processes solves the points in chunks, and the study returns lines.
 
-The points come in order. A kind of study declares its endpoint and its body, and has its own checks and lines.
+The points are returned in order. Each kind of study declares an endpoint and a body, and has its own checks and lines.
 """
 
 import asyncio
@@ -29,9 +29,9 @@ from app.studies.points import CHUNK_SECONDS, BaseRequest, Chunk, Point, Questio
 from app.studies.requests import Overrides
 from solvers.arrays import FloatArray
 
-CHUNKS_PER_SLOT = 2  # one is solved while one waits, so that no worker is idle
-MOST_POINTS_IN_A_CHUNK = 1000  # however fast a point is, so that the answer of a chunk stays small
-PROGRESS_S = 2.0  # between lines of progress, which show proxies and users that the study runs
+CHUNKS_PER_SLOT = 2  # one chunk is solved while one chunk waits, so that no worker is idle
+MOST_POINTS_IN_A_CHUNK = 1000  # even if points are solved very fast; keeps the answer of a chunk small
+PROGRESS_S = 2.0  # time between lines of progress; these lines show proxies and users that the study runs
 
 Line = dict[str, Any]
 Lines = AsyncGenerator[list[Line], None]
@@ -47,7 +47,7 @@ class Pool(Protocol):
         """The number of calls that run at once."""
 
     def submit(self, function: Callable[..., Any], *arguments: Any) -> asyncio.Future[Any]:
-        """Call the function in a process as soon as one is free, and return the future of the result.
+        """Call the function in a process as soon as a process is free, and return the future of the result.
 
         Cancelling the future cancels the call if it has not begun; a call that has begun runs to its end. The future
         raises WorkerLost, DeadlineExceeded, PoolLost, and the exceptions of the function.
@@ -84,14 +84,14 @@ class Clock:
         return {"type": "progress", "done": self.done, "total": self.total, "elapsed_s": self.elapsed_s}
 
     def error(self, code: str, message: str) -> Line:
-        """Return the line that ends a study early; log and count this end."""
+        """Return the line that ends a study early. Log and count this end."""
         STUDIES_UNFINISHED.inc()
         logger.warning("a study ended after %d of %d points: %s", self.done, self.total, message)
         return {"type": "error", "code": code, "message": message, "done": self.done}
 
 
 async def twice_if_lost(pool: Pool, function: Callable[..., Any], *arguments: Any) -> Any:
-    """Return the result of a single call, which is repeated once if its process is lost."""
+    """Return the result of a single call. Repeat the call once if its process is lost."""
     try:
         return await pool.submit(function, *arguments)
     except WorkerLost:
@@ -101,11 +101,12 @@ async def twice_if_lost(pool: Pool, function: Callable[..., Any], *arguments: An
 async def in_order(
     pool: Pool, question: Question, overrides: Callable[[int], Overrides], indices: range, clock: Clock
 ) -> AsyncGenerator[tuple[range, list[Point]], None]:
-    """Yield consecutive points with the range of their indices, in order.
+    """Yield consecutive points in order, with the range of their indices.
 
-    `overrides` returns for an index the values that this point changes in the request of the question. If the process
-    of a chunk is lost, the points of the chunk are solved again one by one. If the caller leaves the iteration, the
-    chunks that have not begun are cancelled, and nothing waits for the others.
+    `overrides` returns, for the index of a point, the values that the point changes in the request of the question. If
+    the process of a chunk is lost, the points of the chunk are solved again one by one. If the caller leaves the
+    iteration, chunks that have not begun are cancelled, and chunks that have begun run on without anyone waiting for
+    them.
     """
 
     def submit(some: range) -> tuple[range, asyncio.Future[Chunk]]:
@@ -116,7 +117,7 @@ async def in_order(
     try:
         while left or pending:
             while left and len(pending) < CHUNKS_PER_SLOT * pool.slots:
-                # Smaller chunks towards the end, so that all processes finish together.
+                # Chunks become smaller towards the end, so that all processes finish together.
                 fair = max(1, min(size, -(-len(left) // (2 * pool.slots))))
                 pending.append(submit(left[:fair]))
                 left = left[fair:]
@@ -138,7 +139,7 @@ async def in_order(
 
 
 async def _solved_singly(pool: Pool, question: Question, overrides: list[Overrides], error: Exception) -> Chunk:
-    """Solve the points of a lost chunk one by one, and repeat a point once if its process is lost.
+    """Solve the points of a lost chunk one by one. Repeat the solution of a point once if its process is lost.
 
     A chunk of a single point that exceeded its deadline is not repeated.
     """
@@ -160,12 +161,12 @@ async def _solved_singly(pool: Pool, question: Question, overrides: list[Overrid
 class Study(ABC):
     """A study whose request has passed all checks; the docstring of a subclass is the description of its endpoint.
 
-    A worker makes the study from the content of the body (JSON objects or the validated model), the largest number of
-    points and the deadline of a point [s]. It raises InvalidBody and Unprocessable with locations in the body.
-    `outputs` are the first columns of `Point.out`.
+    A worker makes the study from three things: the content of the body (JSON objects or the validated model), the
+    largest number of points, and the deadline of a point [s]. The constructor raises InvalidBody and Unprocessable with
+    locations in the body. `outputs` are the first columns of `Point.out`.
     """
 
-    path: ClassVar[str]  # of the endpoint; its last part is the type of the first line
+    path: ClassVar[str]  # of the endpoint; the last part of the path is the type of the first line
     summary: ClassVar[str]  # of the endpoint
     answer: ClassVar[str]  # the lines that the answer has
     model: ClassVar[type[Any]]  # of the body
@@ -183,7 +184,7 @@ class Study(ABC):
         self.total = self._planned(base, most)
         try:
             self.case = case_of(self.path, self.body.model_dump(exclude={"from_index"}), SOURCES)
-        except ValueError:  # in a field that every point replaces
+        except ValueError:  # the error is in a field that every point replaces
             message = "holds a number that is not finite, or text that is not Unicode"
             raise Unprocessable("not_json", message, "request") from None
 
@@ -193,18 +194,18 @@ class Study(ABC):
 
     @abstractmethod
     def _planned(self, base: BaseRequest, most: int) -> int:
-        """Check the rest of the body, prepare the points and return their largest possible number."""
+        """Check the remaining parts of the body, prepare the points and return their largest possible number."""
 
     @abstractmethod
     def lines(self, pool: Pool, clock: Clock) -> Lines:
-        """Yield all lines of the study in groups, as soon as they are known; `guarded` adds lines of progress."""
+        """Yield all lines of the study in groups, as soon as they are known. `guarded` adds lines of progress."""
 
     def encoder(self, _: str) -> Callable[[Line], bytes]:
-        """Return the function that writes a line in a format; a study has only JSON unless its kind has more."""
+        """Return the function that writes a line in a format. By default, all formats are JSON."""
         return json_line
 
     def header(self, **content: Any) -> Line:
-        """Return a line with this content and with what identifies the study: its type, endpoint, versions and case."""
+        """Return a line with this content and the data that identify the study: type, endpoint, versions and case."""
         identity = {"model_version": MODEL_VERSION, "sources": SOURCES, "case": self.case}
         return {"type": self.path.rpartition("/")[2], "endpoint": self.question.endpoint, **content, **identity}
 
@@ -225,7 +226,7 @@ def point_line(index: int, at: Any, point: Point) -> Line:
 
 
 class Tally:
-    """The number of points per status, the number of errors and warnings per code, assumptions, and outputs.
+    """The number of points per status, the numbers of errors and warnings per code, the assumptions, and the outputs.
 
     `assumptions` has one entry per field; the value of this entry is None if the value differs between points.
     """
@@ -255,12 +256,12 @@ class Tally:
 
     @property
     def values(self) -> FloatArray:
-        """The stored outputs, one row per point; NaN where an output has no number."""
+        """The stored outputs, one row per point. An output that is not a number is NaN."""
         return np.array(self._numbers).reshape(-1, len(self.outputs))
 
 
 async def guarded(lines: Lines, clock: Clock, seconds: float, progress_s: float = PROGRESS_S) -> Lines:
-    """Yield the lines, and a line of progress whenever none has come for `progress_s` seconds.
+    """Yield the lines, and a line of progress whenever no line has come for `progress_s` seconds.
 
     If the study fails, or takes longer than `seconds`, the last line is an error.
     """
@@ -290,7 +291,7 @@ async def guarded(lines: Lines, clock: Clock, seconds: float, progress_s: float 
 
 
 async def encoded(lines: Lines, encode: Callable[[Line], bytes]) -> AsyncGenerator[bytes, None]:
-    """Yield the lines as bytes; lines that come in one group are one piece."""
+    """Yield the lines as bytes. Lines that come in one group are sent as one piece."""
     async with aclosing(lines):
         async for group in lines:
             if piece := b"".join(map(encode, group)):

@@ -2,9 +2,9 @@
 
 The values of a spectrum are an array `[replicate, draw, case]`; NaN marks a point without solution.
 
-A draw is one machine, which runs every case. The worst case of the machine decides whether the machine exceeds a limit.
-A normally distributed limit is integrated in closed form, so that only the tolerances cause noise. The replicates are
-independent, and their scatter gives the error of every mean.
+A draw is one machine. Each machine runs every case. The worst case of the machine decides whether the machine exceeds a
+limit. A normally distributed limit is integrated in closed form, so that only the tolerances cause noise. The
+replicates are independent, and their scatter gives the error of every mean.
 """
 
 from collections.abc import Sequence
@@ -16,17 +16,17 @@ from scipy.special import ndtr
 
 from solvers.arrays import FloatArray
 
-CONFIDENCE = 0.9  # of every bound, two-sided
+CONFIDENCE = 0.9  # two-sided confidence of all bounds
 QUANTILES = (0.05, 0.5, 0.95)  # the median and the usual tails of 5 %
-MODERATE, HIGH = 0.1, 0.3  # AGMA 925-A03, classes of risk
-MOST_BINS = 40  # of a histogram that can be read
+MODERATE, HIGH = 0.1, 0.3  # limits of the classes of risk, AGMA 925-A03
+MOST_BINS = 40  # largest number of bins of a histogram that a user can read
 
 Side = Literal["above", "below"]
 Risk = Literal["low", "moderate", "high"]
 
 
 class Limit(NamedTuple):
-    """A value that an output must not exceed (`above`) or fall below (`below`); it is fixed if the deviation is 0."""
+    """A value that an output must not exceed (`above`) or fall below (`below`). A fixed limit has the deviation 0."""
 
     side: Side
     mean: float
@@ -34,14 +34,14 @@ class Limit(NamedTuple):
     output: str = ""
 
     def exceeded(self, output: FloatArray) -> FloatArray:
-        """Return the probability that each of the values is beyond the limit; NaN at a missing value."""
+        """Return for each value the probability that the value is beyond the limit; NaN for a missing value."""
         beyond = output - self.mean if self.side == "above" else self.mean - output
         if self.deviation > 0.0:
             return np.asarray(ndtr(beyond / self.deviation))
         return np.where(np.isnan(beyond), np.nan, beyond > 0.0)
 
     def worst(self, outputs: FloatArray) -> FloatArray:
-        """Return the worst value over the cases (the last axis), without the unsolved ones; NaN if all are unsolved."""
+        """Return the worst value of the solved cases; the cases are the last axis. Return NaN if no case is solved."""
         return np.asarray((np.fmax if self.side == "above" else np.fmin).reduce(outputs, axis=-1))
 
 
@@ -59,8 +59,9 @@ class Mean(NamedTuple):
 class Estimate(NamedTuple):
     """A probability that a limit is exceeded.
 
-    The lower of the `bounds` counts no unsolved draw as beyond the limit, and the upper one counts all of them. If the
-    bounds differ, `probability` is None. `risk` is the class of risk of the upper bound.
+    For the lower of the `bounds`, no unsolved draw counts as beyond the limit. For the upper bound, all unsolved draws
+    count as beyond the limit. If the bounds differ, `probability` is None. `risk` is the class of risk of the upper
+    bound.
     """
 
     probability: float | None
@@ -71,7 +72,7 @@ class Estimate(NamedTuple):
 
 
 def mean_over_replicates(values: FloatArray) -> Mean:
-    """Return the mean of values `[replicate, draw]`, none of which may be NaN."""
+    """Return the mean of values `[replicate, draw]`. No value may be NaN."""
     from scipy.stats import t  # noqa: PLC0415  half a second that only studies need
 
     means = values.mean(axis=1)
@@ -99,7 +100,7 @@ def of_spectrum(outputs: FloatArray, limit: Limit) -> Estimate:
 
 
 def of_case(outputs: FloatArray, limit: Limit) -> Estimate:
-    """Return the probability of one case as if it were the only one; `outputs` are `[replicate, draw]`."""
+    """Return the probability for one case as if there were no other cases. `outputs` are `[replicate, draw]`."""
     return of_spectrum(outputs[..., np.newaxis], limit)
 
 
@@ -107,10 +108,10 @@ def _chances(chances: FloatArray, limit: Limit) -> Mean:
     """Return the mean of the probabilities of the draws, with an interval between 0 and 1.
 
     If the limit is fixed, each of the probabilities is 0 or 1, and the mean is a share of draws. The scatter of the
-    replicates gives no information in two cases: the draws beyond the limit, or the draws within the limit, are fewer
-    than the replicates; or every replicate has the same number of draws beyond the limit. In both cases the interval is
-    that of Clopper and Pearson for a count. If no draw or every draw is beyond the limit, this interval is one-sided,
-    and its width is 1 - 0.1^(1/draws).
+    replicates gives no information in two situations. In the first, the number of draws beyond the limit, or the number
+    of draws within the limit, is smaller than the number of replicates. In the second, every replicate has the same
+    number of draws beyond the limit. In both situations the interval is the interval of Clopper and Pearson for a
+    count. If no draw or every draw is beyond the limit, this interval is one-sided and has the width 1 - 0.1^(1/draws).
     """
     from scipy.stats import binomtest  # noqa: PLC0415  half a second that only studies need
 
@@ -129,9 +130,9 @@ def _chances(chances: FloatArray, limit: Limit) -> Mean:
 
 
 def deciding(outputs: FloatArray, limit: Limit) -> list[float] | None:
-    """Return for each of the cases the share of the draws whose worst case it is; equally bad cases share a draw.
+    """Return for each case the share of draws in which the case is the worst. Equally bad cases share a draw.
 
-    Only draws that are solved in all cases count; the result is None if there are no such draws.
+    Only draws with a solution in every case count. The result is None if there are no such draws.
     """
     complete = outputs[~np.isnan(outputs).any(axis=-1)]
     if not complete.size:
@@ -155,8 +156,8 @@ def quantiles(values: FloatArray) -> list[float] | None:
 def weighted_mean(outputs: FloatArray, shares: Sequence[float]) -> Mean | None:
     """Return the mean over the cases, weighted with their shares.
 
-    The mean of a replicate is over its draws that are solved in all cases. If a replicate has no such draw, the result
-    is None.
+    For the mean of a replicate, only draws with a solution in every case count. If a replicate has no such draw, the
+    result is None.
     """
     per_draw = outputs @ np.asarray(shares)
     replicates = [draws[~np.isnan(draws)] for draws in per_draw]
@@ -166,7 +167,7 @@ def weighted_mean(outputs: FloatArray, shares: Sequence[float]) -> Mean | None:
 
 
 def histogram(values: FloatArray) -> tuple[list[float], list[float]]:
-    """Return the edges of the bins and the probability density in the bins, of the values that are not NaN.
+    """Return the bin edges and the probability density in the bins for the values that are not NaN.
 
     Both lists are empty if all values are equal.
     """
@@ -193,10 +194,10 @@ def rank_correlation(x: FloatArray, y: FloatArray) -> float | None:
 def of_sample(
     inputs: FloatArray, outputs: FloatArray, input_paths: list[str], output_paths: Sequence[str]
 ) -> dict[str, Any]:
-    """Return the quantiles with their bounds, and the rank correlations, of a random sample; runs in a worker.
+    """Return quantiles with bounds, and rank correlations, of a random sample. Runs in a worker.
 
     Each row of `inputs` and `outputs` is a point. The bounds of a quantile are the order statistics between which the
-    quantile lies with 90 % confidence, for any distribution; a bound is None if the sample is too small for it.
+    quantile lies with 90 % confidence, for any distribution; a bound is None if the sample is too small for this bound.
     """
     from scipy.stats import quantile_test  # noqa: PLC0415  half a second that only random samples need
 

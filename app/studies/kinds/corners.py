@@ -47,7 +47,7 @@ USUAL_RANGES = (
 UNCERTAIN = ("wall response", "pinion clearance", "wheel clearance", "friction", "offset", "thrust fraction")
 """The inputs of a gear unit that can be uncertain."""
 DESIGN = "design"
-"""Name of the page of the study that looks for the flank correction with the best worst corner."""
+"""Name of the study page that searches for the flank correction with the best result at the worst corner."""
 
 
 class CornersRequest(DriveTrainStudy):
@@ -106,8 +106,8 @@ def control_of(quantity: str) -> str:
 class UnitPage(StudyPage):
     """The page of a study over the corners of a gear unit.
 
-    `corners` is the name of the member of the body that has the corners. The uncertain inputs in `left_alone` keep the
-    values of the case if nothing is typed for them.
+    `corners` is the name of the member of the body that contains the corners. The uncertain inputs in `left_alone` keep
+    the values of the case, unless the user types values for them.
     """
 
     names = frozenset(map(control_of, UNCERTAIN))
@@ -117,16 +117,16 @@ class UnitPage(StudyPage):
 
     @cached_property
     def uncertain(self) -> dict[str, Axis]:
-        """The uncertain inputs with their usual values, by quantity; empty if the case is rejected."""
+        """The uncertain inputs with their usual values, by quantity. There are none if the case is rejected."""
         try:
             return usual_corners(BaseRequest(self.calculation, self.asked.body).checked({}))
         except REFUSED:
             return {}
 
     def declared(self) -> tuple[Control, ...]:
-        """Return the controls of the values of each uncertain input, with the usual values as default.
+        """Return one control per uncertain input, for the values of this input. The defaults are the usual values.
 
-        Errors of all axes together are shown at the first control. An input that is left alone has no default.
+        Errors that concern all axes together are shown at the first control. An input in `left_alone` has no default.
         """
         controls: list[Control] = []
         for quantity, axis in self.uncertain.items():
@@ -159,13 +159,13 @@ class UnitPage(StudyPage):
 
 
 def _typed(axis: Axis, text: str) -> dict[str, Any]:
-    """Return the axis with the typed values, which are separated by semicolons and contain blanks."""
+    """Return the axis with the typed values. Semicolons separate the values; a value may contain blanks."""
     rows = [[number_of(part) for part in row.split()] for row in text.split(";")]
     return {"path": axis.path, "values": [row[0] if len(row) == 1 else row for row in rows]}
 
 
 def load_figure(case: Case, reference: Case, name: str, finding: str) -> dict[str, Figure]:
-    """Return the figure of the load along the face at a corner (solid) and for the case as entered (dashed).
+    """Return the figure of the load along the face: solid lines at a corner, dashed lines for the case as entered.
 
     The result is empty if one of the cases has no load.
     """
@@ -200,7 +200,7 @@ class CornersPage(UnitPage):
     def body(self) -> dict[str, Any]:
         """Return the body with the typed or usual corners.
 
-        The outputs are the output that the page shows, and the headlines that need no thermal film.
+        The outputs are the output that the page shows, and those headline numbers that do not need the thermal film.
         """
         output, paths = self.output.path, [leaf.path for leaf in headlines(self.calculation.response)]
         deciding = [path for path in paths if not (needs_film(DRIVE_TRAIN, path) or path.startswith(COLD))]
@@ -211,7 +211,7 @@ class CornersPage(UnitPage):
         }
 
     def result(self, lines: list[Line]) -> Result:
-        """Return the effect of each of the uncertain inputs, and the load at the worst corner and in the case."""
+        """Return the effect of each uncertain input, and the load at the worst corner and for the case as entered."""
         end, output = lines[-1], self.output
         extremes = {line["output"]: line for line in lines if line["type"] == "extremes"}
         progress = f"{end['points']} corners in {shown(end['elapsed_s'], 2)} s"
@@ -232,9 +232,9 @@ class CornersPage(UnitPage):
         return Result(progress, {"corners": figure, **load}, tables, tuple(remarks), leads)
 
     def _rows(self, lines: list[Line], worst: Overrides) -> list[Row]:
-        """Return one row per uncertain input, with a dot for each of its values.
+        """Return one row per uncertain input. The row has one dot per value of the input.
 
-        A dot is at the worst output of all corners that have this value.
+        A dot lies at the worst output among all corners in which the input has this value.
         """
         points = [line for line in lines if line["type"] == "point" and line["out"][0] is not None]
         pick = min if self.output.view.greatest_is_best else max
@@ -255,7 +255,7 @@ class CornersPage(UnitPage):
         return rows
 
     def _extremes(self, extremes: dict[str, Line], case: Case) -> Table:
-        """Return a table of the least and the largest value of each output, which are links to the cases there."""
+        """Return a table of the least and the largest value of each output. Each value is a link to its case."""
         rows = []
         for leaf in self.study.outputs:
             if leaf.path in extremes:

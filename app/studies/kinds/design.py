@@ -1,4 +1,4 @@
-"""Design: a search for the values of some inputs with the best worst case.
+"""Design: a search for those values of some inputs that give the best result in the worst case.
 
 On the page of the study, the inputs are the flank correction of a gear unit. The page shows the correction as a sheet
 for the grinder, and the course of the search.
@@ -50,12 +50,12 @@ from solvers.errors import NoSolution
 
 FIRST_STEP = 0.15  # as a share of the range of a variable
 LAST_STEP = 2e-3  # as a share of the range of a variable, chosen
-LEAST_GAIN = 1e-3  # as a share of the objective at the start; the search ends after a restart that gains less
-VALUE_SCALE = 0.2  # change of the objective, as a share of that at the start, that counts like the range of a variable
-PENALTY = 5.0  # by which a point without solution is worse than the worst known point, in scaled objectives
-MOST_STEPS = 100  # of COBYQA per evaluation; a step that changes only the level needs no evaluation
+LEAST_GAIN = 1e-3  # as a share of the objective at the start; the search ends if a restart gains less
+VALUE_SCALE = 0.2  # as a share of the objective at the start; this change counts as much as a variable's range
+PENALTY = 5.0  # in scaled objectives; amount by which a point without solution counts as worse than the worst
+MOST_STEPS = 100  # most COBYQA steps per evaluation; a step that changes only the level needs no evaluation
 
-EVALUATIONS = 40  # default on the page, chosen
+EVALUATIONS = 40  # default number of evaluations on the page, chosen
 STEP_UM = 0.5  # a correction is rounded to multiples of this step
 SLOPE, CROWNING = "modifications.helix_slope_um", "modifications.lead_crowning_um"
 TIP, ROOT = "modifications.tip_relief_um", "modifications.root_relief_um"
@@ -124,7 +124,7 @@ class Design(Study):
             message = f"{objective.path} has no safe side of its own; state whether to maximise or minimise it"
             raise Unprocessable("direction_missing", message, "direction")
         self.direction = body.direction or ("maximise" if objective.view.greatest_is_best else "minimise")
-        self.start = [_share(variable, case) for variable in body.variables]  # of the ranges
+        self.start = [_share(variable, case) for variable in body.variables]  # as shares of the ranges
         self.is_rounded = any(variable.step is not None for variable in body.variables)
         total = (body.evaluations + self.is_rounded) * len(self.cases)
         check_count(total, most, "evaluations")
@@ -182,11 +182,11 @@ class Design(Study):
         ]
 
     async def _trial(self, pool: Pool, clock: Clock, values: list[float]) -> tuple[Line, list[float] | None]:
-        """Return the content of the line of a trial, and the objectives of all cases.
+        """Return the content of a trial's line, and the objectives of all cases.
 
-        The line has the values of the variables, the objective at the worst case, and this case. The objectives of all
-        cases have the sign with which the search minimises them. The trial ends at the first case without solution;
-        then the objective in the line, and the objectives of all cases, are None.
+        The line has the values of the variables, the objective in the worst case, and the worst case itself. The
+        objectives of all cases have the sign with which the search minimises them. The trial ends at the first case
+        without solution. Then the objective in the line is None, and None is returned for the objectives of all cases.
         """
         pairs = zip(self.body.variables, values, strict=True)
         at: Overrides = {path: value for variable, value in pairs for path in variable.paths}
@@ -207,7 +207,7 @@ class Design(Study):
 
 
 def _unit(variable: Variable, base: BaseRequest, place: str) -> str | None:
-    """Return the common unit of the fields of a variable; raises Unprocessable if a field does not accept the range."""
+    """Return the common unit of a variable's fields. Raises Unprocessable if a field does not accept the range."""
     leaves = [base.leaf(path, f"{place}.path") for path in variable.paths]
     for leaf in leaves:
         if leaf.kind != "number":
@@ -223,7 +223,7 @@ def _unit(variable: Variable, base: BaseRequest, place: str) -> str | None:
 
 
 def _cases(request: DesignRequest, base: BaseRequest) -> list[Overrides]:
-    """Return the values that each of the cases changes; the cases are all operating points at all corners."""
+    """Return the values that each case changes. The cases are all combinations of operating point and corner."""
     corners: list[Overrides] = [{}]
     if request.corners is not None:
         combined = grid(request.corners, base, MOST_CORNERS, "corners")
@@ -239,13 +239,13 @@ def _cases(request: DesignRequest, base: BaseRequest) -> list[Overrides]:
 
 
 def _share(variable: Variable, case: dict[str, Any]) -> float:
-    """Return the position of the case's own value in the range of a variable, from 0 to 1; 0 if it has no value."""
+    """Return the position of the case's value in the range of a variable, from 0 to 1; 0 if the case has no value."""
     own = value_at(case, variable.paths[0])
     return 0.0 if own is None else min(max((own - variable.min) / (variable.max - variable.min), 0.0), 1.0)
 
 
 def _rounded(variable: Variable, value: float) -> float:
-    """Return the nearest multiple of the variable's step inside its range, or the value itself if there is no step."""
+    """Return the nearest multiple of the variable's step inside the range, or the value itself if there is no step."""
     step, low, high = variable.step, variable.min, variable.max
     if step is None:
         return value
@@ -260,15 +260,15 @@ class _Unknown(Exception):
 def next_place(start: Sequence[float], told: Sequence[list[float] | None], most: int) -> list[float] | None:
     """Return the point of the unit cube that the search evaluates next, or None if the search has ended.
 
-    Runs in a worker. The search minimises the largest objective with at most `most` evaluations. `told` are the
-    objectives at all points evaluated so far, in order from the start; they are None at a point without solution. Each
-    call repeats the search up to the first new point. This takes some milliseconds per point, and no thread has to wait
-    for the objectives.
+    This function runs in a worker. The search minimises the largest objective with at most `most` evaluations. `told`
+    holds the objectives at all points evaluated so far, in the order of evaluation; an item is None if the point has no
+    solution. Each call repeats the search up to the first new point. This takes some milliseconds per point. In return,
+    no thread has to wait for the objectives.
 
-    The method is COBYQA, which needs no derivatives. It minimises a level under the constraint that no objective
-    exceeds the level. COBYQA therefore has one smooth model per objective, even along a ridge where two objectives are
-    equally large. It is restarted at the best point as long as a restart brings a gain. Raises NoSolution with the code
-    `design` if the start has no solution.
+    The method is COBYQA, which needs no derivatives. COBYQA minimises a level under the constraint that no objective
+    exceeds the level. COBYQA therefore has one smooth model per objective, even along a ridge on which two objectives
+    are equally large. The method is restarted at the best point as long as a restart improves the result. Raises
+    NoSolution with the code `design` if the start has no solution.
     """
     if len(told) == most:
         return None
@@ -278,7 +278,7 @@ def next_place(start: Sequence[float], told: Sequence[list[float] | None], most:
     evaluated = {_name(np.array(start)): np.array(first) / scale}
 
     def scaled(place: FloatArray) -> FloatArray:
-        """Return the scaled objectives at a place, whose last component is the level."""
+        """Return the scaled objectives at a place. The last component of the place is the level."""
         name = _name(place[:-1])
         if name not in evaluated:
             if len(evaluated) == len(told):
@@ -312,12 +312,12 @@ def next_place(start: Sequence[float], told: Sequence[list[float] | None], most:
 
 
 def _name(place: FloatArray) -> bytes:
-    """Return a key for a place in the unit cube; places that differ only by rounding errors have the same key."""
+    """Return a key for a place in the unit cube. Places that differ only by rounding errors have the same key."""
     return np.clip(place, 0.0, 1.0).round(12).tobytes()
 
 
-# The corrections that may be ground: label, fields that take the same value, and the default range of the search [um].
-# The ranges are chosen: they are wider than usual for modules of a few millimetres, and the user may change them.
+# The corrections that may be ground: label, fields that get the same value, and the default range of the search [um].
+# The ranges are chosen. They are wider than usual for modules of a few millimetres; the user may change the ranges.
 GROUND = (
     ("helix slope", (SLOPE,), -100.0, 100.0),
     ("crowning", (CROWNING,), 0.0, 20.0),
@@ -332,7 +332,7 @@ ENDS = tuple(
         Control(f"high.{place}", f"variables.{place}.max", high, label=f"{label}, to", unit="µm"),
     )
 )
-"""The controls for the ends of the range in which each of the corrections is searched."""
+"""The controls for both ends of the search range of each correction."""
 
 
 class DesignPage(UnitPage):
@@ -353,13 +353,13 @@ class DesignPage(UnitPage):
     names = UnitPage.names | {control.name for control in (TRIALS, *ENDS)}
     figures = ("lead", LOAD_ALONE.name, GAP.name, "search")
     grows = True
-    left_alone = ("pinion clearance", "wheel clearance", "thrust fraction")  # which change the result least
+    left_alone = ("pinion clearance", "wheel clearance", "thrust fraction")  # these inputs change the result least
     plan = Design
 
     def body(self) -> dict[str, Any]:
         """Return the body with the typed or usual ranges, and with the corners.
 
-        If no corners are typed, they are the usual ones without the inputs in `left_alone`.
+        If the user types no corners, the usual corners are used, but the inputs in `left_alone` are not varied.
         """
         output, given = self.output, self.given()
         for (_, paths, *_), variable in zip(GROUND, given["variables"], strict=True):
@@ -378,12 +378,12 @@ class DesignPage(UnitPage):
         return (TRIALS, *ENDS, *whole, objective, *super().declared())
 
     def controls(self) -> tuple[Controls, ...]:
-        """Return the controls of the number of trials and of the ranges, and those of the uncertain inputs."""
+        """Return the controls of the number of trials, of the ranges and of the uncertain inputs."""
         fields = tuple(map(self.field_of, (TRIALS, *ENDS)))
         return Controls("Search", fields=fields), *super().controls()
 
     def result(self, lines: list[Line]) -> Result:
-        """Return the grinding sheet, tables of its effect, and the figures of lead, load, gap and search."""
+        """Return the grinding sheet, tables of the effect of grinding, and figures of lead, load, gap and search."""
         trials = [line for line in lines if line["type"] == "trial"]
         solved_trials = [line for line in trials if line["objective"] is not None]
         if not solved_trials:
@@ -433,7 +433,7 @@ class DesignPage(UnitPage):
         return Table("Best so far", ("correction", Number("as described"), Number("best so far"), "unit"), rows)
 
     def _sheet(self, case: Case, at: Overrides) -> Table:
-        """Return the sheet for the grinder: gear, place, amount and tolerance of each correction."""
+        """Return the sheet for the grinder, with gear, place, amount and tolerance of each correction."""
         inputs = case.response.inputs
         slope = float(at[SLOPE] or 0.0)
         deep, high = _ends(case) if slope < 0.0 else reversed(_ends(case))
@@ -450,7 +450,7 @@ class DesignPage(UnitPage):
         rows = []
         for path, gear, feature, place in entries:
             leaf, described, amount = self.input(path), float(value_at(inputs, path) or 0.0), at[path]
-            if path == SLOPE:  # the column `where` shows the sign
+            if path == SLOPE:  # for the slope, the column `where` shows the sign
                 described, amount = -described if slope < 0.0 else described, abs(slope)
             numbers = (shown(described), shown(amount, 4), f"± {shown(leaf.declared.tolerance)}")
             rows.append((gear, feature, place, *numbers, leaf.unit or ""))
@@ -463,9 +463,9 @@ class DesignPage(UnitPage):
         return Table("What to grind", ("gear", "correction", "where", *numbered, "unit"), rows, note)
 
     def _before_and_after(self, end: Line, wanted: Line, case: Case, ground: Case) -> Table:
-        """Return a table of the output before and after grinding, at the worst corner and with the inputs as described.
+        """Return a table of the output before and after grinding, at the worst corner and for the case as entered.
 
-        The table has a note if the output with the inputs as described gets worse.
+        The table has a note if grinding worsens the output for the case as entered.
         """
         output = self.output
         before, after = (value_at(unit_case.response, output.path) for unit_case in (case, ground))
@@ -482,7 +482,7 @@ class DesignPage(UnitPage):
         return Table("What it brings", (output.title, Number("as described"), Number("ground so"), "unit"), rows, note)
 
     def _lead_chart(self, case: Case, at: Overrides) -> Figure:
-        """Return the figure of the lead from helix slope and crowning, with tolerances; dashed for the case."""
+        """Return the figure of the lead from helix slope and crowning, with tolerances. The case is dashed."""
         curves, inputs = case.response.misalignment.curves, case.response.inputs
         position = values(curves.position_mm)
         wanted = Lead(*(float(at[path] or 0.0) for path in (SLOPE, CROWNING)))
@@ -502,7 +502,7 @@ def _ends(case: Case) -> tuple[str, str]:
 
 
 def _numbers(case: Case, end: Line, at: Overrides) -> Table:
-    """Return a table that explains the different values of helix slope and crowning on the pages of this unit."""
+    """Return a table that explains why the pages of this unit show different values of helix slope and crowning."""
     misalignment, inputs = case.response.misalignment, case.response.inputs
     estimate = "first estimate: inputs as described, load spread evenly over the face"
     entries = (
@@ -520,9 +520,9 @@ def _numbers(case: Case, end: Line, at: Overrides) -> Table:
 
 
 def _gap(ground: Case, case: Case) -> dict[str, Figure]:
-    """Return the figure of the gap over the face after grinding, and dashed for the case as described.
+    """Return the figure of the gap over the face: solid lines after grinding, dashed lines for the case as entered.
 
-    Both are without the changes of the worst corner. The result is empty if one of the cases has no gap to draw.
+    Neither gap contains the changes of the worst corner. The result is empty if one of the gaps does not exist.
     """
     try:
         own, given = (GAP.figure(unit_case.request, unit_case.response) for unit_case in (ground, case))

@@ -1,8 +1,8 @@
 """Sensitivity: derivatives of each output with respect to each number of a case, from finite differences.
 
 A count is moved by 1, and any other input by its tolerance. An input without a tolerance is moved by 1 K if it is a
-temperature, or else by 1 %. The slope over a tolerance is compared with the slope over half of it. The page shows the
-inputs, sorted by the change that they cause, as a figure and a table.
+temperature, or else by 1 %. The slope over a tolerance is compared with the slope over half the tolerance. The page
+shows a figure and a table of the inputs, sorted by the change of the output that they cause.
 """
 
 from collections import Counter
@@ -31,11 +31,11 @@ from app.studies.points import BaseRequest, Point, check_count, check_distinct
 from app.studies.requests import FieldPath, Overrides, StudyRequest
 from app.studies.runner import Clock, Line, Lines, Pool, Study, output_header
 
-RELATIVE_STEP = 0.01  # of a value; small compared with its range, large compared with the solver's tolerance
+RELATIVE_STEP = 0.01  # of the value; small against the range of the input, large against the solver's tolerance
 KELVIN_STEP = 1.0  # for temperatures, because zero degrees Celsius has no physical meaning
-DISAGREEMENT = 0.1  # relative difference above which two slopes differ
+DISAGREEMENT = 0.1  # relative difference above which two slopes count as different
 NOISE = 1e-7  # relative change of an output that the tolerance of an iteration can cause
-MOST_ROWS = 40  # of a table that can be read; the file has all rows
+MOST_ROWS = 40  # largest number of rows of the table, so that a user can read it; the file has all rows
 
 
 class SensitivityRequest(StudyRequest):
@@ -52,8 +52,8 @@ class SensitivityRequest(StudyRequest):
 class Perturbation:
     """An input, its value and the step by which the value is moved.
 
-    If the step is a tolerance, it need not be small. The slope over this step is therefore compared with the slope over
-    `half` of the step. For other steps `half` is None.
+    A step that is a tolerance may be large. The slope over such a step is therefore compared with the slope over half
+    the step, `half`. For other steps `half` is None.
     """
 
     leaf: Leaf
@@ -63,9 +63,9 @@ class Perturbation:
 
     @property
     def places(self) -> list[float]:
-        """The values to which the input is moved, by a step and by half a step, if the range of the input allows them.
+        """The values to which the input is moved, as far as the range of the input allows these values.
 
-        The order is: a step down, a step up, half a step down, half a step up.
+        The input is moved by a step down, a step up, half a step down and half a step up, in this order.
         """
         steps = [self.step] if self.half is None else [self.step, self.half]
         number = int if self.leaf.kind == "integer" else float
@@ -74,7 +74,7 @@ class Perturbation:
 
 
 def perturbation(leaf: Leaf, value: float) -> Perturbation:
-    """Return the perturbation of an input: by 1 for a count, by its tolerance, by 1 K for a temperature, or by 1 %."""
+    """Return the perturbation of an input. The step is 1 for a count, the tolerance, 1 K for a temperature, or 1 %."""
     if leaf.kind == "integer":
         return Perturbation(leaf, value, 1.0)
     if leaf.declared.tolerance is not None:
@@ -86,7 +86,7 @@ def perturbation(leaf: Leaf, value: float) -> Perturbation:
 def differences(moved: Perturbation, outputs: dict[float, float | None]) -> Line:
     """Compute the derivative of an output with respect to an input, and the change of the output by one step.
 
-    `outputs` are the outputs by value of the input; an output is None if the point has no answer. The items of the
+    `outputs` maps each value of the input to the output; an output is None if the point has no answer. The items of the
     result are:
 
     `derivative`: the central difference quotient [output per input], or a one-sided one if one side has no answer.
@@ -100,7 +100,7 @@ def differences(moved: Perturbation, outputs: dict[float, float | None]) -> Line
     base, step, half = outputs[moved.value], moved.step, moved.half
 
     def slope(below: float, above: float) -> float | None:
-        """Return the difference quotient between two offsets; an offset without an answer is replaced by 0."""
+        """Return the difference quotient between two offsets. An offset without an answer is replaced by 0."""
         places = [moved.value + offset for offset in (below, 0, above)]
         pairs = [(place, value) for place in places if (value := outputs.get(place)) is not None]
         if base is None or pairs[0][0] == pairs[-1][0]:
@@ -152,8 +152,8 @@ class Sensitivity(Study):
         return total
 
     async def lines(self, pool: Pool, clock: Clock) -> Lines:
-        """Yield a line for each output and input, with the most influential input of an output first, and the end."""
-        overrides: list[Overrides] = [{}]  # the case itself
+        """Yield a line for each output and input, the most influential input of an output first. Then yield the end."""
+        overrides: list[Overrides] = [{}]  # the first point is the case itself
         overrides += [{moved.leaf.path: place} for moved in self.perturbations for place in moved.places]
         points: list[Point] = []
         async for _, chunk in runner.in_order(pool, self.question, overrides.__getitem__, range(self.total), clock):
@@ -175,7 +175,7 @@ class Sensitivity(Study):
         yield [{**end, "type": "end", "elapsed_s": clock.elapsed_s}]
 
     def _ranked(self, column: int, points: list[Point]) -> list[Line]:
-        """Return the lines of the output in a column, with the most influential input first."""
+        """Return the lines of the output in `column`, with the most influential input first."""
         base, *others = (_number(point.out[column]) for point in points)
         rest = iter(others)
         lines: list[Line] = []
@@ -192,7 +192,7 @@ def _number(value: Any) -> float | None:
 
 
 def _every_number(base: BaseRequest, case: dict[str, Any]) -> list[Leaf]:
-    """Return all inputs with a number in this case, also assumed ones, except the options of model and resolution."""
+    """Return all inputs with a number in this case, given or assumed, except the options of model and resolution."""
     return [
         replace(leaf, path=path, dimensions=0)
         for leaf in leaves(base.calculation.request)
@@ -233,7 +233,7 @@ class SensitivityPage(StudyPage):
         return {"endpoint": self.calculation.path, "request": self.asked.body, "outputs": outputs}
 
     def result(self, lines: list[Line]) -> Result:
-        """Return a bar chart and a table of the change of the output by one step of each input, largest first."""
+        """Return a bar chart and a table of the changes of the output due to one step of each input, largest first."""
         end, output = lines[-1], self.output
         inputs = {moved["path"]: moved for moved in end["inputs"]}
         steps, rows = list[Influence](), []

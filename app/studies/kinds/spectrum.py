@@ -1,7 +1,7 @@
-"""Load spectra: a machine with its tolerances over its cases, and the probability that it exceeds its limits.
+"""Load spectra: a machine with tolerances in all cases of its spectrum, and the probability that a limit is exceeded.
 
-On the page of the study, the user pastes the cases as a table, and chooses the fields that scatter with a tolerance for
-each of them.
+On the page of the study, the user pastes the cases as a table, chooses the fields that scatter, and states a tolerance
+for each of these fields.
 """
 
 import csv
@@ -55,24 +55,24 @@ from app.studies.runner import Clock, Line, Lines, Pool, Study, output_header, p
 from app.studies.statistics import Limit
 from solvers.arrays import FloatArray
 
-PROGRESS_S = 0.5  # between two lines of progress
+PROGRESS_S = 0.5  # time between two lines of progress
 KILOWATTS = {"W": 1e-3, "kW": 1.0}  # per unit
-RELATIVE_DEVIATION = 0.15  # AGMA 925-A03, quoted from a secondary source, not verified against the standard
+RELATIVE_DEVIATION = 0.15  # AGMA 925-A03; taken from a secondary source and not compared with the standard
 LIMIT_VARIES = 1e-9  # relative range of the scuffing temperature above which a note says that it varies
 SHARES_OFF = 0.01  # largest permissible difference between the sum of the shares and 1
 ASSUMED_DEVIATION = (
     "the scuffing temperature is normally distributed with 0.15 of itself as deviation (AGMA 925-A03, secondary source)"
 )
 
-RARE = 0.005  # a probability below which the intervals contain the true value less often than stated
+RARE = 0.005  # probability below which the intervals contain the true value less often than stated
 RARE_NOTE = (
     "a probability is below 0.5 %. The means of the replicates are then skewed, and a 90 % interval covers less than "
     "90 %, for example about 80 % at a probability of 0.1 % with 8 replicates of 128 machines; draw more machines"
 )
-NOT_USED = "not used"  # the first words of the reason of an assumption, if its value changes nothing
+NOT_USED = "not used"  # beginning of the reason of an assumption whose value changes nothing
 
 NAME, SHARE = "name", "share"
-REPLICATES = 8  # independent samples on the page, whose scatter gives the error of a mean
+REPLICATES = 8  # number of independent samples on the page; the scatter of the samples gives the error of a mean
 MACHINES = (("", "256"), ("64", "64"), ("1024", "1024"), ("4096", "4096"))
 LAWS = (("", "normal"), ("uniform", "uniform"), ("triangular", "triangular"), ("lognormal", "lognormal"))
 SIDES = (("", "by the output"), ("above", "above is bad"), ("below", "below is bad"))
@@ -220,7 +220,7 @@ class Spectrum(Study):
             if leaf.path in set_by_cases:
                 message = f"{leaf.path} has a value in a case and also scatters; give either the value or the tolerance"
                 raise Unprocessable("duplicate_path", message, f"tolerances.inputs.{place}.path")
-        if body.limits is None and body.endpoint in SCUFFING:  # columns after those of the outputs
+        if body.limits is None and body.endpoint in SCUFFING:  # further columns after the columns of the outputs
             columns = dict.fromkeys([*self.question.outputs, *SCUFFING[body.endpoint]])
             self.question = self.question._replace(outputs=list(columns))
         typical = {scatter.path: next(iter(anchors(scatter).values())) for scatter in inputs}
@@ -231,21 +231,22 @@ class Spectrum(Study):
             message = _too_many(self.question, {**typical, **body.cases[0].set}, total, most)
             raise Unprocessable("too_many_points", message, "tolerances.count" if tolerances else "cases")
         self.cases = _with_shares(body.cases)
-        # One row per machine with the values that scatter, replicate after replicate; no columns if nothing scatters.
+        # There is one row per machine, replicate after replicate, with the values that scatter. If nothing scatters,
+        # there are no columns.
         self.machines = _machines(tolerances, self.scattering) if tolerances else np.empty((1, 0))
         return total
 
     def overrides(self, index: int) -> Overrides:
         """Return the values that a point changes in the base request, by path.
 
-        The first points are the cases of the first machine, then follow the cases of the next machine.
+        The first points are the cases of the first machine. The cases of the second machine follow, and so on.
         """
         draw, case = divmod(index, len(self.cases))
         machine = dict(zip(paths_of(self.scattering), self.machines[draw].tolist(), strict=True))
         return machine | self.cases[case].set
 
     async def lines(self, pool: Pool, clock: Clock) -> Lines:
-        """Yield the header, the points if they are requested, lines of progress, and the end."""
+        """Yield the header, the points if the request asks for points, lines of progress, and the end."""
         yield [
             self.header(
                 cases=[case.model_dump() for case in self.cases],
@@ -287,7 +288,7 @@ class Spectrum(Study):
         ]
 
     def _tolerances_header(self) -> Line | None:
-        """Return the tolerances for the first line, with the share of each distribution that is cut off."""
+        """Return the tolerances for the first line of the study, with the share cut off from each distribution."""
         if self.body.tolerances is None:
             return None
         inputs = [
@@ -297,7 +298,7 @@ class Spectrum(Study):
         return {**self.body.tolerances.model_dump(), "inputs": inputs}
 
     def _ignored(self, assumptions: Sequence[Line]) -> list[str]:
-        """Return notes about fields that scatter, but that the model does not use in this request."""
+        """Return notes about fields that scatter although the model does not use these fields in this request."""
         reasons = {
             assumption["field"]: assumption["reason"]
             for assumption in assumptions
@@ -308,7 +309,7 @@ class Spectrum(Study):
 
 
 def evaluated(study: Spectrum, values: FloatArray) -> Line:
-    """Return the content of the last line, from the outputs `[replicate, draw, case, output]`; runs in a worker."""
+    """Return the content of the last line from the outputs `[replicate, draw, case, output]`. Runs in a worker."""
     columns = {path: values[..., place] for place, path in enumerate(study.question.outputs)}
     limits, assumptions, notes = _limits(study, columns)
     limited = [_of_limit(study, limit, columns[limit.output]) for limit in limits]
@@ -335,7 +336,7 @@ def evaluated(study: Spectrum, values: FloatArray) -> Line:
 
 
 def _limits(study: Spectrum, columns: dict[str, FloatArray]) -> tuple[list[Limit], list[Line], list[str]]:
-    """Return the limits, the assumption if the default limit is used, and notes."""
+    """Return limits, assumptions and notes. The only possible assumption is the default limit."""
     paths = SCUFFING.get(study.question.endpoint)
     if study.body.limits is not None or paths is None:
         return [_limit(given) for given in study.body.limits or ()], [], []
@@ -344,7 +345,7 @@ def _limits(study: Spectrum, columns: dict[str, FloatArray]) -> tuple[list[Limit
         missing = "no limit is given, and the request has no scuffing temperature; give one of the two"
         return [], [], [missing]
     first = columns[paths.limit][..., 0]
-    mean = float(np.nanmedian(temperatures if np.isnan(first).all() else first))  # not of a single machine
+    mean = float(np.nanmedian(temperatures if np.isnan(first).all() else first))  # the median of all machines
     limit = Limit("above", mean, RELATIVE_DEVIATION * abs(mean), paths.contact)
     assumption = {"field": "limits", "value": limit.deviation, "reason": ASSUMED_DEVIATION}
     varies = np.ptp(temperatures) > LIMIT_VARIES * abs(mean)
@@ -358,8 +359,8 @@ def _limits(study: Spectrum, columns: dict[str, FloatArray]) -> tuple[list[Limit
 def _of_limit(study: Spectrum, limit: Limit, outputs: FloatArray) -> Line:
     """Return the content of the last line for a limit.
 
-    This is the probability over the spectrum, the share of machines for which each of the cases is the worst, and the
-    rank correlation with each of the fields that scatter.
+    The content is the probability over the spectrum, for each case the share of machines for which the case is the
+    worst, and the rank correlation with each field that scatters.
     """
     worst = limit.worst(outputs)
     edges, density = statistics.histogram(worst)
@@ -383,7 +384,7 @@ def _of_limit(study: Spectrum, limit: Limit, outputs: FloatArray) -> Line:
 
 
 def _of_output(study: Spectrum, leaf: Leaf, column: FloatArray) -> Line:
-    """Return the mean of an output over the spectrum, the energy per year if it is a power, and the extremes."""
+    """Return mean and extremes of an output over the spectrum, and the energy per year if the output is a power."""
     mean = statistics.weighted_mean(column, [case.share or 0.0 for case in study.cases])
     content: Line = mean._asdict() if mean else {"mean": None, "standard_error": None, "interval": None}
     scale = KILOWATTS.get(leaf.unit or "")
@@ -406,7 +407,7 @@ def _limit(given: SpectrumLimit) -> Limit:
 
 
 def _with_shares(cases: Sequence[LoadCase]) -> list[LoadCase]:
-    """Return the cases with their names and with shares of the operating time whose sum is 1; raises Unprocessable."""
+    """Return the cases with names, and with shares of the operating time that add up to 1. Raises Unprocessable."""
     given = [case.share for case in cases if case.share is not None]
     if given and len(given) < len(cases):
         raise Unprocessable("shares", "give a share for every case, or for none of the cases", "cases")
@@ -422,7 +423,7 @@ def _with_shares(cases: Sequence[LoadCase]) -> list[LoadCase]:
 
 
 def _machines(tolerances: Tolerances, leaves: Sequence[Leaf]) -> FloatArray:
-    """Draw the values that scatter, one row per machine; each of the replicates is an independent random sample."""
+    """Draw the values that scatter, with one row per machine. Each replicate is an independent random sample."""
     seeds = np.random.SeedSequence(tolerances.seed).spawn(tolerances.replicates)
     cubes = [
         unit_cube(tolerances.method, tolerances.count, len(leaves), np.random.default_rng(seed), "tolerances.count")
@@ -432,8 +433,8 @@ def _machines(tolerances: Tolerances, leaves: Sequence[Leaf]) -> FloatArray:
 
 
 def _too_many(question: Question, overrides: Overrides, total: int, most: int) -> str:
-    """Return the message about a study with too many points, with its estimated time from the time of one point."""
-    solve_point(question, overrides)  # the first one may load kernels
+    """Return the message about a study with too many points. The message estimates the computing time."""
+    solve_point(question, overrides)  # not timed, because the first solution may load kernels
     started = perf_counter()
     solve_point(question, overrides)
     seconds = perf_counter() - started
@@ -444,7 +445,7 @@ def _too_many(question: Question, overrides: Overrides, total: int, most: int) -
 
 
 class Column(NamedTuple):
-    """A column of the table of cases, which contains names, shares, or the values of the field at `path`.
+    """A column of the table of cases. The column contains names, shares, or the values of the field at `path`.
 
     The numbers in the column are multiplied by ten to the `power`.
     """
@@ -454,11 +455,11 @@ class Column(NamedTuple):
 
 
 def cases_of(calculation: Calculation, text: str) -> list[dict[str, Any]]:
-    """Return the cases of a table; raises Unprocessable.
+    """Return the cases in a table. Raises Unprocessable.
 
     The first line of the table names the columns: name, share, and fields by their labels or paths. The columns are
-    separated by tabs, as a spreadsheet copies them, or by semicolons. An empty cell leaves the value of the case as it
-    is.
+    separated by tabs, as in a table copied from a spreadsheet, or by semicolons. If a cell is empty, the case keeps the
+    value of the base request.
     """
     lines = [line for line in text.splitlines() if line.strip()] or [""]
     try:
@@ -470,17 +471,18 @@ def cases_of(calculation: Calculation, text: str) -> list[dict[str, Any]]:
 
 
 def _column(calculation: Calculation, heading: str) -> Column:
-    """Return the column of a heading, which may be a path, a name or a label of the form, with or without a unit.
+    """Return the column of a heading. A heading may be a path, a name or a label of the form, with or without a unit.
 
     Raises Unprocessable if the heading fits several fields. A heading that fits no field is kept as the path, so that
-    the study reports it.
+    the study reports an unknown path.
     """
     plain = heading.lower()
     if leaf_at(calculation.request, heading) or plain in {NAME, SHARE}:
         return Column(heading if plain not in {NAME, SHARE} else plain)
     if plain.startswith(SHARE) and plain.removeprefix(SHARE).strip(AROUND_UNIT) == "%":
         return Column(SHARE, -2)
-    # Columns by the length of the label that fits; at equal length, a label shown in the form comes before other names.
+    # `alike` holds columns by the length of the matching label. At equal length, a label that the form shows has
+    # priority.
     alike: dict[tuple[int, bool], dict[str, Column]] = {}
     for leaf in (leaf for leaf in leaves(calculation.request) if leaf.is_scalar and ITEM not in leaf.path):
         name = leaf.path.rpartition(".")[2]
@@ -497,9 +499,9 @@ def _column(calculation: Calculation, heading: str) -> Column:
 
 
 def _case(calculation: Calculation, columns: list[Column], row: list[str], line: int) -> dict[str, Any]:
-    """Return the case in a row of the table; raises Unprocessable.
+    """Return the case in a row of the table. Raises Unprocessable.
 
-    A cell that its field does not accept is kept as text, so that the study reports it.
+    A cell whose content the field does not accept is kept as text, so that the study reports this content.
     """
     if any(cell.strip() for cell in row[len(columns) :]):
         raise Unprocessable("table", f"line {line} has more columns than the first line", "cases")
@@ -525,7 +527,10 @@ def _case(calculation: Calculation, columns: list[Column], row: list[str], line:
 
 
 def table_of(calculation: Calculation, cases: list[dict[str, Any]]) -> str:
-    """Return the table of these cases, which `cases_of` reads, with the labels of the form in its first line."""
+    """Return the text of a table of these cases, with the labels of the form in the first line.
+
+    `cases_of` can read this text.
+    """
     paths = list(dict.fromkeys(path for case in cases for path in case.get("set", {})))
     rows = [[NAME, SHARE, *(_heading(calculation, path) for path in paths)]]
     for place, case in enumerate(cases, start=1):
@@ -536,7 +541,7 @@ def table_of(calculation: Calculation, cases: list[dict[str, Any]]) -> str:
 
 
 def _heading(calculation: Calculation, path: str) -> str:
-    """Return the label of a field with its unit, or the path of the field if a heading with this label is ambiguous."""
+    """Return the label of a field with its unit, or the path of the field if the label fits several fields."""
     leaf = leaf_at(calculation.request, path)
     if leaf is None:
         return path
@@ -561,13 +566,13 @@ TOLERANCE = (
     Control(".about", "mean"),
     Control(".by", "deviation"),
 )
-"""The controls of a tolerance, with the last part of their names; any distribution is set by its mean and width."""
+"""The controls of a tolerance, with the last parts of their names. Mean and width define every distribution."""
 STATED = {"normal": ("mean", "deviation"), "lognormal": ("median", "factor")}
-"""The parameters of these distributions that are their mean and width; other distributions have `min` and `max`."""
+"""Names of the parameters that are mean and width of these distributions. Other distributions have `min` and `max`."""
 
 
 def _tolerance(place: int, name: str, about: Any = None, by: Any = None) -> list[Control]:
-    """Return the controls of a tolerance, with a value and its usual deviation as defaults."""
+    """Return the controls of a tolerance. The defaults are a value and the usual deviation from this value."""
     usual = {"mean": about, "deviation": by}
     return [
         part._replace(
@@ -580,7 +585,7 @@ def _tolerance(place: int, name: str, about: Any = None, by: Any = None) -> list
 
 
 def _stated(law: str, about: Any, by: Any) -> dict[str, Any]:
-    """Return the parameters of a distribution by its mean and width; none if the distribution does not exist."""
+    """Convert mean and width into the parameters of a distribution; return none if there is no such distribution."""
     if names := STATED.get(law):
         return dict(zip(names, (about, by), strict=True))
     ends = {"uniform": ("min", "max"), "triangular": ("min", "mode", "max")}.get(law, ())
@@ -588,7 +593,7 @@ def _stated(law: str, about: Any, by: Any) -> dict[str, Any]:
 
 
 def _typed(scatter: dict[str, Any]) -> dict[str, Any]:
-    """Return mean and width of a distribution for the controls; this is the inverse of `_stated`."""
+    """Return mean and width of a distribution for the controls. This function is the inverse of `_stated`."""
     law = scatter["distribution"]
     if names := STATED.get(law):
         about, by = (scatter[name] for name in names)
@@ -600,7 +605,7 @@ def _typed(scatter: dict[str, Any]) -> dict[str, Any]:
 def address_of(
     endpoint: Calculation, request: Pairs, body: dict[str, Any], file: Mapping[str, str] = MappingProxyType({})
 ) -> str:
-    """Return the address of the page for the body of a study, with the first of its limits.
+    """Return the address of the page for the body of a study. Of the limits, only the first is part of the address.
 
     `file` names the file from which the study was read.
     """
@@ -643,7 +648,7 @@ class SpectrumPage(StudyPage):
     study: Spectrum
 
     def body(self) -> dict[str, Any]:
-        """Return the body with the typed cases and tolerances, the output with its limit, and the losses as outputs."""
+        """Return the body with the typed cases, tolerances and limit. Outputs are the shown output and the losses."""
         calculation, output, given = self.calculation, self.output.path, self.given()
         tolerances = given["tolerances"]
         typed = tolerances.get("inputs", [])
@@ -663,7 +668,7 @@ class SpectrumPage(StudyPage):
         }
 
     def _given(self) -> list[str]:
-        """Return the names of the tolerances that are filled in; empty ones may be between them."""
+        """Return the names of the tolerances that are filled in. Empty tolerances may lie between filled ones."""
         return [name for name in TOLERANCES if self.views.get(name)]
 
     def declared(self) -> tuple[Control, ...]:
@@ -687,7 +692,7 @@ class SpectrumPage(StudyPage):
         return (*controls, *(Control(name, "tolerances.inputs", sets=False) for name in self._given()[:1]))
 
     def _scatter(self, given: dict[str, Any], where: str) -> dict[str, Any]:
-        """Return the distribution of a field as the body states it, from its law, mean and deviation."""
+        """Return the distribution of a field in the form of the body, from law, mean and deviation."""
         leaf = scalar_at(self.calculation.request, given["path"], f"{where}.path", "unknown_path")
         about: Any = given.get("mean")
         by: Any = given.get("deviation")
@@ -699,7 +704,7 @@ class SpectrumPage(StudyPage):
 
     @property
     def _assumes_limit(self) -> bool:
-        """Whether the output is compared with the scuffing temperature if no limit is given."""
+        """True if the output is compared with the scuffing temperature whenever the user gives no limit."""
         scuffing = SCUFFING.get(self.calculation.path)
         return scuffing is not None and (self.views.get("show") or self.usual_output.path) == scuffing.contact
 
@@ -724,7 +729,7 @@ class SpectrumPage(StudyPage):
         return [{"output": self.output.path, side: threshold}]
 
     def controls(self) -> tuple[Controls, ...]:
-        """Return the controls of the table of cases, of the tolerances that are filled in, and of two more."""
+        """Return the controls of the table of cases, of the filled-in tolerances, and of two further tolerances."""
         case = self.case
         text = as_typed(self.views.get("cases", "")) or _suggested(self.calculation, case)
         about = (
@@ -749,7 +754,7 @@ class SpectrumPage(StudyPage):
         return tuple(groups)
 
     def shows(self) -> tuple[FieldView, ...]:
-        """Return the fields of the limit of the output, the number of machines, and the hours of operation."""
+        """Return the fields for the limit of the output, for the number of machines, and for the hours of operation."""
         assumed = self._assumes_limit and not self.views.get("limit")
         deviation = f"{percent(RELATIVE_DEVIATION)} of it" if assumed else "none"
         return (
@@ -761,7 +766,7 @@ class SpectrumPage(StudyPage):
         )
 
     def starters(self) -> Sequence[Starter]:
-        """Return links to the ready studies of /v1/spectrum; no links if the query has a case."""
+        """Return links to the ready studies of /v1/spectrum. If the query has a case, return no links."""
         starters = []
         for example in EXAMPLES["/v1/spectrum"].values():
             body = example["value"]
@@ -806,7 +811,7 @@ class SpectrumPage(StudyPage):
         return Result(progress, figures | self._losses(end), tables, remarks, leads)
 
     def _limited(self, end: Line, limit: Line) -> Limited:
-        """Return the data of the figures of a limit; if there are many cases, only those that exceed it most often."""
+        """Return the data for the figures of a limit. Of many cases, show only those most often beyond the limit."""
         place = end["limits"].index(limit)
         decides = limit["decides"] or [None] * len(end["cases"])
         cases = [
@@ -820,7 +825,7 @@ class SpectrumPage(StudyPage):
         return Limited(axis_of(self.output), limit, [case for case in cases if case in worst], influences)
 
     def _losses(self, end: Line) -> dict[str, Figure]:
-        """Return the figure of the mean losses of the cases [kW]; nothing if no loss has a mean."""
+        """Return the figure of the mean losses of the cases [kW]. Return no figure if no loss has a mean."""
         wanted, outputs = LOSSES.get(self.calculation.path, ()), end["outputs"]
         titles = {leaf.path: leaf.title for leaf in self.study.outputs}
         drawn_losses = {path: titles[path] for path in wanted if outputs[path]["mean"] is not None}
@@ -849,7 +854,7 @@ class SpectrumPage(StudyPage):
         return Table("Limit", ("output", "side", Number("limit"), Number("deviation"), "unit", "source"), (row,))
 
     def _cases_table(self, end: Line, limit: Line | None) -> Table:
-        """Return a table of the cases with their share, their probability, how often they decide, and the output."""
+        """Return a table of the cases with share, probability, output, and how often the case is the worst case."""
         output, rows = self.output, list[tuple[str | Link, ...]]()
         for index, (case, content) in enumerate(zip(self.study.cases, end["cases"], strict=True)):
             row: list[str | Link] = [Link(content["name"], self.address(case.set)), percent(content["share"])]
@@ -865,7 +870,7 @@ class SpectrumPage(StudyPage):
         return Table("Cases", ("case", *map(Number, heads)), rows, f"{note} A name leads to the nominal case.")
 
     def _outputs_table(self, end: Line) -> Table:
-        """Return a table of the means over the operating time, and of the extremes with links to their cases."""
+        """Return a table of means over the operating time, and of extremes with links to the cases of the extremes."""
         rows = []
         for leaf in self.study.outputs:
             content = end["outputs"][leaf.path]
@@ -882,13 +887,13 @@ class SpectrumPage(StudyPage):
 
 
 def _deviation(value: float | None, unit: str | None, digits: int) -> str:
-    """Return a difference of values in this unit, followed by the unit of the difference if that is another one."""
+    """Return a difference of two values as text. The unit of the difference follows if it is not `unit`."""
     own = difference_unit(unit)
     return shown(value, digits) if own == unit or value is None else number(value, own, digits)
 
 
 def _suggested(calculation: Calculation, case: dict[str, Any]) -> str:
-    """Return a first table, which the user may change, with the case for most of the time and with half its load."""
+    """Return a first table for the user to change: mostly the case itself, and for the other time half its load."""
     full = {path: value for path in USUAL if isinstance(value := value_at(case, path), int | float)}
     half = {path: value / 2 if "power" in path or "torque" in path else value for path, value in full.items()}
     return table_of(
@@ -897,7 +902,7 @@ def _suggested(calculation: Calculation, case: dict[str, Any]) -> str:
 
 
 def _tolerances_table(header: Line, limit: Line | None) -> Table:
-    """Return a table of the fields that scatter, with the shares cut off and the correlations with the worst case."""
+    """Return a table of the fields that scatter, with the share cut off and the correlation with the worst case."""
     numbers = ("mean", "deviation", "median", "factor", "min", "mode", "max")
     ranks = (limit and limit["rank_correlation"]) or {}
     rows = []

@@ -50,14 +50,14 @@ from app.studies.requests import (
 from app.studies.runner import Clock, Line, Lines, Pool, Study, output_header, paths_of
 from app.studies.statistics import of_sample
 
-AROUND = 0.5  # half the usual range of a field, as a share of the value of the case
+AROUND = 0.5  # half the usual range of a field, as a share of the field's value in the case
 TOLERANCES = 4.0  # half the usual range of a field whose value is zero, in tolerances
-INSIDE = 1e-3  # distance from an end that is not allowed, as a share of the range
+INSIDE = 1e-3  # as a share of the range; distance from an end of the range if the end itself is not allowed
 COUNTS = {"x": 21, "y": 5}  # default numbers of points: enough for a smooth curve, and only a few curves
-MOST_WHOLE = 10_000  # whole numbers on an axis
+MOST_WHOLE = 10_000  # largest number of whole numbers on an axis
 FIRST = "vary.0"  # the axis along which a curve runs
-MOST_ROWS = 200  # of a table on a page; the file has all rows
-MOST_REASONS = 6  # remarks on points, the most frequent ones
+MOST_ROWS = 200  # largest number of rows of a table on a page; the file has all rows
+MOST_REASONS = 6  # number of remarks on points; the most frequent remarks are shown
 
 
 class Sample(Part):
@@ -109,10 +109,11 @@ class SweepRequest(StudyRequest):
 
 
 class Summary(runner.Tally):
-    """A summary of the points for the last line of a sweep.
+    """The summary of all points, for the last line of a sweep.
 
-    `extremes` are the least value (`min`) and the largest value (`max`) of every output that has values, with the
-    indices of their points. `best_point` is the index of the best point, with the outputs there.
+    `extremes` holds the least value (`min`) and the largest value (`max`) of every output that has values, with the
+    indices of the points at which these values occur. `best_point` holds the index of the best point and the outputs at
+    this point.
     """
 
     def __init__(self, outputs: Sequence[str], best: Best | None = None, first: int = 0) -> None:
@@ -124,7 +125,7 @@ class Summary(runner.Tally):
         self._least = inf
 
     def add(self, point: Point) -> None:
-        """Include the next point, in order; if values are equal, the first of their points counts."""
+        """Include the next point. Points come in order; of several points with the same value, the first counts."""
         index = self._first + self.counts.total()
         super().add(point)
         for path, value in zip(self.outputs, point.out, strict=True):
@@ -138,7 +139,7 @@ class Summary(runner.Tally):
             self._compare(self._best, index, point.out)
 
     def _compare(self, best: Best, index: int, out: list[Any]) -> None:
-        """Store the point if it is inside all limits and better than all points before."""
+        """Store the point if the point is inside all limits and better than all earlier points."""
         values = dict(zip(self.outputs, out, strict=True))
         is_inside = all(
             is_number(values[bound.output])
@@ -178,7 +179,7 @@ class Sweep(Study):
         return self.points.total - first
 
     def _points(self, base: BaseRequest, most: int) -> PointSet:
-        """Return the points that the body requests; raises Unprocessable."""
+        """Return the points that the body requests. Raises Unprocessable."""
         body: SweepRequest = self.body
         if body.best is not None:
             _check_best(body.best, self.outputs)
@@ -230,7 +231,7 @@ class Sweep(Study):
         return [end]
 
     def encoder(self, written_as: str) -> Callable[[Line], bytes]:
-        """Return the function that writes a line, as JSON or as a row of a table."""
+        """Return the function that writes a line in the format `written_as`: as JSON, or as a row of a table."""
         if written_as == "csv":
             return partial(table_row, self.points, self.outputs)
         return super().encoder(written_as)
@@ -264,7 +265,7 @@ def table_row(points: PointSet, outputs: tuple[Leaf, ...], line: Line) -> bytes:
 
 
 def _sampled(sample: Sample, base: BaseRequest, most: int) -> PointSet:
-    """Return the points of a random sample, which are the same for the same seed."""
+    """Return the points of a random sample. The same seed gives the same points."""
     check_count(sample.count, most, "sample.count")
     scatters: Sequence[Range | Scatter] = sample.ranges or sample.inputs or ()
     leaves = scattering(scatters, base, "sample.ranges" if sample.ranges else "sample.inputs")
@@ -274,7 +275,7 @@ def _sampled(sample: Sample, base: BaseRequest, most: int) -> PointSet:
 
 
 def _check_best(best: Best, outputs: tuple[Leaf, ...]) -> None:
-    """Raise Unprocessable if the best point is judged by something that is not a numeric output of the sweep."""
+    """Raise Unprocessable if the criterion for the best point is not a numeric output of the sweep."""
     leaf_by_path = {leaf.path: leaf for leaf in outputs}
     judged = {"best.minimise" if best.minimise else "best.maximise": best.output}
     judged |= {f"best.where.{place}.output": bound.output for place, bound in enumerate(best.where)}
@@ -294,7 +295,7 @@ AXIS = (
     Control(".count", "count", label="points"),
     Control(".scale", "scale", "linear", str, label="steps", options=(("", "even steps"), ("log", "even ratios"))),
 )
-"""The controls of an axis; their names follow the name of the axis, and their paths are the parts of the axis."""
+"""The controls of an axis. A name here is appended to the name of the axis; a path here is a part of the axis."""
 
 
 class SweepPage(StudyPage):
@@ -316,16 +317,16 @@ class SweepPage(StudyPage):
     study: Sweep
 
     def _own(self, leaf: Leaf) -> float | None:
-        """Return the number of the case in a field; None if the field has no number."""
+        """Return the number that the case has in a field, or None if the field has no number."""
         value = value_at(self.case, leaf.path)
         return float(value) if is_plain_number(value) else None
 
     def _usual_ends(self, leaf: Leaf) -> tuple[float, float] | tuple[None, None]:
-        """Return the ends between which a field is varied if none are typed.
+        """Return the ends between which a field is varied if the user types no ends.
 
         The ends lie around the value of the case, inside the range of the field. If the case has no value, the ends are
-        those of the range, or (None, None) if the range is not finite. The ends of an integer are integers; other ends
-        are rounded to four significant digits.
+        the ends of the range, or (None, None) if the range is not finite. The ends of an integer field are integers;
+        other ends are rounded to four significant digits.
         """
         if numbers := [option for option in leaf.options if is_plain_number(option)]:
             return min(numbers), max(numbers)
@@ -347,7 +348,7 @@ class SweepPage(StudyPage):
     def declared(self) -> tuple[Control, ...]:
         """Return the controls of the axes.
 
-        The errors of an axis are shown at its first end, and the errors of all axes together at `x.count`.
+        Errors of one axis are shown at the first end of this axis. Errors that concern all axes are shown at `x.count`.
         """
         controls = [Control("x.count", "vary", sets=False)]
         for place, name in enumerate(AXES):
@@ -364,9 +365,9 @@ class SweepPage(StudyPage):
     def _axis(self, given: dict[str, Any], where: str) -> dict[str, Any]:
         """Return the axis of a field from its ends, its number of points and its scale.
 
-        If the field accepts only a fixed set of values, the axis has these values, or if they are numbers, those
-        between the ends. Integers are spread as evenly as possible, and no integer occurs twice. Raises Unprocessable
-        at `where`; other errors are left to the validation of the body.
+        If the field accepts only a fixed set of values, the axis has all these values; if the values are numbers, the
+        axis has the values between the ends. Integers are spread as evenly as possible, and no integer occurs twice.
+        Raises Unprocessable at `where`; the validation of the body reports all other errors.
         """
         leaf = scalar_at(self.calculation.request, given["path"], f"{where}.path", "unknown_path")
         axis, choices = {"path": leaf.path}, choices_of(leaf)
@@ -394,14 +395,14 @@ class SweepPage(StudyPage):
 
     @property
     def is_greatest_best(self) -> bool:
-        """Whether the greatest value of the output is the best one; raises Unprocessable."""
+        """True if the greatest value of the output is the best value. Raises Unprocessable."""
         best = self.views.get("best", "greatest" if self.output.view.greatest_is_best else "least")
         if best not in {"least", "greatest"}:
             raise Unprocessable("literal_error", "best: must be one of least, greatest", "best")
         return best == "greatest"
 
     def body(self) -> dict[str, Any]:
-        """Return the body with the typed or usual axes, the output, and whether its least or greatest value is best."""
+        """Return the body with the typed or usual axes, the output, and the criterion for the best output."""
         goal = "maximise" if self.is_greatest_best else "minimise"
         x, y = map(self.views.get, AXES)
         if y and not x:
@@ -417,7 +418,7 @@ class SweepPage(StudyPage):
         }
 
     def controls(self) -> tuple[Controls, ...]:
-        """Return for each axis a menu of fields and the controls of its range, with the usual ends as placeholders."""
+        """Return a menu of fields for each axis, and controls for its range. The placeholders are the usual ends."""
         fields = dict(zip(AXES, self.study.points.varied, strict=False)) if self.study else {}
         groups = []
         for name, title, empty in (("x", "Vary", "choose …"), ("y", "and, as curves or a map", "nothing else")):
@@ -434,23 +435,23 @@ class SweepPage(StudyPage):
         return tuple(groups)
 
     def shows(self) -> tuple[FieldView, ...]:
-        """Return the menu that chooses whether the least or the greatest value of the output is the best one."""
+        """Return the menu with which the user chooses the best value of the output: the least or the greatest value."""
         ends = (("", "by the output"), ("least", "least"), ("greatest", "greatest"))
         return (self.field("best", "the best is", options=ends),)
 
     def starters(self) -> Sequence[Starter | StudyExample]:
-        """Return links to ready studies of examples, or if the query has a case, of this case around its values."""
+        """Return links to ready studies. They vary the examples, or the case if the query has a case."""
         if not self.asked.pairs:
             return studies_of(self.calculation)
         return studies_of_case(self.calculation, self.asked.pairs, self.case)
 
     def result(self, lines: list[Line]) -> Result:
-        """Return the figures, and after the end of the study also a table of the points with links to their cases."""
+        """Return the figures. After the end of the study, also return a table of the points with links to cases."""
         received = [line for line in lines if line["type"] == "point"]
         grid = self._grid(received)
         figures = figures_of(grid)
         first = next(iter(figures))
-        if lines[-1]["type"] in {"sweep", "point"}:  # there are points to come
+        if lines[-1]["type"] in {"sweep", "point"}:  # further points will arrive
             return Result("", {first: figures[first]})
         progress = f"{len(received)} points in {shown(lines[-1].get('elapsed_s'), 2)} s"
         reasons = Counter(text for line in received for text in _remarks(line)).most_common(MOST_REASONS)
@@ -464,7 +465,7 @@ class SweepPage(StudyPage):
         )
 
     def _grid(self, received: list[Line]) -> Grid:
-        """Return the data of the figures; points without solution, and points that have not arrived, are NaN."""
+        """Return the data of the figures. Points without solution and points that have not yet arrived are NaN."""
         points = self.study.points
         outputs = np.full(points.total, nan)
         outputs[: len(received)] = [nan if line["out"][0] is None else float(line["out"][0]) for line in received]
@@ -489,7 +490,7 @@ class SweepPage(StudyPage):
         )
 
     def _coordinate(self, name: str, leaf: Leaf, axis_in_sweep: CheckedAxis) -> tuple[Coordinate, list[int]]:
-        """Return the values of a field in rising order, and the places of these values in the sweep."""
+        """Return the values of a field in ascending order, and the positions of these values on the axis."""
         in_sweep = axis_in_sweep.values or []
         if not all(map(is_plain_number, in_sweep)):
             order = list(range(len(in_sweep)))
