@@ -1,1 +1,1 @@
-"""The web service: validates input, converts units, runs the solvers and answers."""
+"""The web service, which validates the input, converts units, runs the solvers and returns answers."""

@@ -89,10 +89,10 @@ def _two_thermal_paths(request: Any) -> Cost:
 
 
 def _choking_search(request: Any) -> Cost:
-    """Estimate the time to search the choking speeds with a pocket chain in the tooth spaces of both gears.
+    """Estimate the time of the search for choking speeds with a pocket chain in the tooth spaces of both gears.
 
     The search took 0.7, 2.6, 6.2 and 16 s with 10, 40, 80 and 160 pockets. The model of gas dynamics needs no estimate,
-    because it limits its number of steps itself.
+    because this model itself limits the number of steps.
     """
     pockets = request.model.slices or 0
     if request.model.flow != "pocket_chain":

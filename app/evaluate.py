@@ -108,18 +108,21 @@ def answer(endpoint: str, request: dict[str, Any]) -> dict[str, Any]:
 
 
 def answer_of(path: str, request: Request) -> bytes:
-    """Return the answer of an endpoint to a request as JSON; runs in a worker process."""
+    """Return the answer of an endpoint to a request as JSON. This function runs in a worker process."""
     return json_answer(BY_PATH[path], request)
 
 
 def figure_of(name: str, image_format: figures.Format, theme: ThemeName, path: str, request: Request) -> bytes:
-    """Return a figure of a case; runs in a worker process."""
+    """Return a figure of a case. This function runs in a worker process."""
     declaration = next(figure for figure in BY_PATH[path].figures if figure.name == name)
     return draw_figure(BY_PATH[path], declaration, request, image_format, theme)
 
 
 def json_answer(calculation: Calculation, request: Request) -> bytes:
-    """Solve a request and return its answer as JSON; runs in a worker process. Raises the errors of `evaluate`."""
+    """Solve a request and return its answer as JSON.
+
+    This function runs in a worker process. Raises the errors of `evaluate`.
+    """
     return written(evaluate(calculation, request))
 
 

@@ -63,7 +63,7 @@ class Modifications:
     def _crowning(self, kind: str, field: str, ends: tuple[str, str]) -> None:
         """Fill in the sum of the crownings of both gears.
 
-        The crowning of a gear is the mean of the amounts at its two ends.
+        The crowning of a gear is the mean of the amounts at both ends of the face.
         """
         means, origin = [], None
         for _, item in self._carried:

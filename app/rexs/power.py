@@ -30,7 +30,7 @@ class Pair(NamedTuple):
 
 @dataclass
 class Flow:
-    """Speeds of shafts and torques of meshes, as far as the file determines them.
+    """Speeds of shafts and torques of meshes, as far as the file determines these values.
 
     `reading` reads the model or the load case that states the load. `speed` maps each shaft to its speed [1/min] about
     its own u axis. `mesh_torque` maps each stage to the torques [N m] of the mesh on gear 1 and gear 2, about the u

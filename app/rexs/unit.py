@@ -123,7 +123,7 @@ def _draft_of(pair: Pair, flow: Flow, pinion: int | None = None) -> StageDraft:
 
 
 def _described_by(stage: StageDraft) -> Iterator[Component]:
-    """Yield the components that describe the mesh; their unused attributes are listed as ignored."""
+    """Yield the components that describe the mesh. Unused attributes of these components are listed as ignored."""
     model = stage.reading.model
     yield stage.stage
     for place, shaft in enumerate(stage.shafts):

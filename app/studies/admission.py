@@ -48,7 +48,7 @@ class StudyAdmission:
 
     @contextmanager
     def place(self) -> Iterator[None]:
-        """Count a study as running while the context is open; raises StudiesFull if the limit is reached."""
+        """Count a study as running while the context is open. Raises StudiesFull if the limit is reached."""
         if self._running >= self._settings.studies:
             raise StudiesFull
         self._running += 1
@@ -66,7 +66,7 @@ class StudyAdmission:
         return StudyPool(self._workers)
 
     async def pool(self) -> Pool:
-        """Return the pool that solves the points of a study; raises SchedulerUnavailable."""
+        """Return the pool that solves the points of a study. Raises SchedulerUnavailable."""
         if self._cluster is None:
             return self.own()
         return await self._cluster.ready()

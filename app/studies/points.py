@@ -1,6 +1,6 @@
 """The request that a study varies, and the solution of the points of the study in worker processes.
 
-The results at a point are the same as those in the endpoint's answer to the request of this point.
+The results at a point equal the results in the endpoint's answer to the request of this point.
 """
 
 import copy

@@ -91,7 +91,7 @@ class Clock:
 
 
 async def twice_if_lost(pool: Pool, function: Callable[..., Any], *arguments: Any) -> Any:
-    """Return the result of a single call. Repeat the call once if its process is lost."""
+    """Return the result of a single call. Repeat the call once if the process of the call is lost."""
     try:
         return await pool.submit(function, *arguments)
     except WorkerLost:
@@ -139,7 +139,7 @@ async def in_order(
 
 
 async def _solved_singly(pool: Pool, question: Question, overrides: list[Overrides], error: Exception) -> Chunk:
-    """Solve the points of a lost chunk one by one. Repeat the solution of a point once if its process is lost.
+    """Solve the points of a lost chunk one by one. Repeat a point once if the process of the point is lost.
 
     A chunk of a single point that exceeded its deadline is not repeated.
     """
@@ -171,7 +171,7 @@ class Study(ABC):
     answer: ClassVar[str]  # the lines that the answer has
     model: ClassVar[type[Any]]  # of the body
     most: ClassVar[str] = "most_study_points"  # the setting that limits the number of points
-    is_reduced: ClassVar[bool] = True  # whether the film is left out if no output needs it
+    is_reduced: ClassVar[bool] = True  # True if the film is left out when no output needs the film
 
     def __init__(self, content: Any, most: int, deadline_s: float) -> None:
         self.body = validated(self.model, content)

@@ -194,7 +194,7 @@ def rank_correlation(x: FloatArray, y: FloatArray) -> float | None:
 def of_sample(
     inputs: FloatArray, outputs: FloatArray, input_paths: list[str], output_paths: Sequence[str]
 ) -> dict[str, Any]:
-    """Return quantiles with bounds, and rank correlations, of a random sample. Runs in a worker.
+    """Return quantiles with bounds, and rank correlations, of a random sample. This function runs in a worker.
 
     Each row of `inputs` and `outputs` is a point. The bounds of a quantile are the order statistics between which the
     quantile lies with 90 % confidence, for any distribution; a bound is None if the sample is too small for this bound.

@@ -1,4 +1,4 @@
-"""Worker processes that calculate, on AnyIO's worker processes.
+"""Worker processes for the calculations, based on the worker processes of AnyIO.
 
 pool      the queue of calls, and the workers, which are replaced if they are lost or hang
 worker    the functions that run in a worker: the preparation of the worker, and the calls

@@ -168,7 +168,7 @@ class Pool:
         arguments = (*self._preparation, *arguments)
         try:
             return await to_process.run_sync(function, *arguments, cancellable=True, limiter=self._limiter)
-        except KeyboardInterrupt as error:  # Ctrl-C reached the worker before it ignored the signal
+        except KeyboardInterrupt as error:  # Ctrl-C reached the worker before the worker ignored the signal
             raise BrokenWorkerProcess from error
 
 

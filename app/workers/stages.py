@@ -13,7 +13,10 @@ Of the other stages this stage needs only the load distribution, and only near i
 
 
 def warm(stage: Stage) -> None:
-    """Compile or load all kernels of a stage in this process. If there is a folder for kernels, store them on disk."""
+    """Compile or load all kernels of a stage in this process.
+
+    If there is a folder for kernels, store the kernels there.
+    """
     for name in stage.examples:
         example = examples()[name]
         answer_of(example.endpoint, BY_PATH[example.endpoint].request.model_validate(example.request))

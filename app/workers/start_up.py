@@ -19,7 +19,7 @@ logger = logging.getLogger("tribodrive")
 
 
 class StartUp:
-    """The compilation of all stages, and their progress."""
+    """The compilation of all stages, and the progress of the stages."""
 
     def __init__(self) -> None:
         self._percent = dict.fromkeys((stage.name for stage in STAGES), 0)

@@ -1,4 +1,4 @@
-"""The functions that run in a worker process: the preparation of the process, and its calls.
+"""The functions that run in a worker process: the preparation of the process, and the execution of calls.
 
 The preparation limits the number of threads before numpy is loaded.
 """

@@ -1,11 +1,11 @@
 """Calculation of a complete gear unit: couplings, shafts, bearings, pumping heat and gear mesh.
 
-The unknown is the gap between the flanks over the face. `inputs` holds the inputs, and `checks` checks them. The
+The unknown is the gap between the flanks over the face. `inputs` holds the inputs, and `checks` checks the inputs. The
 package `shafts` joins shafts, bearings and couplings into one flexibility matrix. The package `gap` finds the gap at
 which these parts are in equilibrium with the mesh, and divides the gap into parts by cause. `elements`, `losses` and
 `safety` compute the results at this gap. `model.solve` calls all these modules and `notices`. `states.solve` calls
 `model.solve` for the hot unit and for the cold unit. `unit_heat` iterates between the heat balance and the gap, and
-`warm_up` computes both over time. The derivation is our own; the equations state their sources.
+`warm_up` computes the heat balance and the gap over time. The derivation is our own; the equations state their sources.
 """
 
 from solvers.drive_train import states, warm_up

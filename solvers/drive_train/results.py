@@ -70,9 +70,9 @@ class GapCurves:
 class Misalignment:
     """Slope, crown and range of the gap due to shafts and heat, and the modifications that compensate this gap.
 
-    The recommended modifications replace the present modifications and are not added to them. They are the negative
-    slope and the negative crown of the gap under a load that is spread evenly over the face, because a corrected flank
-    carries such a load.
+    The recommended modifications replace the present modifications and are not added to them. The recommended values
+    are the negative slope and the negative crown of the gap under a load that is spread evenly over the face, because a
+    corrected flank carries such a load.
     """
 
     shaft_slope: float = quantity("mesh misalignment", "f_sh", unit="um", text="slope of the gap by the shafts")

@@ -31,7 +31,7 @@ from solvers.scuffing.thermal.flank import map_flash
 from solvers.scuffing.thermal.pair_heat import balance_inputs, with_backlash_loss
 from solvers.scuffing.thermal.temperatures import estimated_bulk, with_friction
 
-CLOSE = 0.05  # K; the passes end if every temperature changes by less from one pass to the next
+CLOSE = 0.05  # K; the passes end if no temperature changes by more than this value from one pass to the next
 MOST_PASSES = 10
 FIRST_RISE = 25.0  # K; rise of flanks, bodies and films above the oil in the first pass
 SHAFT_CONDUCTIVITY = 46.0  # W/(m K), of steel
@@ -165,7 +165,7 @@ def at_temperatures(
 
 
 def _with_films(mesh: ScuffingInputs, shaft: Shaft, films: list[float]) -> Shaft:
-    """Return the shaft. Bearings in the gears' oil have the viscosity of this oil at their film temperatures."""
+    """Return the shaft, with the viscosity at the film temperature for each bearing that runs in the gears' oil."""
     assert mesh.known_oil is not None
     oil = heat_balance.cooling_oil(mesh.known_oil, mesh.temperatures.oil)
     bearings = tuple(
@@ -178,7 +178,7 @@ def _with_films(mesh: ScuffingInputs, shaft: Shaft, films: list[float]) -> Shaft
 
 
 def _with_rise(coupling: UnitCoupling, casing: float | None, reference: float) -> UnitCoupling:
-    """Return the coupling. The unit's supports have the temperature rise of the casing, unless their rise is given."""
+    """Return the coupling. If no temperature rise of the unit's supports is given, the rise of the casing is used."""
     alignment = coupling.alignment
     if casing is None or alignment is None or alignment.unit_rise is not None:
         return coupling
@@ -252,7 +252,7 @@ def _sections_between(
 ) -> tuple[tuple[float, float, float], ...]:
     """Return length, outer and inner diameter of the sections between the gear's face and a bearing's centre [m]."""
     low, high = (face[1], bearing) if bearing > face[1] else (bearing, face[0])
-    if high - low < SHORTEST_ROD:  # the bearing lies under the face or at its edge
+    if high - low < SHORTEST_ROD:  # the bearing lies under the face or at the edge of the face
         low, high = bearing - SHORTEST_ROD / 2, bearing + SHORTEST_ROD / 2
     parts = [
         (min(end, high) - max(start, low), outer, inner)

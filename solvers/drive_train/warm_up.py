@@ -122,7 +122,7 @@ def solve(inputs: WarmUpInputs) -> UnitWarmUp:
 
     Notes
     -----
-    The losses are those of the warm unit, but change with the viscosity during the warm-up (Eq. H24).
+    The losses are the losses of the warm unit, but change with the viscosity during the warm-up (Eq. H24).
     """
     unit = inputs.unit
     if not asks_for_balance(unit):

@@ -89,12 +89,12 @@ def differences(moved: Perturbation, outputs: dict[float, float | None]) -> Line
     `outputs` maps each value of the input to the output; an output is None if the point has no answer. The items of the
     result are:
 
-    `derivative`: the central difference quotient [output per input], or a one-sided one if one side has no answer.
+    `derivative`: the central difference quotient [output per input], or a one-sided quotient if one side has no answer.
     `elasticity`: the change of the output in per cent per 1 % of the input. It is None if the input or the output is
     zero, and for temperatures in degrees Celsius.
     `step`: the step of the input.
-    `change`: the change of the output by one step upwards, with the steeper of the slopes of both sides.
-    `kink`: whether the slopes of both sides differ by more than a tenth; None if one of them is missing.
+    `change`: the change of the output by one step upwards, computed with the steeper of the slopes on both sides.
+    `kink`: whether the slopes of both sides differ by more than a tenth; None if one of the slopes is missing.
     `curved`: whether half the step gives a derivative that differs by more than a tenth; None if there is no half step.
     """
     base, step, half = outputs[moved.value], moved.step, moved.half
@@ -203,7 +203,7 @@ def _every_number(base: BaseRequest, case: dict[str, Any]) -> list[Leaf]:
 
 
 def _named(base: BaseRequest, case: dict[str, Any], paths: list[str]) -> list[Leaf]:
-    """Return the inputs at these paths; raises Unprocessable if one of them has no number in this case."""
+    """Return the inputs at these paths. Raises Unprocessable if the case has no number at one of the paths."""
     check_distinct(paths, "inputs", numbered=True)
     model = base.calculation.request
     named = [scalar_at(model, path, f"inputs.{place}", "unknown_path") for place, path in enumerate(paths)]

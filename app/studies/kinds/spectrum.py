@@ -309,7 +309,10 @@ class Spectrum(Study):
 
 
 def evaluated(study: Spectrum, values: FloatArray) -> Line:
-    """Return the content of the last line from the outputs `[replicate, draw, case, output]`. Runs in a worker."""
+    """Return the content of the last line from the outputs `[replicate, draw, case, output]`.
+
+    This function runs in a worker.
+    """
     columns = {path: values[..., place] for place, path in enumerate(study.question.outputs)}
     limits, assumptions, notes = _limits(study, columns)
     limited = [_of_limit(study, limit, columns[limit.output]) for limit in limits]
@@ -585,7 +588,7 @@ def _tolerance(place: int, name: str, about: Any = None, by: Any = None) -> list
 
 
 def _stated(law: str, about: Any, by: Any) -> dict[str, Any]:
-    """Convert mean and width into the parameters of a distribution; return none if there is no such distribution."""
+    """Convert mean and width into the parameters of a distribution. An unknown distribution has no parameters."""
     if names := STATED.get(law):
         return dict(zip(names, (about, by), strict=True))
     ends = {"uniform": ("min", "max"), "triangular": ("min", "mode", "max")}.get(law, ())

@@ -147,8 +147,8 @@ def equilibrium(unit: Unit, mesh: LoadedMesh, start: FloatArray | None = None) -
 def _rough(unit: Unit, mesh: LoadedMesh, hubs: HubLoads) -> tuple[FloatArray, HubLoads]:
     """Return an approximate gap and the loads of the hubs, by an iteration with the coarse mesh.
 
-    The iteration starts from a uniform load. It may end before it has converged, because the iteration with the full
-    mesh follows.
+    The iteration starts from a uniform load. This iteration may end before it has converged, because the iteration with
+    the full mesh follows.
     """
     count = unit.stations.size
     answer = respond(unit, uniform_force(mesh.transmitted, count), hubs)

@@ -81,7 +81,7 @@ def respond(unit: Unit, force: FloatArray, start: HubLoads) -> Yielding:
     Returns
     -------
     Yielding
-        The motion of the ports [m, rad] and its derivative.
+        The motion of the ports [m, rad] and the derivative of this motion.
 
     Raises
     ------

@@ -14,7 +14,7 @@ from solvers.compiled import kernel
 from solvers.drive_train.inputs import Bearing, JournalBearing, LinearBearing
 from solvers.errors import NoSolution
 
-LARGEST_ECCENTRICITY = 0.999  # chosen: here the film is a thousandth of the clearance, thinner than any roughness
+LARGEST_ECCENTRICITY = 0.999  # chosen: the film is then a thousandth of the clearance, thinner than any roughness
 
 
 @dataclass(frozen=True, slots=True)

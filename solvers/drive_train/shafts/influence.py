@@ -167,7 +167,7 @@ def _elastic(side: ShaftPorts) -> FloatArray:
 
 
 def torque_position(inputs: DriveTrainInputs, index: int) -> float:
-    """Return the position at which torque enters a shaft [m]. If no position is given, it is that of the coupling."""
+    """Return the position at which torque enters a shaft [m]. By default this is the position of the coupling."""
     given = inputs.shafts[index].torque_position
     if given is not None:
         return given
