@@ -212,7 +212,7 @@ class FlashPlaces:
 
 @record
 class TrainSafety:
-    """Safety factors by Blok on the feature line and over the flank, and by thermal EHL on two lines.
+    """Safety factors by Blok's method on the feature line and over the flank, and by thermal EHL on two lines.
 
     The profile line runs from A to E through `blok_at`, the hottest place by Blok. A factor that is not known is None.
     If one of the factors is not known, `minimum` is None too.
@@ -238,7 +238,7 @@ class TrainLosses:
 
     If the coefficient of friction of the mesh is not known, the loss of the mesh, the total and the efficiency are
     None. With a heat balance, the loss of the mesh is calculated at the temperature of the flanks. The total then also
-    contains the losses by acceleration of the oil, by windage and in other parts.
+    contains the losses due to acceleration of the oil, due to windage and in other parts.
     """
 
     coupling: float = quantity("loss of the couplings", "P_C", unit="w")

@@ -195,7 +195,7 @@ def _of_both_surfaces(inputs: DriveTrainInputs, bulk: FloatArray) -> FloatArray:
 
 
 def _hottest_surface(path: ThermalPath, bulk: FloatArray) -> float | None:
-    """Return the temperature of the hottest flank surface on a line [K], by thermal EHL.
+    """Return the temperature of the hottest flank surface on a line [K], computed by thermal EHL.
 
     Return None if no point of the line is loaded, or if an unsolved point may be hotter.
     """
@@ -205,7 +205,7 @@ def _hottest_surface(path: ThermalPath, bulk: FloatArray) -> float | None:
 
 
 def _thinnest_film(paths: Sequence[ThermalPath], bulks: Sequence[FloatArray]) -> float | None:
-    """Return the thinnest film on all lines [m], by thermal EHL.
+    """Return the thinnest film on all lines [m], computed by thermal EHL.
 
     Return None if no point has a film, or if the film may be thinner at an unsolved point.
     """

@@ -72,7 +72,7 @@ def _together(inputs: DriveTrainInputs, quantity: str, name: str, values: tuple[
 
 
 def _offsets(inputs: DriveTrainInputs) -> Range:
-    """Return the range of the coupling offsets: all offsets that are not zero, turned by quarters of a revolution."""
+    """Return the range of the coupling offsets: all offsets that are not zero, turned in quarter revolutions."""
     given = [(k, coupling.offset) for k, coupling in enumerate(inputs.acting_couplings) if any(coupling.offset)]
     names = tuple(f"couplings.{k}.offset.{axis}" for k, _ in given for axis in range(2))
     turned = ([pair for _, (x, y) in given for pair in turn(x, y)] for turn in QUARTERS)

@@ -161,7 +161,7 @@ def unit(inputs: DriveTrainInputs, path: PathOfContact) -> Unit:
 
 
 def _elastic(side: ShaftPorts) -> FloatArray:
-    """Return the flexibility of one shaft at the ports, by bending in both planes and by torsion."""
+    """Return the flexibility of one shaft at the ports, for bending in both planes and for torsion."""
     bending = sum(plane.T @ side.model.flexibility @ plane for plane in side.loads)
     return np.asarray(bending + side.torques.T @ side.model.torsion @ side.torques)
 
