@@ -154,7 +154,7 @@ def quantiles(values: FloatArray) -> list[float] | None:
 
 
 def weighted_mean(outputs: FloatArray, shares: Sequence[float]) -> Mean | None:
-    """Return the mean over the cases, weighted with their shares.
+    """Return the mean over the cases, weighted with the shares of the cases.
 
     For the mean of a replicate, only draws with a solution in every case count. If a replicate has no such draw, the
     result is None.

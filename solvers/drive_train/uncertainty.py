@@ -34,10 +34,10 @@ class Range:
 def uncertain_inputs(inputs: DriveTrainInputs) -> tuple[Range, ...]:
     """Return the ranges of the uncertain inputs of a unit.
 
-    These inputs are uncertain: the wall response, the bearing clearances of each shaft, and friction, direction of the
-    offset and thrust of the couplings. The clearances of a shaft's two bearings change by 10 % in opposite senses,
-    because the same change in both bearings would not tilt the shaft. All couplings change together. If the couplings
-    varied independently, a unit with two couplings would need 2,048 runs.
+    Uncertain are the wall response and the bearing clearances of each shaft. Three inputs of each coupling are
+    uncertain as well: the friction, the direction of the offset, and the thrust. The clearances of a shaft's two
+    bearings change by 10 % in opposite senses, because the same change in both bearings would not tilt the shaft. All
+    couplings change together. If the couplings varied independently, a unit with two couplings would need 2,048 runs.
     """
     ranges = (
         [Range("wall response", ("heat.wall_response",), tuple((value,) for value in RESPONSE))]

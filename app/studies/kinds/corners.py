@@ -181,7 +181,7 @@ def load_figure(case: Case, reference: Case, name: str, finding: str) -> dict[st
 
 
 class CornersPage(UnitPage):
-    """The page with the worst corner of a gear unit."""
+    """The page that shows the worst corner of a gear unit."""
 
     link = StudyLink(
         "corners",
@@ -200,7 +200,7 @@ class CornersPage(UnitPage):
     def body(self) -> dict[str, Any]:
         """Return the body with the typed or usual corners.
 
-        The outputs are the output that the page shows, and those headline numbers that do not need the thermal film.
+        The body requests the output that the page shows, and all headline numbers that do not need the thermal film.
         """
         output, paths = self.output.path, [leaf.path for leaf in headlines(self.calculation.response)]
         deciding = [path for path in paths if not (needs_film(DRIVE_TRAIN, path) or path.startswith(COLD))]

@@ -336,7 +336,7 @@ ENDS = tuple(
 
 
 class DesignPage(UnitPage):
-    """The page with the flank correction whose worst corner is best."""
+    """The page that shows the flank correction with the best result at the worst corner."""
 
     link = StudyLink(
         corners.DESIGN,

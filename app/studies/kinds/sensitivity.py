@@ -217,7 +217,7 @@ def _named(base: BaseRequest, case: dict[str, Any], paths: list[str]) -> list[Le
 
 
 class SensitivityPage(StudyPage):
-    """The page with the inputs that change an output most."""
+    """The page that shows the inputs with the greatest influence on an output."""
 
     link = StudyLink(
         "influence", "What matters", "every input moved by its tolerance: which moves the result most", place=2

@@ -629,7 +629,7 @@ def address_of(
 
 
 class SpectrumPage(StudyPage):
-    """The page with a machine with its tolerances over its load spectrum."""
+    """The page that shows a machine with tolerances, evaluated over a load spectrum."""
 
     link = StudyLink(
         "spectrum",

@@ -299,7 +299,7 @@ AXIS = (
 
 
 class SweepPage(StudyPage):
-    """The page with a sweep of a case over one or two fields."""
+    """The page that shows a sweep of a case over one or two fields."""
 
     link = StudyLink(VARY, "Vary", "one input or two over a range: a curve or a map", place=1)
     question = "vary an input"
@@ -523,7 +523,7 @@ class SweepPage(StudyPage):
         return self.address(self.study.points.overrides(index))
 
     def _script(self, received: list[Line], figure: Figure) -> str:
-        """Return the data with which the script of the page finds the point under the pointer and opens its case.
+        """Return the data with which the page's script finds the point under the pointer and opens the case there.
 
         The result is empty if the form has no field for one of the axes.
         """

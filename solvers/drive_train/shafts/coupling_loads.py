@@ -10,8 +10,8 @@ vector M. With a = M_s + M_e the loads are
 M_l is the loss moment of friction. The straightening moment M_s and the elastic moment M_e act against the tilt. s is
 the sense of rotation, T is the torque, and s_d is +1 if the hub drives the sleeve, else -1. The sign of T delta / 2
 differs between hub and sleeve, because the axis of the torque bisects the angle between the axes of hub and sleeve.
-Along Z the coupling pushes the shaft with the share tau of the friction limit, which is the smaller of the limits of
-both hubs.
+Along Z the coupling pushes the shaft with the share tau of the friction limit. This limit is the smaller of the limits
+of both hubs.
 """
 
 from collections.abc import Iterator
