@@ -60,8 +60,8 @@ def motion_notices(
         yield Notice("friction_indeterminate", message, "axial_velocity")
     elif thrust.self_induced is not None and sliding == 0.0:
         message = (
-            "no tooth slides because of misalignment, so that the direction of the self-induced thrust is not known; "
-            "zero is stated"
+            "the misalignment makes no tooth slide; the direction of the self-induced thrust is therefore unknown, "
+            "and this thrust is stated as zero"
         )
         yield Notice("friction_indeterminate", message, "misalignment")
     if sliding == operation.axial_velocity == 0.0 < thrust.coaxial_limit:

@@ -164,7 +164,7 @@ def _farthest(
         loads = floating_loads(coupling, mesh, teeth, inputs.operation.torque, _limited(inertia_force, limit))
         unbalanced = int(np.count_nonzero(loads.iterations < 0))
         if unbalanced:
-            message = "no equilibrium of the sleeve was found between two rotor angles of its orbit; raise the torque"
+            message = "no equilibrium of the sleeve was found at some rotor angles of the orbit; raise the torque"
             raise NoSolution("sleeve_orbit", message, {"unbalanced_angles": float(unbalanced)})
         return np.hypot(loads.displacement[:, 0], loads.displacement[:, 1])
 

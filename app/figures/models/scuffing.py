@@ -267,7 +267,7 @@ def friction(inputs: ScuffingInputs, result: Scuffing) -> Figure:
     mean = result.flash.friction_coefficient
     solutions = {name: (path.psi, path.thermal) for name, path in _paths(result).items() if path.thermal is not None}
     if not solutions:
-        message = "Friction along the path comes from the thermal EHL solution only"
+        message = "Friction along the path is available only with the thermal EHL solution"
         raise NoFigure("closed_form", message, "model.lubrication")
     points, warned = _points(inputs, result), _warned(result.path)
     levels = points if mean is None else [*points, Level(mean, f"mean of Blok's flash temperature {number(mean)}")]
