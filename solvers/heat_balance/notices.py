@@ -21,8 +21,8 @@ def heat_notices(network: Network, rises: FloatArray, cooling: Cooling) -> Itera
     if network.spray.velocity < SLOW:
         message = (
             f"the pitch line velocity of {network.spray.velocity:.4g} m/s is below {SLOW:g} m/s. Oil that runs down "
-            "and is picked up again then also cools the teeth, but the heat balance considers only the oil of the jets; "
-            "with little oil the flanks are cooler than computed"
+            "and is picked up again then also cools the teeth, but the heat balance considers only the oil of the "
+            "jets; with little oil the flanks are cooler than computed"
         )
         yield Notice("low_speed", message, "cooling")
     yield from _oil_notices(network, rises)
