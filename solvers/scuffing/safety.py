@@ -113,6 +113,8 @@ def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
         flash, film = Flash(None, None), Film()
     elif unknown:
         flash, film = without_thermal(flash, film)
+    if given.friction_coefficient is None and np.isnan(flash_map.flash).any():
+        flash = Flash(None, None)  # a line without contact would give 0
     flash = replace(flash, friction_coefficient=inputs.distribution.friction_coefficient)
     micropitting = check_micropitting(inputs, distribution, flash_map, film.thermal_ehl_min)
     paths = [_with_film_ratio(micropitting, *both) for both in zip(paths, lines, strict=True)]
