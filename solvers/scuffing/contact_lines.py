@@ -13,10 +13,10 @@ from solvers.gears.pair import ContactPlane, PathOfContact
 from solvers.scuffing.modification import Gap, gap_at
 
 COINCIDENT = 1e-9  # base pitches; breakpoints closer to each other than this count as one
-LEAST_STEPS = 8  # between two breakpoints, even if they are close to each other
-MOST_LINES = 100  # in contact at the same time; no gear has a tenth of this number
-MOST_ZONES = 12  # of one line; further zones are joined to the last zone
-LEAST_SAMPLES = 8  # per smooth part
+LEAST_STEPS = 8  # least number of steps between two breakpoints, even if the breakpoints are close to each other
+MOST_LINES = 100  # largest number of lines in contact at the same time; real gears have less than a tenth of it
+MOST_ZONES = 12  # largest number of zones of one line; further zones are joined to the last zone
+LEAST_SAMPLES = 8  # least number of samples per smooth part
 BISECTIONS = 45  # halvings of the step between samples: 2^-45 of the step is below the rounding of a gap
 GOLDEN_STEPS = 30  # 0.618^30 = 5e-7 of the step between samples; the gap is flat at its minimum
 GOLDEN = 0.6180339887498949  # (sqrt(5) - 1) / 2, the golden section
@@ -93,9 +93,10 @@ def contact_lengths(path: PathOfContact) -> ContactLengths:
 class RollPositions(NamedTuple):
     """Roll positions in one base pitch [m], ascending.
 
-    `corner` marks the roll positions whose line meets a corner of the plane or of the gap; loads may change abruptly
-    there. `side` is 0 for helical gears. The contact length of spur gears jumps at corners. Every corner therefore
-    occurs twice: with side -1 for the limit from below, and with side +1 for the limit from above.
+    `corner` marks the roll positions whose line meets a corner of the plane or of the gap; at these positions loads may
+    change abruptly. `side` is 0 for helical gears. The contact length of spur gears jumps at corners. For spur gears
+    every corner therefore occurs twice: with side -1 for the limit from below, and with side +1 for the limit from
+    above.
     """
 
     phase: FloatArray
@@ -152,9 +153,9 @@ def line_ends(plane: ContactPlane, phase: float, side: float) -> tuple[float, fl
 
     Notes
     -----
-    Eq. L3: the line is x = phase - y tan beta_b. A spur line at an end of the path is in contact if `side` is the limit
-    from inside the path. A helical line that only meets a corner of the rectangle is not in contact; otherwise rounding
-    would decide whether this line has the least gap of the unloaded teeth.
+    Eq. L3: the line is x = phase - y tan beta_b. A spur line at an end of the path is in contact if `side` selects the
+    limit from inside the path. A helical line that only meets a corner of the rectangle is not in contact; otherwise
+    rounding would decide whether this line has the least gap of the unloaded teeth.
     """
     if plane.tan_base_helix == 0.0:
         nudged = phase + side * COINCIDENT * plane.base_pitch
@@ -195,7 +196,10 @@ def gap_on_line(form: Gap, plane: ContactPlane, line: float, y: float) -> float:
 
 @kernel
 def valley(form: Gap, plane: ContactPlane, line: float, low: float, high: float) -> float:
-    """Find y [m] of the least gap between two points of a line by golden section; the gap has one valley there."""
+    """Find y [m] of the least gap between two points of a line by golden section.
+
+    The gap has one valley between the two points.
+    """
     inner, outer = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
     at_inner, at_outer = gap_on_line(form, plane, line, inner), gap_on_line(form, plane, line, outer)
     for _ in range(GOLDEN_STEPS):

@@ -1,6 +1,6 @@
 """Results of a load distribution; SI units, read-only arrays.
 
-x runs along the path from A to E, y along the face from the end that meshes first; gamma is the profile parameter.
+x runs along the path from A to E; y runs along the face from the end that meshes first; gamma is the profile parameter.
 """
 
 from collections.abc import Callable
@@ -309,7 +309,10 @@ class FeatureLine:
 
 @record
 class Flank:
-    """Maps [profile, face] of modification [m], line load [N/m] and pressure [Pa] (NaN where R_n vanishes)."""
+    """Maps [profile, face] of modification [m], line load [N/m] and pressure [Pa].
+
+    The pressure is NaN at points where the reduced radius R_n vanishes.
+    """
 
     profile_fraction: FloatArray = quantity("profile position of the map", "ξ", text="fraction of the path from A to E")
     face_fraction: FloatArray = quantity(

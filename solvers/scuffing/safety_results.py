@@ -1,4 +1,4 @@
-"""Results of the scuffing check, without the load distribution; SI units, arrays read-only."""
+"""Results of the scuffing check, without the load distribution; SI units, read-only arrays."""
 
 from typing import Literal
 
@@ -236,7 +236,8 @@ class ThermalPath:
 
     The values are NaN at unsolved points. A point that the solver refuses because its load is too light has bounds
     instead. `flash_bound` [K] and `film_bound` [m] are the flash temperature and the film of this point under the
-    lightest load that the solver accepts. The point is not hotter, and its film is not thinner.
+    lightest load that the solver accepts. The real flash temperature of the point is not higher than `flash_bound`, and
+    the real film is not thinner than `film_bound`.
     """
 
     status: tuple[PointStatus, ...]

@@ -77,15 +77,16 @@ def viscosity(oil: OilSheet | Lubricant, temperature: Real) -> Real:
 
     Notes
     -----
-    Eq. M2 of the chapter on micropitting. The equation holds for an oil that is given by a data sheet. An
-    oil that is given by its viscosity follows its own law.
+    Eq. M2 of the chapter on micropitting. The equation holds for an oil that is given by a data sheet. An oil that is
+    given by its viscosity follows its own law.
     """
     if isinstance(oil, OilSheet):
         intercept, slope = oil.walther()
         kinematic: Any = 10.0**10.0 ** (intercept - slope * np.log10(temperature)) - WALTHER_SHIFT
         return cast("Real", kinematic * SQUARE_MILLIMETRE * density(oil, temperature))
     laws = oil.laws
-    oil.viscosity_at(0.0, float(np.min(temperature, initial=oil.reference_temperature)))  # raises for thick oil
+    # This call raises the error if the oil is too thick.
+    oil.viscosity_at(0.0, float(np.min(temperature, initial=oil.reference_temperature)))
     if oil.pressure_viscosity_law == "barus":
         heating = temperature - laws.reference_temperature
         return cast("Real", np.exp(laws.log_viscosity - laws.temperature_viscosity * heating))

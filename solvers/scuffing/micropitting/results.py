@@ -1,4 +1,4 @@
-"""Results of the checks against micropitting and wear; SI units, arrays read-only."""
+"""Results of the checks against micropitting and wear; SI units, read-only arrays."""
 
 from typing import Literal
 

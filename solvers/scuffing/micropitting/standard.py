@@ -59,7 +59,7 @@ def has_relief(given: LoadDistributionInputs) -> bool:
 
 
 def has_standard_film(given: LoadDistributionInputs, path: PathOfContact) -> bool:
-    """Return True if method B has load sharing factors for the pair, and if every point of the path has a pressure."""
+    """Return True if method B has load sharing factors for the pair and no point of the path is near a base circle."""
     plane = path.plane
     ends = reduced_radius(plane, np.array([0.0, path.length]))
     unmodified_spur = plane.tan_base_helix == 0.0 and not has_relief(given)
