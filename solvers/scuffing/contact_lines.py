@@ -91,7 +91,7 @@ def contact_lengths(path: PathOfContact) -> ContactLengths:
 
 
 class RollPositions(NamedTuple):
-    """Roll positions in one base pitch [m], ascending.
+    """Roll positions [m] in one base pitch, in ascending order.
 
     `corner` marks the roll positions whose line meets a corner of the plane or of the gap; at these positions loads may
     change abruptly. `side` is 0 for helical gears. The contact length of spur gears jumps at corners. For spur gears
@@ -109,9 +109,9 @@ def roll_positions(
 ) -> RollPositions:
     """Return at least `count` roll positions, equidistant between the corners.
 
-    A corner is the roll position (x + y tan beta_b) mod p_bt at which a contact line passes the point (x, y). These
-    points are the corners of the plane, and the points at which kinks of the gap cross each other or an edge of the
-    plane.
+    A contact line passes a point (x, y) at the roll position (x + y tan beta_b) mod p_bt. This roll position is called
+    a corner if the point is a corner of the plane, or if a kink of the gap crosses another kink or an edge of the plane
+    at this point.
     """
     pitch = plane.base_pitch
     x = np.array([0.0, plane.path_length, *along_path])
@@ -169,7 +169,7 @@ def line_ends(plane: ContactPlane, phase: float, side: float) -> tuple[float, fl
 
 @kernel
 def line_count(plane: ContactPlane) -> int:
-    """Return the largest number of lines that can touch the rectangle at the same time."""
+    """Return the largest number of lines that can touch the plane of action at the same time."""
     return int((plane.path_length + plane.face_width * plane.tan_base_helix) / plane.base_pitch) + 2
 
 
@@ -216,7 +216,10 @@ def valley(form: Gap, plane: ContactPlane, line: float, low: float, high: float)
 
 @kernel
 def _edge(form: Gap, plane: ContactPlane, line: float, inside: float, outside: float, reach: float) -> float:
-    """Find y [m] at which the gap equals the approach `reach` [m], between a loaded and an unloaded point of a line."""
+    """Find y [m] of the end of contact between a loaded point `inside` and an unloaded point `outside` of a line.
+
+    At the end of contact, the gap equals the approach `reach` [m].
+    """
     for _ in range(BISECTIONS):
         middle = 0.5 * (inside + outside)
         if gap_on_line(form, plane, line, middle) < reach:

@@ -35,7 +35,7 @@ class Mesh(NamedTuple):
 
 
 class Cover(NamedTuple):
-    """Number of slices that cover the lines, their total length [m], and least and largest gap on the slices [m]."""
+    """Number and total length [m] of the slices that cover the lines, and least and largest gap [m] on these slices."""
 
     slices: int
     length: float
@@ -113,9 +113,9 @@ def _cut(mesh: Mesh, line: float, j: int, zone: FloatArray, slices: int, table: 
 def _parts(
     mesh: Mesh, line: float, ends: tuple[float, float], slices: int, reach: float, zones: FloatArray
 ) -> tuple[int, float]:
-    """Write the loaded stretches of a line to `zones`; return the number of stretches and their total length in y [m].
+    """Write the loaded stretches of a line to `zones`; return the number of stretches and the total y length [m].
 
-    No stretch contains a kink of the gap.
+    On a loaded stretch the gap is below `reach` [m]. No stretch contains a kink of the gap.
     """
     edges, (first_y, last_y) = np.empty(MOST_EDGES), ends
     last = smooth_parts(mesh.gap, line, mesh.plane.tan_base_helix, ends, edges) - 1
@@ -144,7 +144,8 @@ def gather(mesh: Mesh, phase: float, side: float, slices: int, reach: float, tab
     """Fill the table with slices of all lines at a roll position.
 
     The slices cover the stretches of the lines where the gap is below `reach` [m]. A line has at least `slices` slices.
-    It can have more, because the number of slices of every stretch is rounded up. No slice contains a kink of the gap.
+    Some lines have more, because the number of slices of every stretch is rounded up. No slice contains a kink of the
+    gap.
     """
     plane, zones = mesh.plane, np.empty((MOST_EDGES * MOST_ZONES, 2))
     count, length, least, most = 0, 0.0, np.inf, -np.inf
@@ -213,7 +214,7 @@ def load_under(compliance: PairCompliance, approach: float, x: float, log_load: 
 
 
 class Survey(NamedTuple):
-    """Sums and largest values over the roll positions.
+    """Sums and largest values at every roll position; arrays over the roll positions.
 
     `friction_moment` is int w |s - s_C| dl [N m]. `loaded_length` and `length` are the loaded and the total length of
     the contact lines [m]. `held` is the number of slices whose approach exceeds the limit of the half-space.

@@ -40,11 +40,11 @@ def face_load_factor(balance: LoadBalance, y: float) -> float:
 
     Notes
     -----
-    Eq. L17: K_Hbeta is the largest value of q(y) = int w dx / p_bt divided by the mean value of q, as in the idea of
-    ISO 6336-1, annex E. The mean value follows from the force in the balance and the face width. The search first
-    computes q at equidistant places, at kinks of the gap and at `y`, without substeps between roll positions. It then
-    refines the place with the largest q. If lines are loaded over a part of their length only, q without substeps is
-    inexact; several places with nearly the largest q are then refined.
+    Eq. L17: K_Hbeta is the largest value of q(y) = int w dx / p_bt divided by the mean value of q. This follows the
+    idea of ISO 6336-1, annex E. The mean value follows from the force in the balance and the face width. The search
+    first computes q at equidistant places, at kinks of the gap and at `y`, without substeps between roll positions. The
+    search then refines the place with the largest q. If lines are loaded over a part of their length only, q without
+    substeps is inexact; several places with nearly the largest q are then refined.
     """
     plane = balance.mesh.plane
     evenly = np.linspace(0.0, plane.face_width, FACE_POINTS)

@@ -41,12 +41,12 @@ NEAR_ROUNDING = 1e-12  # relative residual of the force that is accepted if a st
 TOLERANCE = 1e-10  # largest relative residual of the force in a solution
 MAX_COVERS = 20  # number of times that the lines of one roll position are cut into slices
 SETTLED = 1e-6  # relative change of the approach; if two covers differ by less, the last cover is accepted
-STRAIGHT = 2e-3  # share of the approach; TE is linear if it is closer than this to the line through its neighbours
+STRAIGHT = 2e-3  # largest distance of a linear TE from the line through its neighbours, as share of the approach
 MAX_HALVINGS = 8  # largest number of times that a step between roll positions is halved
 MOST_ADDED = 1000  # largest number of roll positions that are added per halving
 LEAST_LINE_LOAD = 0.1  # N/m, mean line load; below this load the approach is as small as the rounding of large gaps
 LEAST_SPREAD = 1e-12  # m, least range of a kinematic error that is tested for linearity
-BESIDE = 1e-12  # share of the path; distance from a load jump at which each of its sides is computed; above rounding
+BESIDE = 1e-12  # distance of the points on both sides of a load jump from the jump, as share of the path
 
 
 Start = tuple[FloatArray, FloatArray]
@@ -230,7 +230,7 @@ def balance_load(
     Returns
     -------
     LoadBalance
-        TE and loads at all roll positions; if the force is 0, the kinematic error.
+        TE and loads at all roll positions. If the force is 0, TE is the kinematic error.
 
     Raises
     ------
@@ -271,8 +271,8 @@ def _balanced(mesh: Mesh, rolls: RollPositions, force: float, slices: int, start
 def _bent_steps(balance: LoadBalance) -> IntArray:
     """Return the indices of the steps between roll positions across which TE is not linear, in ascending order.
 
-    The measure is the distance of TE at a position from the straight line through TE at both neighbouring positions.
-    Corners are left out.
+    TE is linear at a position if TE is close to the straight line through TE at both neighbouring positions. Corners
+    are left out.
     """
     phase, error = balance.rolls.phase, balance.transmission_error
     spread = np.full(error.size, max(float(np.ptp(error)), LEAST_SPREAD))
@@ -362,7 +362,7 @@ def _balance(
 def error_at(
     plane: ContactPlane, phase: FloatArray, error: FloatArray, x: float, y: float, index: int
 ) -> tuple[float, int]:
-    """Return TE at the roll position whose line passes through (x, y), and the index of the step that contains it.
+    """Return TE at the roll position whose line passes through (x, y), and the index of the step at this position.
 
     A step lies between two neighbouring roll positions of the balance. The search starts from step `index`. At the end
     of the path, TE is the value just before the line leaves the path.

@@ -164,8 +164,7 @@ def stiffness(
 ) -> Stiffness:
     """Return the stiffness of the mesh, and the stiffness of one pair of teeth along the path.
 
-    The stiffness of one pair is the secant stiffness at the mean line load [N/m]. Without load, it is the secant
-    stiffness at `REFERENCE_LOAD`.
+    The stiffness of one pair is the secant stiffness at the mean line load [N/m], or at `REFERENCE_LOAD` without load.
     """
     secant_load = mean_load if mean_load > 0.0 else REFERENCE_LOAD
     single = single_stiffness(balance.mesh.compliance, secant_load)
@@ -256,8 +255,8 @@ def friction_loss(
     Notes
     -----
     Eq. L19: P_V = f/p_bt int sum_j int w |u1 - u2| dl dphase with u1 - u2 = (omega_1 + omega_2)(s - s_C), and
-    H_V = P_V / (f P). Friction power and efficiency belong to the transmitted power; load factors raise only the load
-    of the contacts.
+    H_V = P_V / (f P). Friction power and efficiency are computed without load factors, because load factors raise
+    only the load of the contacts and not the transmitted power.
     """
     if balance.force == 0.0:
         return FrictionLoss(friction_coefficient, loss_factor=None, power=0.0, efficiency=None)

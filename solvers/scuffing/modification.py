@@ -224,7 +224,10 @@ def gap_at(form: Gap, x: float, y: float) -> float:
 
 @kernel
 def _insert(edges: FloatArray, count: int, y: float) -> int:
-    """Insert y into the `count` ascending edges if y lies between the first and the last; return the new number."""
+    """Insert y into the `count` ascending edges, and return the new number of edges.
+
+    The edges do not change if y does not lie between the first and the last edge.
+    """
     if not edges[0] < y < edges[count - 1]:
         return count
     place = count

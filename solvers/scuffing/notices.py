@@ -176,7 +176,7 @@ def unusual_modifications(modifications: Modifications) -> Iterator[Notice]:
 
 
 def unusual_temperatures(temperatures: Temperatures) -> Iterator[Notice]:
-    """Warn if gears in service do not have the oil temperature, or do not have the given bulk temperature."""
+    """Warn if the oil temperature, or a given bulk temperature, does not occur in service."""
     yield from oil_temperature(temperatures.oil)
     if temperatures.bulk_method == "given":
         yield from tooth_temperature(temperatures.bulk)

@@ -197,7 +197,7 @@ class LoadOnFlank:
 class Pressure:
     """Largest Hertzian pressure [Pa] over all roll positions, and its place.
 
-    Both are None if the loaded path reaches a base circle, because the pressure has no limit towards a base circle.
+    Pressure and place are None if the loaded path reaches a base circle, because the pressure has no limit there.
     """
 
     max: float | None = quantity(
@@ -247,7 +247,10 @@ class ContactPoints:
 
     @property
     def undefined(self) -> BoolArray:
-        """True at loaded points too near a base circle to have a contact width, a pressure or a flash temperature."""
+        """True at loaded points that are too near a base circle.
+
+        Such points have no contact width, no pressure and no flash temperature.
+        """
         return (self.line_load > 0.0) & (self.half_width <= 0.0)
 
 

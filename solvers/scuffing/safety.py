@@ -77,8 +77,8 @@ def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
     Raises
     ------
     InvalidInput
-        `exclusive` if a bulk temperature is given and its method is "estimated"; the errors of `model.solve` and
-        `in_force`; the error of the thermal EHL solver if it refuses every point.
+        `exclusive` if a bulk temperature is given and `bulk_method` is "estimated"; the errors of `model.solve` and
+        `in_force`; the error of the thermal EHL solver if the solver refuses every point.
     NoSolution
         The errors of `model.solve` and `in_force`.
 
@@ -178,8 +178,8 @@ def _lines(
 
     The feature line is always checked. The profile line is checked if it is clearly hotter than the feature line
     (`AS_HOT`). The points of a line are equidistant. The hottest point of each line is added; on the feature line, the
-    point with the thinnest film of the formula is also added. Without these points, a largest value would depend on the
-    number of points. The profile line is None if `hottest` is None.
+    point with the thinnest film of the formula is also added. Without these points, the largest values would depend on
+    the number of points. The profile line is None if `hottest` is None.
     """
     line_at = partial(_line_at, inputs.distribution, distribution, film_at)
     even = np.linspace(0.0, 1.0, inputs.path_points)
@@ -327,7 +327,7 @@ def _closed_form_path(inputs: ScuffingInputs, line: _Line) -> ScuffingPath:
 
 
 def _with_thermal(inputs: ScuffingInputs, path: ScuffingPath, thermal: ThermalPath) -> ScuffingPath:
-    """Add the thermal EHL solution to a path, and compute the thickness ratio of the path from its film."""
+    """Add the thermal EHL solution to a path, and recompute the thickness ratio with the film by thermal EHL."""
     given = inputs.distribution
     ratio = thickness_ratio(thermal.minimum_film, given.pinion_material.roughness, given.wheel_material.roughness)
     status = tuple(

@@ -57,7 +57,7 @@ def check_micropitting(
     grid : FlashMap
         Points of the flank at which the film is computed, and the load at these points.
     thermal_film : float, optional
-        Thinnest film by thermal EHL [m]; None if it is unknown.
+        Thinnest film by thermal EHL [m]; None if this film is unknown.
     bulk : callable, optional
         Function that returns the bulk temperature [K] along the face; None if the bulk temperature is constant.
 

@@ -59,7 +59,7 @@ def range_notices(given: LoadDistributionInputs, path: PathOfContact) -> Iterato
 def standard_notices(
     given: LoadDistributionInputs, path: PathOfContact, standard: StandardFilm | None
 ) -> Iterator[Notice]:
-    """Yield a note that states the reason if method B gives no film."""
+    """Yield a note that says why method B gives no film; yield nothing if method B gives a film."""
     if standard is not None:
         return
     reasons = {

@@ -26,7 +26,7 @@ STEEL = Solid(
     thermal_conductivity=45.0,
     roughness=0.5e-6,
 )
-PERMISSIBLE_SHARE = 1.4  # permissible film ratio over the film ratio in the test, if the material factor is 1
+PERMISSIBLE_SHARE = 1.4  # permissible film ratio divided by the film ratio in the test, if the material factor is 1
 SURFACE_FACTOR: dict[FlankSurface, float] = {
     "case_hardened": 1.0,
     "case_hardened_retained_austenite": 0.95,

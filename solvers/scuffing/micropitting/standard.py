@@ -110,7 +110,7 @@ def solve_standard(
     given : LoadDistributionInputs
         The pair and its load; neither torque nor speed is 0. The modifications are not used.
     path : PathOfContact
-        The path of contact of the pair. Its transverse contact ratio is from 1 to 2; no point is near a base circle.
+        The path of contact of the pair. The transverse contact ratio is from 1 to 2; no point is near a base circle.
     oil : OilSheet or Lubricant
         The oil.
     oil_temperature : float

@@ -197,8 +197,8 @@ def find_thinnest(
 def formula_film(inputs: ScuffingInputs) -> ContactFunction:
     """Return a function that computes the minimum film [m] at contacts by the formula of Dowson and Higginson.
 
-    The film is NaN at points that are not in contact. It is NaN at all points if the oil or the bulk temperature is
-    unknown.
+    The film is NaN at points that are not in contact. The film is NaN at all points if the oil or the bulk temperature
+    is unknown.
     """
     lubricant, bulk = inputs.lubricant, inputs.temperatures.bulk
     if lubricant is None or bulk is None:
@@ -207,7 +207,7 @@ def formula_film(inputs: ScuffingInputs) -> ContactFunction:
     modulus = reduced_modulus(inputs.distribution.pinion_material, inputs.distribution.wheel_material)
 
     def film_at(points: ContactPoints) -> FloatArray:
-        with np.errstate(divide="ignore", invalid="ignore"):  # at points that are not in contact
+        with np.errstate(divide="ignore", invalid="ignore"):  # division by zero at points that are not in contact
             film = dowson_higginson_minimum(
                 viscosity=viscosity,
                 pressure_viscosity=pressure_viscosity,

@@ -14,7 +14,7 @@ from solvers.scuffing.inputs import LoadDistributionInputs, OilSupply
 ScuffingRisk = Literal["high", "moderate", "low"]
 
 OIL_SUPPLY_FACTOR: dict[OilSupply, float] = {"spray": 1.2, "dip": 1.0, "submerged": 0.2}  # X_S
-OIL_KIND_FACTOR: dict[OilKind, float] = {"mineral": 1.0, "pao": 0.8, "polyglycol": 0.7, "ester": 1.0}  # factor of X_L
+OIL_KIND_FACTOR: dict[OilKind, float] = {"mineral": 1.0, "pao": 0.8, "polyglycol": 0.7, "ester": 1.0}  # factor in X_L
 OIL_KIND_LOSS_FACTOR: dict[OilKind, float] = {"mineral": 1.0, "pao": 0.8, "polyglycol": 0.7, "ester": 0.8}  # X_L
 LEAST_LINE_LOAD = 150.0  # N/mm, lower limit in both friction laws
 FASTEST_PITCH_LINE = 50.0  # m/s, upper limit of v_t in both friction laws
@@ -152,7 +152,7 @@ def _rough(inputs: LoadDistributionInputs) -> float:
 
 
 def scuffing_temperature(stage: int, structure_factor: float, factor: float) -> float:
-    """Compute the scuffing temperature of an oil from its FZG test A/8.3/90.
+    """Compute the scuffing temperature of an oil from the FZG test A/8.3/90 of the oil.
 
     Parameters
     ----------

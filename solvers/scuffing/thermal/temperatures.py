@@ -37,7 +37,7 @@ from solvers.scuffing.thermal.practice import (
 )
 
 COLDEST_OIL, HOTTEST_OIL = 223.15, 573.15  # K, range of the reference temperature of an oil
-STEEL_MODULI = (170e9, 240e9)  # Pa; cast iron and bronze are below, hard metal is above
+STEEL_MODULI = (170e9, 240e9)  # Pa; cast iron and bronze are below this range, hard metal is above
 MEAN_POINTS = 1001  # number of points for the mean flash temperature along the feature line
 
 
@@ -96,7 +96,7 @@ def with_friction(inputs: ScuffingInputs, distribution: LoadDistribution) -> tup
 def with_temperatures(inputs: ScuffingInputs, distribution: LoadDistribution, flash: FlashMap) -> ScuffingInputs:
     """Return the inputs with numbers for bulk and scuffing temperature, and with the oil at the bulk temperature.
 
-    Bulk temperature and lubricant are None if there is no oil. They are also None if the bulk temperature cannot be
+    Bulk temperature and lubricant are None if there is no oil. Both are also None if the bulk temperature cannot be
     estimated because the flash temperature has no mean.
 
     Raises

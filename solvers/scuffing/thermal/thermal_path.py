@@ -28,18 +28,18 @@ CURVES = tuple(item.name for item in fields(ThermalPath) if item.name != "status
 def thermal_paths(
     inputs: ScuffingInputs, lines: Sequence[ContactPoints]
 ) -> tuple[tuple[ThermalPath, ...], tuple[Notice, ...]]:
-    """Solve the thermal EHL contact at the points of the lines that are in contact.
+    """Solve the thermal EHL contact along lines, at the points at which the flanks are in contact.
 
     The solution of a point starts from the solutions of the preceding points on the line. The oil enters the contact at
     the bulk temperature. If a heat balance gives pinion and wheel different bulk temperatures, each surface has the
     bulk temperature of its gear. A point outside the range of the solver gets the status "refused". A point without
-    convergence gets the status "no_solution". The other points are solved nevertheless. Every warning counts the points
-    of all lines together.
+    convergence gets the status "no_solution". The other points are solved nevertheless. Every warning is returned once
+    for all lines, with the number of points to which the warning applies.
 
     Raises
     ------
     InvalidInput
-        The solver's error if it refuses every point.
+        The error of the solver if the solver refuses every point.
     """
     contacts = [
         {point: contact_at(inputs, points, point) for point in np.flatnonzero(points.in_contact).tolist()}
@@ -60,7 +60,7 @@ def thermal_paths(
 def _solve_line(
     points: ContactPoints, contacts: dict[int, ehl.LineContactInputs], refusals: dict[int, InvalidInput]
 ) -> tuple[ThermalPath, list[ehl.LineContactResult]]:
-    """Solve one line; return its path, and the results of the points that were solved under their own load.
+    """Solve one line; return the path of the line, and the results of the points solved under their own load.
 
     If a point is refused because its load is too light, the point is solved under the lightest load that the solver
     accepts. This solution gives bounds for flash temperature and film.
