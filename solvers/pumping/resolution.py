@@ -30,10 +30,10 @@ from solvers.pumping.results import Resolution
 SAFETY = 3.0  # factor on the difference of two grids, as in the grid convergence index (Roache 1994)
 OF_EXTREMES = 1.2  # further factor on the uncertainty of extremes
 RISE = 2.0  # a value may rise further by this factor times its rise from half the resolution to the full one
-NEAR = 0.97  # share of the Mach number of an end; slices with a larger Mach number may exceed it on a finer grid
+NEAR = 0.97  # share of the Mach number of an end; slices above this share may exceed that of the end on a finer grid
 CLOSE = 0.9  # share of an extreme gauge pressure; larger pressures count as close to the extreme
 SPREAD = 4.0  # number of slices over which a grid spreads a wave
-LOST = 1.0  # relative uncertainty of a pressure from which on no result is certain: a finer grid may give another flow
+LOST = 1.0  # relative uncertainty of a pressure; at this value a finer grid may give another flow: no result is certain
 
 
 class Grids(NamedTuple):
@@ -132,7 +132,7 @@ def net_uncertainty(grids: Grids, jumped: float) -> float:
 
 
 def radial_uncertainty(grids: Grids, jumped: float) -> float:
-    """Estimate the uncertainty of the net radial mass in a stroke [kg]; it is at least `net_uncertainty`."""
+    """Estimate the uncertainty of the net radial mass in a stroke [kg], which is at least `net_uncertainty`."""
     radial = SAFETY * abs(grids.flow.masses.radial - grids.halved.masses.radial)
     return max(radial, net_uncertainty(grids, jumped))
 
@@ -154,7 +154,7 @@ def _shares(gas: Gas, grids: Grids) -> dict[str, float]:
 
 
 def _side_by_side(gas: Gas, fine: SpaceFlow, coarse: SpaceFlow) -> tuple[FloatArray, FloatArray]:
-    """Interpolate the gauge pressures [Pa] of two grids to the angles of the coarse and positions of the fine grid."""
+    """Interpolate the gauge pressures [Pa] of two flows to the angles of `coarse` and the positions of `fine`."""
     here = [np.interp(coarse.angle, fine.angle, column) for column in fine.pressure.T]
     there = [np.interp(fine.position, coarse.position, row) for row in coarse.pressure]
     return np.transpose(here) - gas.pressure, np.array(there) - gas.pressure
@@ -192,7 +192,7 @@ def _reaches(gas: Gas, grids: Grids) -> dict[str, float]:
 
 
 def _mach_reach(fine: SpaceFlow, half: SpaceFlow) -> float:
-    """Estimate the value that the largest Mach number, that of an end or of a slice, may reach with more slices.
+    """Estimate the value that the largest Mach number of all ends and slices may reach with more slices.
 
     The Mach number of a choked end is 1 on every grid. As the slices get shorter, the Mach number of the slices beside
     an end tends to the Mach number of the end. The estimate includes slices that may exceed the Mach number of the end.
@@ -219,9 +219,9 @@ def _profiles(gas: Gas, flow: SpaceFlow) -> dict[str, FloatArray]:
 
 
 def _reach(position: FloatArray, here: FloatArray, coarse: FloatArray, there: FloatArray, times: float = RISE) -> float:
-    """Compute the largest value of the local maxima over the face if each rises further by `times` its last rise.
+    """Compute the largest of the local maxima over the face if every maximum rises further by `times` its last rise.
 
-    The last rise is the rise from the coarse to the fine grid.
+    The last rise of a maximum is the rise from the coarse to the fine grid.
     """
     edged = np.pad(here, 1, constant_values=-np.inf)
     tops = (here >= edged[:-2]) & (here >= edged[2:])
@@ -233,7 +233,7 @@ def _reach(position: FloatArray, here: FloatArray, coarse: FloatArray, there: Fl
 def _relative(value: float, half: float, quarter: float) -> float:
     """Estimate the relative uncertainty of a value from the values at half and a quarter of the resolution.
 
-    It is the larger of two estimates: three times the difference from the value at half the resolution, and the
+    The result is the larger of two estimates: three times the difference from the value at half the resolution, and the
     difference from the value at a quarter. If the error is of first order, both estimates are three times the error.
     """
     return max(SAFETY * abs(half / value - 1.0), abs(quarter / value - 1.0)) if value != 0.0 else 0.0

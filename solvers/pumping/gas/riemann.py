@@ -101,7 +101,7 @@ def _star_flux(g: float, state: State, s: float, s_m: float) -> Conserved:
 
 @kernel
 def reservoir_face(gas: Gas, cell: State) -> tuple[State, float]:
-    """Compute the state of a face that opens into the ambient, and its demand.
+    """Compute the state of a face that opens into the ambient, and the demand of this face.
 
     Parameters
     ----------
@@ -116,8 +116,8 @@ def reservoir_face(gas: Gas, cell: State) -> tuple[State, float]:
         State of the face. Outflow expands to the ambient pressure, at most to Mach 1. Inflow comes from ambient gas at
         rest. If the cell is supersonic outwards, the face has the state of the cell.
     demand : float
-        Mach number of an expansion to the ambient pressure, negative for inflow. If it is above 1, the face is choked,
-        or the cell is supersonic.
+        Mach number of an expansion to the ambient pressure, negative for inflow. If the demand is above 1, the face is
+        choked, or the cell is supersonic.
 
     Notes
     -----

@@ -53,8 +53,8 @@ def _close(
 def _corner_section(space: ToothSpace, angle: float, mate_angle: float) -> tuple[float, float, float, float, float]:
     """Find the section between a tip corner and the other gear.
 
-    With contact gaps, the tip corner that is nearer to the other gear counts; with tip gaps, the mate's tip corner.
-    Returns the clearance [m]; radius [m] and half angle [rad] of the foot on the space; the area between the owner's
+    With contact gaps, the tip corner that is nearer to the other gear counts; with tip gaps, the mate's tip corner
+    counts. Returns the clearance [m]; radius [m] and half angle [rad] of the foot on the space; the area between the owner's
     axis and the profile up to this foot [m^2]; and the roll length of the foot on the mate [m].
     """
     clearance, r, psi, below = from_mate(space, angle, mate_angle, space.mate_tip_roll)
@@ -95,8 +95,8 @@ def _flank_section(
 def _carried(space: ToothSpace, roll: float, gap: float) -> float:
     """Compute the area of gas [m^2] that rolling flanks have carried through a section of width `gap` [m].
 
-    The area is positive towards growing roll lengths. It is the integral of the gap times half the sum of the rolling
-    velocities of both flanks over time, from the angle at which both velocities are 0.
+    The area is positive towards growing roll lengths. The rolling velocities of both flanks are added; half of this sum
+    times the gap is integrated over time, from the angle at which both velocities are 0.
     """
     facing = space.line_of_action - gap
     roll = min(max(roll, facing - space.mate_tip_roll), space.tip_roll)
