@@ -208,8 +208,8 @@ def space_duct(mesh: Mesh, space: Space, pinion_speed: float, part: Stretch, *, 
 def _angles(mesh: Mesh, space: Space) -> FloatArray:
     """Return the recorded angles of the owner [rad].
 
-    The first angle is the start of the stroke at the end of the face that meshes first. The last angle is the end of the
-    stroke at the other end of the face.
+    The first angle is the start of the stroke at the end of the face that meshes first. The last angle is the end of
+    the stroke at the other end of the face.
     """
     limits = space.table.limits
     return np.linspace(limits.start, limits.end + space.lag * mesh.setup.gears.face_width, _ANGLES)

@@ -181,7 +181,7 @@ def _put_slope(slope: RecordArray, i: int, density: float, velocity: float, pres
 
 @kernel
 def _limited(side: int, back: float, ahead: float) -> float:
-    """Return van Leer's limited slope of two neighbouring differences, or `_end_slope` in an end cell (side -1 or 1)."""
+    """Return van Leer's limited slope of neighbouring differences, or `_end_slope` in an end cell (side -1 or 1)."""
     if side < 0:
         return _end_slope(back, ahead)
     if side > 0:

@@ -27,13 +27,13 @@ def involute(roll: float, base: float) -> float:
 
 @kernel
 def sector(roll: float, base: float) -> float:
-    """Compute the area [m^2] under an involute, 1/2 integral r^2 dpsi, from its start to a point at a roll length [m]."""
+    """Compute the area [m^2] under an involute, 1/2 integral r^2 dpsi, from its start up to a roll length [m]."""
     return roll**3 / (6.0 * base)
 
 
 @kernel
 def sector_to_involute(space: ToothSpace, roll: float) -> float:
-    """Compute the area [m^2] between the owner's axis and half the space's profile up to a point at a roll length [m]."""
+    """Compute the area [m^2] between the owner's axis and half the space's profile, up to a roll length [m]."""
     base = space.base_radius
     return space.root.sector_area + sector(roll, base) - sector(space.root.involute_roll, base)
 

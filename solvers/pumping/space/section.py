@@ -54,8 +54,8 @@ def _corner_section(space: ToothSpace, angle: float, mate_angle: float) -> tuple
     """Find the section between a tip corner and the other gear.
 
     With contact gaps, the tip corner that is nearer to the other gear counts; with tip gaps, the mate's tip corner
-    counts. Returns the clearance [m]; radius [m] and half angle [rad] of the foot on the space; the area between the owner's
-    axis and the profile up to this foot [m^2]; and the roll length of the foot on the mate [m].
+    counts. Returns the clearance [m]; radius [m] and half angle [rad] of the foot on the space; the area between the
+    owner's axis and the profile up to this foot [m^2]; and the roll length of the foot on the mate [m].
     """
     clearance, r, psi, below = from_mate(space, angle, mate_angle, space.mate_tip_roll)
     foot = space.mate_tip_roll
