@@ -182,7 +182,7 @@ def _hottest(position: FloatArray, rise: FloatArray | None) -> tuple[float | Non
 
 
 def _mass_flow(grids: Grids, frequency: float, jumped: float) -> MassFlow:
-    """Compute the mass flow of successive strokes, and the uncertainty due to the resolution and jumps of the area."""
+    """Compute the mass flow of successive strokes, and the uncertainty that resolution and jumps of the area cause."""
     masses, ends = grids.flow.masses, grids.flow.ends
     return MassFlow(
         front=frequency * masses.front,

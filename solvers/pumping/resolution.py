@@ -5,10 +5,10 @@ order, Roache's grid convergence index takes three times the difference of the g
 grid (J. Fluids Eng. 116, 1994, 405).
 
 Extremes need more care. The place of an extreme moves between the slices, and two grids may agree on an extreme by
-chance. Therefore three things are added. A third grid with a quarter of the resolution is compared as well. The
-uncertainty of an extreme is increased by a fifth. Places are included whose value is not the highest yet, but rises
-with the resolution. In a test, 800 random gear pairs were computed again with twice the number of slices. Only one
-result changed by more than its uncertainty; the change exceeded the uncertainty by a hundredth.
+chance. Therefore the estimate does three more things. It also compares a third grid with a quarter of the resolution.
+It increases the uncertainty of an extreme by a fifth. It includes places at which the value is not the highest yet, but
+rises with the resolution. In a test, 800 random gear pairs were computed again with twice the number of slices. Only
+one result changed by more than its uncertainty; the change exceeded the uncertainty by a hundredth.
 
 Two grids may also agree on an extreme but not on the pressure around it, because both grids damp the waves alike.
 Therefore the difference of the pressures close to an extreme is included. If the meshing line moves along the face
@@ -29,7 +29,7 @@ from solvers.pumping.results import Resolution
 
 SAFETY = 3.0  # factor on the difference of two grids, as in the grid convergence index (Roache 1994)
 OF_EXTREMES = 1.2  # further factor on the uncertainty of extremes
-RISE = 2.0  # a value may rise further by this factor times its rise from half the resolution to the full one
+RISE = 2.0  # a value may rise further by this factor times its rise from half to full resolution
 NEAR = 0.97  # share of the Mach number of an end; slices above this share may exceed that of the end on a finer grid
 CLOSE = 0.9  # share of an extreme gauge pressure; larger pressures count as close to the extreme
 SPREAD = 4.0  # number of slices over which a grid spreads a wave
@@ -90,8 +90,9 @@ def resolution(gas: Gas, spaces: list[Grids]) -> Resolution:
 def behind_jumps(resolved: Resolution, gas: Gas, flows: list[SpaceFlow], jumps: list[float]) -> Resolution:
     """Raise the uncertainties to at least the effect of jumps of the area, which a higher resolution does not reduce.
 
-    A jump of the logarithm of the area raises the pressure of the gas by a share, and changes the Mach number as much
-    as a wave of this pressure rise does. If the pressure rise is as large as the gauge pressure, no result is certain.
+    A jump of the logarithm of the area raises the pressure of the gas by the share `compressed`. The jump changes the
+    Mach number as much as a wave with this pressure rise does. If the pressure rise is as large as the gauge pressure,
+    no result is certain.
     """
     peak, low, mach = resolved.peak_pressure, resolved.min_pressure, resolved.axial_mach
     shares = [compressed(gas, jump) for jump in jumps]
@@ -117,7 +118,7 @@ def compressed(gas: Gas, jump: float) -> float:
 
 
 def net_uncertainty(grids: Grids, jumped: float) -> float:
-    """Estimate the uncertainty of the net mass through an end in a stroke [kg] from the grid of half the resolution.
+    """Estimate the uncertainty of the net mass through an end in a stroke [kg] from the flow at half the resolution.
 
     The uncertainty is at least the sum of the changes of outflow and inflow, because the net mass, their difference,
     may change less by chance. If jumps of the area change the pressure by the share `jumped`, the uncertainty is also

@@ -32,7 +32,7 @@ class Space:
     """The tooth spaces of one gear.
 
     `speed_ratio` is the speed of the gear divided by the speed of the pinion. `lag` is the angle of the gear by which
-    the stroke comes later per metre of face [rad/m].
+    the stroke begins later per metre of face [rad/m].
     """
 
     of_pinion: bool

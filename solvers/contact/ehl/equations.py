@@ -363,7 +363,7 @@ def pressure_gradient(grid: Grid, pressure: Numbers, cavitated: BoolArray) -> Nu
 
 
 def balance_of_load(grid: Grid, pressure: Numbers) -> Any:
-    """Return the integral of P minus pi/2, which is the value at which the pressure carries the load (Eq. 22).
+    """Return the integral of P minus pi/2, the integral at which the pressure carries the load (Eq. 22).
 
     Parameters
     ----------

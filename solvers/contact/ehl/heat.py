@@ -229,7 +229,7 @@ def exchange(problem: Problem, i: int, width: float, h: float, film: Film, heat:
 
 @inlined_kernel
 def column_residual(i: int, temperature: FloatArray, g: float, h: float, film: Film, heat: Heat) -> None:
-    """Compute the heat that the cells of column i lose, minus the heat of shear and compression in them [W/m^2].
+    """Compute the heat that the cells of column i lose, minus the heat of shear and compression there [W/m^2].
 
     Parameters
     ----------
@@ -333,7 +333,7 @@ def column_slopes(
 def _scale_walls(i: int, inertia: float, heat: Heat) -> None:
     """Turn the rows of both half cells into equations for the surface temperatures.
 
-    Half cells have half of the inertia.
+    A half cell has half the inertia of a whole cell.
     """
     column, convection, responses, walls = heat.column, heat.convection, heat.column.responses, heat.surfaces.walls[i]
     for side in range(2):

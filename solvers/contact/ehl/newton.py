@@ -36,7 +36,7 @@ LOWEST_TEMPERATURE = 200.0  # K, lower limit of the temperatures during the iter
 FIRST_DAMPING = 30.0  # first value of the damping of the temperatures, see `linearise_balances`
 FROZEN = 1e4  # more damping than this has no effect
 SHORT_STEP = 3e-3  # largest change of P after which the Jacobian can be reused
-SHRINKING = 0.1  # steps count as shrinking if the ratio of a step to the step before is smaller
+SHRINKING = 0.1  # steps count as shrinking if the ratio of a step to the step before is below this value
 
 
 @inlined_kernel

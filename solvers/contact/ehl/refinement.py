@@ -223,7 +223,7 @@ def finer_nodes(nodes: int, comparison: Comparison | None) -> int:
 def compare(
     inputs: LineContactInputs, constants: Problem, resolution: Resolution, attempt: Attempt
 ) -> Comparison | None:
-    """Compare a contact with the same contact on half the nodes (Richardson); return None if the latter is not solved.
+    """Compare a contact with the same contact on half the nodes (Richardson); return None if that solution fails.
 
     The solution on half the nodes starts from the contact's own solution. Mostly one Newton step is enough. A spike or
     a hot film needs more steps, because the coarser mesh at first keeps the peak with which it starts.

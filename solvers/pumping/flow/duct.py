@@ -13,7 +13,7 @@ class Duct(NamedTuple):
     """A stretch of a tooth space cut into equal cells.
 
     `start` is the distance from the end that meshes first [m]; `width` is the width of a cell [m], and `cells` the
-    number of cells. `lag` is the angle by which the stroke comes later per metre of face [rad/m]. `speed` is the speed
+    number of cells. `lag` is the angle by which the stroke begins later per metre of face [rad/m]. `speed` is the speed
     of the owner, the gear to which the space belongs [rad/s]. Row k of `table` (`wall_table`) holds the walls at the
     angle `first_angle` + k `angle_step` [rad]. `discharge` is the discharge coefficient.
     """

@@ -127,8 +127,8 @@ def _taking_part(gas: Gas, duct: Duct, angle: float, turn: float) -> tuple[int, 
     the end is open. Walls and balances count only the share of the step that lies in the stroke.
 
     If the stroke runs along the face faster than sound, cells take part a few cell widths early. Physical waves then do
-    not reach the border to the idle cells, but on a grid waves spread over a few cells. If the border were among these
-    cells, the gas that passes the border would fill the next cells. The flow could then develop in two different ways,
+    not reach the border to the idle cells, but on a grid waves spread over a few cells. If the border lay within this
+    spread, the gas that passes the border would fill the next cells. The flow could then develop in two different ways,
     depending on the sequence of steps.
     """
     low, high, rear = 0, 0, duct.cells - 1
