@@ -30,10 +30,10 @@ from solvers.pumping.results import Resolution
 SAFETY = 3.0  # factor on the difference of two grids, as in the grid convergence index (Roache 1994)
 OF_EXTREMES = 1.2  # further factor on the uncertainty of extremes
 RISE = 2.0  # a value may rise further by this factor times its rise from half to full resolution
-NEAR = 0.97  # share of the Mach number of an end; slices above this share may exceed that of the end on a finer grid
+NEAR = 0.97  # share of an end's Mach number; on a finer grid, slices above this share may exceed the end
 CLOSE = 0.9  # share of an extreme gauge pressure; larger pressures count as close to the extreme
 SPREAD = 4.0  # number of slices over which a grid spreads a wave
-LOST = 1.0  # relative uncertainty of a pressure; at this value a finer grid may give another flow: no result is certain
+LOST = 1.0  # relative uncertainty of a pressure at which no result is certain, as a finer grid may give another flow
 
 
 class Grids(NamedTuple):

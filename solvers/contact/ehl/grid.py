@@ -128,7 +128,7 @@ def _grid(half_octaves: int, nodes: int) -> Grid:
 
 
 def _graded(gap: float, nodes: int) -> FloatArray:
-    """Return nodes (n,) from inlet to outlet. The distances between them are in proportion to a prescribed spacing.
+    """Return nodes (n,) from inlet to outlet; the distances between nodes are in proportion to a prescribed spacing.
 
     If the film is much thicker than b^2/R, the pressure extends over the length (2 R h)^1/2 instead of b. Lengths of
     the order of b then need no resolution.

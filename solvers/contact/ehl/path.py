@@ -104,7 +104,7 @@ def _solve_next(inputs: LineContactInputs, walk: _Walk) -> LineContactResult:
 
 
 def _attempts(constants: Problem, resolution: Resolution, walk: _Walk, spent: Budget) -> Iterator[Attempt]:
-    """Yield an attempt that starts from the solutions of earlier contacts, then an attempt that ignores them."""
+    """Yield an attempt that starts from earlier solutions, then an attempt that ignores these solutions."""
     grid = grid_for(resolution.gap, resolution.nodes)
     walk.move_to(grid)
     if walk.states:

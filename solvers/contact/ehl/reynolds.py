@@ -176,8 +176,8 @@ def mass_flux_slopes(
 ) -> None:
     """Compute the derivatives of the mass fluxes by the pressures and film thicknesses around each face.
 
-    B and ln A of a node depend on p, G = h dp/dx and h of this node. First, the derivatives of B and ln A are computed
-    by three quantities: P of the node, P of its neighbours, and H of the node.
+    B and ln A of a node depend on p, G = h dp/dx and h of this node. First, the derivatives of B and ln A by three
+    quantities are computed: P of the node, P of the neighbours of the node, and H of the node.
     """
     n, (couette_scale, _), b, log_a = grid.x.size, _flux_scales(problem), coefficients.b, coefficients.log_a
     slope = problem.maximum_pressure / problem.half_width

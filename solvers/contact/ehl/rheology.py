@@ -5,7 +5,7 @@ functions contain all that depends on the law, and choose the law by `Problem.rh
 
 limited_gradient  G, limited to values at which the law can be evaluated
 mid_film_stress   the stress half way across a column, as required for the sliding speed u2 - u1
-shear_rates       the shear rate of every interval at the stress of this interval, and the derivative by the stress
+shear_rates       the shear rate of every interval at given stress, and the derivative of the rate by the stress
 uniform_shear     flow and stress in a film at one temperature
 
 A further law needs a name in `inputs.Rheology`, a branch in these four functions, and a branch in `effective_fluidity`,
@@ -27,7 +27,7 @@ STRESS_LIMIT = 300.0  # largest |h dp/dx|/(2 tau0); exp(300)^2 does not overflow
 
 
 def softened(problem: Problem, stress: float) -> Problem | None:
-    """Give the contact a Ree-Eyring oil of Eyring stress `stress` [Pa]; return None if it already has one as low."""
+    """Change the law of shear to Ree-Eyring with `stress` [Pa]; return None if the present stress is not higher."""
     if problem.rheology == REE_EYRING and stress >= problem.eyring_stress:
         return None
     return problem._replace(rheology=REE_EYRING, eyring_stress=stress)
@@ -106,7 +106,7 @@ def _eyring_mid_stress(problem: Problem, i: int, g: float, h: float, shear: Shea
 
 @inlined_kernel
 def shear_rates(problem: Problem, i: int, g: float, tau_m: float, shear: Shear) -> None:
-    """Compute stress, rate and effective fluidity of column i, and the derivatives of both rates by the stress.
+    """Compute stress, rate and effective fluidity of column i, and derivatives of rate and fluidity by the stress.
 
     Parameters
     ----------

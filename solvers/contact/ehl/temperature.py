@@ -23,7 +23,7 @@ from solvers.contact.ehl.state import State, Work
 
 LARGEST_STEP = 40.0  # K, largest change of a temperature in one iteration of a column
 COLUMN_ITERATIONS = 60  # limit; a column that has not converged by then does not converge at all
-REVERSE_SWEEPS = 3  # number of sweeps if there is reverse flow, chosen; all but the last carry heat backward once
+REVERSE_SWEEPS = 3  # number of sweeps if there is reverse flow, chosen; all sweeps but the last carry heat back
 
 
 @kernel

@@ -20,7 +20,7 @@ from solvers.pumping.flow.nozzle import Gas, mass_flux
 _NEWTON_LIMIT = 200  # number of iterations after which a step counts as not converged
 _TOLERANCE = 1e-10  # largest residual, relative to a pocket's content at ambient pressure
 _ROUNDING = 1e-7  # largest residual accepted if Newton's method cannot reduce it, because pressures differ by round-off
-_HALVINGS = 12  # largest number of halvings of a Newton step; a step below 1/4096 of Newton's does not help
+_HALVINGS = 12  # largest number of halvings of a Newton step; steps below 1/4096 of Newton's step do not help
 
 
 STATE = floats("pressure", "mass")
