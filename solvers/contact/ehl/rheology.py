@@ -5,7 +5,7 @@ functions contain all that depends on the law, and choose the law by `Problem.rh
 
 limited_gradient  G, limited to values at which the law can be evaluated
 mid_film_stress   the stress half way across a column, as required for the sliding speed u2 - u1
-shear_rates       the shear rate of every interval at given stress, and the derivative of the rate by the stress
+shear_rates       the shear rate of every interval at the given stress, and the derivative of the rate by the stress
 uniform_shear     flow and stress in a film at one temperature
 
 A further law needs a name in `inputs.Rheology`, a branch in these four functions, and a branch in `effective_fluidity`,
