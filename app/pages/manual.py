@@ -70,7 +70,7 @@ def functions_page(root: str) -> str:
 
 
 def chapter_of(calculation: Calculation) -> Chapter:
-    """Return the chapter about a calculation: its own chapter, or else the chapter about its model."""
+    """Return the chapter about a calculation. Without such a chapter, return the chapter about the model."""
     own = calculation.path.rpartition("/")[2]
     return chapters()[own if own in chapters() else model_of(calculation)]
 
@@ -101,9 +101,10 @@ class Symbol(NamedTuple):
 
 @cache
 def symbols_of(chapter: Chapter) -> list[Symbol]:
-    """Return the symbols of the inputs of a chapter's calculations, and of the results whose computation it describes.
+    """Return the symbols that a chapter needs, sorted.
 
-    The symbols are sorted, and a symbol is repeated only if it has several titles.
+    These are the symbols of the inputs of the chapter's calculations, and the symbols of the results whose computation
+    the chapter describes. A symbol is repeated only if it has several titles.
     """
     symbols = dict[tuple[str, str], Symbol]()
     for calculation in CALCULATIONS:
@@ -123,7 +124,7 @@ def _is_of(leaf: Leaf, chapter: Chapter) -> bool:
 
 @dataclass(frozen=True, slots=True)
 class ShownStudy:
-    """A study of an example, one of whose figures a chapter shows.
+    """A study of an example. A chapter of the manual shows one of the figures of this study.
 
     `path` and `pairs` make the link of the case. `page` is the part of the address that names the kind of study, and
     `controls` are the settings of the study.
@@ -225,8 +226,8 @@ def _image(
 ) -> str:
     """Return the HTML of a picture.
 
-    The picture is the figure of an example or study that the service draws. Its caption ends with a link to the case or
-    the study.
+    The picture is a figure of an example or of a study, drawn by the service. The caption of the picture ends with a
+    link to the case or to the study.
     """
     token = tokens[place]
     folder, _, file = str(token.attrs["src"]).removesuffix(".png").partition("/")
