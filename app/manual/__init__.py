@@ -31,7 +31,7 @@ NAMES = (
 
 @dataclass(frozen=True, slots=True)
 class Chapter:
-    """A chapter: `name` is part of its address and its file name, `text` is Markdown."""
+    """A chapter. `name` is part of the chapter's address and of its file name; `text` is Markdown."""
 
     name: str
     text: str

@@ -25,8 +25,8 @@ ITEM = "*"
 class Leaf:
     """A field that holds values and is not a section of further fields.
 
-    `declared` says what the field means, and `view` how a result is judged. `title` is unique within its request or
-    answer: if fields of several sections have the same title, the name of the section is added to the title.
+    `declared` says what the field means, and `view` says how a result is judged. `title` is unique within the request
+    or answer: if fields of several sections have the same title, the name of the section is added to each title.
     `dimensions` is 0 for a scalar, 1 for a list and 2 for a matrix. `axes` holds the full paths of the axes, one for
     each dimension, or is empty.
     """
@@ -278,7 +278,7 @@ def _meant(model: type[Documented], wanted: _Names) -> _Names | None:
             if (
                 theirs[-1] == wanted[-1]
                 and theirs.count(ITEM) == wanted.count(ITEM)
-                and all(name in rest for name in wanted[start:])  # in the order of `wanted`
+                and all(name in rest for name in wanted[start:])  # and in the order of `wanted`
                 and (start == 0 or theirs[0] == wanted[start])
             ):
                 return request_names[theirs]
