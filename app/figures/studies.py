@@ -37,7 +37,7 @@ STAR = f"{NO_BREAK}*"
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Coordinate:
-    """A varied field with its values in rising order, or with its words if the values are words.
+    """A varied field and its values, which are either numbers in rising order or words.
 
     `own` is the value of the field in the case itself. A field `scatters` if manufacture or measurement leaves its
     value open, so that a design has to tolerate the scatter.
@@ -84,7 +84,7 @@ class Grid:
 
 
 def figures_of(grid: Grid) -> dict[str, Figure]:
-    """Return the figures of a sweep by their names."""
+    """Return the figures of a sweep. The keys are the names of the figures."""
     if grid.y is None:
         return {"curve": curve(grid)}
     if grid.y.words or grid.y.values.size <= MOST_CURVES:
@@ -234,7 +234,7 @@ def _second_difference(x: Values, y: Values) -> float:
 def answer(grid: Grid) -> str:
     """Return the answer to the question of a sweep as a sentence.
 
-    The sentence compares the output with its limit. If there is no limit, it states the range of the output.
+    The sentence compares the output with its limit. If there is no limit, the sentence states the range of the output.
     """
     finite = np.isfinite(grid.values)
     if grid.best is None:
@@ -312,7 +312,7 @@ def corners(output: Axis, rows: list[Row], nominal: float | None) -> Figure:
 def lead_chart(
     position: Values, face_fraction: Values, wanted: Lead, before: Lead, tolerance: Lead, ends: tuple[str, str]
 ) -> Figure:
-    """Draw the helix trace to grind, with its tolerances, as a lead chart. Removed material is drawn downwards.
+    """Draw a lead chart of the helix trace to grind, and of its tolerances. Removed material is drawn downwards.
 
     `position` is the position on the axis of the unit [mm]. `before` is the lead that the case describes. `ends` holds
     the names of the two ends of the face.

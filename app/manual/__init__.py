@@ -58,6 +58,6 @@ class Chapter:
 
 @cache
 def chapters() -> dict[str, Chapter]:
-    """Return the chapters by their names, in reading order."""
+    """Return the chapters in reading order. The keys are the names of the chapters."""
     folder = files("app.manual")
     return {name: Chapter(name, folder.joinpath(f"{name}.md").read_text("utf-8")) for name in NAMES}

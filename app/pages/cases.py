@@ -165,7 +165,7 @@ def opened(content: bytes, root: str) -> Asked:
     try:
         case = content_of(content)
         endpoint, title = str(case["endpoint"]), str(case.get("title", ""))
-        pairs = pairs_of_query(link("", pairs_of(dict(case["request"]))).removeprefix("?"))  # as the form sends them
+        pairs = pairs_of_query(link("", pairs_of(dict(case["request"]))).removeprefix("?"))  # the texts of a form
     except (InvalidBody, Unreadable, AttributeError, KeyError, RecursionError, TypeError, ValueError):
         raise Unreadable(
             "The file does not contain a case. A case is a JSON object with an endpoint and a request"

@@ -77,7 +77,7 @@ def chapter_of(calculation: Calculation) -> Chapter:
 
 @cache
 def method_of(chapter: Chapter) -> dict[str, Any]:
-    """Return the summary of a chapter for reports; it has no links, because reports are printed."""
+    """Return the summary of a chapter for reports. The summary has no links, because reports are printed."""
     numbered = [equation for equation in equations().values() if equation.chapter == chapter.name]
     return {
         "title": chapter.title,
@@ -144,7 +144,7 @@ class ShownStudy:
 
 @cache
 def shown_studies() -> dict[str, ShownStudy]:
-    """Return the studies that chapters show, by the names of their pictures."""
+    """Return the studies that chapters show. The keys are the names of the pictures."""
     studies = {}
     for name, entry in json.loads(files("app.manual").joinpath("studies.json").read_text("utf-8")).items():
         example = examples()[entry["example"]]
@@ -165,7 +165,7 @@ def _plain(text: str) -> Markup:
 
 
 def headings(chapter: Chapter) -> dict[str, str]:
-    """Return the titles of a chapter's sections by their anchors."""
+    """Return the titles of a chapter's sections. The keys are the anchors of the sections."""
     if chapter.name == FIELDS:
         return {section.lower(): section for section in SECTIONS}
     return {

@@ -98,8 +98,8 @@ def _with_origin(sections: list[Section], origins: frozenset[str]) -> list[Secti
 def _left(sections: list[Section]) -> list[tuple[str, list[tuple[Leaf, str, bool]]]]:
     """Return the inputs left to their defaults, by the title of their section.
 
-    Each input comes with a text, and with True if this text is a value. If an input is empty and has no value, the text
-    says what replaces the value, for example from what it is estimated.
+    Each input comes with a text, and with a boolean that is True if this text is a value. If an input is empty and has
+    no value, the text says what replaces the value, for example the quantity from which the value is estimated.
     """
     left = []
     for title, _, rows in sections:

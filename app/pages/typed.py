@@ -11,7 +11,7 @@ from decimal import Decimal
 from typing import Any
 
 DOUBT = "?"
-LONGEST = 60  # characters; a longer text is not read as a number with its unit; chosen
+LONGEST = 60  # characters of a number and its unit; a longer text is not read as a number; chosen
 MOST_ITEMS = 2000  # items of a list; more than any list of a request may have
 
 _TIDY = str.maketrans({"−": "-", "’": "'", "\u00a0": " ", "\u2007": " ", "\u2009": " ", "\u202f": " "})

@@ -94,7 +94,7 @@ def _coupling(response: CouplingResponse) -> str:
 
 
 def _spaces(response: PumpingResponse) -> dict[str, Any]:
-    """Return the tooth spaces of the answer by their gear."""
+    """Return the tooth spaces in the answer. The keys are the names of their gears."""
     spaces = {"pinion": response.pinion_spaces, "wheel": response.wheel_spaces}
     return {gear: space for gear, space in spaces.items() if space is not None}
 

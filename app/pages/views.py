@@ -70,7 +70,7 @@ def form_page(asked: Asked) -> Shown:
 
 
 def _deciding(calculation: Calculation) -> frozenset[str]:
-    """Return the inputs without which a headline number has no value, and the inputs that may replace them."""
+    """Return the inputs without which a headline number has no value, and the inputs that may replace these inputs."""
     needed = (leaf_at(calculation.request, leaf.view.needs or "") for leaf in headlines(calculation.response))
     return frozenset(path for leaf in needed if leaf for path in (leaf.path, *excluded(leaf.path, leaf)))
 
@@ -127,9 +127,9 @@ def _asked_back(pairs: Pairs, faults: list[Fault]) -> list[Fault]:
 
 
 def _keep(asked: Asked, case: Case, variant: Case | None = None) -> dict[str, bytes]:
-    """Return the answers that are not kept yet, by the keys of their fields.
+    """Return the answers of case and variant that are not kept yet. The keys are made by `key_of` from their fields.
 
-    If the case is too long for a link, its answers are also returned by the keys of their hashes.
+    If the case is too long for a link, both answers are also returned under keys that are made from their hashes.
     """
     keep = {}
     for pairs, kept, answered in (asked.pairs, asked.kept, case), (asked.ref_pairs, asked.kept_ref, variant):
@@ -161,7 +161,7 @@ def _page(asked: Asked, state: State, status: int = 200, keep: dict[str, bytes] 
 
 
 def _answered(asked: Asked, case: Case, variant: Case | None, trouble: str, *, compute: bool = False) -> dict[str, Any]:
-    """Return the variables with which page and report show an answer and compare it with the variant's answer.
+    """Return the variables for the part of page and report that shows the answer and compares it with the variant.
 
     `trouble` says why the variant cannot be computed.
     """

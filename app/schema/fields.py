@@ -112,7 +112,7 @@ def tree(model: type[Documented]) -> Branch:
 
 @cache
 def branches(model: type[Documented]) -> dict[str, Branch]:
-    """Return all sections by their paths."""
+    """Return all sections. The keys are the paths of the sections."""
     return {member.path: member for member in _all(tree(model)) if isinstance(member, Branch)}
 
 
@@ -265,8 +265,8 @@ def field_path(request: Documented, name: str) -> str | None:
 def _meant(model: type[Documented], wanted: _Names) -> _Names | None:
     """Return the names on the way to the outermost field or list item that a solver means by these names.
 
-    The solver may leave out sections, but not lists. It may first name parts of its own inputs that the request does
-    not have; the next name must then be at the root of the request.
+    The solver may leave out sections, but not lists. The names may begin with parts of the solver's inputs that the
+    request does not have. The first name after these parts must then be at the root of the request.
     """
     request_names: dict[_Names, _Names] = {}
     for way in _ways(model):

@@ -7,8 +7,8 @@ has a field for each declaration of `si.ModelOptions`. If the quantity has a uni
 unit. A trailing underscore, which keeps a solver's name from being a word of Python (`from_`), is dropped.
 
 The class body may declare ordinary fields of pydantic. A field that has the name of a filled field changes the type or
-the default of the filled field. If its type is annotated with an `Input` or `Output`, this replaces the declaration of
-the solver; `Input.of(Record, "field", text=...)` replaces only a part of the declaration.
+the default of the filled field. If the new type is annotated with an `Input` or `Output`, this replaces the declaration
+of the solver; `Input.of(Record, "field", text=...)` replaces only a part of the declaration.
 
 `Section.si` converts a request into the solver's dataclasses in SI, and `from_si` reads a response from the solver's
 result. Both use the names and units of `members`, which are looked up once per model.
@@ -163,9 +163,10 @@ def kinds(annotation: Any, lists: int = 0) -> Iterator[tuple[Any, int]]:
 class Member:
     """A field of a model: its meaning, its types, and the corresponding field of a solver's dataclass.
 
-    `record` is the dataclass and `solver_name` its field. If the declaration is not taken from a dataclass, `record` is
-    None and `solver_name` is the name of the field without its unit. `kinds` are the types of single values. `group` is
-    the section or group among these types, or None. `dimensions` is 0 for a scalar, 1 for a list, 2 for a matrix.
+    `record` is the dataclass, and `solver_name` is the name of the field there. If the declaration is not taken from a
+    dataclass, `record` is None, and `solver_name` is the name of the field without its unit. `kinds` are the types of
+    single values. `group` is the section or group among these types, or None. `dimensions` is 0 for a scalar, 1 for a
+    list, 2 for a matrix.
     """
 
     name: str

@@ -31,7 +31,7 @@ LEAST_REACH = 7  # typographic points between a text and its point or line
 # Number of steps in which the name of a line can be moved along the line; length of a downward step in name heights.
 ALONG, DOWN = 8, 0.6
 RING = 5  # pixels, half the side of the box around a mark
-SIDES = {"above": 1, "below": -1}  # side of a point on which its text is tried first
+SIDES = {"above": 1, "below": -1}  # side of a point on which the text of the point is tried first
 MOVED = {*SIDES, "row", "column"}  # texts of points, of horizontal and of vertical lines; other texts are not moved
 # Ticks per decade of ratios. If the greatest ratio of a map is at most LINEAR_RATIO, ticks are evenly spaced instead.
 RATIO_TICKS, LINEAR_RATIO = (1.0, 1.5, 2.0, 3.0, 5.0, 7.0), 1.5
@@ -120,7 +120,7 @@ def legend_lines(panel: Panel) -> int:
 
 
 def _end(axes: Axes, panel: Panel) -> None:
-    """Set the ends of the axes to those that the panel gives, or else to ends that leave room around the data.
+    """Set the ends of the axes to the limits in the panel. Without limits, leave room around the data.
 
     If the values of the ordinate differ only by rounding errors, the axis is widened so that these errors do not show.
     """

@@ -63,7 +63,7 @@ def over_flank(
 
 
 def flank_load(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figure:
-    """Draw the line load over the flank, with a mark at its maximum over all roll positions."""
+    """Draw the line load over the flank, with a mark at the largest line load of all roll positions."""
     load, flank, shown = result.load, result.flank, axis(Flank, "line_load")
     panel = over_flank(inputs.gears.face_width, flank, shown, flank.line_load, load.max_line_load, load.max_at)
     spread = "" if load.face_load_factor is None else f", K_Hβ = {number(load.face_load_factor)}"
@@ -73,7 +73,7 @@ def flank_load(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figu
 
 
 def flank_pressure(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figure:
-    """Draw the Hertzian pressure over the flank, with a mark at its maximum over all roll positions."""
+    """Draw the Hertzian pressure over the flank, with a mark at the largest pressure of all roll positions."""
     largest, at, flank = result.pressure.max, result.pressure.max_at, result.flank
     panel = over_flank(inputs.gears.face_width, flank, axis(flank, "pressure"), flank.pressure, largest, at)
     finding = NO_LOAD

@@ -106,7 +106,8 @@ def _bulk_of(result: Scuffing, surface: str) -> float:
 def _flashes(path: ScuffingPath) -> list[Line]:
     """Return the flash temperatures along a path as lines.
 
-    If thermal EHL was solved, there is a line of its result for each flank. The last line follows Blok's formula.
+    If thermal EHL was solved, the first two lines show the flash temperatures of both flanks by thermal EHL. The last
+    line shows the flash temperature by Blok's formula.
     """
     lines = list[Line]()
     if path.thermal is not None:
@@ -217,8 +218,8 @@ def _safeties(result: Scuffing, path: ScuffingPath, oil: float, reserve: float) 
 def film(inputs: ScuffingInputs, result: Scuffing) -> Figure:
     """Draw the film thickness along the evaluated lines, and a level at the film thickness that equals the roughness.
 
-    If thermal EHL was solved, two curves show its minimum and central film. A further curve shows the formula of Dowson
-    and Higginson.
+    If thermal EHL was solved, two curves show the minimum and the central film of this solution. A further curve shows
+    the film by the formula of Dowson and Higginson.
     """
     _with_oil(result)
     thinnest, pair = present(result.film), inputs.distribution

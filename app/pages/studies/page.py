@@ -74,7 +74,7 @@ class Table(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Result:
-    """The result of a study as its page shows it: the `first` tables, the figures by name, then the other tables.
+    """The result of a study in the order of the page: the `first` tables, the figures by name, then the other tables.
 
     `answer` is a sentence that answers the question of the study. `leads` are links above the result. `script` is JSON
     for the script of the page; the script opens the case of a point if the user clicks on this point in the first
@@ -266,7 +266,7 @@ class StudyPage(ABC):
 
 
 class Opened(NamedTuple):
-    """A study page in two parts; if the study runs, its result is sent between them."""
+    """A study page in two parts. If the study runs, its result is sent between the two parts."""
 
     page: StudyPage
     status: int
