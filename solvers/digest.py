@@ -1,6 +1,6 @@
 """The digest of the sources of the solvers.
 
-The digest identifies results, and is part of the name of the folder of compiled kernels.
+The digest identifies results. The name of the folder with the compiled kernels also depends on the digest.
 """
 
 import ast
