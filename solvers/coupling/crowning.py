@@ -107,8 +107,8 @@ _REASONS = {
 class CrowningState:
     """Constraints and load capacity of a crowning ratio, each at the worse end of the misalignment range.
 
-    `overlap` must be below 1. `edge`, `pressure` and `width` must not exceed 1. `edge` is the distance that the contact
-    reaches from the middle of the face, divided by half the face width. `pressure` and `width` are divided by their
+    `overlap` must be below 1. `edge`, `pressure` and `width` must not exceed 1. `edge` is the largest distance of the
+    contact from the middle of the face, divided by half the face width. `pressure` and `width` are divided by their
     limits. `load_capacity_coefficient` is the smaller of the values at both ends.
     """
 
@@ -298,7 +298,7 @@ def _best_ratio(state: Callable[[float], CrowningState], low: float, high: float
 
 
 def _merged(notices: tuple[Notice, ...]) -> tuple[Notice, ...]:
-    """Return the first notice of each code; a notice about `misalignment` is assigned to `misalignment_range`."""
+    """Return the first notice of each code; the field `misalignment` becomes `misalignment_range`."""
     first: dict[str, Notice] = {}
     for notice in notices:
         first.setdefault(notice.code, notice)
@@ -322,7 +322,7 @@ def _point(result: CouplingResult) -> RecommendedPoint:
 
 
 def _scan(state: Callable[[float], CrowningState]) -> CrowningScan:
-    """Compute the curves over those crowning ratios whose contact can be computed."""
+    """Compute the curves over those crowning ratios for which the contact can be computed."""
     ratios = np.geomspace(MIN_CROWNING_RATIO, MAX_SCANNED_RATIO, _SCAN_POINTS)
     points = [(ratio, point) for ratio in ratios if (point := state(float(ratio))).computable]
     return CrowningScan(

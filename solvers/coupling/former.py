@@ -54,7 +54,7 @@ class OperatingPoint(Load):
     parallel_offset: float | None = described("Parallel offset of the shafts, used without a tilt [m].", default=None)
 
     def operation(self, hub_distance: float) -> Operation:
-        """Return the operating point; `hub_distance` [m] is the distance of the tooth planes.
+        """Return the operating point; `hub_distance` [m] is the distance between the tooth planes.
 
         Raises InvalidInput (`misalignment_or_offset`) if both the misalignment and the parallel offset are None.
         """

@@ -199,7 +199,7 @@ def tilt_of_offset(parallel_offset: float, hub_distance: float) -> float:
     parallel_offset : float
         Offset of the shafts [m].
     hub_distance : float
-        Distance of the tooth planes [m].
+        Distance between the tooth planes [m].
 
     Returns
     -------
@@ -245,9 +245,9 @@ class Lubricant:
 class MixedFrictionCurve:
     """Our own law of mixed friction: the coefficient falls from `highest` at rest to `lowest` at `velocity` [m/s].
 
-    The defaults of `highest` and `lowest` are the ends of the paper's band in area 1.1. The default of `velocity` is a
-    calibration, with which the friction of the heavily crowned coupling is lowest at 0.4 degrees and 200 rad/s. The
-    paper does not state the speed for Fig. 11.
+    The defaults of `highest` and `lowest` are the ends of the paper's band in area 1.1. The default of `velocity` is
+    chosen so that the friction of the heavily crowned coupling is lowest at 0.4 degrees and 200 rad/s. The paper does
+    not state the speed for Fig. 11.
     """
 
     highest: float = quantity(

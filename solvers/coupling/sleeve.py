@@ -42,7 +42,7 @@ from solvers.errors import NoSolution
 
 MAX_ITERATIONS = 150  # limit; an iteration that takes longer does not converge
 SUBSTITUTIONS = 5  # chosen: number of fixed-point steps in succession
-SHORTEST_STEP = 1.0 / 64.0  # smallest share of a Newton step; if this share does not help, substitutions follow
+SHORTEST_STEP = 1.0 / 64.0  # smallest share of a Newton step; if even this share does not help, substitutions follow
 FORCE_TOLERANCE = 1e-9  # in units of T/r_o, chosen
 _LIMIT_MARGIN = 0.9999  # chosen share of the force that the teeth can hold
 
@@ -201,9 +201,9 @@ def balance_rows(
 ) -> float:
     """Balance the sleeve at every rotor angle, and write the tooth forces to `share` (rows, 2, teeth).
 
-    The balance at each angle starts from the solution at the previous angle. If this fails, the balance starts again
-    from zero force and zero displacement. The function stops at the first angle without balance. Returns the largest
-    residual.
+    The balance at each angle starts from the solution at the previous angle. If there is no balance from this start,
+    the balance starts again from zero force and zero displacement. The function stops at the first angle without
+    balance. Returns the largest residual.
     """
     force, places = np.zeros(2), Places(np.zeros(2), np.zeros(2), np.zeros(2))
     largest = 0.0
@@ -239,8 +239,8 @@ class SleeveEquilibrium:
 def two_meshes(inputs: CouplingInputs, geometry: Geometry) -> tuple[MeshMotion, MeshMotion]:
     """Return the left mesh, where the hub drives the sleeve, and the right mesh.
 
-    With a parallel offset (Z) the right hub tilts in the same direction as the left hub, with an angle (M) in the
-    opposite direction.
+    With a parallel offset (Z) the right hub tilts in the same direction as the left hub. With an angle (M) the right
+    hub tilts in the opposite direction.
     """
     right_tilt = 1 if inputs.operation.arrangement == "parallel_offset" else -1
     left = mesh_motion(inputs.coupling, geometry, inputs.operation, inputs.model.kinematics)
@@ -320,7 +320,7 @@ def _tooth_forces(
     normal = np.stack([flank_normals(mesh, teeth) for mesh in meshes], axis=1)
     arm = direction[:, :, None] * np.stack((teeth.cosine, teeth.sine), axis=1)[:, None]
     lever = friction / cosine * geometry.pitch_radius / coupling.hub_distance
-    # Largest lateral force that z teeth hold at every rotor angle; their flank normals form a regular polygon.
+    # Largest lateral force that z teeth hold at every rotor angle; the flank normals form a regular polygon.
     force_limit = _LIMIT_MARGIN * cos(pi / coupling.teeth) / cosine
     share = np.zeros_like(interference)
     residual = balance_rows(interference, normal, arm, lever, force_limit, share)
