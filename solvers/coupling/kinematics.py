@@ -95,7 +95,7 @@ def positions_per_pitch(teeth: int) -> int:
 
 
 def revolution(teeth: int, refinement: int = 1) -> FloatArray:
-    """Return evenly spaced rotor angles [rad] of one revolution from zero up; each pitch has a whole number of angles."""
+    """Return rotor angles [rad] of one revolution in equal steps from zero up; a pitch is a whole number of steps."""
     return np.linspace(0.0, 2.0 * pi, refinement * positions_per_pitch(teeth) * teeth, endpoint=False)
 
 
@@ -345,7 +345,7 @@ def flank_normals(mesh: MeshMotion, teeth: ToothPositions) -> FloatArray:
 
 @dataclass(frozen=True, slots=True)
 class RotorSamples:
-    """Quadrature over rotor angles; the weights (rows) add up to one, `teeth` holds the tooth positions (rows, teeth)."""
+    """Quadrature over rotor angles: tooth positions `teeth` (rows, teeth), and weights (rows) whose sum is one."""
 
     weight: FloatArray
     teeth: ToothPositions

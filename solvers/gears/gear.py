@@ -65,7 +65,7 @@ class Gear:
         return 2 * self.tip_radius * self.half_tooth_angle(self.tip_radius)
 
     def half_tooth_angle(self, radius: float) -> float:
-        """Return half the angle of a tooth [rad] at a radius [m] that is not smaller than the base radius."""
+        """Return half the angular thickness of a tooth [rad] at a radius [m] not smaller than the base radius."""
         pressure_angle = acos(min(self.base_radius / radius, 1.0))
         return self.reference_half_angle + self.reference_involute - involute(pressure_angle)
 
@@ -91,7 +91,7 @@ def transverse_gear(inputs: GearPairInputs, teeth: GearTeeth) -> Gear:
 
 
 def virtual_gear(inputs: GearPairInputs, teeth: GearTeeth, base_helix_angle: float) -> Gear:
-    """Return the virtual spur gear of the normal section, which is cut by the same rack.
+    """Return the virtual spur gear of the normal section; the same rack cuts both gears.
 
     Parameters
     ----------
@@ -119,8 +119,8 @@ def virtual_gear(inputs: GearPairInputs, teeth: GearTeeth, base_helix_angle: flo
 def _cut(inputs: GearPairInputs, teeth: GearTeeth, count: float, module: float, pressure_angle: float) -> Gear:
     """Return a gear with `count` teeth in a plane with the given module [m] and pressure angle [rad].
 
-    Heights are in normal modules. A profile shift makes a tooth thicker in proportion to the tangent of the pressure
-    angle in this plane.
+    Heights are multiples of the normal module, also if `module` is the transverse module. A profile shift makes a tooth
+    thicker in proportion to the tangent of the pressure angle in this plane.
     """
     height, normal_angle = inputs.normal_module, inputs.normal_pressure_angle
     radius = module * count / 2

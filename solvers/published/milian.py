@@ -1,8 +1,8 @@
 """The gears of Milian, Distretti, Leoni and Velex (Gear Technology, May/June 2004), and their operating points.
 
 The tables give no face width, backlash, groove width or ambient conditions. A face width of 200 mm, a backlash of 0.3
-mm, a groove width of 16 mm, and 101325 Pa and 50 degC are assumed. The module of the tables must be the normal module,
-because only then do the centre distances have the round values of 590 and 455 mm.
+mm, a groove width of 16 mm, and ambient conditions of 101325 Pa and 50 degC are assumed. The module of the tables must
+be the normal module, because only then do the centre distances have the round values of 590 and 455 mm.
 """
 
 from dataclasses import replace

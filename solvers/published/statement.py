@@ -54,7 +54,7 @@ class Says:
     def equals(
         self, number: float, unit: str, compute: Callable[[], float], tolerance: float, remark: str = ""
     ) -> Statement:
-        """Return the statement of a printed number with a relative tolerance."""
+        """Return the statement of a printed number; `tolerance` is relative."""
         least, most = number - tolerance * abs(number), number + tolerance * abs(number)
         return Statement(self.words, self.source, f"{number:g}", unit, compute, least, most, number, remark)
 
@@ -73,7 +73,7 @@ class Says:
     def not_reproduced(
         self, number: float, unit: str, compute: Callable[[], float], by_equations: float, remark: str
     ) -> Statement:
-        """Return the statement of a printed number that does not agree with the equations of its source.
+        """Return the statement of a printed number that disagrees with the equations of the source.
 
         The statement holds if the computed number is within 3 % of `by_equations`, the number that follows from the
         equations.
