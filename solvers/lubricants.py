@@ -1,4 +1,4 @@
-"""Lubricants, and the laws by which pressure and temperature change their viscosity and density."""
+"""Lubricants, and the laws of viscosity and density as functions of pressure and temperature."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, fields
@@ -16,7 +16,7 @@ from solvers.sources import XUE
 PressureViscosityLaw = Literal["roelands", "barus"]
 OilKind = Literal["mineral", "pao", "ester", "polyglycol"]
 
-HIGHEST_VISCOSITY = 1e4  # Pa s without pressure; no oil flows at this viscosity
+HIGHEST_VISCOSITY = 1e4  # Pa s at zero pressure; no oil flows at this viscosity
 # Chosen limits; a value beyond its limit is unusual.
 THICK_OIL = 1.0  # Pa s at operating temperature
 HOTTEST = 403.15  # K, of oil and teeth; at this temperature mineral oils age within days
@@ -33,7 +33,7 @@ class Lubricant:
 
     An incompressible oil has the same density at every pressure and temperature. The fields have no ranges here,
     because a `Lubricant` may also hold computed properties of an oil at some temperature. The API declares ranges for
-    these properties as inputs.
+    the inputs that state these properties.
     """
 
     viscosity: float = quantity(

@@ -264,7 +264,7 @@ class OilSheet:
 
     @property
     def reference_density(self) -> float:
-        """Density at 15 C [kg/m^3]; if the data sheet does not give it, a typical density of the kind of oil."""
+        """Density at 15 C [kg/m^3]; if the data sheet states no density, a typical density of the kind of oil."""
         return KINDS[self.kind].density_15 if self.density_15 is None else self.density_15
 
     @property
@@ -380,7 +380,7 @@ class OilSheet:
     def walther(self) -> tuple[float, float]:
         """Return A and B of the Walther law log10 log10 (nu + 0.7) = A - B log10 T through both given viscosities.
 
-        Here nu is in mm^2/s and T in kelvin.
+        Here nu is in mm^2/s, and T is in kelvin.
         """
         cold, hot = 40.0 + CELSIUS, 100.0 + CELSIUS
         thick = _double_logarithm(self.kinematic_viscosity_40)

@@ -111,7 +111,8 @@ class Quantity:
     default_text : str, optional
         Words for the default if the default is None.
     assumed : str, optional
-        Reason for a default that is our own and not that of the paper; a result that depends on the default lists it.
+        Reason for a default that is our own choice and not from the paper; a result that depends on this default lists
+        the reason.
     advanced : bool
         Whether the field is an option of model or resolution.
     folded : bool
@@ -198,12 +199,12 @@ def quantity(
 
 
 def described(text: str, **options: Any) -> Any:
-    """Return a dataclass field without a `Quantity`; the docstring of the class describes the field by `text`."""
+    """Return a dataclass field without a `Quantity`; the docstring of the class contains `text` as its description."""
     return field(metadata={_TEXT: text}, **options)
 
 
 def computed(title: str, symbol: str | None = None, source: str | None = None, **details: Any) -> Callable[[T], T]:
-    """Declare a value that a dataclass computes; the decorator stands directly above the function, below `property`."""
+    """Declare a value that a dataclass computes; the decorator stands directly above the function and below `property`."""
 
     def declare(function: T) -> T:
         setattr(function, _KEY, Quantity(title, symbol, source, **details))

@@ -80,7 +80,7 @@ class OperatingRange(Load):
 class CouplingOil(OilBySheet):
     """Former class of an oil that is given by its viscosity, grade or data sheet.
 
-    Use `Lubricant` instead; `OilSheet.viscosity` computes the viscosity of an oil by its grade or data sheet.
+    Use `Lubricant` instead; `OilSheet.viscosity` computes the viscosity of an oil that is given by grade or data sheet.
     """
 
     viscosity: float | None = described(

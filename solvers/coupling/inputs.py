@@ -348,7 +348,7 @@ class Friction:
 
 @record
 class ModelOptions:
-    """Options of the model for which the paper is not definite."""
+    """Options for parts of the model that the paper does not define clearly."""
 
     kinematics: KinematicModel = quantity(
         "kinematics of the teeth",
@@ -439,7 +439,7 @@ class RecommendationInputs:
 
 
 def check_inputs(inputs: CouplingInputs) -> None:
-    """Raise InvalidInput if the inputs cannot be computed.
+    """Raise InvalidInput if the model cannot be computed with these inputs.
 
     The codes are `out_of_range`, `pitch_errors_length`, `mixed_law` and `mixed_curve`.
     """

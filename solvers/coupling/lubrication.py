@@ -192,7 +192,7 @@ def starved_load(inlet_ratio: float) -> float:
 
 
 def inlet_factor(inlet_ratio: float) -> float:
-    """Compute the ratio of the load capacity with a starved inlet to that with an infinitely long inlet.
+    """Compute the load capacity with a starved inlet, divided by the load capacity with an infinitely long inlet.
 
     Parameters
     ----------
@@ -331,7 +331,7 @@ def friction_regime(overlap: float, load_capacity_coefficient: float) -> Regime:
 
 
 def _distance_to_boundary(overlap: float, load_capacity_coefficient: float) -> float | None:
-    """Return the smallest |ln(coordinate/boundary)| over all boundaries on both axes; None if all are infinite."""
+    """Return the smallest |ln(coordinate/boundary)| over all boundaries on both axes; None if all values are inf."""
     ratios = [overlap / boundary for boundary in OVERLAP_BOUNDARIES]
     ratios += [load_capacity_coefficient / boundary for boundary in CAPACITY_BOUNDARIES]
     return min((abs(log(ratio)) for ratio in ratios if 0.0 < ratio < inf), default=None)

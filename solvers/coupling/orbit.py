@@ -22,7 +22,7 @@ from solvers.coupling.tooth_loads import LOADED, floating_loads, largest_value
 from solvers.errors import InvalidInput, NoSolution
 
 MAX_SWEEPS = 50  # limit; a path that has not settled after this number of sweeps does not settle at all
-REPEAT_TOLERANCE = 1e-12  # m, close to the rounding error of a path of some ten micrometres
+REPEAT_TOLERANCE = 1e-12  # m, close to the rounding error of a path of about ten micrometres
 HIGHEST_ORDER = 12  # highest Fourier order of the path; the uncertainty covers twice as many orders
 REFINEMENTS = (2, 3)  # factors on the number of rotor angles, for the uncertainty of an orbit
 
@@ -118,7 +118,7 @@ def _settled_path(
     """Repeat sweeps over the rotor angles until the path settles.
 
     The sweeps start with `force` (rows, 2) [N], a guess of the inertia force. While teeth come under load, the change
-    of the path from sweep to sweep may grow for a dozen sweeps before it dies out.
+    of the path from sweep to sweep may grow for a dozen sweeps before this change dies out.
     """
     coupling, operation = inputs.coupling, inputs.operation
     mesh = mesh_motion(coupling, tooth_geometry(coupling), operation, inputs.model.kinematics)

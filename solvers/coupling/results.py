@@ -277,7 +277,7 @@ class Limits:
     """Design limits, and linear stiffness with every tooth loaded [m/s, rad, N m, N m/rad, N/m].
 
     `allowable_misalignment` is None if the coupling turns too slowly to reach the limit of the sliding velocity, or if
-    it does not turn.
+    the coupling does not turn.
     """
 
     sliding_velocity_limit: float = quantity(

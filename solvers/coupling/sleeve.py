@@ -1,6 +1,7 @@
 """Equilibrium of a floating sleeve between two misaligned hubs with a parallel offset (Z) or an angle (M) (Fig. 13).
 
-The units are those of `tooth_loads`. In arrays with an axis for the mesh, 0 is the left mesh and 1 the right mesh.
+The units are those of `tooth_loads`. In arrays with an axis for the mesh, index 0 is the left mesh and index 1 is the
+right mesh.
 
 The unknowns are (psi, e_x, e_y) of each mesh. The six equations are the balance of torque at each mesh, the balance of
 the two lateral forces on the sleeve, and the balance of the two moments on the sleeve. The direction of friction at a
@@ -278,7 +279,7 @@ def sleeve_equilibrium(
     -----
     Eq. C22. Nothing slides if the axial velocity is zero and, in addition, the misalignment or the speed is zero. The
     direction of friction is then undetermined. If mu d_o/l_H < cos(pi/z), an equilibrium always exists. Phi then maps
-    the set of the forces that the teeth can hold into the same set, and Brouwer's theorem applies.
+    the set of the forces that the teeth can hold into itself, and Brouwer's theorem applies.
     """
     coupling, torque = inputs.coupling, inputs.operation.torque
     meshes = two_meshes(inputs, geometry)

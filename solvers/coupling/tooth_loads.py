@@ -1,8 +1,8 @@
 """Distribution of the torque, and for a floating sleeve of a lateral force, over the teeth of one mesh (Figs 3, 4).
 
 Tooth i carries F_t = c_t max(0, psi + f_t + pitch deviation - e . n/cos(alpha)); the maximum is taken because teeth
-never pull. Here psi is the common rotation as a length at the pitch radius, f_t the tangential displacement of the
-tooth, e the displacement of the sleeve relative to the hub, and n the flank normal.
+never pull. Here psi is the common rotation as a length at the pitch radius, f_t is the tangential displacement of the
+tooth, e is the displacement of the sleeve relative to the hub, and n is the flank normal.
 
 In the kernels, lengths are in T/(r_o c_t) and forces in T/r_o, so that the tooth forces add up to one. The interference
 of tooth i is u_i = psi + w_i - e . d_i, where w_i is the lead of the tooth and d_i is its flank normal divided by
@@ -237,8 +237,8 @@ def next_step(hessian: Hessian, missing: Motion) -> tuple[Motion, float]:
 def slope_along(ahead: FloatArray, change: FloatArray, start: float, length: float) -> tuple[float, float]:
     """Compute the first and the second derivative of the energy by the length of a step that changes u_i by `change`.
 
-    `start` is the first derivative at length zero. The function adds the change of the derivative since then to
-    `start`, because a sum of torque and tooth forces would lose its digits by cancellation near the balance.
+    `start` is the first derivative at length zero. The function adds the change of this derivative from length zero to
+    `length`, because a sum of torque and tooth forces would lose its digits by cancellation near the balance.
     """
     first, second = start, 0.0
     for i in range(ahead.size):
@@ -665,7 +665,7 @@ def limits(inputs: CouplingInputs, geometry: Geometry) -> Limits:
 
     Notes
     -----
-    Eq. C31. The torsional stiffness is z c_t r_o^2, the lateral stiffness z c_t/(2 cos^2 alpha).
+    Eq. C31. The torsional stiffness is z c_t r_o^2, and the lateral stiffness is z c_t/(2 cos^2 alpha).
     """
     coupling, radius = inputs.coupling, geometry.pitch_radius
     all_teeth = coupling.teeth * coupling.tooth_stiffness

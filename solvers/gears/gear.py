@@ -143,8 +143,8 @@ class RackFillet(NamedTuple):
     """The rack tip that cuts a tooth root; lengths [m].
 
     `centre_x` and `centre_y` are the coordinates of the centre of the tip arc in the normal plane. `centre_x` is
-    measured from the centre line of the rack tooth, `centre_y` from the reference circle. `end` is the arc parameter at
-    which the fillet meets the involute.
+    measured from the centre line of the rack tooth, `centre_y` is measured from the reference circle. `end` is the arc
+    parameter at which the fillet meets the involute.
     """
 
     reference_radius: float
@@ -189,7 +189,7 @@ def fillet_sector_area(fillet: RackFillet, end: float) -> float:
     """
     r, tip, cos_helix = fillet.reference_radius, fillet.tip_radius, fillet.cos_helix
     area = 0.0
-    for node, weight in zip(_NODES, _WEIGHTS):  # noqa: B905  numba's zip has no strict
+    for node, weight in zip(_NODES, _WEIGHTS):  # noqa: B905  numba's zip has no argument `strict`
         t = 0.5 * end * (1.0 + node)
         y, dy = fillet.centre_y - tip * np.cos(t), tip * np.sin(t)
         across, up = -y * np.tan(t) * cos_helix, y + r
@@ -202,7 +202,7 @@ def fillet_sector_area(fillet: RackFillet, end: float) -> float:
 def root_profile(pair: GearPairInputs, teeth: GearTeeth, gear: Gear) -> RootProfile:
     """Return the root of one gear of the pair.
 
-    If the gear is undercut, the root is the union of the areas that the tip and the flank of the rack sweep.
+    If the gear is undercut, the tooth space is the union of the areas that the tip and the flank of the rack sweep.
     """
     module, angle = pair.normal_module, pair.normal_pressure_angle
     tip = rack_tip_radius(pair, teeth) * module

@@ -131,7 +131,7 @@ def _backlash_free_centre_distance(
 
 
 class ContactPlane(NamedTuple):
-    """Rectangle of the plane of action; x runs from A to E, y from the end of the face that meshes first [m].
+    """Rectangle of the plane of action; x runs from A to E, y runs from the end of the face that meshes first [m].
 
     Contact line number j has the equation x + y `tan_base_helix` = phase + j `base_pitch`. At x the roll length of the
     pinion is `start` + x, and the roll length of the wheel is `line_of_action` minus this length. If the reduced radius

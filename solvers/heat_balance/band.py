@@ -1,4 +1,4 @@
-"""Band of the flank temperatures between much and little oil on the flanks; no probability is stated for it."""
+"""Band of the flank temperatures between much and little oil on the flanks; no probability is stated for this band."""
 
 from dataclasses import dataclass, replace
 
@@ -50,7 +50,8 @@ def extreme_network(network: Network, cooling: Cooling, extreme: Extreme) -> Net
     Notes
     -----
     Eq. H21. If the temperature of a gear is measured, the wetting share is fitted again, to the measured temperature
-    plus or minus its uncertainty. If no share gives this temperature, the share that comes nearest is taken.
+    plus or minus its uncertainty. If no share gives this temperature, the share whose temperature comes nearest is
+    used.
     """
     spray = network.spray
     if cooling.fling_off_factor is None:

@@ -92,7 +92,7 @@ def heat_number(film: float, turn: float) -> float:
 
 
 def fling_off_time(oil: CoolingOil, teeth: TurningTeeth, temperature: float) -> float:
-    """Compute the time in which a film as thick as its thermal layer is thrown off.
+    """Compute the time in which a film that is as thick as the thermal layer is thrown off.
 
     Parameters
     ----------

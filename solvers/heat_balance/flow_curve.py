@@ -24,7 +24,7 @@ class FlowCurve:
 
 
 def over_the_flow(inputs: HeatBalanceInputs, flows: FloatArray) -> FlowCurve:
-    """Solve the heat balance at other oil flows.
+    """Solve the heat balance at several oil flows.
 
     Parameters
     ----------

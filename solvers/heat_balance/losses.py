@@ -115,8 +115,8 @@ def windage(pitch_line_velocity: float, diameter: float, face_width: float, modu
 
     Notes
     -----
-    Eq. H8: torque 1.37e-9 v^1.9 d^1.6 b^0.52 m_n^0.69 N m with lengths in mm. Of three published formulas, this formula
-    gives the lowest loss.
+    Eq. H8: the torque is 1.37e-9 v^1.9 d^1.6 b^0.52 m_n^0.69 N m, with lengths in mm. Of three published formulas, this
+    formula gives the lowest loss.
     """
     sizes = (diameter * 1e3) ** 1.6 * (face_width * 1e3) ** 0.52 * (module * 1e3) ** 0.69
     return float(1.37e-9 * pitch_line_velocity**1.9 * sizes * speed)

@@ -48,7 +48,7 @@ class CooledGear:
 
     @cached_property
     def rim(self) -> float:
-        """Conductance from the rim to air [W/K]; one half belongs to the flanks, the other half to the body."""
+        """Conductance from the rim to air [W/K]; one half belongs to the flanks, the other half belongs to the body."""
         area = 2 * pi * self.tip_radius * self.face_width
         return area * rim_convection(self.flanks.speed, self.tip_radius)
 
@@ -62,8 +62,8 @@ class CooledGear:
 class Spray:
     """Oil of the jets: flow [m^3/s], speeds of pitch line and jet [m/s], shares, and factor on the fling-off cooling.
 
-    The velocity of the jet is positive if the jet is directed into the mesh, and negative if it is directed against the
-    teeth that leave the mesh.
+    The velocity of the jet is positive if the jet is directed into the mesh, and negative if the jet is directed
+    against the teeth that leave the mesh.
     """
 
     flow: float

@@ -48,7 +48,7 @@ def equilibrium(network: Network, start: FloatArray | None = None) -> Equilibriu
 
     Notes
     -----
-    Eq. H18. The negative Jacobian -J is an M-matrix if it has no positive element off the diagonal, and if every node
+    Eq. H18. The negative Jacobian -J is an M-matrix if -J has no positive element off the diagonal, and if every node
     becomes warmer when every node gains a little more heat. The equilibrium is then stable. If all row sums of -J are
     positive, this equilibrium is also the only one. Hot flanks with little oil can violate the condition on the row
     sums; such a case is not refused for this reason.
