@@ -204,7 +204,7 @@ def described(text: str, **options: Any) -> Any:
 
 
 def computed(title: str, symbol: str | None = None, source: str | None = None, **details: Any) -> Callable[[T], T]:
-    """Declare a value that a dataclass computes; the decorator stands directly above the function and below `property`."""
+    """Declare a value that a dataclass computes; write the decorator above the function and below `property`."""
 
     def declare(function: T) -> T:
         setattr(function, _KEY, Quantity(title, symbol, source, **details))
