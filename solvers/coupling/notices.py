@@ -134,10 +134,10 @@ def orbit_notices(
     harmonic: float,
     harmonic_uncertainty: float | None,
 ) -> Iterator[Notice]:
-    """Yield the notices about an orbit: the sleeve's position may not be unique, or the orbit not accurate.
+    """Yield the notices about an orbit: the sleeve's position may not be unique, or the orbit may be inaccurate.
 
     `fewest_teeth` is the smallest number of loaded teeth at any rotor angle. `displacement` [m] is the largest
-    displacement of the orbit, and `harmonic` [N] the largest harmonic of the inertia force.
+    displacement of the orbit, and `harmonic` [N] is the largest harmonic of the inertia force.
     """
     if fewest_teeth < 3:
         message = (
