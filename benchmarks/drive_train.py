@@ -60,7 +60,7 @@ def search() -> None:
     run(Design, {**EXAMPLES["/v1/drive-train/design"]["robust"]["value"], "request": REQUEST})
 
 
-def run(study_of: Callable[[bytes, int, float], Study], body: dict[str, Any]) -> None:
+def run(study_of: Callable[[Any, int, float], Study], body: dict[str, Any]) -> None:
     """Solve a study in this process."""
 
     async def lines() -> None:

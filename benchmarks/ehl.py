@@ -68,7 +68,7 @@ def figures() -> Iterator[Figure | MedianFigure]:
     smooth = path(EYRING)[1:22]
     yield Figure("21 neighbouring thermal points", lambda: solve_path(smooth), 12.0 + 20 * 3.0)
     for name, model, target in (("Ree-Eyring", EYRING, 12.0), ("Newtonian", NEWTONIAN, 34.0)):
-        alone = [lambda inputs=inputs: solve(inputs) for inputs in grid_contacts(model)]  # type: ignore[misc]
+        alone = [lambda inputs=inputs: solve(inputs) for inputs in grid_contacts(model)]
         yield MedianFigure(f"thermal from nothing, median of 200, {name}", alone, target)
 
 

@@ -18,9 +18,8 @@ from typing import Any
 
 from app.calculations import BY_PATH, CALCULATIONS, Calculation
 from app.errors import InvalidBody, Unprocessable
-from app.evaluate import refuse_endless
+from app.evaluate import answer_of, refuse_endless
 from app.examples import examples
-from app.http.routes.calculations import answer_of
 from app.schema.reading import validated
 from app.settings import settings
 

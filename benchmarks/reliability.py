@@ -197,7 +197,7 @@ def under_faults() -> Iterator[tuple[str, str]]:
 
 def under_generated_inputs(examples_per_operation: int) -> Iterator[tuple[str, str]]:
     """Yield the rows of the table about schemathesis, with every check over the whole OpenAPI document."""
-    command = [Path(sys.executable).with_name("schemathesis"), "run", "--checks", "all"]
+    command = [str(Path(sys.executable).with_name("schemathesis")), "run", "--checks", "all"]
     command += ["--max-examples", str(examples_per_operation)]
     with running_server(log_level="error") as (_, address):
         report = subprocess.run(

@@ -15,11 +15,14 @@ Fields = list[tuple[str, Any]]
 """Names and types of the fields of a record."""
 
 ROUNDING = 1e-12
-"""Share of the summands below which a sum counts as zero; far above rounding errors, far below any measured share."""
+"""Ratio of a sum to the sum of the absolute values of its summands, below which the sum counts as zero.
+
+This ratio is far above rounding errors and far below any measured share.
+"""
 
 
 def frozen(values: ArrayLike) -> NDArray[Any]:
-    """Return the values as a read-only array; an array is not copied."""
+    """Return the values as a read-only array; if they already are an array, the elements are not copied."""
     array = np.asarray(values).view()
     array.flags.writeable = False
     return array
@@ -45,5 +48,5 @@ def records(shape: int | tuple[int, ...], fields: Fields) -> RecordArray:
 
 
 def floats(*names: str) -> Fields:
-    """Return record fields with these names, each of which holds a number."""
+    """Return record fields with these names; each field holds one number."""
     return [(name, np.float64) for name in names]

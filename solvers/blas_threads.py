@@ -1,4 +1,4 @@
-"""Limit the BLAS to one thread for systems of a few hundred unknowns, for which more threads only cost time.
+"""Limit the BLAS to one thread; for systems of a few hundred unknowns, more threads only cost time.
 
 The workers of the service are started with one BLAS thread. In a notebook the BLAS has as many threads as the machine
 has cores, and other code in the notebook may need these threads. A solver therefore sets the limit of one thread only

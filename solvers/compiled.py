@@ -23,7 +23,7 @@ def kernel(function: Callable[P, R]) -> Callable[P, R]:
 def inlined_kernel(function: Callable[P, R]) -> Callable[P, R]:
     """Compile a kernel whose code is copied into the kernels that call it.
 
-    In a call that is not inlined, references to every array that is passed are counted. If the kernel is one step of a
+    In a call that is not inlined, numba counts references to every array that is passed. If the kernel is one step of a
     loop and takes many arrays (for example a step for one column of a film), this counting can take twice as long as
     the step itself.
     """

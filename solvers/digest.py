@@ -1,6 +1,6 @@
 """The digest of the sources of the solvers.
 
-The digest identifies results, and is part of the name of the folder of compiled kernels.
+The digest identifies results. The name of the folder with the compiled kernels also depends on the digest.
 """
 
 import ast
@@ -21,14 +21,14 @@ def cache_base() -> Path:
     """Return the folder for cached digests and kernels; it is in `NUMBA_CACHE_DIR` or in the user's cache folder."""
     variables = ("NUMBA_CACHE_DIR", "XDG_CACHE_HOME", "LOCALAPPDATA")
     chosen = next((os.environ[name] for name in variables if os.environ.get(name)), "~/.cache")
-    return Path(os.path.expanduser(chosen), "tribodrive")  # noqa: PTH111  does not raise if there is no home folder
+    return Path(os.path.expanduser(chosen), "tribodrive")  # noqa: PTH111  Path.expanduser raises if there is no home
 
 
 def package_digest() -> str:
     """Return the digest of this package.
 
-    The digest takes a second to compute. It is therefore kept on disk, in a file whose name depends on paths, times and
-    sizes of the source files.
+    The digest takes a second to compute. The digest is therefore kept on disk, in a file whose name depends on paths,
+    times and sizes of the source files.
     """
     status = [(str(path), (state := path.stat()).st_mtime_ns, state.st_size) for path in sorted(PACKAGE.rglob("*.py"))]
     kept = cache_base() / "digests" / sha256(repr(status).encode()).hexdigest()

@@ -11,7 +11,7 @@ class SolverError(Exception):
     """Base class of all exceptions that the solvers raise on purpose."""
 
     def __init__(self, code: str, message: str, *details: object) -> None:
-        super().__init__(code, message, *details)  # with all arguments, so that the exception can be pickled
+        super().__init__(code, message, *details)  # all arguments, so that the exception can be pickled
         self.code = code
         self.message = message
 
@@ -32,7 +32,7 @@ class InvalidInput(SolverError):
 
 
 class NoSolution(SolverError):
-    """Error of an iteration that ended before it converged; `residuals` holds the remaining errors by name."""
+    """Error of an iteration that ended without convergence; `residuals` holds the remaining errors by name."""
 
     def __init__(self, code: str, message: str, residuals: dict[str, float] | None = None) -> None:
         super().__init__(code, message, residuals)

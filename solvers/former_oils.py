@@ -13,7 +13,7 @@ from solvers.quantity import described, record
 
 @record
 class OilBySheet:
-    """Former class of an oil by grade or data sheet; use `OilSheet`, `iso_vg` or `sheet_of_index` instead."""
+    """Former class of an oil given by grade or data sheet; use `OilSheet`, `iso_vg` or `sheet_of_index` instead."""
 
     iso_vg: IsoGrade | None = described("ISO 3448 viscosity grade.", default=None)
     kinematic_viscosity_40: float | None = described("Kinematic viscosity at 40 C [m^2/s].", default=None)
@@ -27,7 +27,7 @@ class OilBySheet:
     density_15: float | None = described("Density at 15 C; None: typical of the kind [kg/m^3].", default=None)
 
     def sheet(self) -> OilSheet | None:
-        """Return the oil by grade or data sheet; None if neither is given.
+        """Return the oil of the given grade or data sheet, or None if neither is given.
 
         Raises InvalidInput (`viscosity_order` or `viscosity_index`) if no oil has the given viscosities.
         """
@@ -43,10 +43,10 @@ class OilBySheet:
 
 @record
 class OilChoice(OilBySheet):
-    """Former class of an oil by grade, data sheet or viscosity; use `OilSheet` or `Lubricant` instead.
+    """Former class of an oil given by grade, data sheet or viscosity; use `OilSheet` or `Lubricant` instead.
 
-    If a grade or data sheet is given, a property that is None has a value typical of the kind of oil. Otherwise it has
-    the value of the default `Lubricant`.
+    If a grade or data sheet is given, a property that is None gets a value typical of the kind of oil. If neither is
+    given, a property that is None gets the value of the default `Lubricant`.
     """
 
     viscosity: float | None = described(
@@ -64,7 +64,7 @@ class OilChoice(OilBySheet):
     compressible: bool = described("Whether the density depends on pressure and temperature.", default=True)
 
     def resolve(self) -> OilSheet | Lubricant | None:
-        """Return the oil for the models; None if no viscosity is given."""
+        """Return the oil in the form that the models use, or None if no viscosity is given."""
         given = {item.name: getattr(self, item.name) for item in fields(self)}
         if sheet := self.sheet():
             names = {item.name for item in fields(OilSheet)} - {item.name for item in fields(OilBySheet)}

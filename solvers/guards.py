@@ -81,7 +81,7 @@ class _Ends(NamedTuple):
 
 @cache
 def _ranges(kind: Any) -> tuple[tuple[str, _Ends | None], ...]:
-    """Return the name and the range of every field of a dataclass; the range is None if the field has none."""
+    """Return the name and the range of every field of a dataclass; the range is None if no range is declared."""
     declared = quantities(kind)
     return tuple((item.name, _ends(declared[item.name]) if item.name in declared else None) for item in fields(kind))
 

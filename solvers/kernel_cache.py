@@ -25,7 +25,7 @@ logger = logging.getLogger(__name__)
 
 
 def _writable(folder: Path) -> Path | None:
-    """Create the folder if necessary and return it; warn and return None if no file can be kept in it.
+    """Create the folder if necessary and return its path; warn and return None if no files can be kept in the folder.
 
     Also remove old folders; the most recently used folders are kept.
     """
@@ -50,5 +50,5 @@ FOLDER = _writable(cache_base() / sha256(f"{package_digest()} {numba.__version__
 """The folder in use; None if compiled kernels are kept in memory only."""
 
 if FOLDER is not None:
-    config: Any = numba.config  # fills its attributes from the environment
+    config: Any = numba.config  # numba fills the attributes from the environment
     config.CACHE_DIR = str(FOLDER)

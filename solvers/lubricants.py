@@ -1,4 +1,4 @@
-"""Lubricants, and the laws by which pressure and temperature change their viscosity and density."""
+"""Lubricants, and the laws of viscosity and density as functions of pressure and temperature."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, fields
@@ -16,8 +16,8 @@ from solvers.sources import XUE
 PressureViscosityLaw = Literal["roelands", "barus"]
 OilKind = Literal["mineral", "pao", "ester", "polyglycol"]
 
-HIGHEST_VISCOSITY = 1e4  # Pa s without pressure; no oil flows at this viscosity
-# Chosen limits of unusual values.
+HIGHEST_VISCOSITY = 1e4  # Pa s at zero pressure; no oil flows at this viscosity
+# Chosen limits; a value beyond its limit is unusual.
 THICK_OIL = 1.0  # Pa s at operating temperature
 HOTTEST = 403.15  # K, of oil and teeth; at this temperature mineral oils age within days
 COLDEST_OIL = 243.15  # K; below the pour point of most gear oils
@@ -33,7 +33,7 @@ class Lubricant:
 
     An incompressible oil has the same density at every pressure and temperature. The fields have no ranges here,
     because a `Lubricant` may also hold computed properties of an oil at some temperature. The API declares ranges for
-    these properties as inputs.
+    the inputs that state these properties.
     """
 
     viscosity: float = quantity(
@@ -127,7 +127,7 @@ class Lubricant:
         Raises
         ------
         InvalidInput
-            `viscosity_range` if the law gives the oil a viscosity without pressure that no oil has.
+            `viscosity_range` if the viscosity at this temperature and zero pressure exceeds 10^4 Pa s.
         """
         laws = self.laws
         logarithm = float(log_viscosity(laws, pressure_part(laws, 0.0)[0], temperature)[0])
@@ -200,8 +200,8 @@ def pressure_part(laws: FluidLaws, pressure: float) -> tuple[float, float]:
 
     Notes
     -----
-    Eq. 20. By the law of Roelands the term is A1 (1 + 5.1e-9 p)^Z with Z = alpha/(5.1e-9 A1) and A1 = ln eta_0 + 9.67.
-    By the law of Barus the term is alpha p.
+    Eq. 20. With the law of Roelands, the term is A1 (1 + 5.1e-9 p)^Z, where Z = alpha/(5.1e-9 A1) and
+    A1 = ln eta_0 + 9.67. With the law of Barus, the term is alpha p.
     """
     p = max(pressure, 0.0)
     if laws.roelands == 1:
@@ -225,7 +225,7 @@ def log_viscosity(laws: FluidLaws, pressure_term: float, temperature: float) -> 
     laws : FluidLaws
         Constants of the oil.
     pressure_term : float
-        Pressure term by `pressure_part` [-].
+        Pressure term, computed by `pressure_part` [-].
     temperature : float
         Temperature t [K].
 
@@ -236,10 +236,10 @@ def log_viscosity(laws: FluidLaws, pressure_term: float, temperature: float) -> 
 
     Notes
     -----
-    Eq. 20. By the law of Roelands ln eta = ln eta_0 + A1 {-1 + (1 + 5.1e-9 p)^Z [(t - 138)/(t_0 - 138)]^-S0} with S0 =
-    beta (t_0 - 138)/A1. The paper prints S0 = beta/(A1 (t_0 - 138)), which has the wrong unit and would make the
-    viscosity almost independent of temperature; only the form used here gives -d ln eta/dt = beta at t_0. By the laws
-    of Barus and Reynolds ln eta = ln eta_0 + alpha p - beta (t - t_0).
+    Eq. 20. With the law of Roelands, ln eta = ln eta_0 + A1 {-1 + (1 + 5.1e-9 p)^Z [(t - 138)/(t_0 - 138)]^-S0}, where
+    S0 = beta (t_0 - 138)/A1. The paper prints S0 = beta/(A1 (t_0 - 138)), which has the wrong unit and would make the
+    viscosity almost independent of temperature; only the form used here gives -d ln eta/dt = beta at t_0. With the laws
+    of Barus and Reynolds, ln eta = ln eta_0 + alpha p - beta (t - t_0).
     """
     if laws.roelands == 1:
         above_pole = temperature - ROELANDS_POLE_TEMPERATURE
@@ -254,7 +254,7 @@ def log_viscosity(laws: FluidLaws, pressure_term: float, temperature: float) -> 
 
 @kernel
 def density(laws: FluidLaws, pressure: float, temperature: float) -> tuple[float, float, float]:
-    """Compute the density of the oil and the derivatives of this density by the formula of Dowson and Higginson.
+    """Compute the density of the oil and its derivatives with the formula of Dowson and Higginson.
 
     Parameters
     ----------

@@ -6,12 +6,12 @@ from typing import Literal, get_args
 Rank = Literal["invalid", "doubtful", "note"]
 """How far a warning limits the use of a result.
 
-invalid     a result is missing, or the theory does not hold for it
+invalid     a result is missing, or the theory does not hold for this result
 doubtful    a limit of validity, of resolution or of good practice is exceeded; the result may be wrong
-note        something was left out or assumed, or has no meaning here; the result is valid
+note        something was left out, was assumed, or has no meaning in this case; the result is valid
 """
 RANKS: tuple[Rank, ...] = get_args(Rank)
-"""The ranks, the most serious first."""
+"""The ranks in order; the most serious rank comes first."""
 
 
 @dataclass(frozen=True, slots=True)

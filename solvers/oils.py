@@ -1,6 +1,6 @@
 """Oils as users describe them: by ISO grade, by data sheet, or by the viscosity at one temperature.
 
-A data sheet states two kinematic viscosities; the viscosity index follows from these (ASTM D2270, ISO 2909). The models
+A data sheet states two kinematic viscosities; the viscosity index follows from both (ASTM D2270, ISO 2909). The models
 use a `Lubricant`, which `OilSheet.lubricant` computes for the temperature at which the oil enters a contact.
 """
 
@@ -36,10 +36,11 @@ REFERENCE_OILS = (
     (55.0, (0.85921, 11.1009, -83.190), (0.17130, 11.3680, -76.940)),
     (70.0, (0.83531, 14.6731, -216.246), (0.16841, 11.8493, -96.947)),
 )
-"""Rows of a smallest viscosity at 100 C [mm^2/s], coefficients (a, b, c) of L = a Y^2 + b Y + c, and those of H.
+"""Each row holds a smallest viscosity at 100 C [mm^2/s], the coefficients (a, b, c) of L, and those of H.
 
-A row is valid from its smallest viscosity up. Y is the viscosity at 100 C. L and H are the viscosities at 40 C [mm^2/s]
-of the oils of index 0 and 100 with this Y (ASTM D2270, Table X2.1; read in a public implementation).
+A row is valid from its smallest viscosity up to that of the next row. L = a Y^2 + b Y + c, where Y is the viscosity at
+100 C; the formula of H is the same. An oil with this Y has the index 0 if its viscosity at 40 C [mm^2/s] is L, and the
+index 100 if this viscosity is H (ASTM D2270, Table X2.1; read in a public implementation).
 """
 
 
@@ -60,9 +61,9 @@ def viscosity_index(viscosity_40: float, viscosity_100: float) -> float:
 
     Notes
     -----
-    Eq. R2: 100 (L - U)/(L - H) up to an index of 100, above it 100 + (10^N - 1)/0.00715 with N = log(H/U)/log Y. The
-    standard defines no index below Y = 2 mm^2/s; in this range the first formula is used with the first row of
-    `REFERENCE_OILS`.
+    Eq. R2: the index is 100 (L - U)/(L - H) if this is at most 100; otherwise the index is 100 + (10^N - 1)/0.00715
+    with N = log(H/U)/log Y. L and H follow from Y (see `REFERENCE_OILS`). The standard defines no index below Y = 2
+    mm^2/s; in this range the first formula is used with the first row of `REFERENCE_OILS`.
     """
     u, y = viscosity_40 / SQUARE_MILLIMETRE, viscosity_100 / SQUARE_MILLIMETRE
     _, low, high = max((row for row in REFERENCE_OILS if row[0] <= y), default=REFERENCE_OILS[0])
@@ -90,7 +91,7 @@ def viscosity_of_index(viscosity_40: float, index: float) -> float:
     Raises
     ------
     InvalidInput
-        `viscosity_index` if no viscosity of at least 2 mm^2/s has this index.
+        `viscosity_index` if no viscosity of at least 2 mm^2/s at 100 C leads to this index.
 
     Notes
     -----
@@ -120,8 +121,8 @@ WALTHER_SHIFT = 0.7  # mm^2/s
 DENSITY_TEMPERATURE = 15.0 + CELSIUS  # K
 THERMAL_EXPANSION = 0.00065  # 1/K
 LEAST_VISCOSITY_100 = 1e-6  # m^2/s; ASTM D341 has further terms for thinner oils
-VISCOSITY_INDICES = (-100.0, 500.0)  # naphthenic and aromatic oils reach -100, silicone oils 400
-LARGEST_VISCOSITY = 0.1  # m^2/s; an oil this thick hardly flows, and the law does not contain its pour point
+VISCOSITY_INDICES = (-100.0, 500.0)  # naphthenic and aromatic oils reach -100, silicone oils reach 400
+LARGEST_VISCOSITY = 0.1  # m^2/s; an oil this thick hardly flows, and the Walther law contains no pour point
 
 TYPICAL_INDEX: dict[OilKind, float] = {"mineral": 95.0, "pao": 150.0, "ester": 150.0, "polyglycol": 210.0}
 MINERAL_VISCOSITY_100 = {
@@ -135,7 +136,7 @@ MINERAL_VISCOSITY_100 = {
     460: 30.6e-6,
     680: 38.8e-6,
 }
-"""Typical kinematic viscosity at 100 C [m^2/s] of a mineral oil by its ISO 3448 grade; viscosity index 94 to 102."""
+"""Typical kinematic viscosity at 100 C [m^2/s] of a mineral oil of each ISO 3448 grade; the index is 94 to 102."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -167,10 +168,10 @@ _THICK, _THIN = "lubricant.kinematic_viscosity_40", "lubricant.kinematic_viscosi
 
 @record
 class OilSheet:
-    """An oil by its data sheet; a property that is None follows from the kind of oil or from the viscosities.
+    """An oil with the values of its data sheet; a value that is None follows from the kind of oil or the viscosities.
 
-    `iso_vg` returns the sheet of an oil of an ISO grade, `sheet_of_index` the sheet of an oil whose viscosity at 100 C
-    is not known.
+    `iso_vg` returns the sheet of an oil of an ISO grade. `sheet_of_index` returns the sheet of an oil whose viscosity
+    at 100 C is not known.
     """
 
     kinematic_viscosity_40: float = quantity(
@@ -230,7 +231,7 @@ class OilSheet:
             raise InvalidInput("viscosity_index", message, field)
 
     def kinematic_viscosity(self, temperature: float) -> float:
-        """Compute the kinematic viscosity by the Walther law through both given viscosities (ASTM D341).
+        """Compute the kinematic viscosity with the Walther law through both given viscosities (ASTM D341).
 
         Parameters
         ----------
@@ -245,7 +246,7 @@ class OilSheet:
         Raises
         ------
         InvalidInput
-            `oil_too_thick` above 10^5 mm^2/s.
+            `oil_too_thick` if the viscosity exceeds 10^5 mm^2/s.
 
         Notes
         -----
@@ -263,7 +264,7 @@ class OilSheet:
 
     @property
     def reference_density(self) -> float:
-        """Density at 15 C [kg/m^3]; if the data sheet does not give it, a typical density of the kind of oil."""
+        """Density at 15 C [kg/m^3]; if the data sheet states no density, a typical density of the kind of oil."""
         return KINDS[self.kind].density_15 if self.density_15 is None else self.density_15
 
     @property
@@ -324,7 +325,7 @@ class OilSheet:
 
         Notes
         -----
-        Eq. R4: beta = -d ln eta/dt of the Walther law and of the density.
+        Eq. R4: beta = -d ln eta/dt, where eta is the product of density and viscosity by the Walther law.
         """
         if self.temperature_viscosity is not None:
             return self.temperature_viscosity
@@ -335,7 +336,7 @@ class OilSheet:
         return float(thinning + expansion)
 
     def pressure_coefficient(self, temperature: float) -> float:
-        """Compute the pressure-viscosity coefficient by Gold; a coefficient in the data sheet takes precedence.
+        """Compute Gold's pressure-viscosity coefficient; a coefficient in the data sheet takes precedence.
 
         Parameters
         ----------
@@ -379,7 +380,7 @@ class OilSheet:
     def walther(self) -> tuple[float, float]:
         """Return A and B of the Walther law log10 log10 (nu + 0.7) = A - B log10 T through both given viscosities.
 
-        Here nu is in mm^2/s and T in kelvin.
+        Here nu is in mm^2/s, and T is in kelvin.
         """
         cold, hot = 40.0 + CELSIUS, 100.0 + CELSIUS
         thick = _double_logarithm(self.kinematic_viscosity_40)
@@ -401,13 +402,13 @@ def iso_vg(
     Parameters
     ----------
     grade : int
-        Grade, the kinematic viscosity at 40 C in mm^2/s.
+        Grade; this number is the kinematic viscosity at 40 C in mm^2/s.
     kind : {"mineral", "pao", "ester", "polyglycol"}
         Kind of oil.
     viscosity_index : float, optional
-        Viscosity index; if None, a value typical of grade and kind [-].
+        Viscosity index; if None, a value typical of the grade and the kind is used [-].
     density_15 : float, optional
-        Density at 15 C; None: typical of the kind [kg/m^3].
+        Density at 15 C; if None, a value typical of the kind is used [kg/m^3].
 
     Returns
     -------
@@ -430,18 +431,18 @@ def sheet_of_index(
     kind: OilKind = "mineral",
     density_15: float | None = None,
 ) -> OilSheet:
-    """Return an oil by its viscosity at 40 C and its viscosity index.
+    """Return an oil that has this viscosity at 40 C and this viscosity index.
 
     Parameters
     ----------
     viscosity_40 : float
         Kinematic viscosity at 40 C [m^2/s].
     viscosity_index : float, optional
-        Viscosity index; None: typical of the kind [-].
+        Viscosity index; if None, a value typical of the kind is used [-].
     kind : {"mineral", "pao", "ester", "polyglycol"}
         Kind of oil.
     density_15 : float, optional
-        Density at 15 C; None: typical of the kind [kg/m^3].
+        Density at 15 C; if None, a value typical of the kind is used [kg/m^3].
 
     Returns
     -------
@@ -458,9 +459,9 @@ def sheet_of_index(
 
 
 def lubricant_at(oil: Lubricant | OilSheet, temperature: float) -> Lubricant:
-    """Return the lubricant of a contact that the oil enters at this temperature [K].
+    """Return the oil as the lubricant of a contact; `temperature` [K] is the oil temperature at the inlet.
 
-    An oil given by its viscosity at one temperature is returned unchanged.
+    A `Lubricant` is returned unchanged.
     """
     return oil.lubricant(temperature) if isinstance(oil, OilSheet) else oil
 

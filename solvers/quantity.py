@@ -1,4 +1,4 @@
-"""Declarations of quantities (title, symbol, source, unit, range); each stands at the dataclass field of the quantity.
+"""Declarations of quantities, written at the fields of dataclasses: title, symbol, source, unit and range.
 
     @record
     class Coupling:
@@ -24,7 +24,7 @@ _LEFT_OUT_OF_TYPES = re.compile(r"\b(?:[a-z_]\w*\.)+|(?<=ndarray)\[.*?\]\]|^'|'$
 
 
 class Unit(NamedTuple):
-    """A unit in which a quantity is shown, written as `symbol`: SI value = scale × value + offset.
+    """A unit in which a quantity is shown, with its `symbol`; the SI value is scale × shown value + offset.
 
     `si` is the symbol of the SI unit, or None if the quantity is shown in its SI unit.
     """
@@ -99,7 +99,7 @@ class Quantity:
     title : str
         Label that can be read alone.
     symbol, source : str, optional
-        Symbol of the quantity and the literature that uses it.
+        Symbol of the quantity, and the literature that uses this symbol.
     text : str, optional
         Description, if the title is not enough.
     unit : str, optional
@@ -111,23 +111,26 @@ class Quantity:
     default_text : str, optional
         Words for the default if the default is None.
     assumed : str, optional
-        Reason for a default that is our own and not that of the paper; a result that depends on the default lists it.
+        Reason for a default that is our own choice and not from the paper; a result that depends on this default lists
+        the reason.
     advanced : bool
         Whether the field is an option of model or resolution.
     folded : bool
-        Whether a form shows the input on demand only, because few users know it.
+        Whether a form shows the input only on demand, because few users know the input.
     tolerance, relative_tolerance : float, optional
-        Usual uncertainty from manufacture or measurement, in the shown unit and as a share of the value; the larger of
-        the two counts. Every input that may be zero has a tolerance, by which a sensitivity analysis varies the input.
+        Usual uncertainty from manufacture or measurement: `tolerance` is in the shown unit, `relative_tolerance` is a
+        share of the value. The larger of the two is used. Every input that may be zero has a `tolerance`, so that a
+        sensitivity analysis can vary the input.
     if_above, if_negative : str, optional
-        Advice what to give instead of text or of a value above the range (`if_above`), and instead of a negative value
-        (`if_negative`).
+        Advice on what to give instead. `if_above` is the advice for text and for a value above the range, `if_negative`
+        is the advice for a negative value.
     length : tuple of (int, int), optional
         Least and largest number of values of a list.
     detail : str
         Lowest level of detail at which a result contains the field.
     axis : str or tuple of (str, str), optional
-        Field along which a curve runs, or both fields of a map; a dotted name starts at the whole result.
+        Field that is the abscissa of a curve, or both fields that are the axes of a map; a dotted name is a path from
+        the whole result.
     index : str, optional
         Meaning of the positions in a list, if no field states this meaning.
     gaps : bool
@@ -196,12 +199,12 @@ def quantity(
 
 
 def described(text: str, **options: Any) -> Any:
-    """Return a dataclass field without a `Quantity`; the docstring of the class describes the field by `text`."""
+    """Return a dataclass field without a `Quantity`; the docstring of the class contains `text` as its description."""
     return field(metadata={_TEXT: text}, **options)
 
 
 def computed(title: str, symbol: str | None = None, source: str | None = None, **details: Any) -> Callable[[T], T]:
-    """Declare a value that a dataclass computes; the decorator stands directly above the function, below `property`."""
+    """Declare a value that a dataclass computes; write the decorator above the function and below `property`."""
 
     def declare(function: T) -> T:
         setattr(function, _KEY, Quantity(title, symbol, source, **details))
@@ -234,7 +237,7 @@ def record(cls: Any = None, /, *, kw_only: bool = False, slots: bool = True) -> 
 
 @cache
 def quantities(kind: Any) -> dict[str, Quantity]:
-    """Return the declarations of a dataclass by name: of its fields in their order, then of its computed values."""
+    """Return the declarations of a dataclass by name: first the fields in their order, then the computed values."""
     declared = {item.name: item.metadata[_KEY] for item in fields(kind) if _KEY in item.metadata}
     for base in reversed(kind.__mro__):
         for name, member in vars(base).items():
@@ -261,7 +264,7 @@ def _hints(kind: Any) -> dict[str, Any]:
 
 
 def allowed(declared: Quantity) -> str:
-    """Return the range in words, in the shown unit but without its symbol."""
+    """Return the range in words, with numbers in the shown unit but without the symbol of the unit."""
     ends = declared.bounds
     if {"ge", "le"} <= set(ends):
         return f"{ends['ge']:.12g} to {ends['le']:.12g}"
@@ -270,7 +273,7 @@ def allowed(declared: Quantity) -> str:
 
 
 def advice(declared: Quantity, value: Any) -> str:
-    """Return advice what to give instead of text or of a value outside the range.
+    """Return advice on what to give instead of text or of a value outside the range.
 
     `value` is in the shown unit. The advice may be empty.
     """
@@ -344,7 +347,7 @@ def to_dict(data: Any) -> dict[str, Any]:
 
 
 def _named(data: Any, outer: Quantity | None) -> dict[str, Any]:
-    """Return the declared values by name; `outer` is the declaration of inner values that have no unit of their own."""
+    """Return the declared values by name; `outer` declares inner values that have no unit of their own."""
     kind: Any = type(data)
     named = {}
     for name, declared in quantities(kind).items():
@@ -363,7 +366,7 @@ def _shown(declared: Quantity, value: Any) -> Any:
 class _Docstring:
     """Docstring of a dataclass.
 
-    The docstring is completed only when it is read, so that the import does not take longer.
+    The sections on the fields are added only when the docstring is read, because adding them at import would cost time.
     """
 
     def __init__(self, text: str) -> None:
@@ -416,7 +419,7 @@ def _entry(kind: Any, name: str, declared: Quantity | None) -> str:
 
 
 def _summary(data: Any) -> str:
-    """Return one line with the values: numbers with units, lists by length, arrays by shape, dataclasses by class."""
+    """Return one line that shows numbers with units, lists by length, arrays by shape, and dataclasses by class."""
     kind: Any = type(data)
     declared = quantities(kind)
     parts = []

@@ -1,12 +1,13 @@
-"""One running service for all tests that talk to one."""
+"""Kernels that are compiled once for all processes of a test run, and one service for all tests that talk to one."""
 
+import asyncio
 from collections.abc import Callable, Iterator
-from fcntl import LOCK_EX, LOCK_UN, flock
 
 import httpx
 import pytest
 from hypothesis import HealthCheck, settings
 
+from app.workers.start_up import StartUp
 from tests.support.server import running_server
 
 # The first example of a property may compile a kernel; the same examples every time, searches live in benchmarks.
@@ -19,6 +20,12 @@ settings.register_profile(
 settings.load_profile("kernels")
 
 
+def pytest_sessionstart(session: pytest.Session) -> None:
+    """Compile all kernels in two processes before tests run on several; each of them would compile its own."""
+    if session.config.getoption("numprocesses", None) and not hasattr(session.config, "workerinput"):
+        asyncio.run(StartUp().run())
+
+
 @pytest.fixture
 def without_images(monkeypatch: pytest.MonkeyPatch) -> None:
     """Images of a report's figures are empty, where its texts alone are read."""
@@ -26,13 +33,9 @@ def without_images(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.fixture(scope="session")
-def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
-    # Processes of one test run start theirs in turn: where kernels have to be compiled, the next one finds them.
-    with (tmp_path_factory.getbasetemp().parent / "server.lock").open("w") as turn:
-        flock(turn, LOCK_EX)
-        with running_server(log_level="error") as (_, address):
-            flock(turn, LOCK_UN)
-            yield address
+def server() -> Iterator[str]:
+    with running_server(log_level="error") as (_, address):
+        yield address
 
 
 @pytest.fixture(scope="session")

@@ -1,8 +1,8 @@
 """Figures. The declaration of a figure turns a request and its answer into data; the package `drawing` draws the data.
 
 The modules build on one another in this order: data, wording and units; then declaration, parts and sketches; then
-models (of the endpoints), studies and spectrum. `drawing` turns the data of any figure into an image, and `tables`
-writes the data as CSV. `comparison` puts the figures of two cases into one figure.
+models, studies and spectrum. `models` has one module for each model of the service. `drawing` turns the data of any
+figure into an image, and `tables` writes the data as CSV. `comparison` puts the figures of two cases into one figure.
 """
 
 from typing import Literal

@@ -12,10 +12,10 @@ OWN = "this case"
 
 
 def compared(figure: Figure, variant: Figure, name: str) -> Figure:
-    """Return the figure of a case with the curves of the same figure of another case.
+    """Add the curves of another case to the figure of a case, and return the combined figure.
 
-    `variant` is the figure of the other case, and `name` is the name of that case. If the figures are maps, two maps
-    stand side by side, and more maps stand below one another.
+    `variant` is the same figure of the other case, and `name` is the name of that case. Maps are placed beside each
+    other if there are two of them, and below one another if there are more.
     """
     unsolved = figure.unsolved + variant.unsolved
     if any(panel.map is not None for panel in figure.panels):
@@ -35,9 +35,9 @@ def _key(panel: Panel) -> tuple[str, str | None]:
 
 
 def _overlaid(panel: Panel, other: Panel, name: str) -> Panel:
-    """Return the panel together with those parts of the other panel that differ from its own parts.
+    """Return the panel with additional parts: the parts of `other` that differ from the parts of the panel.
 
-    The parts are curves, edges of filled shapes, bars, rows, limits and, in panels with areas, marks.
+    Parts are curves, edges of filled shapes, bars, rows and limits. Marks are added only to a panel with areas.
     """
     own = {(level.name, level.value) for level in panel.levels}
     levels = (level for level in other.levels if (level.name, level.value) not in own)

@@ -1,7 +1,7 @@
 """The content of a figure without its style: panels of lines, bars, rows and maps, with limits and marks.
 
-Each number is in the unit of its axis and equals the number in the answer. NaN stands for a point without a value,
-where a curve has a gap. Sequences are not changed after they have become part of a figure.
+Each number is in the unit of its axis and equals the number in the answer. NaN stands for a point without a value; the
+curve has a gap at this point. Sequences are not changed after they have become part of a figure.
 """
 
 import re
@@ -21,7 +21,7 @@ ThemeName = Literal["light", "dark"]
 
 
 class Hue(StrEnum):
-    """The colours of Okabe and Ito, in the order in which curves take them.
+    """The colours of Okabe and Ito, in the order in which the curves of a figure take the colours.
 
     The values are matplotlib's names for the colours in the colour cycle of a style sheet.
     """
@@ -57,7 +57,7 @@ def values(items: Sequence[float | None] | Values) -> Values:
 class Axis:
     """A quantity along an axis.
 
-    If `magnitude` is set, a linear ordinate without `limits` includes zero.
+    If `magnitude` is set and the axis is a linear ordinate without `limits`, the axis includes zero.
     """
 
     title: str
@@ -72,7 +72,8 @@ class Axis:
     def label(self) -> str:
         """Text at the axis: title, symbol and unit.
 
-        The symbol stands before the first comma or opening parenthesis of the title, or else at the end of the title.
+        The symbol stands before the first comma or opening parenthesis of the title. If the title has neither, the
+        symbol stands at the end of the title.
         """
         title = re.sub(r"(?=,| \(|$)", f" {self.symbol}", self.title, count=1) if self.symbol else self.title
         return f"{title},{NO_BREAK}{self.unit}" if self.unit else title
@@ -80,7 +81,7 @@ class Axis:
 
 @dataclass(frozen=True, slots=True)
 class Mark:
-    """A point with a text. The point is usually an extreme, and the text its value."""
+    """A point with a text. The point is usually an extreme, and the text usually states the value at this point."""
 
     x: float
     y: float
@@ -92,8 +93,8 @@ class Mark:
 class Line:
     """Points over an abscissa, drawn as a curve, as bars or as the outline of a polygon.
 
-    A line that is not `named` is left out of the legend, because the title of its axis already names the line. The
-    legend lists polygons with the same title once.
+    A line that is not `named` is left out of the legend, because the title of the ordinate already names the line. If
+    several polygons have the same title, the legend lists this title once.
     """
 
     title: str
@@ -164,7 +165,7 @@ class Level:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Map:
-    """Values over two coordinates, `[y][x]`, with contours at the `critical` values.
+    """Values over two coordinates, indexed `[y][x]`, with contours at the `critical` values.
 
     Maps of a comparison have the same `range` of colours, and only the last of these maps shows the colour `bar`. If
     `range` is None, the range follows from the values.
@@ -222,7 +223,7 @@ class Area:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Panel:
-    """A pair of axes with its contents.
+    """A pair of axes with the curves, maps and texts that are drawn between these axes.
 
     `shapes` are polygons. If `equal` is set, both axes have the same scale.
     """
@@ -245,11 +246,11 @@ class Panel:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Figure:
-    """Panels under a title, which names the figure, and a finding, which states the result of the figure.
+    """Panels below a title and a finding. The title names the figure; the finding states the result of the figure.
 
-    `beside` puts the panels in a row. If the title is empty, the title of the declaration is used. The source always
-    comes from the declaration. `unsolved` is the number of points without a solution. A `narrow` figure fits into a
-    column of a report.
+    If `beside` is set, the panels stand side by side. If the title is empty, the title of the declaration is used. The
+    source always comes from the declaration. `unsolved` is the number of points without a solution. A `narrow` figure
+    fits into a column of a report.
     """
 
     finding: str
@@ -262,7 +263,7 @@ class Figure:
 
     @property
     def subtitle(self) -> str:
-        """Number of points without solution, finding, and source."""
+        """Text below the title: the number of points without a solution, the finding, and the source."""
         gaps = f"{self.unsolved} point{'s' * (self.unsolved > 1)} without solution" if self.unsolved else ""
         return " · ".join(part for part in (gaps, self.finding, self.source.replace(" ", NO_BREAK)) if part)
 
@@ -270,5 +271,5 @@ class Figure:
 class NoFigure(Unprocessable):
     """The case has no data for the figure.
 
-    `path` is the dotted field of the request on which the presence of these data depends.
+    `path` is the dotted path of the request field that decides whether these data are present.
     """

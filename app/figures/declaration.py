@@ -17,9 +17,10 @@ Build = Callable[..., Figure]
 class Declaration:
     """One figure of an endpoint.
 
-    `build` returns the figure. Its arguments are the solver's inputs, in SI, and the solver's result, with all
-    quantities in the units in which they are shown. If the figure needs more data than the result holds, `compute`
-    calculates these data from the inputs and the result, and `build` takes them as a third argument.
+    `build` returns the figure. The first argument of `build` holds the solver's inputs in SI. The second argument holds
+    the solver's result, with all quantities in the units in which pages show them. If the figure needs more data than
+    the result holds, `compute` calculates these data from the inputs and the result. `build` takes the data from
+    `compute` as a third argument.
 
     If `shown_at` is the path of another calculation, the figure appears on the page of that calculation and not on the
     page of its own calculation. `asked_by` is a section or value of the request. A page leaves out the figure if this

@@ -1,7 +1,7 @@
 """Figures of a load spectrum: the output of every case against its limit, probabilities, deciding cases, mean losses.
 
-A probability is a dictionary of the study's result. Its `bounds` enclose the probability; they are equal if all draws
-are solved. Its `interval` is the confidence interval of the probability.
+The study's result states a probability as a dictionary. The entry `bounds` holds a lower and an upper bound of the
+probability; both are equal if all draws are solved. The entry `interval` is the confidence interval.
 """
 
 from dataclasses import replace
@@ -13,7 +13,7 @@ from app.figures.data import ORDER, Axis, Figure, Hue, Level, Line, NoFigure, Pa
 from app.figures.wording import number, percent
 
 BAND = 1.6448536  # standard deviations between the quantiles at 5 % and 50 %
-REACH = 3.5  # standard deviations of a limit that are drawn on either side of it
+REACH = 3.5  # number of standard deviations that are drawn on either side of the mean of a limit
 CURVE_POINTS = 141  # points of a bell curve; chosen so that the curve looks smooth
 SPECTRUM = "whole spectrum"
 NAMED = 8  # largest number of tolerances in a figure
@@ -39,8 +39,8 @@ class Limited(NamedTuple):
 
     `found` is the study's result for the limit. It holds the side, the mean and the deviation of the limit, the
     probability of violating the limit, and the histogram of the output in the worst case. The histogram is empty if
-    this output does not vary. `influences` holds, by the title of each field that scatters, the rank correlation of the
-    field with the output in the worst case.
+    this output does not vary. `influences` holds the rank correlation of every scattering field with the output in the
+    worst case; its keys are the titles of the fields.
     """
 
     output: Axis
@@ -64,14 +64,14 @@ def chance_text(chance: dict[str, Any]) -> str:
 
 
 def sentence(limit: dict[str, Any]) -> str:
-    """Return a sentence that states the probability of being above or below a limit."""
+    """Return a sentence that states the probability of an output above or below its limit."""
     interval = None if is_tiny(limit) else limit["interval"]
     reach = f", 90 % interval {percent(interval[0])} to {percent(interval[1])}" if interval else ""
     return f"probability of being {limit['side']} the limit {chance_text(limit)}{reach}: {limit['risk']} risk"
 
 
 def overlap(limited: Limited) -> Figure:
-    """Draw the probability densities of the worst case and of the limit, and below them the range of each case."""
+    """Draw the probability densities of the worst case and of the limit. A panel below shows the range of each case."""
     limit, axis, rows = limited.found, replace(limited.output, magnitude=False), []
     for case in limited.cases:
         if case.quantiles is not None:
@@ -113,7 +113,7 @@ def _densities(limit: dict[str, Any], axis: Axis) -> Panel:
 
 
 def chances(limited: Limited) -> Figure:
-    """Draw the probability that each case has if it is the only case, and the probability of the spectrum."""
+    """Draw the probability of violating the limit, for each case as the only case and for the whole spectrum."""
     limit = limited.found
     if is_tiny(limit):
         raise NoFigure("tiny", f"the probability is {chance_text(limit)} in every case")

@@ -37,7 +37,7 @@ STAR = f"{NO_BREAK}*"
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Coordinate:
-    """A varied field with its values in rising order, or with its words if the values are words.
+    """A varied field and its values, which are either numbers in rising order or words.
 
     `own` is the value of the field in the case itself. A field `scatters` if manufacture or measurement leaves its
     value open, so that a design has to tolerate the scatter.
@@ -60,8 +60,8 @@ class Grid:
 
     NaN stands for a point that has no value, or that is not calculated yet. If `greatest` is set, greater values are
     better. `limit` is the limit of the output. `invalid` and `doubtful` have an item for each value of a single field.
-    An item of `invalid` is the reason why the output is not valid there, or None. An item of `doubtful` is True if the
-    point is outside a limit of validity.
+    An item of `invalid` is the reason why the output is not valid at this value, or None if it is valid. An item of
+    `doubtful` is True if the point is outside a limit of validity.
     """
 
     x: Coordinate
@@ -84,7 +84,7 @@ class Grid:
 
 
 def figures_of(grid: Grid) -> dict[str, Figure]:
-    """Return the figures of a sweep by their names."""
+    """Return the figures of a sweep. The keys are the names of the figures."""
     if grid.y is None:
         return {"curve": curve(grid)}
     if grid.y.words or grid.y.values.size <= MOST_CURVES:
@@ -146,9 +146,9 @@ def chart(grid: Grid, y: Coordinate) -> Figure:
 
 
 def worst(grid: Grid, y: Coordinate) -> Figure:
-    """Draw, over the second field, the worst output over all values of the first field.
+    """Draw a curve over the second field that shows the worst of the outputs at all values of the first field.
 
-    The worst output is unknown if the output at one of these values is unknown.
+    The worst output is unknown if the output at one value of the first field is unknown.
     """
     x, finding = grid.x, ""
     reached = grid.values.min(axis=0) if grid.greatest else grid.values.max(axis=0)
@@ -207,8 +207,8 @@ class Crossing(NamedTuple):
 def _crossings(grid: Grid) -> list[Crossing]:
     """Return the crossings of a curve and its limit, interpolated linearly between points.
 
-    The error is that of linear interpolation, estimated with the second divided difference of three points. If there
-    are only two points, the error is the distance between them.
+    The error of a crossing is the error of linear interpolation, estimated with the second divided difference of three
+    points. If there are only two points, the error is the distance between these points.
     """
     if grid.limit is None or grid.x.words:
         return []
@@ -234,7 +234,7 @@ def _second_difference(x: Values, y: Values) -> float:
 def answer(grid: Grid) -> str:
     """Return the answer to the question of a sweep as a sentence.
 
-    The sentence compares the output with its limit. If there is no limit, it states the range of the output.
+    The sentence compares the output with its limit. If there is no limit, the sentence states the range of the output.
     """
     finite = np.isfinite(grid.values)
     if grid.best is None:
@@ -312,10 +312,10 @@ def corners(output: Axis, rows: list[Row], nominal: float | None) -> Figure:
 def lead_chart(
     position: Values, face_fraction: Values, wanted: Lead, before: Lead, tolerance: Lead, ends: tuple[str, str]
 ) -> Figure:
-    """Draw the helix trace to grind, with its tolerances, as a lead chart. Removed material points downwards.
+    """Draw a lead chart of the helix trace to grind, and of its tolerances. Removed material is drawn downwards.
 
-    `position` is the position on the axis of the unit [mm]. `before` is the lead as described. `ends` holds the names
-    of the two ends of the face.
+    `position` is the position on the axis of the unit [mm]. `before` is the lead that the case describes. `ends` holds
+    the names of the two ends of the face.
     """
     eta = face_fraction - 0.5
 

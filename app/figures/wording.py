@@ -8,7 +8,7 @@ NO_BREAK = "\u00a0"  # a space at which lines do not break
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 PLAIN = (1e-3, 1e6)  # range of the magnitudes that are written without a power of ten
 NOISE = 1e-9  # share of a whole; a smaller part is a rounding error
-UNCERTAIN = 0.2  # chosen; verdicts on a number with a larger relative error by resolution are doubtful
+UNCERTAIN = 0.2  # chosen; largest relative error, due to resolution, of a number whose verdict is not doubtful
 DIFFERENCES = {"°C": "K", "K": "K", "°": "°", "%": "percentage points"}
 """Units of quantities whose changes are stated as differences, not as ratios, each with the unit of the difference."""
 # One or two letters, an underscore, then letters and digits, which commas may separate into groups.
@@ -43,7 +43,7 @@ def number(value: float, unit: str | None = None, digits: int = 3) -> str:
 
 
 def without_rounding(value: float, whole: float) -> float:
-    """Return the value, or zero if the value is a rounding error, below 1e-9 of `whole`."""
+    """Return the value, or zero if the value is a rounding error, that is, smaller than 1e-9 of `whole`."""
     return 0.0 if abs(value) < NOISE * abs(whole) else value
 
 

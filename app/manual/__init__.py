@@ -31,7 +31,7 @@ NAMES = (
 
 @dataclass(frozen=True, slots=True)
 class Chapter:
-    """A chapter: `name` is part of its address and its file name, `text` is Markdown."""
+    """A chapter. `name` is part of the chapter's address and of its file name; `text` is Markdown."""
 
     name: str
     text: str
@@ -58,6 +58,6 @@ class Chapter:
 
 @cache
 def chapters() -> dict[str, Chapter]:
-    """Return the chapters by their names, in reading order."""
+    """Return the chapters in reading order. The keys are the names of the chapters."""
     folder = files("app.manual")
     return {name: Chapter(name, folder.joinpath(f"{name}.md").read_text("utf-8")) for name in NAMES}

@@ -50,7 +50,7 @@ def anchor(number: str) -> str:
 
 @cache
 def equations() -> dict[str, Equation]:
-    """Return all numbered equations by their numbers."""
+    """Return all numbered equations. The keys are the numbers of the equations."""
     return {
         number: Equation(number, chapter.name, text, tuple(_FUNCTION.findall(below)))
         for chapter in chapters().values()

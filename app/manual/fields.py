@@ -1,6 +1,6 @@
 """The chapter "Inputs and outputs": a table of all fields, generated from the models of the service.
 
-`python -m tests.manual.test_generated` renews the table; the pages read the table here.
+`python -m tests.manual.test_generated` renews the table; this module reads the table for the pages.
 """
 
 from functools import cache

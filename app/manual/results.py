@@ -1,6 +1,6 @@
 """The places in the manual that say how the results are computed.
 
-A place is a numbered equation. The place is a section instead if no equation defines the result, as for counts,
+A place is a numbered equation, or a section if no equation defines the result. For example, no equation defines counts,
 settings in force and measures of convergence.
 """
 
@@ -158,8 +158,8 @@ PLACES = {
 }
 """Places in the manual, by the solvers' dataclass that declares the results.
 
-The first target is the place of all fields of the dataclass. A further target names some fields and is the place of
-only these fields.
+A text lists targets, separated by semicolons. The first target is the place of all fields of the dataclass except those
+that a further target names. A further target begins with the names of the fields whose place it is.
 """
 
 
@@ -173,7 +173,7 @@ class Place(NamedTuple):
 
 @cache
 def place_of(declared: Quantity) -> Place | None:
-    """Return the place that says how a declared result is computed; None if it is not a result of a solver."""
+    """Return the place that says how a declared result is computed; None if no solver declares the result."""
     origin = getattr(declared, "origin", None)
     if origin is None:
         return None

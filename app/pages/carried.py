@@ -33,7 +33,7 @@ class Use(NamedTuple):
 
 
 def subject_of(calculation: Calculation) -> str:
-    """Return the subject of a calculation, pair or coupling; empty if no other calculation shares the subject."""
+    """Return the subject of a calculation, "pair" or "coupling"; an empty text if the calculation has neither."""
     return next((name for section, name in SUBJECTS.items() if section in branches(calculation.request)), "")
 
 
@@ -103,7 +103,7 @@ def _missing(branch: Branch, names: set[str]) -> Iterator[str]:
 
 
 def _choices(model: type[Documented]) -> Iterable[tuple[str, ...]]:
-    """Return the groups of fields from which one field must be given."""
+    """Return the groups of fields of which one field must be given."""
     groups: Any = model.exclusive if getattr(model, "choice_missing", None) else ()
     return [group for group in groups[:1] if all(model.model_fields[name].default is None for name in group)]
 

@@ -32,7 +32,7 @@ from app.sources import SHORT_SOURCES, changes_since
 from solvers.quantity import Detail
 
 NAME = r"[a-z]\w*(?:[._]\w+)+"  # name of a field: words joined by points and underscores
-FILE_NAMES = ("rexs_file", "rexs_sha256", "rexs_stage")  # views that name the file from which a case was read
+FILE_NAMES = ("rexs_file", "rexs_sha256", "rexs_stage")  # these views name the file from which a case was read
 COMPRESSION = 1  # the fastest level of zlib
 REFUSED = (Unreadable, InvalidBody, Unprocessable)
 
@@ -41,10 +41,10 @@ REFUSED = (Unreadable, InvalidBody, Unprocessable)
 class Asked:
     """A requested case, and the addresses of its views.
 
-    Addresses that people may keep identify the sources of the solvers, so that the page can later tell its reader
-    whether the numbers may have changed. `kept` and `kept_ref` are the answers of the case and of its variant, or None
-    if they are not kept. `root` is the prefix that a proxy puts before the addresses of the service. `pressed` is True
-    if the form was sent, even if no field was filled in.
+    Addresses that people may keep contain an identification of the solvers' sources. A page that is opened later can
+    therefore tell its reader whether the numbers may have changed. `kept` and `kept_ref` are the answers of the case
+    and of its variant, or None if they are not kept. `root` is the prefix that a proxy puts before the addresses of the
+    service. `pressed` is True if the form was sent, even if no field was filled in.
 
     A case that is too long for a link is posted. The addresses of its figures then contain `answered`: the hashes of
     the case and of the variant, taken from their answers. These addresses work as long as both answers are kept.
@@ -101,7 +101,7 @@ class Asked:
 
     @property
     def outdated(self) -> list[str]:
-        """The changes to the solvers since the link was made; empty if the link does not name their sources."""
+        """The changes to the solvers since the link was made; empty if the link does not name the solvers' sources."""
         return changes_since(self.views.get("sources", ""))
 
     @property
@@ -111,7 +111,7 @@ class Asked:
 
     @property
     def written(self) -> str:
-        """The texts that the service writes into the form but would read in another way if a person typed them."""
+        """The texts that the service writes into the form, but would read differently if a person typed these texts."""
         return written_of(self.calculation.request, self.pairs)
 
     @property
@@ -165,7 +165,7 @@ def opened(content: bytes, root: str) -> Asked:
     try:
         case = content_of(content)
         endpoint, title = str(case["endpoint"]), str(case.get("title", ""))
-        pairs = pairs_of_query(link("", pairs_of(dict(case["request"]))).removeprefix("?"))  # as the form sends them
+        pairs = pairs_of_query(link("", pairs_of(dict(case["request"]))).removeprefix("?"))  # the texts of a form
     except (InvalidBody, Unreadable, AttributeError, KeyError, RecursionError, TypeError, ValueError):
         raise Unreadable(
             "The file does not contain a case. A case is a JSON object with an endpoint and a request"

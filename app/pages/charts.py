@@ -18,7 +18,7 @@ from app.pages.cases import Asked, Case
 
 VARIANT = "variant A"
 MOST_LINES = 200  # lines of a table on a page; the file has all lines
-DIGITS = 6  # significant digits; more than the tolerance of any solver leaves
+DIGITS = 6  # significant digits; the tolerances of the solvers leave fewer digits accurate
 PIXELS = 100  # per inch
 
 
@@ -28,8 +28,8 @@ class Chart:
 
     `image` is the address of the image. `dark` is the address of a second image for dark pages, or empty. The values of
     the figure are either at the address `values`, or in `content` (as JSON) and `table`. `study` holds the points of a
-    sweep and the links to their cases, also as JSON. `size` is width and height in pixels, or None if they are unknown
-    until the figure is drawn.
+    sweep and the links to their cases, also as JSON. `size` is width and height in pixels, or None if the data of the
+    figure are still to be computed.
     """
 
     name: str
@@ -125,8 +125,8 @@ def data_address(figure: Figure, theme: ThemeName = "light") -> str:
 def in_columns(figures: Iterable[Figure]) -> list[Figure]:
     """Return the figures in the order in which they stand in a report with two columns.
 
-    A figure that fits into a column is followed by the remaining figure of the most similar height. Figures that need
-    the whole width come last and keep their shape.
+    Figures that fit into a column come in pairs: the first remaining figure, and the figure whose height is nearest to
+    the height of the first. Figures that need the whole width come last and keep their shape.
     """
     from app.figures.drawing.image import narrowed, size  # noqa: PLC0415  only workers draw
 

@@ -15,7 +15,7 @@ from app.schema.model import Response
 from app.spreadsheet import csv_of
 from app.studies.fields import value_at
 
-DIGITS = 6  # significant digits; more than the tolerance of any solver leaves
+DIGITS = 6  # significant digits; the tolerances of the solvers leave fewer digits accurate
 
 
 def values(case: Case, title: str) -> bytes:
@@ -43,7 +43,7 @@ def values(case: Case, title: str) -> bytes:
 
 
 def curves(response: Response) -> dict[str, str]:
-    """Return the titles of groups that hold curves, and the titles of curves outside groups, by their paths."""
+    """Return the titles of groups that hold curves, and the titles of curves outside groups. The keys are paths."""
     listed = (
         entry
         for entry in entries(response)

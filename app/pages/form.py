@@ -27,10 +27,11 @@ DETAIL = "detail"
 class State:
     """The state of a form, by the names of its fields.
 
-    `texts` are the texts of the fields, `faults` the messages of their faults, and `resolved` the values that an answer
-    used for them. `assumed` are the fields whose default is ours. `required` is the remark beside a field that must be
-    given: either always, or only if the optional section of the field is used. `deciding` are the fields on which a
-    verdict depends; the sections of these fields are open. `endpoint` is the endpoint of the form.
+    `texts` holds the texts of the fields, `faults` holds the messages about their faults, and `resolved` holds the
+    values that an answer used for the fields. `assumed` are the fields whose default is our own assumption. `required`
+    is the remark beside a field that must be given. The remark says whether the field must always be given, or only if
+    the optional section of the field is used. `deciding` are the fields on which a verdict depends; the sections of
+    these fields are open. `endpoint` is the endpoint of the form.
     """
 
     texts: Mapping[str, str] = field(default_factory=dict)
@@ -170,7 +171,7 @@ def form(request: type[Request], state: State) -> tuple[Section, ...]:
 
 
 def _section(title: str, blocks: Iterable[Block], state: State, paths: list[str], **settled: Any) -> Section:
-    """Return the section with the fields at or below some paths; `settled` are attributes that are given.
+    """Return the section with the fields at or below some paths; `settled` holds further attributes of the section.
 
     The section is open if it is needed, or if one of its fields is given, has a fault or decides about a verdict.
     """
@@ -194,10 +195,10 @@ def _count(names: Iterable[str], path: str) -> int:
 
 
 def _branch(branch: Branch, path: str, state: State, item: int | None = None) -> Section:
-    """Return a section of the request; `item` is its index if it is the item of a list of sections."""
+    """Return a section of the request; if the section is an item of a list, `item` is its index in the list."""
     given = _count(state.texts, path) > 0
     switch = None
-    if branch.optional and not branch.required:  # adds the section even if all its fields are empty
+    if branch.optional and not branch.required:  # the switch adds the section even if all its fields are empty
         switch = FieldView(
             name=path,
             label=f"use {branch.title}",

@@ -70,14 +70,14 @@ def functions_page(root: str) -> str:
 
 
 def chapter_of(calculation: Calculation) -> Chapter:
-    """Return the chapter about a calculation: its own chapter, or else the chapter about its model."""
+    """Return the chapter about a calculation. Without such a chapter, return the chapter about the model."""
     own = calculation.path.rpartition("/")[2]
     return chapters()[own if own in chapters() else model_of(calculation)]
 
 
 @cache
 def method_of(chapter: Chapter) -> dict[str, Any]:
-    """Return the summary of a chapter for reports; it has no links, because reports are printed."""
+    """Return the summary of a chapter for reports. The summary has no links, because reports are printed."""
     numbered = [equation for equation in equations().values() if equation.chapter == chapter.name]
     return {
         "title": chapter.title,
@@ -101,9 +101,10 @@ class Symbol(NamedTuple):
 
 @cache
 def symbols_of(chapter: Chapter) -> list[Symbol]:
-    """Return the symbols of the inputs of a chapter's calculations, and of the results whose computation it describes.
+    """Return the symbols that a chapter needs, sorted.
 
-    The symbols are sorted, and a symbol is repeated only if it has several titles.
+    These are the symbols of the inputs of the chapter's calculations, and the symbols of the results whose computation
+    the chapter describes. A symbol is repeated only if it has several titles.
     """
     symbols = dict[tuple[str, str], Symbol]()
     for calculation in CALCULATIONS:
@@ -123,7 +124,7 @@ def _is_of(leaf: Leaf, chapter: Chapter) -> bool:
 
 @dataclass(frozen=True, slots=True)
 class ShownStudy:
-    """A study of an example, one of whose figures a chapter shows.
+    """A study of an example. A chapter of the manual shows one of the figures of this study.
 
     `path` and `pairs` make the link of the case. `page` is the part of the address that names the kind of study, and
     `controls` are the settings of the study.
@@ -143,7 +144,7 @@ class ShownStudy:
 
 @cache
 def shown_studies() -> dict[str, ShownStudy]:
-    """Return the studies that chapters show, by the names of their pictures."""
+    """Return the studies that chapters show. The keys are the names of the pictures."""
     studies = {}
     for name, entry in json.loads(files("app.manual").joinpath("studies.json").read_text("utf-8")).items():
         example = examples()[entry["example"]]
@@ -164,7 +165,7 @@ def _plain(text: str) -> Markup:
 
 
 def headings(chapter: Chapter) -> dict[str, str]:
-    """Return the titles of a chapter's sections by their anchors."""
+    """Return the titles of a chapter's sections. The keys are the anchors of the sections."""
     if chapter.name == FIELDS:
         return {section.lower(): section for section in SECTIONS}
     return {
@@ -225,8 +226,8 @@ def _image(
 ) -> str:
     """Return the HTML of a picture.
 
-    The picture is the figure of an example or study that the service draws. Its caption ends with a link to the case or
-    the study.
+    The picture is a figure of an example or of a study, drawn by the service. The caption of the picture ends with a
+    link to the case or to the study.
     """
     token = tokens[place]
     folder, _, file = str(token.attrs["src"]).removesuffix(".png").partition("/")

@@ -16,7 +16,7 @@ from app.pages.templating import by_model, example_link, examples_of, model_of, 
 from app.schema.fields import leaf_at
 
 ANSWERS = {"drive-train": "face-load", "coupling": "tooth-loads", "pumping": "mach-map", "scuffing": "flank-load"}
-"""The name of the figure that the start page shows of each model."""
+"""For each model, the name of the figure that the start page shows."""
 SCUFFING = "/v1/scuffing"
 SPECTRA = (SCUFFING, "/v1/drive-train")  # the endpoints to whose load spectra a stage has links
 CASE_COLUMNS = ("load.pinion_torque_n_m", "load.pinion_speed_rpm", "temperatures.oil_c")

@@ -26,8 +26,8 @@ from app.schema.model import Documented
 
 Pairs = list[tuple[str, str]]
 
-# Names of the controls of studies whose value is not a single number. `CORNER` is the start of the names of lists with
-# the values of an uncertain input, and `CASES` is the name of a table of cases.
+# Some controls of studies have values that are not single numbers. `CORNER` is the start of the name of a control that
+# lists the values of an uncertain input. `CASES` is the name of the control with the table of cases.
 CORNER, CASES = "corner.", "cases"
 REPORT_NAMES = {
     "title": 200,
@@ -47,12 +47,18 @@ VIEW_NAMES = REPORT_NAMES.keys() | {
 }
 """Names of fields that only affect the view of a case; `split_views` adds the names of the controls of studies."""
 PICK = "pick:"
-"""The start of the name of a choice between fields that exclude each other; its value is the field that is used."""
+"""The start of the name of a choice between fields that exclude each other.
+
+The value of the choice is the name of the field that is used.
+"""
 WRITTEN = "written"
-"""The name of a hidden field that only forms send. It contains, as a query, the texts that the server wrote into the
-form and that would be read differently if a user typed them."""
+"""The name of a hidden field that only forms send.
+
+The field contains, as a query, some of the texts that the server wrote into the form. These are the texts that would be
+read differently if a user typed them.
+"""
 MOST_FIELDS = 1000  # chosen: many more than the longest form has
-DEEPEST = 12  # parts of a name; the names of all fields have fewer
+DEEPEST = 12  # largest number of parts of a name; the names of all fields have fewer parts
 LONGEST_QUERY = 6000  # characters; common proxies refuse a request line of more than 8 KiB
 LONGEST_NAME = 100  # characters of a name; the names of all fields are shorter
 MATRIX = 2  # dimensions
@@ -77,7 +83,7 @@ def split_views(pairs: Pairs) -> tuple[Pairs, dict[str, str]]:
 
 
 def from_form(model: type[Documented], pairs: Pairs) -> Pairs:
-    """Return the fields as a link has them.
+    """Return the fields as they stand in a link.
 
     If a form sent the fields, texts that a user typed are converted, and texts that the server wrote are unchanged.
     """
@@ -229,7 +235,7 @@ def _listed(leaf: Leaf, text: str) -> list[Any]:
     """Read a list.
 
     In a link, commas separate the items. In a pasted list, blanks, line ends or semicolons separate the items, and a
-    comma may precede each separator.
+    comma may stand before each of these separators.
     """
     items = _PASTED.split(text.strip(" \t\r\n;"))
     items = text.split(",") if len(items) == 1 else [item.removesuffix(",") for item in items]

@@ -18,7 +18,7 @@ from app.pages.results import flattened, resolved, texts_of
 from app.pages.typesetting import cited
 from app.schema.fields import Leaf, leaf_at
 
-SECTION_CHAPTERS = {"heat": "heat-balance"}  # chapters about sections of another name
+SECTION_CHAPTERS = {"heat": "heat-balance"}  # chapters whose name differs from the name of the section
 LOCAL = "http://localhost:8000"
 LABELS = {name: name for name in REPORT_NAMES} | {
     "checker": "checked by",
@@ -98,8 +98,8 @@ def _with_origin(sections: list[Section], origins: frozenset[str]) -> list[Secti
 def _left(sections: list[Section]) -> list[tuple[str, list[tuple[Leaf, str, bool]]]]:
     """Return the inputs left to their defaults, by the title of their section.
 
-    Each input comes with a text, and with True if this text is a value. If an input is empty and has no value, the text
-    says what replaces the value, for example from what it is estimated.
+    Each input comes with a text, and with a boolean that is True if this text is a value. If an input is empty and has
+    no value, the text says what replaces the value, for example the quantity from which the value is estimated.
     """
     left = []
     for title, _, rows in sections:
@@ -124,7 +124,7 @@ def _chapters_behind(case: Case) -> list[Chapter]:
 
 
 def _said(name: str, text: str, longest: int) -> str:
-    """Return a name or note without invisible characters, some of which reverse the direction of text."""
+    """Return a name or note without invisible characters. Some of these would reverse the direction of the text."""
     if len(text) > longest:
         message = f"{name}: {len(text)} characters; at most {longest} have room on the report"
         raise Unprocessable("too_long", message, None)
@@ -155,7 +155,7 @@ def body_of(case: Case) -> str:
 
 
 def _given(case: Case) -> dict[str, Any]:
-    """Return the fields that the user has given; all others have their default."""
+    """Return the fields that the user has given. All other fields have their defaults."""
     return case.request.model_dump(exclude_unset=True, exclude={"detail"})
 
 

@@ -19,7 +19,7 @@ SHAFTS = ("pinion shaft", "wheel shaft")
 """Titles of the shafts, in the order of the list of shafts."""
 NEAR = 0.8  # share of an upper limit above which a value is close to the limit
 LEVELS = ("plain", "good", "near", "bad")
-WELL_ABOVE = 2.0  # multiple of a lower limit from which on a value is well above the limit
+WELL_ABOVE = 2.0  # a value of at least this multiple of a lower limit is well above the limit
 UNCHANGED = 5e-6  # share of a value; a smaller change is not shown
 
 
@@ -122,7 +122,7 @@ def differences(request: type[Documented], response: Response, before: Response)
 
 
 def assumptions(request: type[Documented], response: Response) -> list[Row]:
-    """Return the defaults of our own that the answer used, with the reasons for these defaults."""
+    """Return our own defaults that the answer used, with the reasons for these defaults."""
     return [
         replace(_row(leaf, assumption.field, assumption.value, label=leaf.title), remark=assumption.reason)
         for assumption in response.assumptions
@@ -165,7 +165,8 @@ def texts_of(value: Any, digits: int, of_items: int = 4) -> tuple[str, ...]:
 def _change(now: Any, before: Any, unit: str) -> str:
     """Return the change from `before` to `now` as text.
 
-    The change is in per cent. It is a difference if the ratio of two such values has no meaning, as for temperatures.
+    The change is in per cent. If the ratio of two such values has no meaning, as for temperatures, the change is the
+    difference.
     """
     if isinstance(now, bool) or not isinstance(now, int | float) or not isinstance(before, int | float):
         return "no change" if now == before else "changed"
@@ -223,7 +224,7 @@ def cards(response: Documented, inputs: dict[str, Any], before: Documented | Non
 
 
 def _with_band(items: tuple[str, ...], leaf: Leaf, values: dict[str, Any]) -> tuple[str, ...]:
-    """Add the ends of the band to a headline number that has a band, as in 2.28 (1.95 to 2.58)."""
+    """Add the ends of the band to the text of a headline number that has a band, for example 2.28 (1.95 to 2.58)."""
     ends = values.get(leaf.view.band) if leaf.view.band else None
     if not ends:
         return items

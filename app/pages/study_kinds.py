@@ -27,7 +27,7 @@ class StudyLink(NamedTuple):
 
 @cache
 def study_pages() -> tuple[type[Any], ...]:
-    """Return the `PAGE` of every kind of study, a `StudyPage`, in the order of their links."""
+    """Return the `PAGE` of every kind of study, in the order of their links. A `PAGE` is a subclass of `StudyPage`."""
     modules = (import_module(f"{package.__name__}.{module.name}") for module in pkgutil.iter_modules(package.__path__))
     return tuple(sorted((module.PAGE for module in modules), key=lambda page: page.link.place))
 
@@ -39,5 +39,5 @@ def study_page(name: str) -> type[Any]:
 
 @cache
 def control_names() -> frozenset[str]:
-    """Return the names that, in a query, are controls of any study and not fields of a case."""
+    """Return the names of all controls of studies. In a query, these names do not belong to fields of a case."""
     return frozenset().union({"show"}, *(page.names for page in study_pages()))

@@ -75,9 +75,9 @@ def studies_of_case(
     derived: Mapping[str, Any] = MappingProxyType({}),
     file: Mapping[str, str | None] = MappingProxyType({}),
 ) -> list[Starter]:
-    """Return links to the same studies of a case, with ranges around the values of the case.
+    """Return links to the ready studies, applied to a case and with ranges around the values of this case.
 
-    `derived` are values by path that the case does not state, such as the power that follows from a given torque.
+    `derived` holds, by path, values that the case does not state, such as the power that follows from a given torque.
     `file` names the REXS file from which the case was read. A study is left out if it varies a number that the case
     neither states nor implies. Options and values of zero are varied over the range of the example.
     """

@@ -18,7 +18,7 @@ from app.pages.typesetting import cited, shown, symbol, typeset, words
 from app.schema.model import MODEL_VERSION
 
 ASSETS = {file.name: file.read_bytes() for file in files("app.pages").joinpath("static").iterdir()}
-"""The files to which pages refer."""
+"""The files to which pages refer. The keys are the names of the files."""
 
 
 def rendered(template: str, root: str, **context: Any) -> str:

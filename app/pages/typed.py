@@ -11,7 +11,7 @@ from decimal import Decimal
 from typing import Any
 
 DOUBT = "?"
-LONGEST = 60  # characters of the longest number with its unit that is read; chosen
+LONGEST = 60  # characters of a number and its unit; a longer text is not read as a number; chosen
 MOST_ITEMS = 2000  # items of a list; more than any list of a request may have
 
 _TIDY = str.maketrans({"−": "-", "’": "'", "\u00a0": " ", "\u2007": " ", "\u2009": " ", "\u202f": " "})
@@ -83,7 +83,7 @@ def in_link(text: str, unit: str | None = None) -> str:
 
 
 def list_in_link(text: str, unit: str | None = None) -> str:
-    """Convert a typed or pasted list into its text in a link. Return it unchanged if an item is not a number."""
+    """Convert a typed or pasted list into its text in a link. If an item is not a number, return the text unchanged."""
     items = _items(text.translate(_TIDY), unit)
     if items is None:
         return text + DOUBT
@@ -102,7 +102,10 @@ def items_in_link(text: str) -> str:
 
 
 def table_in_link(text: str) -> str:
-    """Convert a table, whose first line names the columns, into its text in a link. Leave a column `name` as it is."""
+    """Convert a table into the text that represents the table in a link.
+
+    The first line of the table names the columns. A column `name` is left as it is.
+    """
     separator = separator_of(text)
     heading, *rows = text.split("\n")
     named = [cell.strip().lower() == "name" for cell in heading.split(separator)]
@@ -135,7 +138,10 @@ def as_typed(text: str) -> str:
 
 
 def power_between(typed: str | None, own: str | None) -> int | None:
-    """Return the power of ten that converts a typed unit to the unit of the field; None for another quantity."""
+    """Return the power of ten that converts a typed unit to the unit of the field.
+
+    Return None if the two units belong to different quantities.
+    """
     if not typed or _packed(typed) == _packed(own or ""):
         return 0
     here, there = _factors(typed), _factors(own or "")
@@ -195,7 +201,7 @@ def _items(text: str, unit: str | None) -> list[str] | None:
     cells = [cell.strip() for cell in re.split(r"[;\t\r\n]+", text.strip("; \t\r\n"))]
     items = list[str]()
     for cell in cells:
-        if len(cells) > 1 and _SPACED.fullmatch(cell):  # either groups of one number or several numbers
+        if len(cells) > 1 and _SPACED.fullmatch(cell):  # the cell is either one number in groups or several numbers
             return None
         whole = " " not in cell or (not _SPACED.fullmatch(cell) and _NUMBER.fullmatch(in_link(cell, unit)))
         items += [cell] if whole else cell.split()
@@ -218,10 +224,10 @@ def _has_several(item: str) -> bool:
 
 
 def _settled(item: str, decimal: set[str]) -> str:
-    """Add a zero as fourth decimal to a doubtful number if the list shows that its mark is a decimal mark.
+    """Add a zero as fourth decimal to a doubtful number if the list shows that the number's mark is a decimal mark.
 
-    The list shows this if other numbers in it use the same mark as their decimal mark. A number with four decimals is
-    not doubtful.
+    The list shows this if other numbers in the list use the same mark as their decimal mark. A number with four
+    decimals is not doubtful.
     """
     doubtful = _DOUBTFUL.match(item)
     return f"{item[: doubtful.end()]}0{item[doubtful.end() :]}" if doubtful and doubtful[2] in decimal else item

@@ -84,7 +84,7 @@ def _of_query(name: str, asked: Asked, query: str) -> Column:
 
 @lru_cache(maxsize=KEPT)
 def _numbers(path: str, query: str) -> tuple[dict[str, Any], dict[str, Any]]:
-    """Return the inputs and the results of a variant; raise what `solved` raises.
+    """Return the inputs and the results of a variant; raise the same errors as `solved`.
 
     Inputs and results are cached because the page needs them again after every edit of the case.
     """

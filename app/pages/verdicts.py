@@ -69,7 +69,7 @@ def _thrust(response: CouplingResponse) -> Verdict:
 
 
 def _misalignment(response: CouplingResponse) -> Verdict:
-    """Judge the permissible misalignment by the sliding velocity of the case over the limit of this velocity."""
+    """Judge the permissible misalignment by the ratio of the case's sliding velocity to the limit of this velocity."""
     most, sliding = response.limits.allowable_misalignment_deg, response.kinematics.max_sliding_velocity_m_per_s
     share = sliding / response.limits.sliding_velocity_limit_m_per_s
     if most is None:
@@ -94,7 +94,7 @@ def _coupling(response: CouplingResponse) -> str:
 
 
 def _spaces(response: PumpingResponse) -> dict[str, Any]:
-    """Return the tooth spaces of the answer by their gear."""
+    """Return the tooth spaces in the answer. The keys are the names of their gears."""
     spaces = {"pinion": response.pinion_spaces, "wheel": response.wheel_spaces}
     return {gear: space for gear, space in spaces.items() if space is not None}
 

@@ -70,13 +70,13 @@ def form_page(asked: Asked) -> Shown:
 
 
 def _deciding(calculation: Calculation) -> frozenset[str]:
-    """Return the inputs without which a headline number has no value, and the inputs that may replace them."""
+    """Return the inputs without which a headline number has no value, and the inputs that may replace these inputs."""
     needed = (leaf_at(calculation.request, leaf.view.needs or "") for leaf in headlines(calculation.response))
     return frozenset(path for leaf in needed if leaf for path in (leaf.path, *excluded(leaf.path, leaf)))
 
 
 def result(asked: Asked, media: Literal["json", "csv"]) -> Shown:
-    """Return the answer as the API gives it, or as CSV a table of its values or of one of its curves."""
+    """Return the answer as JSON, as the API gives it, or a CSV table of all its values or of one of its curves."""
     case = solved(asked.calculation, asked.pairs, asked.kept, "curves" if media == "json" else "fields")
     if media == "json":
         content = json_written(case.response)
@@ -99,9 +99,9 @@ def figure(asked: Asked, name: str, image_format: Format | Literal["json"]) -> S
 def report(asked: Asked, host: str, study: dict[str, Any] | None = None) -> Shown:
     """Return the report of a case, with a section about a study if there is one.
 
-    `study` holds the `title` of the study, the `link` to its page, and its result as `found`. Addresses on the report
-    begin with `host`. If `host` is empty, the link is relative, and the command asks the service on the reader's own
-    machine. If the case cannot be computed, the page of the case is returned instead.
+    `study` holds the `title` of the study, the `link` to its page, and its result under the key `found`. Addresses on
+    the report begin with `host`. If `host` is empty, the link to the case is relative, and the printed command asks the
+    service on the reader's own machine. If the case cannot be computed, the page of the case is returned instead.
     """
     try:
         case, variant, trouble = _both(asked)
@@ -120,16 +120,16 @@ def report(asked: Asked, host: str, study: dict[str, Any] | None = None) -> Show
 
 
 def _asked_back(pairs: Pairs, faults: list[Fault]) -> list[Fault]:
-    """Replace the faults of a text that has two readings by the question which of the two readings is meant."""
+    """Replace the fault of a text with two readings by a question that asks which of the readings is meant."""
     asked = {name: question(text) for name, text in pairs if question(text)}
     named = ((next((name for name in asked if f"{fault.path}.".startswith(f"{name}.")), ""), fault) for fault in faults)
     return [*dict.fromkeys(Fault(name, asked[name]) if name else fault for name, fault in named)]
 
 
 def _keep(asked: Asked, case: Case, variant: Case | None = None) -> dict[str, bytes]:
-    """Return the answers that are not kept yet, by the keys of their fields.
+    """Return the answers of case and variant that are not kept yet. The keys are made by `key_of` from their fields.
 
-    If the case is too long for a link, its answers are also returned by the keys of their hashes.
+    If the case is too long for a link, both answers are also returned under keys that are made from their hashes.
     """
     keep = {}
     for pairs, kept, answered in (asked.pairs, asked.kept, case), (asked.ref_pairs, asked.kept_ref, variant):
@@ -161,7 +161,7 @@ def _page(asked: Asked, state: State, status: int = 200, keep: dict[str, bytes] 
 
 
 def _answered(asked: Asked, case: Case, variant: Case | None, trouble: str, *, compute: bool = False) -> dict[str, Any]:
-    """Return the variables with which page and report show an answer and compare it with the variant's answer.
+    """Return the variables for the part of page and report that shows the answer and compares it with the variant.
 
     `trouble` says why the variant cannot be computed.
     """

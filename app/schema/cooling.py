@@ -30,7 +30,7 @@ class GearCooling(Section, of=si.Cooling):
     """How the oil reaches the teeth, what else heats it, and what was measured."""
 
     def unused(self) -> dict[str, bool]:
-        """Mark fields as unused that a measured temperature or a given oil flow replaces."""
+        """Mark the fields as unused whose values a measured temperature or a given oil flow replaces."""
         measured = self.measured
         return {
             "flow_rise_k": self.gear_flow_l_per_min is not None,

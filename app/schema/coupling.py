@@ -119,7 +119,7 @@ class _CouplingRequest(Request):
     )
 
     def unused(self) -> dict[str, bool]:
-        """Mark inputs as unused that other given values replace, or that do not apply to the arrangement."""
+        """Mark the inputs as unused that are replaced by other given values or do not apply to the arrangement."""
         arrangement, offset = self.operation.arrangement, getattr(self.operation, "parallel_offset_mm", None)
         return {
             "model.inlet": self.model.inlet_length_mm is not None,
@@ -168,7 +168,7 @@ class RecommendationRequest(_CouplingRequest):
     operation: Annotated[CouplingOperationRange, Input("operating point", text="with a range of misalignment")]
 
     def unused(self) -> dict[str, bool]:
-        """Mark also inputs as unused that only affect results at a single operating point.
+        """Also mark the inputs as unused that only affect results at a single operating point.
 
         These results are the thrust with one pair of teeth, and the friction at rest.
         """

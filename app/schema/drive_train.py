@@ -215,7 +215,7 @@ class UnitShaft(Section, of=si.Shaft, without=("ultimate_thrust",)):
         return self.si(si.Shaft, self.thrust_bearing, bearings=tuple(bearings), sections=sections)
 
     def _sections(self, name: str, gears: GearPairInputs, face_start: float) -> Iterator[si.ShaftSection]:
-        """Yield the solver's sections; a section under the teeth without a diameter gets the diameter for torsion.
+        """Yield the solver's sections. If a section under the teeth has no diameter, use the diameter for torsion.
 
         Raises InvalidInput `section_diameter` if a section that is not under the teeth has no diameter.
         """
@@ -376,7 +376,7 @@ class DriveTrainRequest(MeshInOil):
         return super().options() | {"slices": self.model.si(pumping.PumpingModel).slice_count}
 
     def unused(self) -> dict[str, bool]:
-        """Mark also inputs as unused that belong to effects that are switched off or that a heat balance replaces."""
+        """Also mark the inputs of switched-off effects as unused, and the inputs that a heat balance replaces."""
         coupled = self.couplings and self.effects.shafts and self.effects.coupling
         return (
             super().unused()

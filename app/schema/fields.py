@@ -25,8 +25,8 @@ ITEM = "*"
 class Leaf:
     """A field that holds values and is not a section of further fields.
 
-    `declared` says what the field means, and `view` how a result is judged. `title` is unique within its request or
-    answer: if fields of several sections have the same title, the name of the section is added to the title.
+    `declared` says what the field means, and `view` says how a result is judged. `title` is unique within the request
+    or answer: if fields of several sections have the same title, the name of the section is added to each title.
     `dimensions` is 0 for a scalar, 1 for a list and 2 for a matrix. `axes` holds the full paths of the axes, one for
     each dimension, or is empty.
     """
@@ -112,7 +112,7 @@ def tree(model: type[Documented]) -> Branch:
 
 @cache
 def branches(model: type[Documented]) -> dict[str, Branch]:
-    """Return all sections by their paths."""
+    """Return all sections. The keys are the paths of the sections."""
     return {member.path: member for member in _all(tree(model)) if isinstance(member, Branch)}
 
 
@@ -265,8 +265,8 @@ def field_path(request: Documented, name: str) -> str | None:
 def _meant(model: type[Documented], wanted: _Names) -> _Names | None:
     """Return the names on the way to the outermost field or list item that a solver means by these names.
 
-    The solver may leave out sections, but not lists. It may first name parts of its own inputs that the request does
-    not have; the next name must then be at the root of the request.
+    The solver may leave out sections, but not lists. The names may begin with parts of the solver's inputs that the
+    request does not have. The first name after these parts must then be at the root of the request.
     """
     request_names: dict[_Names, _Names] = {}
     for way in _ways(model):
@@ -278,7 +278,7 @@ def _meant(model: type[Documented], wanted: _Names) -> _Names | None:
             if (
                 theirs[-1] == wanted[-1]
                 and theirs.count(ITEM) == wanted.count(ITEM)
-                and all(name in rest for name in wanted[start:])  # in the order of `wanted`
+                and all(name in rest for name in wanted[start:])  # and in the order of `wanted`
                 and (start == 0 or theirs[0] == wanted[start])
             ):
                 return request_names[theirs]

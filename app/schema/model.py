@@ -7,8 +7,8 @@ has a field for each declaration of `si.ModelOptions`. If the quantity has a uni
 unit. A trailing underscore, which keeps a solver's name from being a word of Python (`from_`), is dropped.
 
 The class body may declare ordinary fields of pydantic. A field that has the name of a filled field changes the type or
-the default of the filled field. If its type is annotated with an `Input` or `Output`, this replaces the declaration of
-the solver; `Input.of(Record, "field", text=...)` replaces only a part of the declaration.
+the default of the filled field. If the new type is annotated with an `Input` or `Output`, this replaces the declaration
+of the solver; `Input.of(Record, "field", text=...)` replaces only a part of the declaration.
 
 `Section.si` converts a request into the solver's dataclasses in SI, and `from_si` reads a response from the solver's
 result. Both use the names and units of `members`, which are looked up once per model.
@@ -79,11 +79,12 @@ class Documented(BaseModel):
         stands: bool = True,
         **config: Any,
     ) -> None:
-        """Fill the model from the declarations of dataclasses: all, `only` some, or all `without` some.
+        """Fill the model from the declarations of the dataclasses `of`.
 
-        If `of` has several dataclasses, the first is the solver's result, and the others are the types of members of
-        the result, which may be None. Fields that a base class has remain unchanged. If a model `stands` for its whole
-        dataclass, other models use it for this dataclass. Raises TypeError if two models stand for one dataclass, or if
+        If `only` is given, only the fields in `only` are filled. Fields in `without` are not filled. If `of` has
+        several dataclasses, the first is the solver's result. The others are the types of members of the result; these
+        members may be None. Fields that a base class has remain unchanged. If a model `stands` for its whole dataclass,
+        other models use this model for the dataclass. Raises TypeError if two models stand for one dataclass, or if
         `only` or `views` has a name that is not declared.
         """
         super().__init_subclass__(**config)
@@ -91,19 +92,19 @@ class Documented(BaseModel):
         declared = {name: (record, quantity) for record in records for name, quantity in quantities(record).items()}
         if unknown := {*only, *vars(cls).get("views", {})} - {*declared}:
             raise TypeError(f"{cls.__name__} names fields that are not declared: {', '.join(sorted(unknown))}")
-        names = {  # in the interface
+        names = {  # names in the interface
             name: name.rstrip("_") if quantity.unit in {None, cls.member_unit} else f"{name}_{quantity.unit}"
             for name, (_, quantity) in declared.items()
         }
         inherited = {member.name for base in cls.__bases__ for member in members(base) if member.record}
-        own = get_annotations(cls)  # of fields that replace the type of a filled field, or of further fields
+        own = get_annotations(cls)  # types that replace the type of a filled field, and types of further fields
         filled: dict[str, Any] = {}
         for name in only or declared:
             (record, quantity), field = declared[name], names[name]
             if name in without or (field in inherited and field not in own):
                 continue
             kind = own.get(field) or _published(type_of(record, name), quantity, cls._declares)
-            if meaning_of(getattr(kind, "__metadata__", ())):  # has its own declaration, but its place is here
+            if meaning_of(getattr(kind, "__metadata__", ())):  # keeps its own declaration
                 filled[field] = kind
                 continue
             filled[field], default = cls._filled(kind, record, name, names, nullable=record is not records[0])
@@ -127,7 +128,7 @@ _MODELS: dict[tuple[type, type], type[Documented]] = {}
 
 def _published(hint: Any, declared: Quantity, declares: type) -> Any:
     """Return the type of a field in the interface, with models for dataclasses and lists for tuples and arrays."""
-    alias = getattr(get_origin(hint), "__value__", None)  # of NDArray[...] since numpy 2.5
+    alias = getattr(get_origin(hint), "__value__", None)  # since numpy 2.5, NDArray[...] is an alias
     hint = hint if alias is None else alias[get_args(hint)]
     origin, arguments = get_origin(hint), get_args(hint)
     if isinstance(hint, type) and is_dataclass(hint):
@@ -162,9 +163,10 @@ def kinds(annotation: Any, lists: int = 0) -> Iterator[tuple[Any, int]]:
 class Member:
     """A field of a model: its meaning, its types, and the corresponding field of a solver's dataclass.
 
-    `record` is the dataclass and `solver_name` its field. If the declaration is not taken from a dataclass, `record` is
-    None and `solver_name` is the name of the field without its unit. `kinds` are the types of single values. `group` is
-    the section or group among these types, or None. `dimensions` is 0 for a scalar, 1 for a list, 2 for a matrix.
+    `record` is the dataclass, and `solver_name` is the name of the field there. If the declaration is not taken from a
+    dataclass, `record` is None, and `solver_name` is the name of the field without its unit. `kinds` are the types of
+    single values. `group` is the section or group among these types, or None. `dimensions` is 0 for a scalar, 1 for a
+    list, 2 for a matrix.
     """
 
     name: str
@@ -299,7 +301,7 @@ class Section(Documented):
 
     @model_validator(mode="after")
     def one_of_each_choice(self) -> Self:
-        """Refuse two fields that exclude each other, and the lack of all of them if one is required."""
+        """Refuse two fields that exclude each other, and a group without any field if one of its fields is required."""
         for group in self.exclusive:
             given = [name for name in group if getattr(self, name) is not None]
             if len(given) > 1:

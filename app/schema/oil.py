@@ -17,7 +17,7 @@ _PAPERS = Lubricant()
 
 
 def _names_a_sheet(given: dict[str, Any]) -> bool:
-    """Return whether the fields sent for an oil name a grade or a data sheet."""
+    """Return whether a grade or a data sheet is among the fields that were sent for an oil."""
     return given.get("iso_vg") is not None or given.get("kinematic_viscosity_40_mm2_per_s") is not None
 
 
@@ -25,7 +25,7 @@ RARELY = "by the kind of oil; a data sheet rarely gives it"
 
 
 def _of_a_sheet(name: str, ge: float, le: float, text: str, assumed: str | None = None) -> Input:
-    """Return the declaration of a property that follows from a grade or data sheet if one of them is given."""
+    """Return the declaration of an oil's property. If a grade or data sheet is given, the property follows from it."""
     return Input.of(
         Lubricant,
         name,
@@ -113,7 +113,7 @@ class SheetOil(Section):
         return self.si(OilSheet)
 
     def stands_for_null(self, name: str) -> Any:
-        """Return the viscosity at 100 °C by viscosity index or kind of oil, or the density by kind of oil."""
+        """Return the viscosity at 100 °C from the viscosity index or the kind of oil, or the density from the kind."""
         sheet = self.sheet()
         if sheet and name == "kinematic_viscosity_100_mm2_per_s":
             return sheet.kinematic_viscosity_100 / SQUARE_MILLIMETRE
@@ -181,7 +181,7 @@ class Oil(SheetOil, of=Lubricant):
     def properties_follow_the_sheet(cls, given: Any) -> Any:
         """Keep the defaults of the properties only if the oil is given by its viscosity, and drop them otherwise.
 
-        With a grade or data sheet the properties follow from it.
+        If a grade or data sheet is given, the properties follow from the grade or data sheet.
         """
         if not isinstance(given, dict) or (given.get("viscosity_pa_s") is not None and not _names_a_sheet(given)):
             return given
@@ -268,7 +268,7 @@ class CouplingLubricant(SheetOil):
         return self.si(OilAtTeeth, viscosity=viscosity, viscosity_index=sheet.viscosity_index)
 
     def unused(self) -> dict[str, bool]:
-        """Mark the viscosity as unused with a grade or data sheet, and the fields of data sheets otherwise."""
+        """Mark the viscosity as unused if a grade or data sheet is given, else the fields of data sheets."""
         of_a_sheet = () if self.by_sheet else (*SheetOil.model_fields, "temperature_c")
         return super().unused() | dict.fromkeys(of_a_sheet, True) | {"viscosity_pa_s": self.by_sheet}
 

@@ -387,7 +387,7 @@ class MeshInOil(Request):
     def balance_where_the_estimate_ends(self) -> Self:
         """Set the method of the bulk temperature to the heat balance if the request does not name a method.
 
-        The method is only set for gears under jets of an oil that is given, and only for one of three reasons: the heat
+        The method is only set if an oil is given, jets supply the oil, and one of three conditions is met: the heat
         balance is the default, the cooling is given, or the pair is too fast for the estimated bulk temperature.
         """
         temperatures = self.temperatures
@@ -433,7 +433,7 @@ class MeshInOil(Request):
 
     @property
     def _lubricant_factor_asked(self) -> bool:
-        """Whether friction, scuffing temperature or the film against micropitting depend on the lubricant factor."""
+        """Whether friction, scuffing temperature or micropitting film depends on the lubricant factor."""
         test = self.temperatures.scuffing_test
         by_test = test is not None and test.lubricant_factor is None
         asked = self.model.friction == "iso_tr_13989" or by_test or self.micropitting is not None
@@ -446,7 +446,10 @@ class MeshInOil(Request):
         return self.micropitting is not None and not relief and self.gears.helix_angle_deg == 0.0
 
     def unused(self) -> dict[str, bool]:
-        """Mark inputs as unused without an oil, in closed form, or without a film by the standard."""
+        """Mark the inputs as unused that have no effect in this case.
+
+        Some inputs have no effect without an oil, some in closed form, and some if the standard's film is not computed.
+        """
         dry, standard = not self.lubricant.known, self._standard_film_asked
         no_film = dry or self.model.lubrication == "closed_form"
         of_the_film = (name for name in Micropitting.model_fields if not name.startswith("wear"))
@@ -497,7 +500,7 @@ class ScuffingRequest(MeshInOil, GearPairRequest):
         return self.gears.si(GearPairInputs), self.load.si(si.Load)
 
     def unused(self) -> dict[str, bool]:
-        """Mark also inputs as unused that only a gear unit has: its bearings and the mass of its casing."""
+        """Also mark the inputs as unused that only a gear unit has: the bearings and the mass of the casing."""
         of_a_unit = ("cooling.bearing_film_share", "cooling.casing.mass_kg")
         return super().unused() | dict.fromkeys(of_a_unit, True)
 

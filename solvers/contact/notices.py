@@ -8,7 +8,7 @@ HIGHEST_PRESSURE = 2.5e9  # Pa, chosen; steel deforms plastically at this pressu
 
 
 def high_pressure(pressure: float | None, field: str = "pinion_torque") -> Iterator[Notice]:
-    """Warn of a Hertzian pressure [Pa] that is beyond the strength of steel."""
+    """Warn if the Hertzian pressure [Pa] exceeds the strength of steel."""
     if pressure is not None and pressure > HIGHEST_PRESSURE:
         message = (
             f"the Hertzian pressure of {pressure / 1e6:.4g} MPa exceeds the strength of steel; was the load entered "

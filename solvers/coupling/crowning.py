@@ -2,9 +2,10 @@
 
 The paper asks for a contact surface overlap below 1, and then for the largest possible load capacity. The overlap is
 largest at the smallest misalignment, and falls as the crowning ratio rises. The contact reaches farthest from the
-middle of the face at the largest misalignment, and this distance grows as the crowning ratio rises. The two constraints
-leave a window of crowning ratios. This window may be empty, or only one percent wide. The module solves for both ends
-of the window, and finds the largest load capacity between these ends.
+middle of the face at the largest misalignment, and this distance grows as the crowning ratio rises. The overlap must
+stay below 1, and the contact must stay on the face; these two constraints leave a window of crowning ratios. This
+window may be empty, or only one percent wide. The module solves for both ends of the window, and finds the largest load
+capacity between these ends.
 """
 
 from collections.abc import Callable
@@ -48,7 +49,7 @@ class RecommendedPoint:
 class CrowningScan:
     """Curves over the crowning ratio: smallest load capacity coefficient and largest overlap in the misalignment range.
 
-    Each array has one value per crowning ratio whose contact can be computed.
+    Each array has one value per crowning ratio for which the contact can be computed.
     """
 
     crowning_ratio: FloatArray = quantity("crowning ratio scanned", "ε")
@@ -83,7 +84,7 @@ class Recommendation:
     warnings: tuple[Notice, ...]
 
 
-MIN_CROWNING_RATIO = 0.2  # chosen: far outside practice
+MIN_CROWNING_RATIO = 0.2  # chosen: far below the ratios in practice
 MAX_CROWNING_RATIO = 1000.0  # chosen: the teeth are nearly straight
 # Public name of each constraint, and the attribute of `CrowningState` that falls as the crowning ratio rises.
 _LOWER_BOUNDS = (("hertz_pressure", "pressure"), ("contact_width", "width"), ("contact_overlap", "overlap"))
@@ -107,8 +108,8 @@ _REASONS = {
 class CrowningState:
     """Constraints and load capacity of a crowning ratio, each at the worse end of the misalignment range.
 
-    `overlap` must be below 1. `edge`, `pressure` and `width` must not exceed 1. `edge` is the distance that the contact
-    reaches from the middle of the face, divided by half the face width. `pressure` and `width` are divided by their
+    `overlap` must be below 1. `edge`, `pressure` and `width` must not exceed 1. `edge` is the largest distance of the
+    contact from the middle of the face, divided by half the face width. `pressure` and `width` are divided by their
     limits. `load_capacity_coefficient` is the smaller of the values at both ends.
     """
 
@@ -158,7 +159,7 @@ def crowning_state(inputs: RecommendationInputs, ratio: float) -> CrowningState:
 def _state_at(misalignment: float, crowned: CouplingInputs, geometry: Geometry) -> CrowningState:
     """Compute the constraints and the load capacity at one misalignment [rad].
 
-    Among the arguments of `film_state`, only the motion of the mesh depends on the misalignment.
+    `crowned` and `geometry` are the same at every misalignment; only the motion of the mesh changes.
     """
     operation = replace(crowned.operation, misalignment=misalignment)
     mesh = mesh_motion(crowned.coupling, geometry, operation, crowned.model.kinematics)
@@ -298,7 +299,7 @@ def _best_ratio(state: Callable[[float], CrowningState], low: float, high: float
 
 
 def _merged(notices: tuple[Notice, ...]) -> tuple[Notice, ...]:
-    """Return the first notice of each code; a notice about `misalignment` is assigned to `misalignment_range`."""
+    """Return the first notice of each code; the field `misalignment` becomes `misalignment_range`."""
     first: dict[str, Notice] = {}
     for notice in notices:
         first.setdefault(notice.code, notice)
@@ -322,7 +323,7 @@ def _point(result: CouplingResult) -> RecommendedPoint:
 
 
 def _scan(state: Callable[[float], CrowningState]) -> CrowningScan:
-    """Compute the curves over those crowning ratios whose contact can be computed."""
+    """Compute the curves over those crowning ratios for which the contact can be computed."""
     ratios = np.geomspace(MIN_CROWNING_RATIO, MAX_SCANNED_RATIO, _SCAN_POINTS)
     points = [(ratio, point) for ratio in ratios if (point := state(float(ratio))).computable]
     return CrowningScan(
@@ -349,7 +350,7 @@ def _infeasible(failed: str, scan: CrowningScan, used: Derived, warnings: tuple[
 
 
 def _sliding_notices(inputs: RecommendationInputs) -> tuple[Notice, ...]:
-    """Return a notice if the sliding velocity at the largest misalignment exceeds its limit."""
+    """Return a notice if the sliding velocity at the largest misalignment exceeds the limit."""
     radius = tooth_geometry(inputs.design.coupling).pitch_radius
     sliding = abs(inputs.design.operation.speed) * radius * inputs.max_misalignment
     if sliding <= SLIDING_VELOCITY_LIMIT:

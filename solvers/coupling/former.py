@@ -54,7 +54,7 @@ class OperatingPoint(Load):
     parallel_offset: float | None = described("Parallel offset of the shafts, used without a tilt [m].", default=None)
 
     def operation(self, hub_distance: float) -> Operation:
-        """Return the operating point; `hub_distance` [m] is the distance of the tooth planes.
+        """Return the operating point; `hub_distance` [m] is the distance between the tooth planes.
 
         Raises InvalidInput (`misalignment_or_offset`) if both the misalignment and the parallel offset are None.
         """
@@ -80,7 +80,7 @@ class OperatingRange(Load):
 class CouplingOil(OilBySheet):
     """Former class of an oil that is given by its viscosity, grade or data sheet.
 
-    Use `Lubricant` instead; `OilSheet.viscosity` computes the viscosity of an oil by its grade or data sheet.
+    Use `Lubricant` instead; `OilSheet.viscosity` computes the viscosity of an oil that is given by grade or data sheet.
     """
 
     viscosity: float | None = described(

@@ -21,13 +21,13 @@ from solvers.coupling.tooth_loads import coaxial_limit, mesh_loads
 
 
 class ToothSums(NamedTuple):
-    """Sums over the teeth of tangential force times factors of direction and position, averaged over the rotor angles.
+    """Sums over the teeth, as means over the rotor angles; each summand is the tangential force F_t times some factors.
 
-    Here v_r is the relative velocity, sgn(v_r) the direction of friction, and phi the tooth angle. Three sums contain
-    the direction: `axial` is sum F_t sgn(v_r), `tilting` is sum F_t sgn(v_r) sin(phi), and `pivoting` is sum F_t
-    sgn(v_r) cos(phi) [N]. `power` is sum F_t |v_r| [W]. The other sums do not contain the direction: `load` is sum F_t,
-    `still` is sum F_t of the teeth without relative velocity, `tilted` is sum F_t sin^2(phi), `mixed` is sum F_t
-    sin(phi) cos(phi), and `pivoted` is sum F_t cos^2(phi) [N].
+    Here v_r is the relative velocity, sgn(v_r) is the direction of friction, and phi is the tooth angle. Three sums
+    contain the direction: `axial` is sum F_t sgn(v_r), `tilting` is sum F_t sgn(v_r) sin(phi), and `pivoting` is sum
+    F_t sgn(v_r) cos(phi) [N]. `power` is sum F_t |v_r| [W]. The other sums do not contain the direction: `load` is sum
+    F_t over all teeth, `still` is sum F_t over the teeth without relative velocity, `tilted` is sum F_t sin^2(phi),
+    `mixed` is sum F_t sin(phi) cos(phi), and `pivoted` is sum F_t cos^2(phi) [N].
     """
 
     load: float
@@ -156,7 +156,7 @@ def uniform_load_thrust(limit: float, axial_velocity: float, max_sliding_velocit
 
 
 def customary_thrust(operation: Operation) -> float | None:
-    """Return 0.25 T/D [N] with the shaft diameter D, or None if no diameter is given.
+    """Return the customary thrust 0.25 T/D [N], where D is the shaft diameter; return None if no diameter is given.
 
     This rule is common practice with API 617 and 671; it is taken from a secondary source.
     """
@@ -248,7 +248,7 @@ def self_induced_thrust(inputs: CouplingInputs, geometry: Geometry, friction: fl
 
     In the angular arrangement the closed forms are zero. If each mesh has one tooth pair, or equal loads on all teeth,
     the moments of friction in the two meshes are opposite. The sleeve then requires no lateral force at the teeth. The
-    paper says "for reasons of symmetry".
+    paper explains this only "for reasons of symmetry".
     """
     coupling, torque = inputs.coupling, inputs.operation.torque
     equilibrium = sleeve_equilibrium(inputs, geometry, friction, 0.0)
@@ -284,10 +284,11 @@ def losses(inputs: CouplingInputs, geometry: Geometry, loaded: LoadedMesh, frict
 
     Notes
     -----
-    Eqs. C25, C28. The moment of friction M_f acts about the pivot direction, against the tilting motion. It is M_f =
-    r_o sum mu F_n sgn(v_r) sgn(v_G1) sin phi, where v_G1 is the sliding velocity at 90 degrees. The friction power is
-    then P = M_f omega delta + F_ax v_ax. M_f is zero without a tilt, and undetermined if nothing slides at all.
-    According to the power balance, the part M_f - T delta/2 bends the driving hub, whatever the load distribution is.
+    Eqs. C25, C28. The moment of friction M_f acts about the pivot direction, against the tilting motion. This moment is
+    M_f = r_o sum mu F_n sgn(v_r) sgn(v_G1) sin phi, where v_G1 is the sliding velocity at 90 degrees. Hence the
+    friction power is P = M_f omega delta + F_ax v_ax. M_f is zero without a tilt, and undetermined if nothing slides at
+    all. According to the power balance, the part M_f - T delta/2 bends the driving hub, whatever the load distribution
+    is.
     """
     operation, sums = inputs.operation, loaded.sums
     scale = friction / cos(inputs.coupling.pressure_angle)

@@ -199,7 +199,7 @@ def tilt_of_offset(parallel_offset: float, hub_distance: float) -> float:
     parallel_offset : float
         Offset of the shafts [m].
     hub_distance : float
-        Distance of the tooth planes [m].
+        Distance between the tooth planes [m].
 
     Returns
     -------
@@ -245,9 +245,9 @@ class Lubricant:
 class MixedFrictionCurve:
     """Our own law of mixed friction: the coefficient falls from `highest` at rest to `lowest` at `velocity` [m/s].
 
-    The defaults of `highest` and `lowest` are the ends of the paper's band in area 1.1. The default of `velocity` is a
-    calibration, with which the friction of the heavily crowned coupling is lowest at 0.4 degrees and 200 rad/s. The
-    paper does not state the speed for Fig. 11.
+    The defaults of `highest` and `lowest` are the ends of the paper's band in area 1.1. The default of `velocity` is
+    chosen so that the friction of the heavily crowned coupling is lowest at 0.4 degrees and 200 rad/s. The paper does
+    not state the speed for Fig. 11.
     """
 
     highest: float = quantity(
@@ -348,7 +348,7 @@ class Friction:
 
 @record
 class ModelOptions:
-    """Options of the model for which the paper is not definite."""
+    """Options for parts of the model that the paper does not define clearly."""
 
     kinematics: KinematicModel = quantity(
         "kinematics of the teeth",
@@ -439,7 +439,7 @@ class RecommendationInputs:
 
 
 def check_inputs(inputs: CouplingInputs) -> None:
-    """Raise InvalidInput if the inputs cannot be computed.
+    """Raise InvalidInput if the model cannot be computed with these inputs.
 
     The codes are `out_of_range`, `pitch_errors_length`, `mixed_law` and `mixed_curve`.
     """

@@ -18,10 +18,10 @@ from solvers.coupling.results import Geometry, KinematicCurves, Kinematics
 
 _LEAST_ROTOR_POSITIONS = 208  # rotor positions per revolution: 4 per pitch for the paper's 52 teeth
 _CURVE_ANGLE = frozen(np.linspace(0.0, 2.0 * pi, 181))  # curves in steps of 2°
-# Number of parts of a pitch; each part has a Gauss rule of _PITCH_NODES points. The number of parts is chosen even,
-# because half a turn shifts an odd number of teeth by half a pitch, and must then map the parts onto each other.
+# Number of parts of a pitch; each part has a Gauss rule of _PITCH_NODES points. If the number of teeth is odd, half a
+# turn shifts the teeth by half a pitch. An even number of parts is chosen, so that this shift maps parts onto parts.
 _PITCH_PARTS = 4
-_PITCH_NODES = 8  # chosen: 32 angles per pitch, and exact for polynomials up to degree 15 in each part
+_PITCH_NODES = 8  # chosen: 32 angles per pitch; the rule is exact for polynomials up to degree 15
 _gauss_rule = cache(np.polynomial.legendre.leggauss)
 
 
@@ -95,7 +95,7 @@ def positions_per_pitch(teeth: int) -> int:
 
 
 def revolution(teeth: int, refinement: int = 1) -> FloatArray:
-    """Return evenly spaced rotor angles [rad] of one revolution, from zero up, with a whole number per tooth pitch."""
+    """Return rotor angles [rad] of one revolution in equal steps from zero up; a pitch is a whole number of steps."""
     return np.linspace(0.0, 2.0 * pi, refinement * positions_per_pitch(teeth) * teeth, endpoint=False)
 
 
@@ -137,10 +137,10 @@ def mesh_motion(
 
     Notes
     -----
-    Eqs. C3, C5. Here delta is the tilt angle and n the flank normal. With `spatial` kinematics s_1 = R_e delta n_x. If
-    `side` is +1, f_t = r_o delta^2/(2 cos alpha) sin(phi - alpha) [eps sin(phi - alpha)/sin alpha + cos phi]; this is
-    exact to first order, as a numerical calculation with exact involutes has confirmed. If `side` is -1, f_t has pi -
-    phi in the place of phi.
+    Eqs. C3, C5. Here delta is the tilt angle and n is the flank normal. With `spatial` kinematics s_1 = R_e delta n_x.
+    If `side` is +1, f_t = r_o delta^2/(2 cos alpha) sin(phi - alpha) [eps sin(phi - alpha)/sin alpha + cos phi]; this
+    is exact to first order, as a numerical calculation with exact involutes has confirmed. If `side` is -1, pi - phi
+    takes the place of phi in this formula.
 
     With `tangential` kinematics only the tilt is considered, without the pivot motion: s_1 = -side R_t delta sin phi
     and f_t = R_t delta^2/2 sin^2 phi. The paper describes this model in words. In this model the sliding velocity and
@@ -230,7 +230,7 @@ def hydrodynamic_velocity(mesh: MeshMotion, teeth: ToothPositions) -> FloatArray
     Notes
     -----
     Eq. C6. The contact moves with the velocity s_1' on the hub flank and with s_1' + v_G on the sleeve flank. The
-    constant 2.447 in the load capacity applies to the sum of both velocities, not to their mean.
+    constant 2.447 in the load capacity applies to the sum of both velocities, not to the mean of both.
     """
     contact_velocity = mesh.speed * (mesh.travel_sin * teeth.cosine - mesh.travel_cos * teeth.sine)
     return np.abs(2.0 * contact_velocity + mesh.sliding * teeth.sine)
@@ -287,7 +287,7 @@ def max_hydrodynamic_velocity(mesh: MeshMotion) -> float:
 
 
 def displacement_peak_to_peak(mesh: MeshMotion) -> float:
-    """Return the largest minus the smallest f_t [m]."""
+    """Return the difference between the largest and the smallest displacement f_t [m]."""
     return hypot(mesh.tilt - mesh.pivot, mesh.mixed)
 
 
@@ -345,7 +345,7 @@ def flank_normals(mesh: MeshMotion, teeth: ToothPositions) -> FloatArray:
 
 @dataclass(frozen=True, slots=True)
 class RotorSamples:
-    """Quadrature over rotor angles: `weight` (rows) adds up to one, `teeth` holds the tooth positions (rows, teeth)."""
+    """Quadrature over rotor angles: tooth positions `teeth` (rows, teeth), and weights (rows) whose sum is one."""
 
     weight: FloatArray
     teeth: ToothPositions
@@ -375,7 +375,7 @@ def rotor_samples(coupling: Coupling, mesh: MeshMotion, axial_velocity: float) -
 def _samples(teeth: int, uneven: bool, reversals: tuple[float, ...]) -> RotorSamples:
     """Return the quadrature of `rotor_samples`.
 
-    The misalignment is not part of the cache key: without axial velocity, the reversals and therefore the points are
+    The cache key contains the reversals instead of the misalignment, because without axial velocity the reversals are
     the same at every misalignment.
     """
     pitch = 2.0 * pi / teeth

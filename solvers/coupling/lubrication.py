@@ -36,7 +36,10 @@ MAX_CONTACT_PRESSURE = 2e9  # Pa, chosen: the model is elastic, but hardened ste
 MAX_CONTACT_WIDTH = 0.1
 """Largest ratio of half contact width to flank radius at which a cylinder still deforms like a half-space."""
 UNBOUNDED_LOAD = 0.20395702057972376
-"""Load W of a gap with an infinitely long inlet, with the exit at tan g = 0.47513; 12 W is Pahl's constant 2.447."""
+"""Dimensionless load W of a gap with an infinitely long inlet; 12 W is Pahl's constant 2.447.
+
+The exit of this gap is at tan g = 0.47513.
+"""
 OVERLAP_BOUNDARIES = (1.0, 2.0)  # Pahl, regimes of Figs 9 to 11
 CAPACITY_BOUNDARIES = (0.2, 0.8)  # Pahl, regimes of Figs 9 to 11
 UNSTABLE_AREA = "3.3"
@@ -57,7 +60,7 @@ _AREAS: dict[str, tuple[str, float | None, float | None]] = {
 
 @dataclass(frozen=True, slots=True)
 class FilmState:
-    """The coordinates `overlap` and `load_capacity_coefficient` of the friction map, and the values behind them.
+    """The coordinates `overlap` and `load_capacity_coefficient` of the friction map, and the values that lead to them.
 
     `overlap` is inf if the contact does not travel. `load_capacity_coefficient` is inf if there is a film but no tooth
     force.
@@ -77,7 +80,7 @@ def max_normal_force(inputs: CouplingInputs, mesh: MeshMotion) -> float:
     """Compute the largest normal tooth force [N] while one tooth is in the tilt position, at 90 degrees.
 
     If the pitch deviations of the teeth differ, the result is the largest force in a whole revolution. With `spatial`
-    kinematics the displacement is largest beyond the tilt position, and a tooth there carries more than in the tilt
+    kinematics the displacement is largest beyond the tilt position, and a tooth carries more there than in the tilt
     position.
     """
     if len(set(inputs.coupling.pitch_errors or ())) <= 1:
@@ -135,8 +138,9 @@ def hertz_contact(coupling: Coupling, geometry: Geometry, normal_force: float) -
 def inlet_length(model: ModelOptions, face_width: float, max_travel: float) -> float:
     """Return the length b_I [m] of the converging gap ahead of the contact; the paper does not define b_I.
 
-    With the inlet model `face`, b_I is the part of the face that is ahead of the contact when the contact reverses; the
-    paper finds the thickest film there. If the contact has left the tooth, b_I is zero with every inlet model.
+    With the inlet model `face`, b_I is the part of the face that is ahead of the contact when the contact reverses;
+    according to the paper, the film is thickest at this reversal. If the contact has left the tooth, b_I is zero with
+    every inlet model.
     """
     if max_travel >= face_width / 2.0:
         return 0.0
@@ -163,9 +167,11 @@ def starved_load(inlet_ratio: float) -> float:
 
     Notes
     -----
-    Eqs. C15, C16. The Reynolds equation for rigid surfaces and constant viscosity is solved in closed form. At the
-    exit, tan g, the pressure and its gradient are zero. This condition is [A2(g) + A2(g_B)] cos^2 g = A4(g) + A4(g_B),
-    and the load is W = (1 - H_m/H_B)^2/(4 H_m). Bisection finds g in (0, g_B).
+    Eqs. C15, C16. The Reynolds equation for rigid surfaces and constant viscosity is solved in closed form. At the exit
+    x = tan(g) sqrt(2 R h_0), the pressure and its gradient are zero. This condition is
+    [A2(g) + A2(g_B)] cos^2 g = A4(g) + A4(g_B), where tan g_B = B, and A2 and A4 are the integrals of cos^2 and cos^4
+    from zero. Bisection finds g in (0, g_B). The load is W = (1 - H_m/H_B)^2/(4 H_m), where H_m and H_B are the gaps at
+    exit and inlet, divided by h_0.
     """
     inlet = atan(inlet_ratio)
     a2 = inlet / 2.0 + sin(2.0 * inlet) / 4.0
@@ -186,7 +192,7 @@ def starved_load(inlet_ratio: float) -> float:
 
 
 def inlet_factor(inlet_ratio: float) -> float:
-    """Compute the ratio of the load capacity with a starved inlet to that with an infinitely long inlet.
+    """Compute the load capacity with a starved inlet, divided by the load capacity with an infinitely long inlet.
 
     Parameters
     ----------
@@ -203,7 +209,7 @@ def inlet_factor(inlet_ratio: float) -> float:
     Fig. 8; Eq. C16.
     """
     if inlet_ratio < 0.02:
-        # Series, because the closed form loses its digits by cancellation at so small a ratio.
+        # Series, because the closed form loses its digits by cancellation at such a small ratio.
         return 0.68948 * inlet_ratio**4
     return 1.0 if inlet_ratio == inf else min(1.0, starved_load(inlet_ratio) / UNBOUNDED_LOAD)
 
@@ -267,7 +273,8 @@ def film_state(inputs: CouplingInputs, geometry: Geometry, mesh: MeshMotion) -> 
     Returns
     -------
     FilmState
-        Overlap Pu = a_HZ/s_1max and load capacity coefficient Tr = F_HD/F_n,max [-], and the values behind them.
+        Overlap Pu = a_HZ/s_1max and load capacity coefficient Tr = F_HD/F_n,max [-], and the values from which they
+        follow.
 
     Notes
     -----
@@ -298,7 +305,7 @@ def film_state(inputs: CouplingInputs, geometry: Geometry, mesh: MeshMotion) -> 
 
 
 def _capacity_ratio(capacity: float, force: float) -> float:
-    """Return Tr; it is zero if there is no film, and inf if there is a film but no force."""
+    """Return the load capacity coefficient; it is zero without a film, and inf if there is a film but no force."""
     if capacity == 0.0:
         return 0.0
     return capacity / force if force > 0.0 else inf
@@ -324,14 +331,14 @@ def friction_regime(overlap: float, load_capacity_coefficient: float) -> Regime:
 
 
 def _distance_to_boundary(overlap: float, load_capacity_coefficient: float) -> float | None:
-    """Return the smallest |ln(coordinate/boundary)| over all boundaries on both axes; None if all are infinite."""
+    """Return the smallest |ln(coordinate/boundary)| over all boundaries on both axes; None if all values are inf."""
     ratios = [overlap / boundary for boundary in OVERLAP_BOUNDARIES]
     ratios += [load_capacity_coefficient / boundary for boundary in CAPACITY_BOUNDARIES]
     return min((abs(log(ratio)) for ratio in ratios if 0.0 < ratio < inf), default=None)
 
 
 def mixed_friction(law: MixedFrictionCurve | MixedFrictionTable, sliding_velocity: float) -> float:
-    """Compute the coefficient of friction in area 1.1, with mixed lubrication.
+    """Compute the coefficient of friction in area 1.1 of the friction map, which has mixed lubrication.
 
     Parameters
     ----------
@@ -427,7 +434,10 @@ def regime_friction(overlap: float, load_capacity_coefficient: float, mixed: flo
 def friction_coefficient(
     friction: Friction, overlap: float, load_capacity_coefficient: float, sliding_velocity: float
 ) -> float:
-    """Return the user's coefficient of friction, or that of the friction map at this largest sliding velocity [m/s]."""
+    """Return the user's coefficient of friction if there is one, and otherwise the coefficient of the friction map.
+
+    `sliding_velocity` [m/s] is the largest sliding velocity.
+    """
     if friction.coefficient is not None:
         return friction.coefficient
     law = friction.law
@@ -447,7 +457,7 @@ def static_friction(friction: Friction) -> float:
 
 
 def check_contact(film: FilmState, geometry: Geometry) -> None:
-    """Raise InvalidInput: `hertz_pressure` above 2 GPa, or `contact_width` if a_HZ exceeds 0.1 R_e."""
+    """Raise InvalidInput if the pressure exceeds 2 GPa (`hertz_pressure`) or a_HZ exceeds 0.1 R_e (`contact_width`)."""
     if film.contact_pressure > MAX_CONTACT_PRESSURE:
         raise InvalidInput(
             "hertz_pressure",

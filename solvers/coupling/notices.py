@@ -60,8 +60,8 @@ def motion_notices(
         yield Notice("friction_indeterminate", message, "axial_velocity")
     elif thrust.self_induced is not None and sliding == 0.0:
         message = (
-            "no tooth slides because of misalignment, so that the direction of the self-induced thrust is not known; "
-            "zero is stated"
+            "the misalignment makes no tooth slide; the direction of the self-induced thrust is therefore unknown, "
+            "and this thrust is stated as zero"
         )
         yield Notice("friction_indeterminate", message, "misalignment")
     if sliding == operation.axial_velocity == 0.0 < thrust.coaxial_limit:
@@ -134,10 +134,10 @@ def orbit_notices(
     harmonic: float,
     harmonic_uncertainty: float | None,
 ) -> Iterator[Notice]:
-    """Yield the notices about an orbit: the sleeve's position may not be unique, or the orbit not accurate.
+    """Yield the notices about an orbit: the sleeve's position may not be unique, or the orbit may be inaccurate.
 
     `fewest_teeth` is the smallest number of loaded teeth at any rotor angle. `displacement` [m] is the largest
-    displacement of the orbit, and `harmonic` [N] the largest harmonic of the inertia force.
+    displacement of the orbit, and `harmonic` [N] is the largest harmonic of the inertia force.
     """
     if fewest_teeth < 3:
         message = (

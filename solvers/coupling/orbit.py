@@ -21,9 +21,9 @@ from solvers.coupling.results import Geometry, InertiaForce, Orbit, OrbitResult
 from solvers.coupling.tooth_loads import LOADED, floating_loads, largest_value
 from solvers.errors import InvalidInput, NoSolution
 
-MAX_SWEEPS = 50  # limit; a path that has not settled after so many sweeps does not settle at all
-REPEAT_TOLERANCE = 1e-12  # m, close to the rounding error of a path of some ten micrometres
-HIGHEST_ORDER = 12  # highest Fourier order of the path; the result reports the change with twice as many orders
+MAX_SWEEPS = 50  # limit; a path that has not settled after this number of sweeps does not settle at all
+REPEAT_TOLERANCE = 1e-12  # m, close to the rounding error of a path of about ten micrometres
+HIGHEST_ORDER = 12  # highest Fourier order of the path; the uncertainty covers twice as many orders
 REFINEMENTS = (2, 3)  # factors on the number of rotor angles, for the uncertainty of an orbit
 
 
@@ -31,8 +31,8 @@ REFINEMENTS = (2, 3)  # factors on the number of rotor angles, for the uncertain
 class _SettledPath:
     """Path of the sleeve (rows, 2) [m], inertia force on this path (rows, 2) [N], largest displacement `farthest` [m].
 
-    `sweeps` is the number of sweeps, `change` [m] the change in the last sweep, and `fewest` the smallest number of
-    loaded teeth at any rotor angle.
+    `sweeps` is the number of sweeps. `change` [m] is the change of the path in the last sweep. `fewest` is the smallest
+    number of loaded teeth at any rotor angle.
     """
 
     path: FloatArray
@@ -76,8 +76,8 @@ def solve_orbit(inputs: CouplingInputs) -> OrbitResult:
     than 1e-12 m. The inertia force follows from the path by differentiation in Fourier space, with orders k up to 12.
     The sweeps converge as long as m_s (k omega)^2 is well below the lateral stiffness.
 
-    The uncertainty follows from two further paths. They have twice as many orders; one has twice as many rotor angles,
-    the other three times as many. Both start from the settled path. One further path would not be enough, because the
+    The uncertainty follows from two further paths. Both have twice as many orders and start from the settled path. One
+    has twice as many rotor angles, the other has three times as many. One further path would not be enough, because the
     errors at two resolutions may happen to agree if teeth load and unload.
     """
     check_inputs(inputs)
@@ -90,7 +90,7 @@ def solve_orbit(inputs: CouplingInputs) -> OrbitResult:
 
 
 def _finer_paths(inputs: CouplingInputs, settled: _SettledPath) -> list[_SettledPath]:
-    """Compute paths with more rotor angles and twice as many orders; return an empty list if one does not settle."""
+    """Compute paths with more rotor angles and twice as many orders; return an empty list if a path does not settle."""
     finer = []
     for refinement in REFINEMENTS:
         angles = revolution(inputs.coupling.teeth, refinement)
@@ -118,7 +118,7 @@ def _settled_path(
     """Repeat sweeps over the rotor angles until the path settles.
 
     The sweeps start with `force` (rows, 2) [N], a guess of the inertia force. While teeth come under load, the change
-    of the path from sweep to sweep may grow for a dozen sweeps before it dies out.
+    of the path from sweep to sweep may grow for a dozen sweeps before this change dies out.
     """
     coupling, operation = inputs.coupling, inputs.operation
     mesh = mesh_motion(coupling, tooth_geometry(coupling), operation, inputs.model.kinematics)
@@ -164,7 +164,7 @@ def _farthest(
         loads = floating_loads(coupling, mesh, teeth, inputs.operation.torque, _limited(inertia_force, limit))
         unbalanced = int(np.count_nonzero(loads.iterations < 0))
         if unbalanced:
-            message = "no equilibrium of the sleeve was found between two rotor angles of its orbit; raise the torque"
+            message = "no equilibrium of the sleeve was found at some rotor angles of the orbit; raise the torque"
             raise NoSolution("sleeve_orbit", message, {"unbalanced_angles": float(unbalanced)})
         return np.hypot(loads.displacement[:, 0], loads.displacement[:, 1])
 
@@ -180,7 +180,7 @@ def _second_derivative(path: FloatArray, highest_order: int) -> FloatArray:
 
 
 def _limited(force: FloatArray, limit: float) -> FloatArray:
-    """Shorten forces (rows, 2) that are larger than `limit` to this magnitude."""
+    """Limit the magnitude of forces (rows, 2) to `limit`, and keep the directions."""
     size = np.hypot(force[:, 0], force[:, 1])
     return force * (limit / np.maximum(size, limit))[:, None]
 
@@ -207,7 +207,7 @@ def _harmonics(force: FloatArray) -> FloatArray:
 def _result(
     angles: FloatArray, settled: _SettledPath, finer: Sequence[_SettledPath], geometry: Geometry
 ) -> OrbitResult:
-    """Return the settled orbit and its uncertainty, the largest difference between this orbit and the finer paths."""
+    """Return the settled orbit; the uncertainty is the largest difference between this orbit and the finer paths."""
     harmonics = settled.harmonics
     displacement_uncertainty = max((abs(path.farthest - settled.farthest) for path in finer), default=None)
     harmonics_uncertainty = max((float(np.abs(path.harmonics - harmonics).max()) for path in finer), default=None)

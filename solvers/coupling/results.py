@@ -120,8 +120,8 @@ class Regime:
     """An area of the paper's map of friction conditions (Fig. 9), and the friction band of this area.
 
     If the paper states no lower or no upper end of the band, this end is None. `distance_to_boundary` is the smallest
-    |ln(coordinate/boundary)|, where the coordinates are the overlap and the load capacity coefficient. It is None if
-    all boundaries of the map are infinitely far away, which happens without misalignment.
+    |ln(coordinate/boundary)|, where the coordinates are the overlap and the load capacity coefficient. This distance is
+    None if all boundaries of the map are infinitely far away, which happens without misalignment.
     """
 
     area: str = quantity("friction area", None, f"{PAHL}, Fig. 9", text="area of the map of friction conditions")
@@ -277,7 +277,7 @@ class Limits:
     """Design limits, and linear stiffness with every tooth loaded [m/s, rad, N m, N m/rad, N/m].
 
     `allowable_misalignment` is None if the coupling turns too slowly to reach the limit of the sliding velocity, or if
-    it does not turn.
+    the coupling does not turn.
     """
 
     sliding_velocity_limit: float = quantity(
@@ -347,9 +347,9 @@ class Orbit:
 
 @record
 class InertiaForce:
-    """Inertia force of the sleeve mass of one mesh at the rotor angles of the orbit.
+    """Inertia force of the part of the sleeve's mass that is assigned to one mesh, at the rotor angles of the orbit.
 
-    The harmonics are the amplitudes 2 |c_k| of the orders k from 0 up; the value of order 0 is the magnitude of the
+    The harmonics are the amplitudes 2 |c_k| of the orders k from 0 up; the amplitude of order 0 is the magnitude of the
     mean.
     """
 
@@ -393,9 +393,9 @@ class OrbitResult:
 
     `sweeps` is the number of sweeps over the revolution until the path settled, and `change` [m] is the change of the
     path in the last sweep. For the uncertainties, the path is computed again with two and with three times as many
-    rotor angles and twice as many orders. The uncertainties are the largest changes that result in the largest
-    displacement [m] and in any harmonic of the force [N]. They are None if such a path does not settle. `derived`
-    contains the radii of the teeth.
+    rotor angles and twice as many orders. The uncertainties are the largest resulting changes of the largest
+    displacement [m] and of any harmonic of the force [N]. They are None if one of these paths does not settle.
+    `derived` contains the radii of the teeth.
     """
 
     orbit: Orbit = quantity("path of the sleeve centre", detail="curves")

@@ -1,6 +1,7 @@
 """Equilibrium of a floating sleeve between two misaligned hubs with a parallel offset (Z) or an angle (M) (Fig. 13).
 
-The units are those of `tooth_loads`. In arrays with an axis for the mesh, 0 is the left mesh and 1 the right mesh.
+The units are those of `tooth_loads`. In arrays with an axis for the mesh, index 0 is the left mesh and index 1 is the
+right mesh.
 
 The unknowns are (psi, e_x, e_y) of each mesh. The six equations are the balance of torque at each mesh, the balance of
 the two lateral forces on the sleeve, and the balance of the two moments on the sleeve. The direction of friction at a
@@ -42,7 +43,7 @@ from solvers.errors import NoSolution
 
 MAX_ITERATIONS = 150  # limit; an iteration that takes longer does not converge
 SUBSTITUTIONS = 5  # chosen: number of fixed-point steps in succession
-SHORTEST_STEP = 1.0 / 64.0  # smallest share of a Newton step; if this share does not help, substitutions follow
+SHORTEST_STEP = 1.0 / 64.0  # smallest share of a Newton step; if even this share does not help, substitutions follow
 FORCE_TOLERANCE = 1e-9  # in units of T/r_o, chosen
 _LIMIT_MARGIN = 0.9999  # chosen share of the force that the teeth can hold
 
@@ -201,9 +202,9 @@ def balance_rows(
 ) -> float:
     """Balance the sleeve at every rotor angle, and write the tooth forces to `share` (rows, 2, teeth).
 
-    The balance at each angle starts from the solution at the previous angle. If this fails, the balance starts again
-    from zero force and zero displacement. The function stops at the first angle without balance. Returns the largest
-    residual.
+    The balance at each angle starts from the solution at the previous angle. If there is no balance from this start,
+    the balance starts again from zero force and zero displacement. The function stops at the first angle without
+    balance. Returns the largest residual.
     """
     force, places = np.zeros(2), Places(np.zeros(2), np.zeros(2), np.zeros(2))
     largest = 0.0
@@ -239,8 +240,8 @@ class SleeveEquilibrium:
 def two_meshes(inputs: CouplingInputs, geometry: Geometry) -> tuple[MeshMotion, MeshMotion]:
     """Return the left mesh, where the hub drives the sleeve, and the right mesh.
 
-    With a parallel offset (Z) the right hub tilts in the same direction as the left hub, with an angle (M) in the
-    opposite direction.
+    With a parallel offset (Z) the right hub tilts in the same direction as the left hub. With an angle (M) the right
+    hub tilts in the opposite direction.
     """
     right_tilt = 1 if inputs.operation.arrangement == "parallel_offset" else -1
     left = mesh_motion(inputs.coupling, geometry, inputs.operation, inputs.model.kinematics)
@@ -278,7 +279,7 @@ def sleeve_equilibrium(
     -----
     Eq. C22. Nothing slides if the axial velocity is zero and, in addition, the misalignment or the speed is zero. The
     direction of friction is then undetermined. If mu d_o/l_H < cos(pi/z), an equilibrium always exists. Phi then maps
-    the set of the forces that the teeth can hold into the same set, and Brouwer's theorem applies.
+    the set of the forces that the teeth can hold into itself, and Brouwer's theorem applies.
     """
     coupling, torque = inputs.coupling, inputs.operation.torque
     meshes = two_meshes(inputs, geometry)
@@ -320,7 +321,7 @@ def _tooth_forces(
     normal = np.stack([flank_normals(mesh, teeth) for mesh in meshes], axis=1)
     arm = direction[:, :, None] * np.stack((teeth.cosine, teeth.sine), axis=1)[:, None]
     lever = friction / cosine * geometry.pitch_radius / coupling.hub_distance
-    # Largest lateral force that z teeth hold at every rotor angle; their flank normals form a regular polygon.
+    # Largest lateral force that z teeth hold at every rotor angle; the flank normals form a regular polygon.
     force_limit = _LIMIT_MARGIN * cos(pi / coupling.teeth) / cosine
     share = np.zeros_like(interference)
     residual = balance_rows(interference, normal, arm, lever, force_limit, share)

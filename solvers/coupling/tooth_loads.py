@@ -1,8 +1,8 @@
-"""Distribution of the torque over the teeth of one mesh; with a floating sleeve also of a lateral force (Figs 3, 4).
+"""Distribution of the torque, and for a floating sleeve of a lateral force, over the teeth of one mesh (Figs 3, 4).
 
 Tooth i carries F_t = c_t max(0, psi + f_t + pitch deviation - e . n/cos(alpha)); the maximum is taken because teeth
-never pull. Here psi is the common rotation as a length at the pitch radius, f_t the tangential displacement of the
-tooth, e the displacement of the sleeve relative to the hub, and n the flank normal.
+never pull. Here psi is the common rotation as a length at the pitch radius, f_t is the tangential displacement of the
+tooth, e is the displacement of the sleeve relative to the hub, and n is the flank normal.
 
 In the kernels, lengths are in T/(r_o c_t) and forces in T/r_o, so that the tooth forces add up to one. The interference
 of tooth i is u_i = psi + w_i - e . d_i, where w_i is the lead of the tooth and d_i is its flank normal divided by
@@ -38,13 +38,16 @@ from solvers.coupling.kinematics import (
 from solvers.coupling.results import Geometry, Limits, LoadCurves, LoadDistribution
 from solvers.errors import NoSolution
 
-MAX_ITERATIONS = 10_000  # limit; no balance should reach it, because each step lowers the energy
-BALANCE_TOLERANCE = 1e-13  # in units of T/r_o; some hundred rounding errors
+MAX_ITERATIONS = 10_000  # limit; no balance should reach this limit, because each step lowers the energy
+BALANCE_TOLERANCE = 1e-13  # in units of T/r_o; a few hundred rounding errors
 LONGEST_STEP = 1e100  # used as infinity, because its square does not overflow
 STIFF = 1e-12
-"""Smallest ratio of sleeve stiffness to loaded-tooth stiffness that counts; rounding errors are some 1e-16."""
+"""Ratio of sleeve stiffness to loaded-tooth stiffness below which the stiffness counts as zero.
+
+Rounding errors of this ratio are about 1e-16.
+"""
 FLAT = 1e-12
-"""Largest slope of the energy along a step that counts as zero, divided by the slope at the start of the step."""
+"""Ratio of the slope of the energy along a step to the slope at the start, up to which the slope counts as zero."""
 
 LOADED = 1e-6
 """Ratio of tooth force to mean tooth force above which a tooth counts as loaded."""
@@ -84,7 +87,7 @@ class Hessian(NamedTuple):
 
 @kernel
 def _crossing(ahead: FloatArray, highest: float, psi: float) -> float:
-    """Return the value that follows `psi` > 0 in Newton's method for the root of sum max(0, psi + lead_i) = 1.
+    """Return the next value after `psi` > 0 in Newton's method for the root of sum max(0, psi + lead_i) = 1.
 
     At the new value, the teeth that are loaded at the old value would carry unit torque.
     """
@@ -118,10 +121,10 @@ def rotation_of_leads(ahead: FloatArray, highest: float, start: float) -> float:
     Notes
     -----
     Eq. C8: sum max(0, psi + lead_i) = 1, where lead_i is w_i minus the largest of the leads. The result is the same as
-    by sorting: the leads are sorted in descending order, and k is the largest number for which psi_k = (1 - sum_1..k
-    lead)/k loads tooth k. The sum is a convex and piecewise linear function of psi. From any positive start, the first
-    step of Newton's method leads to the root or to a larger value. Each further step reduces psi and unloads at least
-    one tooth, until the linear piece that contains the root is reached.
+    with sorting, where the leads are sorted in descending order, and k is the largest number for which
+    psi_k = (1 - sum_1..k lead)/k loads tooth k. The sum is a convex and piecewise linear function of psi. From any
+    positive start, the first step of Newton's method leads to the root or to a larger value. Each further step reduces
+    psi and unloads at least one tooth, until the linear piece that contains the root is reached.
     """
     psi = _crossing(ahead, highest, start)
     following = _crossing(ahead, highest, psi)
@@ -148,7 +151,7 @@ def turn_to_torque(ahead: FloatArray, start: float) -> tuple[float, float]:
 
 @kernel
 def centred_rows(ahead: FloatArray, unit: float, unit_force: float, rotation: FloatArray) -> None:
-    """Replace the leads of teeth with a centred sleeve by their forces, in place, and write the rotation of each row.
+    """Replace the lead of each tooth by its force with a centred sleeve, in place, and write the rotation of each row.
 
     `unit` = T/(r_o c_t) and `unit_force` = T/r_o are the scales of lengths and forces.
     """
@@ -234,8 +237,8 @@ def next_step(hessian: Hessian, missing: Motion) -> tuple[Motion, float]:
 def slope_along(ahead: FloatArray, change: FloatArray, start: float, length: float) -> tuple[float, float]:
     """Compute the first and the second derivative of the energy by the length of a step that changes u_i by `change`.
 
-    `start` is the first derivative at length zero. The function adds the change since then to `start`, because torque
-    and tooth forces would cancel near the balance.
+    `start` is the first derivative at length zero. The function adds the change of this derivative from length zero to
+    `length`, because a sum of torque and tooth forces would lose its digits by cancellation near the balance.
     """
     first, second = start, 0.0
     for i in range(ahead.size):
@@ -251,8 +254,9 @@ def length_to_lowest(ahead: FloatArray, change: FloatArray, start: float) -> flo
     """Find the length of a step at which the energy is lowest, or LONGEST_STEP if the energy has no minimum.
 
     The slope of the energy rises piecewise linearly with the length, from its negative value `start` at length zero.
-    Newton's method finds the length at which the slope is zero, and is kept between a length before and a length behind
-    the lowest energy. While no tooth resists, the length is doubled, because the next tooth may be many steps away.
+    Newton's method finds the length at which the slope is zero. The iteration is kept between a length before and a
+    length behind the lowest energy. While no tooth resists, the length is doubled, because the next tooth may be many
+    steps away.
     """
     before, behind, length = 0.0, LONGEST_STEP, 1.0
     while length < LONGEST_STEP:
@@ -356,10 +360,10 @@ def floating_rows(
 def largest_value(angles: FloatArray, values_at: Callable[[FloatArray], FloatArray]) -> float:
     """Find the largest value at evenly spaced rotor angles [rad] and between these angles.
 
-    `values_at` takes rotor angles (rows) and returns one value per angle. After the given angles, two searches follow,
-    each in steps that are eight times finer. A search covers the surroundings of all local maxima that would reach the
-    largest value if they continued to rise for half a step. The searches are necessary because with few loaded teeth a
-    peak lasts only a fraction of a pitch, and each tooth has its own peak.
+    `values_at` takes rotor angles (rows) and returns one value per angle. After the given angles, two searches follow;
+    the steps of each search are eight times finer than the steps before. A search covers the surroundings of all local
+    maxima that would reach the largest value if they continued to rise for half a step. The searches are necessary
+    because with few loaded teeth a peak lasts only a fraction of a pitch, and each tooth has its own peak.
     """
     coarse, step = values_at(angles), angles[1] - angles[0]
     places = angles[:, None] + step * np.array([-1.0, 0.0, 1.0])
@@ -607,7 +611,7 @@ def sleeve_centring_torque(coupling: Coupling, radius: float) -> float:
     Returns
     -------
     float
-        Torque 2 W r_o cos(alpha), with the weight W of the sleeve per mesh [N m].
+        Torque 2 W r_o cos(alpha), where W is the weight of the sleeve per mesh [N m].
 
     Notes
     -----
@@ -661,7 +665,7 @@ def limits(inputs: CouplingInputs, geometry: Geometry) -> Limits:
 
     Notes
     -----
-    Eq. C31. The torsional stiffness is z c_t r_o^2, the lateral stiffness z c_t/(2 cos^2 alpha).
+    Eq. C31. The torsional stiffness is z c_t r_o^2, and the lateral stiffness is z c_t/(2 cos^2 alpha).
     """
     coupling, radius = inputs.coupling, geometry.pitch_radius
     all_teeth = coupling.teeth * coupling.tooth_stiffness

@@ -61,13 +61,13 @@ def centre_distance_in_use(given: float | None, backlash_free: float) -> float:
     """Return the centre distance in use [m].
 
     This is the backlash-free centre distance if no centre distance is given, or if the given centre distance is smaller
-    only by a rounding. Otherwise it is the given centre distance.
+    by no more than the rounding of printed values. Otherwise the given centre distance is used.
 
     Raises
     ------
     InvalidInput
         `flank_interference` if the given centre distance is smaller than the backlash-free centre distance by more than
-        a rounding.
+        the rounding of printed values.
     """
     if given is None:
         return backlash_free
@@ -86,7 +86,7 @@ def check_tips(pinion: Gear, wheel: Gear, centre_distance: float) -> None:
     Raises
     ------
     InvalidInput
-        `no_mesh` if the tip circles are apart, or `no_tip_clearance`.
+        `no_mesh` if the tip circles do not overlap; `no_tip_clearance` if a tip touches the root of the mating gear.
     """
     if pinion.tip_radius + wheel.tip_radius <= centre_distance:
         raise InvalidInput("no_mesh", "the tip circles do not overlap; reduce the centre distance", "centre_distance")

@@ -16,7 +16,7 @@ class Diameters:
 
 
 def diameters_of(pair: GearPair) -> dict[str, float]:
-    """Return the diameters of a pair, by the names of the fields of `Diameters`."""
+    """Return the diameters of a pair; the keys are the field names of `Diameters`."""
     return {
         f"{name}_{circle}_diameter": 2 * getattr(gear, f"{circle}_radius")
         for circle in ("tip", "root")

@@ -65,7 +65,7 @@ class Gear:
         return 2 * self.tip_radius * self.half_tooth_angle(self.tip_radius)
 
     def half_tooth_angle(self, radius: float) -> float:
-        """Return half the angle of a tooth [rad] at a radius [m] that is not smaller than the base radius."""
+        """Return half the angular thickness of a tooth [rad] at a radius [m] not smaller than the base radius."""
         pressure_angle = acos(min(self.base_radius / radius, 1.0))
         return self.reference_half_angle + self.reference_involute - involute(pressure_angle)
 
@@ -91,7 +91,7 @@ def transverse_gear(inputs: GearPairInputs, teeth: GearTeeth) -> Gear:
 
 
 def virtual_gear(inputs: GearPairInputs, teeth: GearTeeth, base_helix_angle: float) -> Gear:
-    """Return the virtual spur gear of the normal section, which is cut by the same rack.
+    """Return the virtual spur gear of the normal section; the same rack cuts both gears.
 
     Parameters
     ----------
@@ -119,8 +119,8 @@ def virtual_gear(inputs: GearPairInputs, teeth: GearTeeth, base_helix_angle: flo
 def _cut(inputs: GearPairInputs, teeth: GearTeeth, count: float, module: float, pressure_angle: float) -> Gear:
     """Return a gear with `count` teeth in a plane with the given module [m] and pressure angle [rad].
 
-    Heights are in normal modules. A profile shift makes a tooth thicker in proportion to the tangent of the pressure
-    angle in this plane.
+    Heights are multiples of the normal module, also if `module` is the transverse module. A profile shift makes a tooth
+    thicker in proportion to the tangent of the pressure angle in this plane.
     """
     height, normal_angle = inputs.normal_module, inputs.normal_pressure_angle
     radius = module * count / 2
@@ -143,8 +143,8 @@ class RackFillet(NamedTuple):
     """The rack tip that cuts a tooth root; lengths [m].
 
     `centre_x` and `centre_y` are the coordinates of the centre of the tip arc in the normal plane. `centre_x` is
-    measured from the centre line of the rack tooth, `centre_y` from the reference circle. `end` is the arc parameter at
-    which the fillet meets the involute.
+    measured from the centre line of the rack tooth, `centre_y` is measured from the reference circle. `end` is the arc
+    parameter at which the fillet meets the involute.
     """
 
     reference_radius: float
@@ -189,7 +189,7 @@ def fillet_sector_area(fillet: RackFillet, end: float) -> float:
     """
     r, tip, cos_helix = fillet.reference_radius, fillet.tip_radius, fillet.cos_helix
     area = 0.0
-    for node, weight in zip(_NODES, _WEIGHTS):  # noqa: B905  numba's zip has no strict
+    for node, weight in zip(_NODES, _WEIGHTS):  # noqa: B905  numba's zip has no argument `strict`
         t = 0.5 * end * (1.0 + node)
         y, dy = fillet.centre_y - tip * np.cos(t), tip * np.sin(t)
         across, up = -y * np.tan(t) * cos_helix, y + r
@@ -202,7 +202,7 @@ def fillet_sector_area(fillet: RackFillet, end: float) -> float:
 def root_profile(pair: GearPairInputs, teeth: GearTeeth, gear: Gear) -> RootProfile:
     """Return the root of one gear of the pair.
 
-    If the gear is undercut, the root is the union of the areas that the tip and the flank of the rack sweep.
+    If the gear is undercut, the tooth space is the union of the areas that the tip and the flank of the rack sweep.
     """
     module, angle = pair.normal_module, pair.normal_pressure_angle
     tip = rack_tip_radius(pair, teeth) * module

@@ -60,7 +60,7 @@ class GearTeeth:
 
 @record
 class GearPairInputs:
-    """An external parallel-axis pair, spur or helical; the pinion drives."""
+    """An external gear pair with parallel axes, spur or helical; the pinion drives."""
 
     pinion: GearTeeth = quantity("pinion", text="the driving gear")
     wheel: GearTeeth = quantity("wheel", text="the driven gear")
@@ -137,7 +137,7 @@ class GearPairInputs:
     def addendum_of(self, teeth: GearTeeth) -> float:
         """Return the addendum coefficient of one gear of the pair.
 
-        A tip diameter d_a gives h_aP* = (d_a - d)/(2 m_n) - x.
+        If a tip diameter d_a is given, the coefficient is h_aP* = (d_a - d)/(2 m_n) - x.
 
         Raises
         ------

@@ -10,11 +10,11 @@ from solvers.lubricants import hotter_than_gears
 from solvers.notices import Notice, unusual_value
 
 THIN_TIP = 0.2  # normal modules
-# Chosen limits of unusual values.
+# Chosen limits; a value beyond its limit is unusual.
 WIDEST_FACE = 3.0  # pitch diameters of the pinion
 NARROWEST_FACE = 0.5  # modules
 FASTEST = 250.0  # m/s at the pitch line
-HIGHEST_ROOT_LOAD = 400e6  # Pa, F_t/(b m_n); the stress in the root is four times as high, above the strength of steel
+HIGHEST_ROOT_LOAD = 400e6  # Pa, F_t/(b m_n); the root stress is then four times as high, above the strength of steel
 LEAST_LOAD = 1e3  # N/m
 
 

@@ -131,7 +131,7 @@ def _backlash_free_centre_distance(
 
 
 class ContactPlane(NamedTuple):
-    """Rectangle of the plane of action; x runs from A to E, y from the end of the face that meshes first [m].
+    """Rectangle of the plane of action; x runs from A to E, y runs from the end of the face that meshes first [m].
 
     Contact line number j has the equation x + y `tan_base_helix` = phase + j `base_pitch`. At x the roll length of the
     pinion is `start` + x, and the roll length of the wheel is `line_of_action` minus this length. If the reduced radius
@@ -163,7 +163,8 @@ def reduced_radius(plane: ContactPlane, x: Real) -> Real:
     Returns
     -------
     Real
-        Reduced radius R_n = s (N - s)/(N cos beta_b) at the roll length s of the pinion [m].
+        Reduced radius R_n = s (N - s)/(N cos beta_b), where s is the roll length of the pinion and N is the line of
+        action [m].
 
     Notes
     -----
@@ -234,7 +235,7 @@ class PathOfContact:
         )
 
     def profile_parameter(self, x: Real) -> Real:
-        """Return Gamma = (N1K - N1C)/N1C at distance x [m] from A."""
+        """Return the profile parameter Gamma = (N1K - N1C)/N1C [-] of the point K at distance x [m] from A."""
         return (self.start + x) / self.pitch_point - 1.0
 
     def surface_speeds(self, x: Real, pinion_speed: float) -> tuple[Real, Real]:

@@ -1,4 +1,4 @@
-"""Band of the flank temperatures between much and little oil on the flanks; the band has no stated probability."""
+"""Band of the flank temperatures between much and little oil on the flanks; no probability is stated for this band."""
 
 from dataclasses import dataclass, replace
 
@@ -38,7 +38,7 @@ def extreme_network(network: Network, cooling: Cooling, extreme: Extreme) -> Net
     network : Network
         The network of the nominal case.
     cooling : Cooling
-        What the user gives.
+        What the user states about the cooling.
     extreme : Extreme
         The end of the band.
 
@@ -50,7 +50,8 @@ def extreme_network(network: Network, cooling: Cooling, extreme: Extreme) -> Net
     Notes
     -----
     Eq. H21. If the temperature of a gear is measured, the wetting share is fitted again, to the measured temperature
-    plus or minus its uncertainty. If no share gives this temperature, the share that comes nearest is taken.
+    plus or minus its uncertainty. If no share gives this temperature, the share whose temperature comes nearest is
+    used.
     """
     spray = network.spray
     if cooling.fling_off_factor is None:
@@ -65,7 +66,7 @@ def extreme_network(network: Network, cooling: Cooling, extreme: Extreme) -> Net
 
 
 def _fitted_again(network: Network, node: str, temperature: float) -> Network:
-    """Return the network with the wetting share that gives the node this temperature [K], or comes nearest to it."""
+    """Return the network with the wetting share at which the node is at, or nearest to, the temperature [K]."""
     place, wanted = network.nodes.index(node), temperature - network.oil.inlet
     all_oil = wetted(network, MOST_WETTING)
     if float(equilibrium(all_oil).rises[place]) >= wanted:  # no share cools the node to this temperature
@@ -84,7 +85,7 @@ def flank_cases(network: Network, cooling: Cooling, nominal: FloatArray) -> tupl
     network : Network
         The network of the nominal case.
     cooling : Cooling
-        What the user gives.
+        What the user states about the cooling.
     nominal : FloatArray
         Temperature rises of the nodes in the nominal case [K].
 
@@ -104,7 +105,7 @@ def flank_band(
 ) -> tuple[tuple[float, float], tuple[float, float]]:
     """Return the lowest and the highest temperature [K] of each gear's flank.
 
-    If a flank temperature was measured and used for the calibration, its band is 3 K to either side.
+    If a flank temperature was measured and used for the calibration, its band extends by 3 K to either side.
     """
     bands = []
     for gear, node in enumerate(("pinion_flank", "wheel_flank")):

@@ -6,7 +6,7 @@ from solvers.quantity import described, record
 
 
 def journal_leakage(surface_speed: float, width: float, clearance: float, eccentricity: float) -> float:
-    """Compute the oil that leaves a plain bearing at its sides.
+    """Compute the oil flow that leaves a plain bearing at the sides.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Calibration: a measured gear temperature fixes the wetting share, a measured drain temperature the other losses."""
+"""Calibration of the wetting share with a measured gear temperature, and of other losses with the drain temperature."""
 
 from dataclasses import replace
 
@@ -193,7 +193,7 @@ def _fitted(network: Network, place: int, wanted: float, drain: float | None) ->
             unknown[free] += step * min(1.0, LARGEST_FIT / turn if turn > 0.0 else 1.0)
             if float(np.abs(step).max()) < FITTED:
                 break
-            if unknown[network.size] > LARGEST_FIT:  # far more than all oil on the flanks
+            if unknown[network.size] > LARGEST_FIT:  # this share is far more than all oil
                 return None
         else:
             return None

@@ -9,7 +9,7 @@ from solvers.heat_balance.network import Network
 from solvers.quantity import described, record
 
 BEARING_OIL, BEARING_STEEL = 0.5e-3, 5.0  # m^3, kg; chosen: oil and steel that warm up with a plain bearing
-MIST_OIL = 5e-3  # m^3, chosen: oil in the mist and on its way to the drain
+MIST_OIL = 5e-3  # m^3, chosen: oil in the mist, and oil on the way to the drain
 STEEL_DENSITY, STEEL_HEAT = 7850.0, 470.0  # kg/m^3, J/(kg K)
 
 

@@ -49,7 +49,7 @@ def face_convection(speed: float, radius: float) -> float:
 
 
 def recovery_rise(speed: float, radius: float, recovery: float = RECOVERY) -> float:
-    """Compute the temperature rise of the mist by friction at the tooth tips.
+    """Compute the temperature rise that friction at the tooth tips causes in the mist.
 
     Parameters
     ----------

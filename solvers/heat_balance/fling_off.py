@@ -13,8 +13,8 @@ from math import pi, sqrt
 from solvers.heat_balance.oil import CoolingOil
 
 TOOTH_HEIGHT = 2.25  # H in normal modules: addendum, dedendum and tip clearance of the basic rack
-LONG_TURN = 0.98  # heat number q of thick films and long turns, from a similarity solution
-FLOODED = 50.0  # scaled thickness above which a thicker film does not cool better
+LONG_TURN = 0.98  # heat number q of a thick film in a long turn, from a similarity solution
+FLOODED = 50.0  # scaled thickness; a film that is thicker than this does not cool better
 USED_SHARE = 0.9  # share of the heat of a flooded flank; `turn_film` is the thickness of a film that takes this share
 LIMITED_FROM = 0.98  # chosen: share of the oil's heat capacity above which the oil flow limits the cooling
 FILM_POWER, TIME_POWER = -5.5, -8.0  # exponents of the closed form, fitted to numerical solutions within 2.5 %
@@ -81,9 +81,10 @@ def heat_number(film: float, turn: float) -> float:
 
     Notes
     -----
-    Eq. H2. There are three limits. A thin film reaches the temperature of the wall: q = h0'. In a short turn the film
-    acts as a half space: q = 2 sqrt(t'/pi). For a thick film and a long turn a similarity solution gives q = 0.98. The
-    closed form joins these three limits, and agrees with numerical solutions within 2.5 %.
+    Eq. H2. Here h0' is `film` and t' is `turn`. There are three limits. A thin film reaches the temperature of the
+    wall: q = h0'. In a short turn the film acts as a half space: q = 2 sqrt(t'/pi). For a thick film and a long turn a
+    similarity solution gives q = 0.98. The closed form joins these three limits, and agrees with numerical solutions
+    within 2.5 %.
     """
     short = 2 * sqrt(turn / pi)
     unlimited = short**TIME_POWER + LONG_TURN**TIME_POWER
@@ -91,7 +92,7 @@ def heat_number(film: float, turn: float) -> float:
 
 
 def fling_off_time(oil: CoolingOil, teeth: TurningTeeth, temperature: float) -> float:
-    """Compute the time in which a film as thick as its thermal layer is thrown off.
+    """Compute the time in which a film that is as thick as the thermal layer is thrown off.
 
     Parameters
     ----------
@@ -177,7 +178,7 @@ def fling_off(oil: CoolingOil, teeth: TurningTeeth, flow: float, factor: float, 
 
     Notes
     -----
-    Eq. H5: G = f omega/(2 pi) A sqrt(k rho c t*) q(h0', t'), G <= rho c Q_i. For a flooded flank h0' is 50.
+    Eq. H5: G = f omega/(2 pi) A sqrt(k rho c t*) q(h0', t'), but at most rho c Q_i. For a flooded flank h0' is 50.
     """
     time = fling_off_time(oil, teeth, (flank + oil.inlet) / 2)
     length, turn = sqrt(oil.diffusivity * time), 1 / (teeth.turns * time)

@@ -24,7 +24,7 @@ class FlowCurve:
 
 
 def over_the_flow(inputs: HeatBalanceInputs, flows: FloatArray) -> FlowCurve:
-    """Solve the heat balance at other oil flows.
+    """Solve the heat balance at several oil flows.
 
     Parameters
     ----------
@@ -50,7 +50,7 @@ def over_the_flow(inputs: HeatBalanceInputs, flows: FloatArray) -> FlowCurve:
 
 
 def _solved(network: Network, start: FloatArray | None) -> tuple[FloatArray | None, tuple[float, float, float]]:
-    """Return the rises [K] of all nodes, and those of both flanks and the drain.
+    """Return the rises [K] of all nodes, and the rises of both flanks and of the drain.
 
     The next case starts from the rises of all nodes. If there is no equilibrium, the function returns None and NaN.
     """

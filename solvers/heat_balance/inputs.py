@@ -62,7 +62,7 @@ class Casing:
 class Measured:
     """Temperatures measured in operation: at most one temperature per gear, and the temperature of the drained oil.
 
-    A thermocouple in a tooth or in the rim measures the body, an infrared sensor the flank.
+    A thermocouple in a tooth or in the rim measures the body, an infrared sensor measures the flank.
     """
 
     pinion_flank: float | None = quantity(
@@ -294,7 +294,7 @@ class Cooling:
     casing: Casing = quantity("casing", default_factory=Casing)
 
     def jet_velocity(self) -> float:
-        """Return the velocity of the jets [m/s]; negative if they point against the teeth that leave the mesh."""
+        """Return the velocity of the jets [m/s]; negative if the jets point against the teeth that leave the mesh."""
         return self.jet_speed if self.jets == "into_mesh" else -self.jet_speed
 
     @property

@@ -28,7 +28,7 @@ class MeshHeat:
     )
 
     def at(self, oil: CoolingOil, flanks: float) -> float:
-        """Compute the friction power at other flank temperatures.
+        """Compute the friction power at a given temperature of the flanks.
 
         Parameters
         ----------
@@ -59,7 +59,7 @@ def share_to_pinion(
     position: FloatArray,
     effusivity_ratio: float = 1.0,
 ) -> float:
-    """Compute the share of the frictional heat of a path of contact that enters the pinion.
+    """Compute the pinion's share of the frictional heat that arises along a path of contact.
 
     Parameters
     ----------
@@ -81,8 +81,9 @@ def share_to_pinion(
 
     Notes
     -----
-    Eq. H7: phi = int q sqrt(u_1)/(sqrt(u_1) + sqrt(u_2)) / int q. Both surfaces are half spaces under a moving heat
-    source, and have the same temperature in the contact.
+    Eq. H7: phi = int q sqrt(u_1)/(sqrt(u_1) + sqrt(u_2)) / int q for equal effusivities; for other effusivities, their
+    ratio multiplies sqrt(u_2). Both surfaces are half spaces under a moving heat source, and have the same
+    temperature in the contact.
     """
     total = float(np.trapezoid(heat, position))
     if total == 0.0:
@@ -114,8 +115,8 @@ def windage(pitch_line_velocity: float, diameter: float, face_width: float, modu
 
     Notes
     -----
-    Eq. H8: torque 1.37e-9 v^1.9 d^1.6 b^0.52 m_n^0.69 N m with lengths in mm. Of three published formulas, this formula
-    gives the lowest loss.
+    Eq. H8: the torque is 1.37e-9 v^1.9 d^1.6 b^0.52 m_n^0.69 N m, with lengths in mm. Of three published formulas, this
+    formula gives the lowest loss.
     """
     sizes = (diameter * 1e3) ** 1.6 * (face_width * 1e3) ** 0.52 * (module * 1e3) ** 0.69
     return float(1.37e-9 * pitch_line_velocity**1.9 * sizes * speed)
@@ -149,7 +150,7 @@ def acceleration_power(oil: CoolingOil, flow: float, velocity: float, jet: float
 
 
 def impact_rise(oil: CoolingOil, velocity: float, jet: float) -> float:
-    """Compute the temperature rise of the oil when it hits the teeth.
+    """Compute the temperature rise that the impact on the teeth causes in the oil.
 
     Parameters
     ----------
@@ -184,9 +185,9 @@ def flow_by_rise(
     losses : float
         Losses of the gears without the acceleration of the oil [W].
     rise : float
-        Rise of the oil's temperature by all losses of the gears [K].
+        Rise of the oil temperature that all losses of the gears cause [K].
     wetting_share : float
-        Share of the oil that is brought to speed [-].
+        Share of the oil that the teeth accelerate [-].
     velocity : float
         Pitch-line velocity v [m/s].
     jet : float
@@ -199,7 +200,8 @@ def flow_by_rise(
 
     Notes
     -----
-    Eq. H11: Q = P/(rho c (dT - min(dT/2, w v (v - v_jet)/c))).
+    Eq. H11: Q = P/(rho c (dT - min(dT/2, w v (v - v_jet)/c))), where P are the losses, dT is the rise and w is the
+    wetting share.
     """
     accelerating = wetting_share * velocity * (velocity - jet) / oil.specific_heat
     warming = rise - min(LARGEST_ACCELERATION_SHARE * rise, accelerating)
@@ -227,6 +229,6 @@ def ts_6336_22_bulk_rise(loss: float, centre_distance: float, face_width: float,
 
     Notes
     -----
-    Eq. H13: 7400 (P mu H_v/(a b))^0.72 X_S/1.2, with power in kW and lengths in mm.
+    Eq. H13: 7400 (P mu H_v/(a b))^0.72 X_S/1.2, where the loss P mu H_v is in kW and the lengths are in mm.
     """
     return float(7400 * (loss * 1e-3 / (centre_distance * face_width * 1e6)) ** 0.72 * supply_factor / 1.2)

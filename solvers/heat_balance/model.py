@@ -81,7 +81,7 @@ def solve(inputs: HeatBalanceInputs) -> Heat:
     Parameters
     ----------
     inputs : HeatBalanceInputs
-        Geometry, losses, oil and what the user says of the cooling.
+        Geometry, losses, oil and what the user states about the cooling.
 
     Returns
     -------
@@ -91,7 +91,8 @@ def solve(inputs: HeatBalanceInputs) -> Heat:
     Raises
     ------
     InvalidInput
-        `exclusive` or `measured_unreachable` for measured temperatures.
+        `exclusive` if a measured temperature excludes another input or another measured temperature of the same gear;
+        `measured_unreachable` if the model cannot reach a measured temperature.
     NoSolution
         `heat_balance`, `thermal_runaway`, or the code of an error in a bearing.
     """
@@ -130,7 +131,7 @@ def network_of(inputs: HeatBalanceInputs) -> Network:
     Parameters
     ----------
     inputs : HeatBalanceInputs
-        Geometry, losses, oil and what the user says of the cooling.
+        Geometry, losses, oil and what the user states about the cooling.
 
     Returns
     -------
@@ -176,7 +177,7 @@ def calibrated(network: Network, cooling: Cooling) -> Network:
     network : Network
         The network of the nominal case.
     cooling : Cooling
-        What the user says of the cooling.
+        What the user states about the cooling.
 
     Returns
     -------
@@ -313,8 +314,8 @@ def backlash_loss(
 
     Notes
     -----
-    Eq. H22: 2 tan(alpha_wt) alpha_L sum r_wi (B_i - C), where B_i is the temperature of gear body i and C that of the
-    casing.
+    Eq. H22: 2 tan(alpha_wt) alpha_L sum r_wi (B_i - C), where B_i is the temperature of gear body i, and C is the
+    temperature of the casing.
     """
     if heat.casing is None:
         return heat

@@ -48,7 +48,7 @@ class CooledGear:
 
     @cached_property
     def rim(self) -> float:
-        """Conductance from the rim to air [W/K]; one half belongs to the flanks, the other half to the body."""
+        """Conductance from the rim to air [W/K]; one half belongs to the flanks, the other half belongs to the body."""
         area = 2 * pi * self.tip_radius * self.face_width
         return area * rim_convection(self.flanks.speed, self.tip_radius)
 
@@ -62,8 +62,8 @@ class CooledGear:
 class Spray:
     """Oil of the jets: flow [m^3/s], speeds of pitch line and jet [m/s], shares, and factor on the fling-off cooling.
 
-    The velocity of the jet is positive if the jet is directed into the mesh, and negative if it is directed against the
-    teeth that leave the mesh.
+    The velocity of the jet is positive if the jet is directed into the mesh, and negative if the jet is directed
+    against the teeth that leave the mesh.
     """
 
     flow: float
@@ -142,9 +142,9 @@ class Network:
 
     @cached_property
     def _coolings(self) -> dict[tuple[int, float], FlingOff]:
-        """Cache of the fling-off cooling by gear and flank temperature.
+        """Cache of the fling-off cooling; a key consists of the gear and the flank temperature.
 
-        A Jacobian by differences needs the cooling at few different flank temperatures.
+        A Jacobian by finite differences needs the cooling at only a few flank temperatures.
         """
         return {}
 
@@ -160,7 +160,7 @@ class Network:
 
     @cached_property
     def _operations(self) -> dict[tuple[int, float], tuple[float, float]]:
-        """Cache of friction power and oil flow by the number of the bearing and the rise of the leaving oil."""
+        """Cache of friction power and oil flow; a key consists of bearing number and rise of the leaving oil."""
         return {}
 
     def operation(self, number: int, outlet: float) -> tuple[float, float]:
@@ -182,7 +182,7 @@ class Network:
         Returns
         -------
         list of Flow
-            The flows of section 1 of the chapter on the heat balance.
+            The flows that section 1 of the chapter on the heat balance describes.
 
         Notes
         -----
@@ -232,9 +232,9 @@ class Network:
         yield Flow(source, MIST, thrown, "oil brought to speed")
 
     def _oil_cooling(self, gear: int, rises: FloatArray) -> Iterator[Flow]:
-        """Yield the heat flows from the flank and the body of a gear to the oil, and through the teeth.
+        """Yield the heat flows from flank and body of a gear to the oil, and from the flank to the body.
 
-        The oil is partly the oil of the jets, and partly oil out of the mist.
+        The oil comes partly from the jets, and partly out of the mist.
         """
         flank, body, mist = float(rises[FLANKS[gear]]), float(rises[BODIES[gear]]), float(rises[MIST])
         cooling, tooth = self.cooling(gear, rises), self.gears[gear].to_body
@@ -251,7 +251,7 @@ class Network:
     def _mist_convection(self, gear: int, rises: FloatArray) -> Iterator[Flow]:
         """Yield the heat flows from the mist to the rim and the faces of a gear.
 
-        Friction at the tooth tips warms this mist.
+        Friction at the tooth tips makes the mist near the gear warmer than the other mist.
         """
         flank, body, mist = float(rises[FLANKS[gear]]), float(rises[BODIES[gear]]), float(rises[MIST])
         wheel = self.gears[gear]

@@ -20,9 +20,9 @@ def heat_notices(network: Network, rises: FloatArray, cooling: Cooling) -> Itera
     """Yield warnings about speed, oil, bearing films and missing measurements that make the heat balance doubtful."""
     if network.spray.velocity < SLOW:
         message = (
-            f"the heat balance considers only the oil of the jets. At {network.spray.velocity:.4g} m/s, below {SLOW:g} "
-            "m/s, oil that runs down and is picked up again also cools the teeth; with little oil the flanks are "
-            "cooler than computed"
+            f"the pitch line velocity of {network.spray.velocity:.4g} m/s is below {SLOW:g} m/s. Oil that runs down "
+            "and is picked up again then also cools the teeth, but the heat balance considers only the oil of the "
+            "jets; with little oil the flanks are cooler than computed"
         )
         yield Notice("low_speed", message, "cooling")
     yield from _oil_notices(network, rises)

@@ -63,7 +63,7 @@ class HeatLosses:
 
 @record
 class Balance:
-    """Heat supplied and removed, and their difference relative to the heat supplied."""
+    """Heat supplied, heat removed, and the difference of both relative to the heat supplied."""
 
     supplied: float = quantity("heat supplied", "P_in", unit="w")
     removed: float = quantity("heat removed", "P_out", unit="w")
@@ -72,7 +72,7 @@ class Balance:
 
 @record
 class BulkEstimates:
-    """Bulk temperatures [K] by rules of standards, for comparison."""
+    """Bulk temperatures [K] by formulas of standards, for comparison."""
 
     iso_tr_13989_bulk: float | None = quantity("bulk by ISO/TR 13989-1", "θ_M", unit="c", default=None)
     iso_ts_6336_22_bulk: float | None = quantity("bulk by ISO/TS 6336-22", "θ_M", unit="c", default=None)
@@ -80,7 +80,7 @@ class BulkEstimates:
 
 @record
 class HeatBand:
-    """Band between much and little oil on the flanks: flank temperatures, and safety at these temperatures."""
+    """Ranges of the flank temperatures, and of the safety, between much and little oil on the flanks."""
 
     pinion_flank: Range = quantity("band of the pinion's flank", "θ_F1", unit="c", index="low, high")
     wheel_flank: Range = quantity("band of the wheel's flank", "θ_F2", unit="c", index="low, high")

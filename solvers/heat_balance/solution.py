@@ -48,10 +48,10 @@ def equilibrium(network: Network, start: FloatArray | None = None) -> Equilibriu
 
     Notes
     -----
-    Eq. H18. The negative Jacobian -J is an M-matrix if it has no positive element off the diagonal, and if every node
+    Eq. H18. The negative Jacobian -J is an M-matrix if -J has no positive element off the diagonal, and if every node
     becomes warmer when every node gains a little more heat. The equilibrium is then stable. If all row sums of -J are
-    positive, it is also the only equilibrium. Hot flanks with little oil can violate this last condition; they are not
-    refused for this reason.
+    positive, this equilibrium is also the only one. Hot flanks with little oil can violate the condition on the row
+    sums; such a case is not refused for this reason.
     """
     rises = np.zeros(network.size) if start is None else np.array(start, dtype=float)
     residual = network.residual(rises)

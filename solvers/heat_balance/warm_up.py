@@ -1,6 +1,6 @@
 """Warm-up of a gear pair or gear unit: temperatures of the network over time, with heat capacities of the nodes.
 
-From the beginning, the losses are those of the running unit; they change only with the viscosity of the oil.
+From the beginning, the losses are those of the running unit; the losses change only with the viscosity of the oil.
 """
 
 from typing import Any
@@ -17,7 +17,7 @@ from solvers.quantity import quantity, record
 
 LONGEST = 6.0  # time constants; after this time 1/400 of the change remains
 WARM = 0.95
-POINTS = 2000  # number of times among which the time to `WARM` is searched
+POINTS = 2000  # number of points in time among which the time to `WARM` is searched
 SHOWN = 200
 
 
@@ -34,7 +34,7 @@ class WarmUpCurves:
 
 @record
 class WarmUp:
-    """A warm-up: final temperatures, times to 95 % of the temperature change, and difference of the bodies."""
+    """A warm-up: final temperatures, times to 95 % of the change, and temperature difference of the gear bodies."""
 
     nodes: tuple[str, ...] = quantity("nodes", index="flanks and bodies, mist, bearings, casing")
     final: FloatArray = quantity("final temperatures", "θ_end", unit="c", index="nodes")
@@ -58,7 +58,7 @@ def warm_up(network: Network, capacities: Capacities, start: float, until: float
     start : float
         Temperature of everything at the beginning [K].
     until : float, optional
-        End of the calculation [s]; six times the slowest time constant if not given.
+        End of the calculation [s]; if None, six times the slowest time constant.
 
     Returns
     -------

@@ -22,13 +22,13 @@ POINTS = ("A", "AB", "B", "C", "D", "DE", "E")
 
 
 def mineral(grade: float, thin: float, density_15: float | None = None) -> OilSheet:
-    """Return a mineral oil by its kinematic viscosities at 40 and 100 C [mm^2/s]."""
+    """Return a mineral oil with these kinematic viscosities at 40 and 100 C [mm^2/s]."""
     return OilSheet(grade * 1e-6, thin * 1e-6, density_15=density_15)
 
 
 @cache
 def gears_of_the_test() -> StandardFilms:
-    """Return the films of the gears of the oil test (type C-GF) at stage 8 with an oil VG 220."""
+    """Return the films of the gears of the oil test (type C-GF) at stage 8 with an oil of ISO VG 220."""
     load = Load(oil_test.STAGE_TORQUE[8], oil_test.SPEED)
     given = LoadDistributionInputs(oil_test.GEARS, load, pinion_material=oil_test.STEEL, wheel_material=oil_test.STEEL)
     return solve_standard(given, meshing_path(oil_test.GEARS), mineral(220, 19.0), 90 + ZERO, "dip", 7)
@@ -55,7 +55,10 @@ ASKED_FOR = {
     (220, 19.0): (0.398, 0.331, 0.271, 0.224, 0.185, 0.153),
     (460, 30.6): (0.567, 0.464, 0.375, 0.304, 0.245, 0.201),
 }
-"""Permissible film ratios at stages 5 to 10, by the viscosities of a mineral oil at 40 and 100 C; read off to 0.003."""
+"""Permissible film ratios at stages 5 to 10, read from the diagram with an accuracy of 0.003.
+
+The keys are the kinematic viscosities of a mineral oil at 40 and 100 C [mm^2/s].
+"""
 
 
 def asked_over_test() -> list[float]:

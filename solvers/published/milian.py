@@ -1,8 +1,8 @@
 """The gears of Milian, Distretti, Leoni and Velex (Gear Technology, May/June 2004), and their operating points.
 
 The tables give no face width, backlash, groove width or ambient conditions. A face width of 200 mm, a backlash of 0.3
-mm, a groove width of 16 mm, and 101325 Pa and 50 degC are assumed. The module of the tables must be the normal module,
-because only then do the centre distances have the round values of 590 and 455 mm.
+mm, a groove width of 16 mm, and ambient conditions of 101325 Pa and 50 degC are assumed. The module of the tables must
+be the normal module, because only then do the centre distances have the round values of 590 and 455 mm.
 """
 
 from dataclasses import replace
@@ -14,7 +14,7 @@ from solvers.pumping import Closure, Flow, Gap, Groove, PumpingInputs, PumpingMo
 from solvers.pumping.model import solve
 from solvers.pumping.results import SpacesResult
 
-# Gears of Table 1; gears of Tables 2 and 3, whose speeds are stated in the text
+# The gears of Table 1, and the gears of Tables 2 and 3; the text of the paper states the speeds of the latter.
 TABLE_1 = GearPairInputs(
     GearTeeth(47, 0.291, 1.0, 1.475),
     GearTeeth(103, 0.322, 1.0, 1.474),

@@ -101,7 +101,10 @@ def film(misalignment_deg: float, crowning: float) -> CouplingResult:
 
 
 def least_friction(crowning: float, low: float, high: float) -> tuple[float, float]:
-    """Return the misalignment [deg] with the lowest coefficient of friction, and this coefficient."""
+    """Return the misalignment [deg] with the lowest coefficient of friction, and this coefficient.
+
+    The search is limited to misalignments from `low` to `high` [deg].
+    """
     minimum = minimize_scalar(
         lambda misalignment: film(misalignment, crowning).lubrication.friction_coefficient,
         bounds=(low, high),

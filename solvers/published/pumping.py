@@ -18,7 +18,7 @@ def case(
     model: PumpingModel = PRINTED,
     face_width: float = 0.2,
 ) -> PumpingResult:
-    """Solve one of the two cases of the paper at a speed [rpm]; if it is None, at the speed of the paper."""
+    """Solve one of the two cases of the paper at a speed [rpm]; None stands for the speed in the paper."""
     gears, own = CASES[number]
     return run(replace(gears, face_width=face_width), own if speed is None else speed, model, grooves=grooves)
 

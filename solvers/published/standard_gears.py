@@ -8,7 +8,7 @@ from solvers.gears.pair import meshing_path, reduced_radius
 from solvers.materials import Solid
 from solvers.scuffing.mesh_results import standard_stiffness
 
-# ISO 14635-1: tip diameters of 88.8 and 112.5 mm
+# The tip diameters of ISO 14635-1 are 88.8 and 112.5 mm.
 FZG_A = GearPairInputs(
     GearTeeth(16, 0.8532, addendum=88.8 / 9 - 8 - 0.8532),
     GearTeeth(24, -0.5, addendum=112.5 / 9 - 12 + 0.5),
@@ -38,7 +38,7 @@ def fzg_pressure(torque: float) -> float:
 
 
 def example_stress() -> float:
-    """Return the nominal contact stress [MPa] of example 1 divided by its helix factor.
+    """Return the nominal contact stress [MPa] of example 1, divided by the helix factor.
 
     The torque is 9 kN m. The load is divided by the transverse contact ratio.
     """

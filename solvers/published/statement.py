@@ -54,26 +54,26 @@ class Says:
     def equals(
         self, number: float, unit: str, compute: Callable[[], float], tolerance: float, remark: str = ""
     ) -> Statement:
-        """Return the statement of a printed number with a relative tolerance."""
+        """Return the statement that the computed number equals a printed number; `tolerance` is relative."""
         least, most = number - tolerance * abs(number), number + tolerance * abs(number)
         return Statement(self.words, self.source, f"{number:g}", unit, compute, least, most, number, remark)
 
     def below(self, bound: float, unit: str, compute: Callable[[], float]) -> Statement:
-        """Return the statement of a printed upper bound."""
+        """Return the statement that the computed number is below a printed bound."""
         return Statement(self.words, self.source, f"below {bound:g}", unit, compute, -inf, bound)
 
     def above(self, bound: float, unit: str, compute: Callable[[], float]) -> Statement:
-        """Return the statement of a printed lower bound."""
+        """Return the statement that the computed number is above a printed bound."""
         return Statement(self.words, self.source, f"above {bound:g}", unit, compute, bound, inf)
 
     def between(self, low: float, high: float, unit: str, compute: Callable[[], float]) -> Statement:
-        """Return the statement of a printed range."""
+        """Return the statement that the computed number is within a printed range."""
         return Statement(self.words, self.source, f"{low:g} to {high:g}", unit, compute, low, high)
 
     def not_reproduced(
         self, number: float, unit: str, compute: Callable[[], float], by_equations: float, remark: str
     ) -> Statement:
-        """Return the statement of a printed number that does not agree with the equations of its source.
+        """Return the statement of a printed number that disagrees with the equations of the source.
 
         The statement holds if the computed number is within 3 % of `by_equations`, the number that follows from the
         equations.

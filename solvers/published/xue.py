@@ -31,12 +31,12 @@ PAPER_MODEL = Model(contact="linear", section="transverse")
 CALIBRATED_MODEL = replace(PAPER_MODEL, tooth_stiffness="parabola", load_convention="paper")
 PAPER_MODIFICATIONS = Modifications(profile_crowning=10e-6, lead_crowning=10e-6, tip_relief=5e-6)
 
-# Point A of gear pair 1 under 273 N/mm, all temperatures 360 K
+# Point A of gear pair 1 under 273 N/mm; all temperatures are 360 K
 POINT_A = ehl.Contact(2.73e5, 4.015e-3, 1.0179, 3.7076)
 
 
 def paper_gears(number: int) -> GearPairInputs:
-    """Return gear pair 1 to 4 of Table 1."""
+    """Return one of the gear pairs 1 to 4 of Table 1."""
     helix, width = HELIX_AND_WIDTH[number]
     return GearPairInputs(
         GearTeeth(23), GearTeeth(30), 3e-3, width * 1e-3, helix_angle=radians(helix), rack_tip_radius=0.38
@@ -46,13 +46,13 @@ def paper_gears(number: int) -> GearPairInputs:
 def paper_pair(
     number: int, modifications: Modifications | None = None, model: Model = PAPER_MODEL
 ) -> LoadDistributionInputs:
-    """Return the inputs for gear pair 1 to 4 under 50 kW at 2000 1/min."""
+    """Return the inputs for one of the gear pairs 1 to 4 under 50 kW at 2000 1/min."""
     return LoadDistributionInputs(paper_gears(number), PAPER_LOAD, modifications or Modifications(), model=model)
 
 
 @cache
 def pair(number: int, model: Model = PAPER_MODEL, modifications: Modifications | None = None) -> LoadDistribution:
-    """Solve the load distribution of gear pair 1 to 4."""
+    """Solve the load distribution of one of the gear pairs 1 to 4."""
     return solve_load_distribution(paper_pair(number, modifications, model))
 
 
@@ -71,7 +71,7 @@ def scuffing() -> Scuffing:
 
 @cache
 def point_a(rheology: ehl.Rheology = "ree_eyring", *, thermal: bool = True) -> ehl.LineContactResult:
-    """Solve the contact at A on 241 nodes."""
+    """Solve the contact at A on a grid of 241 nodes."""
     model = replace(ehl.Model(), thermal=thermal, nodes=241)
     return ehl.solve(ehl.LineContactInputs(POINT_A, model=replace(model, rheology=rheology), lubricant=Lubricant()))
 
@@ -101,7 +101,7 @@ def root_load(number: int, model: Model) -> float:
 
 
 def film_over_formula() -> float:
-    """Return the largest ratio, along the path, of the computed film thickness to that of the formula (Fig. 23)."""
+    """Return the largest ratio of computed film thickness to film thickness by the formula along the path (Fig. 23)."""
     path = scuffing().path
     assert path.thermal is not None
     return float(np.nanmax(path.thermal.minimum_film / path.dowson_higginson))

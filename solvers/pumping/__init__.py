@@ -1,9 +1,9 @@
 """Air and mist pumped by meshing teeth.
 
 Data pass through the modules in this order: inputs, checks -> space (shape, section and stroke of a tooth space; the
-face between grooves) -> flow (gas, duct, record) -> one of the flow models gas, chain and incompressible -> resolution,
-lead_correction, pulsation. `spaces` prepares everything that does not depend on the speed, and calls the flow model.
-`model`, `choking` and `speed_scan` use `spaces`.
+face between grooves) -> flow (properties of the gas, duct, records) -> one of the flow models (gas, chain,
+incompressible) -> resolution, lead_correction, pulsation. `spaces` prepares everything that does not depend on the
+speed, and calls the flow model. `model`, `choking` and `speed_scan` use `spaces`.
 """
 
 from solvers.guards import guarded

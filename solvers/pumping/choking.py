@@ -18,7 +18,7 @@ from solvers.pumping.spaces import CELL_STEP_LIMIT, Mesh, Space, derived, flow_a
 
 _COARSENING = 4  # the number of slices is divided by this factor while the speeds are bracketed
 _BRACKET = log(1.1)  # half width of the bracket around the coarse speed; all speeds here are logarithms
-_ACCURACY = 1e-4  # of the logarithm of the speed, or 0.01 % of the speed
+_ACCURACY = 1e-4  # accuracy of the logarithm of the speed, which means 0.01 % of the speed
 _STEP_DOWN, _STEPS_DOWN = log(sqrt(2.0)), 24  # size and number of the steps of a scan down to 1/4096 of the limit
 _SOLVES = 8  # number of solutions that together may cost as much as the most expensive single solution
 
@@ -124,7 +124,7 @@ def _refuse_sealed(speed: float) -> NoReturn:
 
 
 def _find_lowest(demands: list[tuple[Excess, Excess]], scan: list[float]) -> float | None:
-    """Find the lowest speed at which a space chokes: bracketed on the coarse grid, then refined on the fine grid."""
+    """Find the lowest speed at which a space chokes: bracket it on the coarse grid, then refine it on the fine grid."""
     roots = [(root, fine) for rough, fine in demands if (root := _find_coarse_root(rough, scan)) is not None]
     if not roots:
         return None
@@ -151,7 +151,7 @@ def _refine(excess: Excess, root: float, top: float) -> float | None:
 
 
 def _curves(mesh: Mesh, demands: list[_Demand], scan: list[float]) -> ChokingCurves:
-    """Return the curves of the coarse scan; a value is the largest of all spaces."""
+    """Return the curves of the coarse scan; every value is the largest over all spaces."""
     return ChokingCurves(
         pinion_speed=frozen([exp(speed) for speed in scan]),
         peak_pressure_ratio=frozen(

@@ -29,7 +29,7 @@ def incompressible(
     pinion_speed : float
         Speed of the pinion [rad/s].
     speed_ratio : float
-        Speed of the gear that owns the space over that of the pinion.
+        Speed of the gear that owns the space, divided by the speed of the pinion.
     discharge : float
         Discharge coefficient of all openings.
 

@@ -113,14 +113,14 @@ def _geometry(mesh: Mesh) -> MeshGeometry:
 
 
 def _on_grids(mesh: Mesh, space: Space, speed: float, slices: int) -> Grids:
-    """Compute one stroke at the given resolution, and at half and a quarter of it to estimate the errors."""
-    flow = flow_at(mesh, space, speed, slices)  # called first, because it refuses a march that would take too long
+    """Compute one stroke at the given resolution, and at half and a quarter of this resolution to estimate errors."""
+    flow = flow_at(mesh, space, speed, slices)  # first, because this call refuses a march that would take too long
     half, quarter = (coarser_flow_at(mesh, space, speed, slices, times) for times in (2, 4))
     return Grids(flow, half, quarter, _lead(mesh, space, speed))
 
 
 def _lead(mesh: Mesh, space: Space, speed: float) -> float:
-    """Compute `Grids.lead`; infinite for the other flow models, because only gas dynamics has waves."""
+    """Compute `Grids.lead`; return infinity if the flow model has no waves, that is, unless it is gas dynamics."""
     if mesh.setup.model.flow is not Flow.GAS_DYNAMICS:
         return inf
     return abs(mesh.gas.sound_speed * space.lag / (speed * space.speed_ratio) - 1.0)
@@ -182,7 +182,7 @@ def _hottest(position: FloatArray, rise: FloatArray | None) -> tuple[float | Non
 
 
 def _mass_flow(grids: Grids, frequency: float, jumped: float) -> MassFlow:
-    """Compute the mass flow of successive strokes, and the uncertainty due to the resolution and jumps of the area."""
+    """Compute the mass flow of successive strokes, and the uncertainty that resolution and jumps of the area cause."""
     masses, ends = grids.flow.masses, grids.flow.ends
     return MassFlow(
         front=frequency * masses.front,

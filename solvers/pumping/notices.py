@@ -13,13 +13,13 @@ from solvers.pumping.space.stroke import StrokeTable
 
 FEW_TEETH = 12  # chosen: the gears of the paper and of all comparisons have more teeth
 TIP_SPEED_SHARE = 0.8  # share of the ambient speed of sound at which published checks end
-PITCH_LINE_SPEED = 250.0  # m/s, at which published checks end
+PITCH_LINE_SPEED = 250.0  # m/s; published checks end at this speed
 FEW_SLICES = 20  # number of slices in the stroke at one time
 INCOMPRESSIBLE_MACH = 0.3  # usual limit, at which the density changes by 5 %
 RESOLVED = 0.06  # largest relative uncertainty of a result without a warning
 NET_UNCERTAINTY = 0.3  # largest uncertainty of a net flow without a warning, relative to the net flow
 NEGLIGIBLE = 1e-3  # share of the gross flow; a smaller uncertainty of the net flow is not worth a warning
-LEAST_GAUGE_PRESSURE = 1e-6  # share of the ambient pressure; the pocket chain does not resolve less
+LEAST_GAUGE_PRESSURE = 1e-6  # share of the ambient pressure; the pocket chain does not resolve smaller values
 THIN_AIR = 20e3  # Pa, chosen; nearly a vacuum
 
 

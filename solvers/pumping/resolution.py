@@ -5,10 +5,10 @@ order, Roache's grid convergence index takes three times the difference of the g
 grid (J. Fluids Eng. 116, 1994, 405).
 
 Extremes need more care. The place of an extreme moves between the slices, and two grids may agree on an extreme by
-chance. Therefore three things are added. A third grid with a quarter of the resolution is compared as well. The
-uncertainty of an extreme is increased by a fifth. Places are included whose value is not the highest yet, but rises
-with the resolution. In a test, 800 random gear pairs were computed again with twice the number of slices. Only one
-result changed by more than its uncertainty; the change exceeded the uncertainty by a hundredth.
+chance. Therefore the estimate does three more things. It also compares a third grid with a quarter of the resolution.
+It increases the uncertainty of an extreme by a fifth. It includes places at which the value is not the highest yet, but
+rises with the resolution. In a test, 800 random gear pairs were computed again with twice the number of slices. Only
+one result changed by more than its uncertainty; the change exceeded the uncertainty by a hundredth.
 
 Two grids may also agree on an extreme but not on the pressure around it, because both grids damp the waves alike.
 Therefore the difference of the pressures close to an extreme is included. If the meshing line moves along the face
@@ -29,11 +29,11 @@ from solvers.pumping.results import Resolution
 
 SAFETY = 3.0  # factor on the difference of two grids, as in the grid convergence index (Roache 1994)
 OF_EXTREMES = 1.2  # further factor on the uncertainty of extremes
-RISE = 2.0  # a value may rise further by this factor times its rise from half the resolution to the full one
-NEAR = 0.97  # share of the Mach number of an end; slices with a larger Mach number may exceed it on a finer grid
+RISE = 2.0  # a value may rise further by this factor times its rise from half to full resolution
+NEAR = 0.97  # share of an end's Mach number; on a finer grid, slices above this share may exceed the end
 CLOSE = 0.9  # share of an extreme gauge pressure; larger pressures count as close to the extreme
 SPREAD = 4.0  # number of slices over which a grid spreads a wave
-LOST = 1.0  # relative uncertainty of a pressure from which on no result is certain: a finer grid may give another flow
+LOST = 1.0  # relative uncertainty of a pressure at which no result is certain, as a finer grid may give another flow
 
 
 class Grids(NamedTuple):
@@ -90,8 +90,9 @@ def resolution(gas: Gas, spaces: list[Grids]) -> Resolution:
 def behind_jumps(resolved: Resolution, gas: Gas, flows: list[SpaceFlow], jumps: list[float]) -> Resolution:
     """Raise the uncertainties to at least the effect of jumps of the area, which a higher resolution does not reduce.
 
-    A jump of the logarithm of the area raises the pressure of the gas by a share, and changes the Mach number as much
-    as a wave of this pressure rise does. If the pressure rise is as large as the gauge pressure, no result is certain.
+    A jump of the logarithm of the area raises the pressure of the gas by the share `compressed`. The jump changes the
+    Mach number as much as a wave with this pressure rise does. If the pressure rise is as large as the gauge pressure,
+    no result is certain.
     """
     peak, low, mach = resolved.peak_pressure, resolved.min_pressure, resolved.axial_mach
     shares = [compressed(gas, jump) for jump in jumps]
@@ -117,7 +118,7 @@ def compressed(gas: Gas, jump: float) -> float:
 
 
 def net_uncertainty(grids: Grids, jumped: float) -> float:
-    """Estimate the uncertainty of the net mass through an end in a stroke [kg] from the grid of half the resolution.
+    """Estimate the uncertainty of the net mass through an end in a stroke [kg] from the flow at half the resolution.
 
     The uncertainty is at least the sum of the changes of outflow and inflow, because the net mass, their difference,
     may change less by chance. If jumps of the area change the pressure by the share `jumped`, the uncertainty is also
@@ -132,7 +133,7 @@ def net_uncertainty(grids: Grids, jumped: float) -> float:
 
 
 def radial_uncertainty(grids: Grids, jumped: float) -> float:
-    """Estimate the uncertainty of the net radial mass in a stroke [kg]; it is at least `net_uncertainty`."""
+    """Estimate the uncertainty of the net radial mass in a stroke [kg], which is at least `net_uncertainty`."""
     radial = SAFETY * abs(grids.flow.masses.radial - grids.halved.masses.radial)
     return max(radial, net_uncertainty(grids, jumped))
 
@@ -154,7 +155,7 @@ def _shares(gas: Gas, grids: Grids) -> dict[str, float]:
 
 
 def _side_by_side(gas: Gas, fine: SpaceFlow, coarse: SpaceFlow) -> tuple[FloatArray, FloatArray]:
-    """Interpolate the gauge pressures [Pa] of two grids to the angles of the coarse and positions of the fine grid."""
+    """Interpolate the gauge pressures [Pa] of two flows to the angles of `coarse` and the positions of `fine`."""
     here = [np.interp(coarse.angle, fine.angle, column) for column in fine.pressure.T]
     there = [np.interp(fine.position, coarse.position, row) for row in coarse.pressure]
     return np.transpose(here) - gas.pressure, np.array(there) - gas.pressure
@@ -192,7 +193,7 @@ def _reaches(gas: Gas, grids: Grids) -> dict[str, float]:
 
 
 def _mach_reach(fine: SpaceFlow, half: SpaceFlow) -> float:
-    """Estimate the value that the largest Mach number, that of an end or of a slice, may reach with more slices.
+    """Estimate the value that the largest Mach number of all ends and slices may reach with more slices.
 
     The Mach number of a choked end is 1 on every grid. As the slices get shorter, the Mach number of the slices beside
     an end tends to the Mach number of the end. The estimate includes slices that may exceed the Mach number of the end.
@@ -219,9 +220,9 @@ def _profiles(gas: Gas, flow: SpaceFlow) -> dict[str, FloatArray]:
 
 
 def _reach(position: FloatArray, here: FloatArray, coarse: FloatArray, there: FloatArray, times: float = RISE) -> float:
-    """Compute the largest value of the local maxima over the face if each rises further by `times` its last rise.
+    """Compute the largest of the local maxima over the face if every maximum rises further by `times` its last rise.
 
-    The last rise is the rise from the coarse to the fine grid.
+    The last rise of a maximum is the rise from the coarse to the fine grid.
     """
     edged = np.pad(here, 1, constant_values=-np.inf)
     tops = (here >= edged[:-2]) & (here >= edged[2:])
@@ -233,7 +234,7 @@ def _reach(position: FloatArray, here: FloatArray, coarse: FloatArray, there: Fl
 def _relative(value: float, half: float, quarter: float) -> float:
     """Estimate the relative uncertainty of a value from the values at half and a quarter of the resolution.
 
-    It is the larger of two estimates: three times the difference from the value at half the resolution, and the
+    The result is the larger of two estimates: three times the difference from the value at half the resolution, and the
     difference from the value at a quarter. If the error is of first order, both estimates are three times the error.
     """
     return max(SAFETY * abs(half / value - 1.0), abs(quarter / value - 1.0)) if value != 0.0 else 0.0

@@ -45,8 +45,8 @@ class MassFlow:
 
     The first five values are the net flows through the different exits; they add up to 0, see `ExitMasses`. The next
     four values are the outflow and the inflow at each end. The last two values are the uncertainties of net flows that
-    are due to the resolution. They can be large, because the net flow of an end is a small difference between outflow
-    and inflow.
+    are due to the resolution. Such uncertainties can be large, because the net flow of an end is a small
+    difference between outflow and inflow.
     """
 
     front: float = quantity("net mass flow at the front", "m_f", unit="g_per_s", text="at the end that meshes first")
@@ -200,8 +200,8 @@ class SpacesResult:
 class Totals:
     """Power of the selected spaces [W], meshing frequency [Hz], and speed of the meshing point along the face [m/s].
 
-    `axial_meshing_mach` is `axial_meshing_speed` divided by the ambient speed of sound. Both are None for spur gears,
-    because their whole face meshes at once.
+    `axial_meshing_mach` is `axial_meshing_speed` divided by the ambient speed of sound. Both values are None for spur
+    gears, because the whole face of a spur gear meshes at once.
     """
 
     pumping_power: float = quantity("pumping power", "P", unit="w")
@@ -221,8 +221,8 @@ class Totals:
 class Derived:
     """Values derived from the inputs: centre distance [m], and number of slices over the whole face with its grooves.
 
-    `rack_tip_radius` is the tip radius of the rack in normal modules, limited to the value for which both racks have
-    room.
+    `rack_tip_radius` is the tip radius of the rack in normal modules, limited to the largest radius for which both
+    racks have room.
     """
 
     centre_distance: float = quantity("centre distance used", "a", unit="mm")

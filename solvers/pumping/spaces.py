@@ -32,7 +32,7 @@ class Space:
     """The tooth spaces of one gear.
 
     `speed_ratio` is the speed of the gear divided by the speed of the pinion. `lag` is the angle of the gear by which
-    the stroke comes later per metre of face [rad/m].
+    the stroke begins later per metre of face [rad/m].
     """
 
     of_pinion: bool
@@ -123,9 +123,9 @@ def flow_at(
 def coarser_flow_at(mesh: Mesh, space: Space, pinion_speed: float, slices: int, times: int) -> SpaceFlow:
     """Compute the stroke of `flow_at` at a resolution that is `times` times lower.
 
-    Gas dynamics gets fewer slices. It also gets fewer recorded angles, because a step never passes a recorded angle.
-    The pocket chain gets fewer steps, because the number of pockets is a constant of the model. The single pocket gets
-    fewer positions. Raises the errors of `flow_at` except those about the number of steps.
+    Gas dynamics gets fewer slices. Because a step never passes a recorded angle, gas dynamics also gets fewer recorded
+    angles. The pocket chain gets fewer steps, because the number of pockets is a constant of the model. The single
+    pocket gets fewer positions. Raises the errors of `flow_at` except those about the number of steps.
     """
     if mesh.setup.model.flow is Flow.INCOMPRESSIBLE:
         return _single_pocket(mesh, space, pinion_speed, space.table.coarser(times))
@@ -208,7 +208,8 @@ def space_duct(mesh: Mesh, space: Space, pinion_speed: float, part: Stretch, *, 
 def _angles(mesh: Mesh, space: Space) -> FloatArray:
     """Return the recorded angles of the owner [rad].
 
-    They reach from the start of the first stroke on the face to the end of the last stroke.
+    The first angle is the start of the stroke at the end of the face that meshes first. The last angle is the end of
+    the stroke at the other end of the face.
     """
     limits = space.table.limits
     return np.linspace(limits.start, limits.end + space.lag * mesh.setup.gears.face_width, _ANGLES)

@@ -1,9 +1,9 @@
 """Load distribution of helical gears with modifications and misalignment, and their scuffing safety.
 
-`model.solve` computes the load distribution. It uses these modules, in the order of the calculation: inputs;
-contact_lines, modification (the gap over the plane of action) and tooth_stiffness; contact_slices; load_balance (the
-approach of the flanks at every roll position); mesh_results and flank_results. `safety.solve_scuffing` also uses the
-packages thermal (friction, temperatures and film over the flank) and micropitting.
+`model.solve` computes the load distribution. The calculation uses these modules, in this order: inputs; contact_lines,
+modification (the gap over the plane of action) and tooth_stiffness; contact_slices; load_balance (the approach of the
+flanks at every roll position); mesh_results and flank_results. `safety.solve_scuffing` also uses the packages thermal
+(friction, temperatures and film over the flank) and micropitting.
 
 Source: Xue, Zhang, Wang, "The Load Distribution with Modification and Misalignment and Thermal Elastohydrodynamic
 Lubrication Simulation of Helical Gears", Global J. of Researches in Engineering A 20(1), 2020 ("the paper").

@@ -13,10 +13,10 @@ from solvers.gears.pair import ContactPlane, PathOfContact
 from solvers.scuffing.modification import Gap, gap_at
 
 COINCIDENT = 1e-9  # base pitches; breakpoints closer to each other than this count as one
-LEAST_STEPS = 8  # between two breakpoints, even if they are close to each other
-MOST_LINES = 100  # in contact at the same time; no gear has a tenth of this number
-MOST_ZONES = 12  # of one line; further zones are joined to the last zone
-LEAST_SAMPLES = 8  # per smooth part
+LEAST_STEPS = 8  # least number of steps between two breakpoints, even if the breakpoints are close to each other
+MOST_LINES = 100  # largest number of lines in contact at the same time; real gears have less than a tenth of it
+MOST_ZONES = 12  # largest number of zones of one line; further zones are joined to the last zone
+LEAST_SAMPLES = 8  # least number of samples per smooth part
 BISECTIONS = 45  # halvings of the step between samples: 2^-45 of the step is below the rounding of a gap
 GOLDEN_STEPS = 30  # 0.618^30 = 5e-7 of the step between samples; the gap is flat at its minimum
 GOLDEN = 0.6180339887498949  # (sqrt(5) - 1) / 2, the golden section
@@ -91,11 +91,12 @@ def contact_lengths(path: PathOfContact) -> ContactLengths:
 
 
 class RollPositions(NamedTuple):
-    """Roll positions in one base pitch [m], ascending.
+    """Roll positions [m] in one base pitch, in ascending order.
 
-    `corner` marks the roll positions whose line meets a corner of the plane or of the gap; loads may change abruptly
-    there. `side` is 0 for helical gears. The contact length of spur gears jumps at corners. Every corner therefore
-    occurs twice: with side -1 for the limit from below, and with side +1 for the limit from above.
+    `corner` marks the roll positions whose line meets a corner of the plane or of the gap; at these positions loads may
+    change abruptly. `side` is 0 for helical gears. The contact length of spur gears jumps at corners. For spur gears
+    every corner therefore occurs twice: with side -1 for the limit from below, and with side +1 for the limit from
+    above.
     """
 
     phase: FloatArray
@@ -108,9 +109,9 @@ def roll_positions(
 ) -> RollPositions:
     """Return at least `count` roll positions, equidistant between the corners.
 
-    A corner is the roll position (x + y tan beta_b) mod p_bt at which a contact line passes the point (x, y). These
-    points are the corners of the plane, and the points at which kinks of the gap cross each other or an edge of the
-    plane.
+    A contact line passes a point (x, y) at the roll position (x + y tan beta_b) mod p_bt. This roll position is called
+    a corner if the point is a corner of the plane, or if a kink of the gap crosses another kink or an edge of the plane
+    at this point.
     """
     pitch = plane.base_pitch
     x = np.array([0.0, plane.path_length, *along_path])
@@ -152,9 +153,9 @@ def line_ends(plane: ContactPlane, phase: float, side: float) -> tuple[float, fl
 
     Notes
     -----
-    Eq. L3: the line is x = phase - y tan beta_b. A spur line at an end of the path is in contact if `side` is the limit
-    from inside the path. A helical line that only meets a corner of the rectangle is not in contact; otherwise rounding
-    would decide whether this line has the least gap of the unloaded teeth.
+    Eq. L3: the line is x = phase - y tan beta_b. A spur line at an end of the path is in contact if `side` selects the
+    limit from inside the path. A helical line that only meets a corner of the rectangle is not in contact; otherwise
+    rounding would decide whether this line has the least gap of the unloaded teeth.
     """
     if plane.tan_base_helix == 0.0:
         nudged = phase + side * COINCIDENT * plane.base_pitch
@@ -168,7 +169,7 @@ def line_ends(plane: ContactPlane, phase: float, side: float) -> tuple[float, fl
 
 @kernel
 def line_count(plane: ContactPlane) -> int:
-    """Return the largest number of lines that can touch the rectangle at the same time."""
+    """Return the largest number of lines that can touch the plane of action at the same time."""
     return int((plane.path_length + plane.face_width * plane.tan_base_helix) / plane.base_pitch) + 2
 
 
@@ -195,7 +196,10 @@ def gap_on_line(form: Gap, plane: ContactPlane, line: float, y: float) -> float:
 
 @kernel
 def valley(form: Gap, plane: ContactPlane, line: float, low: float, high: float) -> float:
-    """Find y [m] of the least gap between two points of a line by golden section; the gap has one valley there."""
+    """Find y [m] of the least gap between two points of a line by golden section.
+
+    The gap has one valley between the two points.
+    """
     inner, outer = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
     at_inner, at_outer = gap_on_line(form, plane, line, inner), gap_on_line(form, plane, line, outer)
     for _ in range(GOLDEN_STEPS):
@@ -212,7 +216,10 @@ def valley(form: Gap, plane: ContactPlane, line: float, low: float, high: float)
 
 @kernel
 def _edge(form: Gap, plane: ContactPlane, line: float, inside: float, outside: float, reach: float) -> float:
-    """Find y [m] at which the gap equals the approach `reach` [m], between a loaded and an unloaded point of a line."""
+    """Find y [m] of the end of contact between a loaded point `inside` and an unloaded point `outside` of a line.
+
+    At the end of contact, the gap equals the approach `reach` [m].
+    """
     for _ in range(BISECTIONS):
         middle = 0.5 * (inside + outside)
         if gap_on_line(form, plane, line, middle) < reach:

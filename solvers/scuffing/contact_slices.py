@@ -1,4 +1,4 @@
-"""Slices of all contact lines at one roll position, and results from them: friction, forces, largest pressure."""
+"""Slices of all contact lines at one roll position, and results of the slices: friction, forces, largest pressure."""
 
 from dataclasses import dataclass
 from math import ceil
@@ -23,7 +23,7 @@ from solvers.scuffing.modification import MOST_EDGES, Gap, gap_at, smooth_parts
 from solvers.scuffing.tooth_stiffness import PairCompliance, compliance_at, line_load
 
 NUDGE = 1e-3  # share of a slice; distance from the end of a stretch at which the slope of the gap is tested
-EQUAL = 1e-9  # relative; peaks that differ by less differ only by rounding, for example on a line of a spur gear
+EQUAL = 1e-9  # relative difference of peaks; smaller differences are rounding, for example on a line of a spur gear
 
 
 class Mesh(NamedTuple):
@@ -35,7 +35,7 @@ class Mesh(NamedTuple):
 
 
 class Cover(NamedTuple):
-    """Number of slices that cover the lines, their total length [m], and least and largest gap on the slices [m]."""
+    """Number and total length [m] of the slices that cover the lines, and least and largest gap [m] on these slices."""
 
     slices: int
     length: float
@@ -65,7 +65,7 @@ class Slices(NamedTuple):
 
 
 class Peaks(NamedTuple):
-    """Largest value at every roll position and the place of this value, arrays (positions,); see `Peak`."""
+    """Largest value at every roll position and the place of this value, as in `Peak`; arrays (positions,)."""
 
     value: FloatArray
     x: FloatArray
@@ -113,9 +113,9 @@ def _cut(mesh: Mesh, line: float, j: int, zone: FloatArray, slices: int, table: 
 def _parts(
     mesh: Mesh, line: float, ends: tuple[float, float], slices: int, reach: float, zones: FloatArray
 ) -> tuple[int, float]:
-    """Write the loaded stretches of a line to `zones`; return the number of stretches and their total length in y [m].
+    """Write the loaded stretches of a line to `zones`; return the number of stretches and the total y length [m].
 
-    No stretch contains a kink of the gap.
+    On a loaded stretch the gap is below `reach` [m]. No stretch contains a kink of the gap.
     """
     edges, (first_y, last_y) = np.empty(MOST_EDGES), ends
     last = smooth_parts(mesh.gap, line, mesh.plane.tan_base_helix, ends, edges) - 1
@@ -143,8 +143,9 @@ def _parts(
 def gather(mesh: Mesh, phase: float, side: float, slices: int, reach: float, table: Slices) -> Cover:
     """Fill the table with slices of all lines at a roll position.
 
-    The slices cover the stretches of the lines where the gap is below `reach` [m]. A line has `slices` slices, or more
-    because the number of slices of every stretch is rounded up. No slice contains a kink of the gap.
+    The slices cover the stretches of the lines where the gap is below `reach` [m]. A line has at least `slices` slices.
+    Some lines have more, because the number of slices of every stretch is rounded up. No slice contains a kink of the
+    gap.
     """
     plane, zones = mesh.plane, np.empty((MOST_EDGES * MOST_ZONES, 2))
     count, length, least, most = 0, 0.0, np.inf, -np.inf
@@ -166,7 +167,7 @@ def gather(mesh: Mesh, phase: float, side: float, slices: int, reach: float, tab
 
 @inlined_kernel
 def _range(mesh: Mesh, line: float, zone: FloatArray, table: Slices, first: int, last: int) -> tuple[float, float]:
-    """Return the least and the largest gap [m] on a stretch with the slices from `first` up to but without `last`."""
+    """Return the least and the largest gap [m] on a stretch; the slices of the stretch are `first` to `last` - 1."""
     low, high = zone
     at_low, at_high = gap_on_line(mesh.gap, mesh.plane, line, low), gap_on_line(mesh.gap, mesh.plane, line, high)
     least, most = min(at_low, at_high), max(at_low, at_high)
@@ -190,7 +191,7 @@ def _beside(
 ) -> float:
     """Return the least gap [m] between an end of a stretch and the middle of the slice at this end.
 
-    `end` contains y of the end and the step to the other end of the slice [m].
+    `end` contains y [m] of the end of the stretch, and the step [m] from there to the other end of the slice.
     """
     y, step = end
     if table.gap[middle] > table.gap[following]:
@@ -213,7 +214,7 @@ def load_under(compliance: PairCompliance, approach: float, x: float, log_load: 
 
 
 class Survey(NamedTuple):
-    """Sums and largest values over the roll positions.
+    """Sums and largest values at every roll position; arrays over the roll positions.
 
     `friction_moment` is int w |s - s_C| dl [N m]. `loaded_length` and `length` are the loaded and the total length of
     the contact lines [m]. `held` is the number of slices whose approach exceeds the limit of the half-space.
@@ -234,7 +235,7 @@ class Survey(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Peak:
-    """A largest value and its place: x from A, y from the end that meshes first [m]."""
+    """A largest value and its place: distance x [m] from A, and distance y [m] from the end that meshes first."""
 
     value: float
     x: float
@@ -288,7 +289,7 @@ def survey_slices(mesh: Mesh, table: Slices, count: int, error: float, survey: S
 
 @kernel
 def survey_ends(mesh: Mesh, phase: float, side: float, error: float, survey: Survey, i: int) -> None:
-    """Add the peaks at the ends of the lines and at the kinks of the gap.
+    """Add the peaks of roll position i at the ends of the lines and at the kinks of the gap to the survey.
 
     A line that only meets a corner of the plane has no length. The corner then counts as the end of the line.
     """

@@ -1,7 +1,7 @@
 """Load over the face as a function of the gap over the face, and the derivative of this function.
 
-Load and derivative couple the mesh and the shafts. Load and gap are given at equidistant stations over the face;
-between stations the gap is linear. A force on the face is distributed over the stations by hat functions. The hat
+The load and its derivative couple the mesh and the shafts. Load and gap are given at equidistant stations over the
+face; between stations the gap is linear. Hat functions distribute a force on the face over the stations. The hat
 function of a station is 1 at the station, 0 at the neighbouring stations, and linear in between.
 """
 
@@ -19,11 +19,12 @@ from solvers.scuffing.load_balance import TOLERANCE, solve_near
 
 @dataclass(frozen=True, slots=True)
 class FaceResponse:
-    """Transverse `force` [N] at the stations, as mean over a base pitch, and its `derivative` [N/m] by the gaps.
+    """Transverse `force` [N] at the stations, averaged over a base pitch, and its `derivative` [N/m] by the gaps.
 
     The force over the whole face is the same at every roll position. Therefore every row and every column of the
-    derivative adds up to 0. `error` is the approach of the flanks [m], and `log_load` is ln w of the slices, both at
-    every roll position. Both are the start values for the next response of the same mesh under a similar gap.
+    derivative adds up to 0. At every roll position, `error` is the approach of the flanks [m], and `log_load` is ln w
+    of the slices. `error` and `log_load` are the start values for the next response of the same mesh under a similar
+    gap.
     """
 
     force: FloatArray
@@ -50,7 +51,7 @@ def face_response(
     stations : int
         Number of equidistant stations from y = 0 to b, both included.
     start : FaceResponse, optional
-        Response of the same mesh under a similar gap; gives the start values.
+        Response of the same mesh under a similar gap, which contains the start values.
 
     Returns
     -------
@@ -99,8 +100,8 @@ def _respond(
     """Add the forces of all roll positions to `spread`, and their derivatives to `derivative`.
 
     At every roll position the force at station a is the sum of w dl hat_a over the slices. The derivative is
-    k k^T / (1^T k) - P, where P_ab = sum (dw/ddelta) dl hat_a hat_b, k = P 1, and 1 is the vector of ones. Both are
-    multiplied by the share of the roll position. Returns the largest relative residual of the balance.
+    k k^T / (1^T k) - P, where P_ab = sum (dw/ddelta) dl hat_a hat_b, k = P 1, and 1 is the vector of ones. Force and
+    derivative are multiplied by the share of the roll position. Returns the largest relative residual of the balance.
     """
     table, worst = slice_table(mesh, slices), 0.0
     springs = np.zeros(spread.size)

@@ -14,13 +14,13 @@ from solvers.scuffing.modification import kinks_along_face, lead_gaps, profile_g
 from solvers.scuffing.results import ContactPoints, FeatureLine, Flank
 from solvers.scuffing.tooth_stiffness import compliance_at, line_load
 
-SUBSTEPS = 4  # per step between roll positions, if lines are loaded over a part of their length only
-FACE_POINTS = 101  # every percent of the face
+SUBSTEPS = 4  # number of substeps per step between roll positions, if a line is loaded over a part of its length only
+FACE_POINTS = 101  # one point per percent of the face
 NEARLY = 0.98  # share of the largest value; a lower top cannot become the largest by refinement
 TOPS = 3  # number of the highest tops, which are refined
 ZOOMS = 3  # number of zooms; each narrows the place of the maximum by a factor of 3
-ZOOM_POINTS = 7  # per zoom, between the neighbours of a top
-SAME = 1e-6  # of the range of places, or of a length; smaller differences are rounding
+ZOOM_POINTS = 7  # number of points per zoom, between the neighbours of a top
+SAME = 1e-6  # share of the range of places, or of a length; smaller differences are rounding
 
 
 def face_load_factor(balance: LoadBalance, y: float) -> float:
@@ -40,11 +40,11 @@ def face_load_factor(balance: LoadBalance, y: float) -> float:
 
     Notes
     -----
-    Eq. L17: K_Hbeta is the largest value of q(y) = int w dx / p_bt divided by the mean value of q, as in the idea of
-    ISO 6336-1, annex E. The mean value follows from the force in the balance and the face width. The search first
-    computes q at equidistant places, at kinks of the gap and at `y`, and then refines the place with the largest q. The
-    first step takes no substeps between roll positions. If lines are loaded over a part of their length only, this is
-    inexact; then several places with nearly the largest q are refined.
+    Eq. L17: K_Hbeta is the largest value of q(y) = int w dx / p_bt divided by the mean value of q. This follows the
+    idea of ISO 6336-1, annex E. The mean value follows from the force in the balance and the face width. The search
+    first computes q at equidistant places, at kinks of the gap and at `y`, without substeps between roll positions. The
+    search then refines the place with the largest q. If lines are loaded over a part of their length only, q without
+    substeps is inexact; several places with nearly the largest q are then refined.
     """
     plane = balance.mesh.plane
     evenly = np.linspace(0.0, plane.face_width, FACE_POINTS)
@@ -111,7 +111,7 @@ def face_loads(balance: LoadBalance, y: FloatArray, substeps: int = SUBSTEPS) ->
 
 @kernel
 def _face_loads(mesh: Mesh, phase: FloatArray, error: FloatArray, substeps: int, y: FloatArray) -> FloatArray:
-    """Integrate the load along the path from A to E by the trapezoidal rule, for all places of the face at once.
+    """Integrate the load along the path from A to E by the trapezoidal rule, at all places y of the face together.
 
     The integral for a place of the face uses the points at which the contact lines of the roll positions pass this
     place. A step between roll positions begins at the point where the previous step ends. If TE jumps there, this point
@@ -235,8 +235,8 @@ def _maps(
     """Return gap Delta [m] and line load w [N/m] over a grid.
 
     The iteration for the load at a point starts from the load at the same place of the face in the previous row. If the
-    iteration started from the neighbouring point of the same row, the processor would have to compute these points one
-    by one.
+    iteration started from the neighbouring point of the same row, the processor would have to compute the points of the
+    row one by one.
     """
     plane, compliance, form = mesh.plane, mesh.compliance, mesh.gap
     gaps, loads = np.empty((x.size, y.size)), np.zeros((x.size, y.size))
@@ -277,7 +277,8 @@ def contact_pressure(plane: ContactPlane, radius: FloatArray, load: FloatArray, 
 
     Notes
     -----
-    Eq. 14 of the paper is pi/4 of this value. This is the mean pressure, but the paper calls it the maximum pressure.
+    Eq. 14 of the paper gives the mean pressure, which is pi/4 of the value returned here. The paper calls the mean
+    pressure the maximum pressure.
     """
     defined = radius >= plane.least_radius
     pressure = hertz.maximum_pressure(load, np.where(defined, radius, 1.0), modulus)

@@ -106,7 +106,7 @@ class LeadCurve:
     """A gap [m] over the face along the transverse line of action, positive where material is missing.
 
     The positions [m] are distances from the end that meshes first, in ascending order. The gap is linear between the
-    positions, and constant outside them.
+    positions, and constant before the first and after the last position.
     """
 
     position: tuple[float, ...] = quantity(
@@ -141,8 +141,8 @@ class Modifications:
     the end that leaves the mesh last. Shaft deviations over the face, in the plane of the shafts and out of this plane,
     act like a helix slope. `tip_relief` acts at E and is the sum of the reliefs of pinion tip and wheel root.
     `root_relief` acts at A and is the sum of the reliefs of pinion root and wheel tip. The lengths of tip and root
-    relief are measured along the line of action [m], the length of the end relief along the face [m]. If a length is
-    None, the default in `modification.gap` is used. `lead_curve` adds any further gap over the face.
+    relief are measured along the line of action [m]. The length of the end relief is measured along the face [m]. If a
+    length is None, the default in `modification.gap` is used. `lead_curve` adds any further gap over the face.
     """
 
     profile_crowning: float = quantity(
@@ -277,11 +277,12 @@ class Modifications:
 class Model:
     """Options of the physical model.
 
-    `tooth_stiffness` is "ishikawa" for Ishikawa's tooth, or "parabola" for a parabola over the path whose maximum is
-    that of Ishikawa's tooth. The parabola is calibrated to the paper's load maxima; `parabola_end_ratio` is the
-    stiffness at A and E over the maximum. `contact` is "hertzian" for half-spaces (Weber, Johnson), or "linear" for the
-    paper's linear term. `section` is the section in which the tooth is cut to compute its compliance. `load_convention`
-    is "exact" to use F_bn in the load balance, or "paper" to use F_bt (Eq. 1).
+    `tooth_stiffness` is "ishikawa" for Ishikawa's tooth, or "parabola" for a stiffness that is a parabola along the
+    path. The maximum of the parabola equals the maximum stiffness of Ishikawa's tooth. The parabola is calibrated to
+    the paper's load maxima; `parabola_end_ratio` is the stiffness at A and E divided by the maximum. `contact` is
+    "hertzian" for half-spaces (Weber, Johnson), or "linear" for the paper's linear term. `section` is the section in
+    which the tooth is cut to compute the compliance of the tooth. `load_convention` is "exact" to use F_bn in the load
+    balance, or "paper" to use F_bt (Eq. 1).
     """
 
     tooth_stiffness: ToothModel = quantity(
@@ -330,7 +331,7 @@ class Model:
 
 @record
 class Resolution:
-    """Points of the numerical solution and of its output."""
+    """Numbers of points of the numerical solution and of the results."""
 
     roll_positions: int = described("Number of roll positions per base pitch.", default=200)
     slices: int = described("Number of slices of each contact line.", default=100)
@@ -341,7 +342,10 @@ class Resolution:
 
 @record
 class LoadDistributionInputs:
-    """A loaded pair of modified, misaligned gears; without a coefficient of friction the friction loss is unknown."""
+    """A loaded pair of modified, misaligned gears.
+
+    If the coefficient of friction is None, the friction loss is not computed.
+    """
 
     gears: GearPairInputs
     load: Load
@@ -364,9 +368,10 @@ class LoadDistributionInputs:
 
 @record
 class ScuffingTest:
-    """The load stage at which the oil fails in the FZG test A/8.3/90, X_W of the steel, and X_L of the oil.
+    """Result of the FZG test A/8.3/90 of an oil: the load stage at which the oil fails.
 
-    If X_L is None, the X_L of the oil at 90 C is used.
+    The scuffing temperature follows from this load stage, from the structural factor X_W of the steel and from the
+    lubricant factor X_L of the oil. If X_L is None, X_L is computed for the oil at 90 C.
     """
 
     fzg_stage: int = quantity(
@@ -410,10 +415,10 @@ class Temperatures:
 
     The oil enters the contact at the bulk temperature. If `bulk_method` is "estimated", the bulk temperature follows
     from the oil, the oil supply and Blok's flash temperature; `bulk` is None before this estimate. If `bulk_method` is
-    "heat_balance", the bulk temperature is the mean of `flanks`, the temperatures of both flanks [K] from the balance
-    of losses and oil. If a bulk temperature is given, `bulk_method` must be "given". The scuffing temperature is a
-    property of oil and material that the paper does not state. The user gives it as a number or gives a test result.
-    Without a scuffing temperature there is no safety factor.
+    "heat_balance", the bulk temperature is the mean of `flanks`. `flanks` are the temperatures of both flanks [K] from
+    the heat balance. If a bulk temperature is given, `bulk_method` must be "given". The scuffing temperature is a
+    property of oil and material that the paper does not state. The user gives the scuffing temperature as a number, or
+    gives the result of a scuffing test. Without a scuffing temperature there is no safety factor.
     """
 
     bulk: float | None = quantity(
@@ -491,7 +496,10 @@ class Temperatures:
 
 @record
 class FlankSurfaces:
-    """How the flanks are hardened; retained austenite counts only if its content exceeds 25 %."""
+    """Hardening of both flanks.
+
+    Select a surface with retained austenite only if the content of retained austenite exceeds 25 %.
+    """
 
     pinion: FlankSurface = quantity(
         "surface of the pinion", "W_W1", ISO_TR_15144, default="case_hardened", assumed="case-hardened flanks"
@@ -503,12 +511,13 @@ class FlankSurfaces:
 
 @record
 class MicropittingCheck:
-    """Inputs of the checks against micropitting and wear: micropitting test of the oil, surfaces and quality of flanks.
+    """Inputs of the checks against micropitting and wear.
 
+    The inputs describe the micropitting test of the oil, and the surfaces and the quality of the flanks.
     `permissible_ratio` is given instead of the test. `material_factor` replaces the factors of the surfaces. If
     `material_factor` is None, the smaller factor of both surfaces is used. If neither a failure load stage nor a
-    permissible ratio is given, the film is computed, but no safety factor. `quality_grade` is only used for the load
-    sharing of the standard.
+    permissible ratio is given, the film is computed, but the safety factor is not. `quality_grade` is only used for the
+    load sharing of the standard.
     """
 
     failure_load_stage: int | None = quantity(
@@ -573,14 +582,14 @@ class MicropittingCheck:
 class ScuffingInputs:
     """Inputs of a scuffing check.
 
-    If `oil` is given, `lubricant` becomes this oil at the bulk temperature. If neither is given, film, contact
-    temperature and safety factor are not computed. `friction` is "given" to use the coefficient of `distribution`, or
-    "iso_tr_13989" to use the mean coefficient of ISO/TR 13989-1 for Blok's flash temperature, and Schlenk's coefficient
-    for the losses. `lubrication` is "thermal_ehl" to solve the film under the local load with the model `film`, or
-    "closed_form" to use only the formulas of Blok and of Dowson and Higginson. These formulas are evaluated in either
-    case. `line` is "flank" to check the whole flank, or "feature_line" to check only the paper's diagonal from A1 to
-    E2. Each checked line has `path_points` equidistant points. `cooling` is only used if the bulk temperature follows
-    from the heat balance.
+    If `oil` is given, `lubricant` becomes this oil at the bulk temperature. If neither `oil` nor `lubricant` is given,
+    film, contact temperature and safety factor are not computed. `friction` is "given" to use the coefficient of
+    `distribution`, or "iso_tr_13989" to use the mean coefficient of ISO/TR 13989-1 for Blok's flash temperature, and
+    Schlenk's coefficient for the losses. `lubrication` is "thermal_ehl" to solve the film under the local load with the
+    model `film`, or "closed_form" to use only the formulas of Blok and of Dowson and Higginson. These formulas are
+    evaluated in either case. `line` is "flank" to check the whole flank, or "feature_line" to check only the paper's
+    diagonal from A1 to E2. Each checked line has `path_points` equidistant points. `cooling` is only used if the bulk
+    temperature follows from the heat balance.
     """
 
     distribution: LoadDistributionInputs

@@ -4,9 +4,10 @@ Every line is cut into slices of the length dl = dy / cos beta_b. The line load 
 length of contact line, is computed at the middle of every slice. The sum of w dl over the slices is F_bn (Eq. 9 with
 one TE for all points of a roll position). If a line is loaded over a part of its length only, the part that is loaded
 at the last TE is cut into slices again, until TE no longer changes. The slices then cover exactly the contact, even if
-the contact is small. Roll positions are added where TE is not linear between them. The paper's iteration (Eq. 10)
-converges only while the mean relief in contact is below TE/2. Here Newton's method is used, because the force F(TE) is
-convex and increasing. With linear contact the method reaches the exact solution in a finite number of steps.
+the contact is small. If TE is not linear between roll positions, further roll positions are added between them. The
+paper's iteration (Eq. 10) converges only if the mean relief in contact is below TE/2. Here Newton's method is used,
+because the force F(TE) is convex and increasing. With linear contact, Newton's method reaches the exact solution in a
+finite number of steps.
 """
 
 from dataclasses import dataclass, replace
@@ -34,18 +35,18 @@ from solvers.scuffing.contact_slices import (
 from solvers.scuffing.modification import gap_at
 from solvers.scuffing.tooth_stiffness import LEAST_OMEGA, line_load_near
 
-MAX_STEPS = 60  # limit; a roll position that has not converged after these steps never does
+MAX_STEPS = 60  # largest number of Newton steps; a roll position that needs more steps never converges
 ROUNDING = 1e-14  # relative residual of the force, below which a Newton step gains nothing
 NEAR_ROUNDING = 1e-12  # relative residual of the force that is accepted if a step does not reduce the residual
 TOLERANCE = 1e-10  # largest relative residual of the force in a solution
 MAX_COVERS = 20  # number of times that the lines of one roll position are cut into slices
-SETTLED = 1e-6  # relative change of the approach between two covers, below which the last cover is accepted
-STRAIGHT = 2e-3  # of the approach; largest distance of TE from the line through its neighbours that counts as linear
+SETTLED = 1e-6  # relative change of the approach; if two covers differ by less, the last cover is accepted
+STRAIGHT = 2e-3  # largest distance of a linear TE from the line through its neighbours, as share of the approach
 MAX_HALVINGS = 8  # largest number of times that a step between roll positions is halved
 MOST_ADDED = 1000  # largest number of roll positions that are added per halving
-LEAST_LINE_LOAD = 0.1  # N/m, mean line load; below it the approach is as small as the rounding of large gaps
+LEAST_LINE_LOAD = 0.1  # N/m, mean line load; below this load the approach is as small as the rounding of large gaps
 LEAST_SPREAD = 1e-12  # m, least range of a kinematic error that is tested for linearity
-BESIDE = 1e-12  # of the path; distance from a load jump at which both sides of the jump are computed, above rounding
+BESIDE = 1e-12  # distance of the points on both sides of a load jump from the jump, as share of the path
 
 
 Start = tuple[FloatArray, FloatArray]
@@ -54,7 +55,7 @@ Start = tuple[FloatArray, FloatArray]
 
 @kernel
 def _secant_start(table: Slices, count: int, logarithmic: float, force: float) -> float:
-    """Return the exact TE of the linear problem; half-spaces have the secant compliance at the mean load.
+    """Return the exact TE of the linear problem, in which half-spaces have the secant compliance at the mean load.
 
     The first step treats all slices as if they were in contact and could also pull. The TE of this step is too large,
     because slices that pull reduce the force. The next steps of Newton's method reduce TE, with fewer and fewer slices
@@ -89,8 +90,8 @@ def _press(table: Slices, count: int, logarithmic: float, error: float) -> tuple
 
     Returns the force [N], the derivative of the force by the approach [N/m], the error of the force that remains
     because the loads of slices have not converged [N], and the distance of the approach from the nearest kink [m]. The
-    load of a slice has a kink at the approach at which the slice comes into contact, and at the approach beyond which
-    its compliance is held constant.
+    load of a slice has two kinks as a function of the approach: where the slice comes into contact, and where the
+    compliance of the slice begins to be held constant.
     """
     force, slope, unsettled, nearest = 0.0, 0.0, 0.0, np.inf
     for i in range(count):
@@ -147,9 +148,9 @@ def newton(table: Slices, count: int, logarithmic: float, force: float, error: f
     Notes
     -----
     Eq. L13. TE and the loads of the slices are iterated together: with every step of TE, every slice takes one step
-    towards its load. The iteration ends after a step that crosses no kink and whose square, which estimates the
-    error, is below rounding. The loads then change by their derivatives times this step. With linear contact every
-    step that crosses no kink is the last step.
+    towards its load. The square of a step estimates the error after the step. The iteration ends after a step if the
+    step crosses no kink and this estimate is below rounding. In this last step, every load changes by its derivative
+    times the step of TE. With linear contact every step that crosses no kink is the last step.
     """
     residual, steps = np.inf, 0.0
     while steps < MAX_STEPS:
@@ -174,10 +175,11 @@ def solve_position(table: Slices, count: int, logarithmic: float, force: float) 
 
 @kernel
 def solve_near(table: Slices, count: int, logarithmic: float, force: float, error: float) -> tuple[float, float, float]:
-    """Solve the balance, starting from `error`, the TE [m] of a similar position, and from ln w in the table.
+    """Solve the balance of one roll position from the start values of a similar position.
 
-    If TE is NaN, or if the iteration from this TE fails, the balance is solved without a start value. Returns what
-    `newton` returns.
+    The start values are `error`, which is the TE [m] of the similar position, and ln w in the table. If `error` is NaN,
+    or if the iteration from these start values fails, the balance is solved without start values. Returns what `newton`
+    returns.
     """
     if not np.isnan(error):
         error, residual, steps = newton(table, count, logarithmic, force, error)
@@ -210,7 +212,7 @@ class LoadBalance:
 def balance_load(
     mesh: Mesh, rolls: RollPositions, force: float, slices: int, start: Start | None = None
 ) -> LoadBalance:
-    """Balance the load at the roll positions, and at roll positions that are added between them.
+    """Balance the load at the given roll positions, and at further roll positions where TE is not linear.
 
     Parameters
     ----------
@@ -228,7 +230,7 @@ def balance_load(
     Returns
     -------
     LoadBalance
-        TE and loads at all roll positions; if the force is 0, the kinematic error.
+        TE and loads at all roll positions. If the force is 0, TE is the kinematic error.
 
     Raises
     ------
@@ -269,8 +271,8 @@ def _balanced(mesh: Mesh, rolls: RollPositions, force: float, slices: int, start
 def _bent_steps(balance: LoadBalance) -> IntArray:
     """Return the indices of the steps between roll positions across which TE is not linear, in ascending order.
 
-    The measure is the distance of TE at a position from the straight line through TE at both neighbouring positions.
-    Corners are left out.
+    TE is linear at a position if TE is close to the straight line through TE at both neighbouring positions. Corners
+    are left out.
     """
     phase, error = balance.rolls.phase, balance.transmission_error
     spread = np.full(error.size, max(float(np.ptp(error)), LEAST_SPREAD))
@@ -360,9 +362,10 @@ def _balance(
 def error_at(
     plane: ContactPlane, phase: FloatArray, error: FloatArray, x: float, y: float, index: int
 ) -> tuple[float, int]:
-    """Return TE at the roll position whose line passes through (x, y), and the index of its step.
+    """Return TE at the roll position whose line passes through (x, y), and the index of the step at this position.
 
-    The search starts from step `index`. At the end of the path, TE is the value just before the line leaves the path.
+    A step lies between two neighbouring roll positions of the balance. The search starts from step `index`. At the end
+    of the path, TE is the value just before the line leaves the path.
     """
     line = min(x, plane.path_length * (1.0 - BESIDE)) + y * plane.tan_base_helix
     position = line - int(line / plane.base_pitch) * plane.base_pitch

@@ -17,7 +17,7 @@ from solvers.scuffing.load_balance import LoadBalance
 from solvers.scuffing.results import ErrorCurves, FrictionLoss, Stiffness, StiffnessCurves, TransmissionError
 from solvers.scuffing.tooth_stiffness import single_stiffness
 
-CURVE_POINTS = 101  # of the stiffness curve: every percent of the path
+CURVE_POINTS = 101  # number of points of the stiffness curve, one per percent of the path
 REFERENCE_LOAD = 100e3  # N/m, line load for which ISO 6336-1 states c'; used if there is no load
 STEEL = 206e9  # Pa, modulus for which ISO 6336-1 states c'
 DISC_FACTOR = 1.0  # C_R of solid discs
@@ -26,10 +26,11 @@ HARMONICS = 5  # number of harmonics, chosen
 
 
 def iso_load_sharing(path: PathOfContact, x: FloatArray) -> FloatArray | None:
-    """Return X_Gamma X_but at distances x [m] from A; None if the standard has no diagram for the pair.
+    """Return the load sharing X_Gamma X_but at distances x [m] from A; None if the standard has no diagram.
 
-    Narrow gears (eps_gamma < 2) have the load sharing of spur gears of quality 7 or better. Wide gears have the load
-    sharing 1 / eps_alpha. The standard has no diagram for eps_alpha < 1, and none for spur gears with eps_alpha >= 2.
+    X_Gamma is the load sharing factor, and X_but is the buttressing factor. Narrow gears (eps_gamma < 2) have the load
+    sharing of spur gears of quality 7 or better. Wide gears have the load sharing 1 / eps_alpha. The standard has no
+    diagram for eps_alpha < 1, and none for spur gears with eps_alpha >= 2.
     """
     ratio = path.transverse_contact_ratio
     if ratio < 1.0 or (path.overlap_ratio == 0.0 and ratio >= 2.0):
@@ -49,10 +50,10 @@ def _narrow(x: FloatArray, length: float, double: float) -> FloatArray:
 
 
 def _buttressing(path: PathOfContact, x: FloatArray) -> FloatArray:
-    """Return the factor by which helical teeth carry more at their ends; 1 for spur gears.
+    """Return the factor by which helical teeth carry more load near the ends of the path; 1 for spur gears.
 
     The factor is 1 + 0.3 min(eps_beta, 1) at A and E. From there the factor falls to 1 within a distance of
-    0.2 sin beta_b in Gamma (Eq. 15).
+    0.2 sin beta_b in Gamma (Eq. 15), where Gamma is the profile parameter.
     """
     plane = path.plane
     ramp = 0.2 * plane.tan_base_helix * plane.cos_base_helix * path.pitch_point
@@ -163,7 +164,7 @@ def stiffness(
 ) -> Stiffness:
     """Return the stiffness of the mesh, and the stiffness of one pair of teeth along the path.
 
-    The stiffness of one pair is the secant stiffness at the mean line load [N/m]; without load, at `REFERENCE_LOAD`.
+    The stiffness of one pair is the secant stiffness at the mean line load [N/m], or at `REFERENCE_LOAD` without load.
     """
     secant_load = mean_load if mean_load > 0.0 else REFERENCE_LOAD
     single = single_stiffness(balance.mesh.compliance, secant_load)
@@ -202,8 +203,9 @@ def transmission_error(balance: LoadBalance) -> TransmissionError:
 
     Notes
     -----
-    Eq. L18. Mean and harmonics are integrals by the trapezoidal rule over the roll positions. Jumps of spur gears
-    cause no error, because a roll position with a jump occurs twice: with the value before and after the jump.
+    Eq. L18. Mean and harmonics are integrals by the trapezoidal rule over the roll positions. Jumps of spur gears cause
+    no error of the integrals, because a roll position with a jump occurs twice: with the value before the jump and with
+    the value after the jump.
     """
     error, phase = balance.transmission_error, balance.rolls.phase
     return TransmissionError(
@@ -223,7 +225,7 @@ def period_mean(values: FloatArray, phase: FloatArray) -> float:
 
 def _fourier(values: FloatArray, phase: FloatArray) -> NDArray[np.complex128]:
     """Return the complex Fourier coefficients c_1, c_2, ... of a function of the roll position."""
-    # wave k is the first wave to the power k
+    # Wave k is the first wave raised to the power k.
     waves = np.cumprod(np.tile(np.exp(-2j * np.pi * phase / phase[-1]), (HARMONICS, 1)), axis=0)
     return np.asarray(np.trapezoid((values - values.mean()) * waves, phase) / phase[-1])
 
@@ -247,13 +249,14 @@ def friction_loss(
     Returns
     -------
     FrictionLoss
-        Friction power [W], loss factor and efficiency [-]; None where load or coefficient of friction is missing.
+        Friction power [W], loss factor and efficiency [-]. Without load, the power is 0, and loss factor and efficiency
+        are None. Without a coefficient of friction, power and efficiency are None.
 
     Notes
     -----
     Eq. L19: P_V = f/p_bt int sum_j int w |u1 - u2| dl dphase with u1 - u2 = (omega_1 + omega_2)(s - s_C), and
-    H_V = P_V / (f P). Friction power and efficiency belong to the transmitted power; load factors raise only the load
-    of the contacts.
+    H_V = P_V / (f P). Friction power and efficiency are computed without load factors, because load factors raise
+    only the load of the contacts and not the transmitted power.
     """
     if balance.force == 0.0:
         return FrictionLoss(friction_coefficient, loss_factor=None, power=0.0, efficiency=None)

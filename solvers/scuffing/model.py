@@ -33,7 +33,7 @@ from solvers.scuffing.tooth_stiffness import pair_compliance
 
 @dataclass(frozen=True, slots=True)
 class PreparedMesh:
-    """Values of a mesh before the load balance: path and lengths of contact, roll positions, forces.
+    """Values of a mesh before the load balance: path of contact, lengths of the contact lines, roll positions, forces.
 
     `mesh` has the gap of the inputs; the other values do not depend on the gap. `tangential_force` is F_bt [N], and
     `force` is the force in the balance [N].
@@ -58,7 +58,7 @@ def mesh_of(inputs: LoadDistributionInputs) -> PreparedMesh:
     Returns
     -------
     PreparedMesh
-        Path and lengths of contact, mesh, roll positions and forces.
+        Path of contact, lengths of the contact lines, mesh, roll positions and forces.
 
     Raises
     ------
@@ -113,7 +113,7 @@ def solve(inputs: LoadDistributionInputs) -> LoadDistribution:
 
 
 def distribution(inputs: LoadDistributionInputs, prepared: PreparedMesh, balance: LoadBalance) -> LoadDistribution:
-    """Return the results of a load balance; the balance may have another gap than the inputs."""
+    """Return the results of a load balance; the gap of the balance may differ from the gap of the inputs."""
     path, lengths, resolution = prepared.path, prepared.lengths, inputs.resolution
     modulus = reduced_modulus(inputs.pinion_material, inputs.wheel_material)
     tangential_force = prepared.tangential_force
@@ -178,7 +178,7 @@ def _derived(path: PathOfContact, form: Gap, load: Load) -> Derived:
 
 
 def _contact_lines(lengths: ContactLengths, balance: LoadBalance) -> ContactLines:
-    """Return the extremes of the contact length in closed form, and the curve of the length over the roll positions."""
+    """Return the extremes of the contact length in closed form, and the contact length at the roll positions."""
     phase = balance.rolls.phase
     return ContactLines(
         min_length=lengths.minimum,

@@ -1,4 +1,4 @@
-"""Modification and misalignment as one gap over the plane of action."""
+"""The gap between the flanks over the plane of action, caused by modification and misalignment together."""
 
 from math import cos, sin
 from typing import NamedTuple
@@ -11,7 +11,7 @@ from solvers.errors import InvalidInput
 from solvers.gears.pair import PathOfContact
 from solvers.scuffing.inputs import LeadCurve, Modifications
 
-LEAD_POINTS = 401  # every 0.25 % of the face; between these points lead curves are linear
+LEAD_POINTS = 401  # one point per 0.25 % of the face; between these points lead curves are linear
 MOST_EDGES = 6  # two ends, two end reliefs, two reliefs along the path
 
 
@@ -35,7 +35,7 @@ def interpolated(table: FloatArray, place: tuple[int, float]) -> float:
 
 
 class Gap(NamedTuple):
-    """Gap Delta(x, y) along the transverse line of action; all amplitudes and lengths are numbers [m].
+    """Gap Delta(x, y) along the transverse line of action; amplitudes and lengths are in [m], and none of them is None.
 
     `lead` is the gap [m] of the lead curve at equidistant points of the face, from end to end.
     """
@@ -224,7 +224,10 @@ def gap_at(form: Gap, x: float, y: float) -> float:
 
 @kernel
 def _insert(edges: FloatArray, count: int, y: float) -> int:
-    """Insert y into the `count` ascending edges if y lies between their ends; return the new number of edges."""
+    """Insert y into the `count` ascending edges, and return the new number of edges.
+
+    The edges do not change if y does not lie between the first and the last edge.
+    """
     if not edges[0] < y < edges[count - 1]:
         return count
     place = count

@@ -24,7 +24,7 @@ PRESSURE_ANGLES = (14.5, 30.0)  # degrees
 LARGEST_HELIX = 45.0  # degrees
 TRANSVERSE_HELIX = 15.0  # degrees
 LEAST_MODIFICATION = 0.5e-6  # m, chosen; smaller modifications cannot be ground
-LEAST_LENGTH_RATIO = 0.2  # chosen: below it the total length of the lines nearly vanishes once per base pitch
+LEAST_LENGTH_RATIO = 0.2  # chosen: at lower ratios the total length of the lines nearly vanishes once per base pitch
 
 
 def geometry_notices(path: PathOfContact, lengths: ContactLengths) -> list[Notice]:
@@ -176,7 +176,7 @@ def unusual_modifications(modifications: Modifications) -> Iterator[Notice]:
 
 
 def unusual_temperatures(temperatures: Temperatures) -> Iterator[Notice]:
-    """Warn of oil temperatures that gears in service do not have, and of such bulk temperatures if they are given."""
+    """Warn if the oil temperature, or a given bulk temperature, does not occur in service."""
     yield from oil_temperature(temperatures.oil)
     if temperatures.bulk_method == "given":
         yield from tooth_temperature(temperatures.bulk)

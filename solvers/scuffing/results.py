@@ -1,6 +1,6 @@
 """Results of a load distribution; SI units, read-only arrays.
 
-x runs along the path from A to E, y along the face from the end that meshes first; gamma is the profile parameter.
+x runs along the path from A to E; y runs along the face from the end that meshes first; gamma is the profile parameter.
 """
 
 from collections.abc import Callable
@@ -197,7 +197,7 @@ class LoadOnFlank:
 class Pressure:
     """Largest Hertzian pressure [Pa] over all roll positions, and its place.
 
-    Both are None if the loaded path reaches a base circle, because the pressure has no limit towards a base circle.
+    Pressure and place are None if the loaded path reaches a base circle, because the pressure has no limit there.
     """
 
     max: float | None = quantity(
@@ -247,7 +247,10 @@ class ContactPoints:
 
     @property
     def undefined(self) -> BoolArray:
-        """True at loaded points too near a base circle to have a contact width, a pressure or a flash temperature."""
+        """True at loaded points that are too near a base circle.
+
+        Such points have no contact width, no pressure and no flash temperature.
+        """
         return (self.line_load > 0.0) & (self.half_width <= 0.0)
 
 
@@ -309,7 +312,10 @@ class FeatureLine:
 
 @record
 class Flank:
-    """Maps [profile, face] of modification [m], line load [N/m] and pressure [Pa] (NaN where R_n vanishes)."""
+    """Maps [profile, face] of modification [m], line load [N/m] and pressure [Pa].
+
+    The pressure is NaN at points where the reduced radius R_n vanishes.
+    """
 
     profile_fraction: FloatArray = quantity("profile position of the map", "ξ", text="fraction of the path from A to E")
     face_fraction: FloatArray = quantity(

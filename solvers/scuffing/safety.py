@@ -55,7 +55,9 @@ from solvers.scuffing.thermal.verdict import (
     without_thermal,
 )
 
-AS_HOT = 0.02  # share by which the hottest point must exceed the feature line, so that its profile line is checked
+# The profile line through the hottest point is checked if the flash temperature at this point exceeds the largest flash
+# temperature on the feature line by more than this share.
+AS_HOT = 0.02
 
 
 def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
@@ -75,8 +77,8 @@ def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
     Raises
     ------
     InvalidInput
-        `exclusive` if a bulk temperature is given and its method is "estimated"; the errors of `model.solve` and
-        `in_force`; the error of the thermal EHL solver if it refuses every point.
+        `exclusive` if a bulk temperature is given and `bulk_method` is "estimated"; the errors of `model.solve` and
+        `in_force`; the error of the thermal EHL solver if the solver refuses every point.
     NoSolution
         The errors of `model.solve` and `in_force`.
 
@@ -113,6 +115,8 @@ def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
         flash, film = Flash(None, None), Film()
     elif unknown:
         flash, film = without_thermal(flash, film)
+    if given.friction_coefficient is None and np.isnan(flash_map.flash).any():
+        flash = Flash(None, None)  # a line without contact would give 0
     flash = replace(flash, friction_coefficient=inputs.distribution.friction_coefficient)
     micropitting = check_micropitting(inputs, distribution, flash_map, film.thermal_ehl_min)
     paths = [_with_film_ratio(micropitting, *both) for both in zip(paths, lines, strict=True)]
@@ -145,7 +149,7 @@ def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
 class _Line(NamedTuple):
     """Points of a line over the flank, with Blok's flash temperature [K] and the film of the formula [m].
 
-    `psi` is the fraction of the path from A, `face` the distance from the end that meshes first [m].
+    `psi` is the fraction of the path from A, and `face` is the distance from the end that meshes first [m].
     """
 
     psi: FloatArray
@@ -174,10 +178,10 @@ def _lines(
 ) -> tuple[list[_Line], _Line | None]:
     """Return the lines to check, and the profile line through the hottest point even if this line is not checked.
 
-    The feature line is always checked. The profile line is checked if it is clearly hotter (`AS_HOT`). The points of a
-    line are equidistant. The hottest point of each line is added, and on the feature line also the point with the
-    thinnest film of the formula. Without these points, a largest value would depend on the number of points. The
-    profile line is None if `hottest` is None.
+    The feature line is always checked. The profile line is checked if it is clearly hotter than the feature line
+    (`AS_HOT`). The points of a line are equidistant. The hottest point of each line is added; on the feature line, the
+    point with the thinnest film of the formula is also added. Without these points, the largest values would depend on
+    the number of points. The profile line is None if `hottest` is None.
     """
     line_at = partial(_line_at, inputs.distribution, distribution, film_at)
     even = np.linspace(0.0, 1.0, inputs.path_points)
@@ -205,8 +209,8 @@ def _or_along(distribution: LoadDistribution, line: _Line, thinnest: Peak) -> Pe
     """Return `thinnest`, or the thinnest film of the formula on a profile line if this film is thinner.
 
     A spur pair and its mirror image have different feature lines, so that the profile line may be checked for only one
-    of the pairs. Here the points of the profile line always count. The pair and its mirror image then have the same
-    thinnest film.
+    of the pairs. This function therefore always takes the points of the profile line into account. The pair and its
+    mirror image then have the same thinnest film.
     """
     if np.isnan(line.film).all():
         return thinnest
@@ -240,7 +244,7 @@ def _contact_temperature(
 def _with_band(
     temperatures: Temperatures, heat: Heat, flash: Flash, safety: Safety | None
 ) -> tuple[Heat, Safety | None]:
-    """Add the range of the safety factor to the band of the heat balance, and take the verdict from the lower end."""
+    """Add the range of the safety factor to the band of the heat balance; base the verdict on the smallest factor."""
     if safety is None or safety.blok_factor is None or flash.blok_max is None or heat.band is None:
         return heat, safety
     contacts = [sum(flanks) / 2 + flash.blok_max for flanks in heat.flank_cases]
@@ -325,7 +329,7 @@ def _closed_form_path(inputs: ScuffingInputs, line: _Line) -> ScuffingPath:
 
 
 def _with_thermal(inputs: ScuffingInputs, path: ScuffingPath, thermal: ThermalPath) -> ScuffingPath:
-    """Add the thermal EHL solution to a path; the thickness ratio becomes that of the film by thermal EHL."""
+    """Add the thermal EHL solution to a path, and recompute the thickness ratio with the film by thermal EHL."""
     given = inputs.distribution
     ratio = thickness_ratio(thermal.minimum_film, given.pinion_material.roughness, given.wheel_material.roughness)
     status = tuple(
@@ -336,7 +340,7 @@ def _with_thermal(inputs: ScuffingInputs, path: ScuffingPath, thermal: ThermalPa
 
 
 def _with_film_ratio(flank: CheckedFlank, path: ScuffingPath, line: _Line) -> ScuffingPath:
-    """Add the film ratio against micropitting to a path, if the micropitting check has computed a film."""
+    """Add the film ratio of the micropitting check to a path, if this check has computed a film."""
     if flank.film is None:
         return path
     return replace(path, micropitting_ratio=frozen(flank.film.ratio(line.points, line.face)))

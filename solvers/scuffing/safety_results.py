@@ -1,4 +1,4 @@
-"""Results of the scuffing check, without the load distribution; SI units, arrays read-only."""
+"""Results of the scuffing check, without the load distribution; SI units, read-only arrays."""
 
 from typing import Literal
 
@@ -127,10 +127,10 @@ class Film:
     """Thinnest film [m], its place and its ratio to the roughness.
 
     The values are None if no point is loaded. If an unsolved point may have the thinnest film, only the film of the
-    formula is stated. The film of the formula is the thinnest over the flank; the film by thermal EHL is the thinnest
-    on the solved lines. Place, ratio and regime are those of the film by thermal EHL if there is one, even if the film
-    of the formula is thinner. `min_at_psi` is the place of the thinnest film on the feature line. `min_at_profile` and
-    `min_at_face` [m] are the place of the thinnest film on all lines or over the flank.
+    formula is stated. By the formula, the thinnest film over the flank is stated. By thermal EHL, the thinnest film on
+    the solved lines is stated. Place, ratio and regime belong to the film by thermal EHL if this film is stated, even
+    if the film of the formula is thinner. `min_at_psi` is the place of the thinnest film on the feature line.
+    `min_at_profile` and `min_at_face` [m] are the place of the thinnest film on all lines or over the flank.
     """
 
     dowson_higginson_min: float | None = quantity(
@@ -236,7 +236,8 @@ class ThermalPath:
 
     The values are NaN at unsolved points. A point that the solver refuses because its load is too light has bounds
     instead. `flash_bound` [K] and `film_bound` [m] are the flash temperature and the film of this point under the
-    lightest load that the solver accepts. The point is not hotter, and its film is not thinner.
+    lightest load that the solver accepts. The real flash temperature of the point is not higher than `flash_bound`, and
+    the real film is not thinner than `film_bound`.
     """
 
     status: tuple[PointStatus, ...]
@@ -265,7 +266,8 @@ class ScuffingPath:
     and its ratio are NaN, and its flash temperature by Blok is 0. A loaded point at which the reduced radius vanishes
     has the status "refused"; all its values are NaN. `thermal` is None in closed form. Otherwise, points that the
     thermal EHL solver could not solve have the status "no_solution", and points that the solver does not accept have
-    the status "refused". The thickness ratio is that of the film by thermal EHL if there is one.
+    the status "refused". The thickness ratio is computed from the film by thermal EHL, or from the film of the
+    formula if `thermal` is None.
     """
 
     psi: FloatArray = quantity(

@@ -26,11 +26,13 @@ from solvers.materials import Solid
 from solvers.scuffing.inputs import Model
 from solvers.scuffing.modification import interpolated, place_of
 
-TABLE_POINTS = 801  # every 0.125 % of the path, chosen
+TABLE_POINTS = 801  # one point per 0.125 % of the path, chosen
 LEAST_RADIUS = 1e-6  # normal modules; on a base circle the reduced radius and the half width would be 0
 SHALLOWEST = 2.0  # least ratio of the depth of the half-space to the half width of the contact
-OMEGA_STEPS = 12  # limit of Newton's method for the branch of Lambert's function
-LEAST_OMEGA = 2.0  # lower limit of a guess; omega is larger unless the compliance is held, and has no meaning below 1
+OMEGA_STEPS = 12  # largest number of iterations for the branch of Lambert's function
+# Lower limit of a guess of omega. The true omega exceeds this limit unless the compliance is held constant. Values of
+# omega below 1 have no meaning.
+LEAST_OMEGA = 2.0
 # Relative step of omega. The error after a smaller step is below a tenth of the fourth power of this step, so that the
 # next step would only be rounding.
 LAST_STEP = 1e-3
@@ -40,8 +42,8 @@ LAST_STEP = 1e-3
 class LoadPoints:
     """Points at which a tooth is loaded; the fields are arrays over these points.
 
-    `height` is the height above the root chord [m], `angle` the angle between the load and the normal of the centre
-    line [rad], `depth` the distance from the flank to the centre line along the load [m].
+    `height` is the height above the root chord [m], `angle` is the angle between the load and the normal of the centre
+    line [rad], and `depth` is the distance from the flank to the centre line along the load [m].
     """
 
     height: FloatArray
@@ -65,8 +67,8 @@ class ToothShape:
 def section_gear(pair: GearPair, gear: Gear, teeth: GearTeeth, section: Literal["normal", "transverse"]) -> Gear:
     """Return the gear whose teeth are used to compute the bending.
 
-    In the transverse section this is the gear itself. In the normal section it is the virtual spur gear with
-    z / (cos^2 beta_b cos beta) teeth.
+    For the transverse section, the gear itself is returned. For the normal section, the virtual spur gear with
+    z / (cos^2 beta_b cos beta) teeth is returned.
     """
     return gear if section == "transverse" else virtual_gear(pair.inputs, teeth, pair.base_helix_angle)
 
@@ -100,8 +102,8 @@ def tooth_shape(gear: Gear) -> ToothShape:
 def load_points(gear: Gear, radius: FloatArray) -> LoadPoints:
     """Return the load points at radii [m].
 
-    The load angle is alpha_x - g_x, the pressure angle of the flank minus the half tooth angle. The paper calls the
-    load angle a pressure angle; but the arm of the bending moment follows from the load angle.
+    The load angle is alpha_x - g_x, which is the pressure angle of the flank minus the half tooth angle. The paper
+    calls the load angle a pressure angle; but the arm of the bending moment follows from the load angle.
     """
     pressure_angle = np.arccos(np.minimum(gear.base_radius / radius, 1.0))
     half_angle = gear.reference_half_angle + gear.reference_involute - np.tan(pressure_angle) + pressure_angle
@@ -281,9 +283,9 @@ def _apex_fraction(shape: ToothShape, points: LoadPoints) -> FloatArray:
 class PairCompliance(NamedTuple):
     """Compliance over equidistant points from A to E.
 
-    For linear contact `constant` [1/Pa] is C and `logarithmic` is 0; for half-spaces they are A and a. At the approach
-    `limit` [m] the half width of the contact reaches half the depth of the half-space. Beyond this approach the
-    compliance is held constant.
+    For linear contact, `constant` [1/Pa] is C and `logarithmic` [1/Pa] is 0. For half-spaces, `constant` is A and
+    `logarithmic` is a. At the approach `limit` [m], the half width of the contact reaches half the depth of the
+    half-space. Beyond this approach the compliance is held constant.
     """
 
     constant: FloatArray
@@ -303,7 +305,9 @@ class Member:
 
 
 def pair_compliance(path: PathOfContact, pinion: Solid, wheel: Solid, model: Model) -> PairCompliance:
-    """Compute the compliance of a pair of teeth along the path; the result is kept for further loads of the same teeth.
+    """Compute the compliance of a pair of teeth along the path.
+
+    The result is stored and reused for further loads of the same teeth.
 
     Parameters
     ----------
@@ -391,7 +395,8 @@ def linear_contact_compliance(pinion: Solid, wheel: Solid) -> float:
 def _member(gear: Gear, section: Gear, roll_length: FloatArray, material: Solid) -> Member:
     """Return a gear of the pair with the bending compliance of its section.
 
-    The section is loaded at the same heights above its reference circle as the gear.
+    The load points of the section are as high above the reference circle of the section as the load points of the gear
+    are above the reference circle of the gear.
     """
     radius = np.hypot(gear.base_radius, roll_length)
     points = load_points(section, section.reference_radius + radius - gear.reference_radius)
@@ -399,8 +404,9 @@ def _member(gear: Gear, section: Gear, roll_length: FloatArray, material: Solid)
 
 
 def _half_space(path: PathOfContact, x: FloatArray, members: list[Member]) -> tuple[FloatArray, float, float]:
-    """Return offset [1/Pa] and slope [1/Pa] of the half-space, and the least part of omega that is due to the contact.
+    """Return offset [1/Pa] and slope [1/Pa] of the half-space compliance, and the contact's part of omega at the limit.
 
+    At the limit, the half width of the contact is half the depth of the half-space. For lighter loads omega is larger.
     The compliance of the half-spaces is (Johnson 1985; Weber)
     delta_H / w = sum_i (1 - nu_i^2)/(pi E_i) [2 ln(2 d_i / b_H) - nu_i/(1 - nu_i)],  b_H^2 = 8 w R_n/(pi E').
     """
@@ -501,7 +507,7 @@ def line_load_near(
 
 @kernel
 def _secants(constant: FloatArray, limit: FloatArray, logarithmic: float, load: float) -> FloatArray:
-    """Return 1 / (a omega) at a line load [N/m]; if the load is beyond the limit, omega is that of the limit."""
+    """Return 1 / (a omega) at a line load [N/m]; if the load exceeds the load at the limit, use omega at the limit."""
     stiffness = np.empty(constant.size)
     for i in range(constant.size):
         _, _, log_limit = line_load(limit[i], constant[i], logarithmic, limit[i], np.log(load))

@@ -1,5 +1,6 @@
 """Defaults of the solvers' inputs: practice, as the service has them, or none."""
 
+from dataclasses import replace
 from math import radians
 
 import pytest
@@ -26,6 +27,15 @@ def test_no_oil_is_assumed() -> None:
     assert "no_oil" in {warning.code for warning in result.warnings}
     with pytest.raises(TypeError):
         LineContactInputs(Contact(2.7e5, 4e-3, 1.0, 3.7))  # type: ignore[call-arg]
+
+
+def test_without_friction_no_flash_temperature_is_stated_where_a_line_is_partly_without_contact() -> None:
+    """Points without contact have a flash temperature of 0; the points in contact have none."""
+    crowned = replace(LOADED, modifications=scuffing.Modifications(lead_crowning=500e-6))
+    result = scuffing.solve_scuffing(scuffing.ScuffingInputs(crowned))
+    assert {"unloaded", "ok"} <= set(result.path.status)
+    assert result.flash.blok_max is None
+    assert result.flash.feature_line_max is None
 
 
 def test_friction_and_bulk_temperature_follow_from_the_oil() -> None:

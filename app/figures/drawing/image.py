@@ -21,16 +21,16 @@ from app.figures.drawing.style import DPI, NARROW, TEXT, TITLE, WIDTH, themed
 from app.figures.wording import subscripts
 
 EDGE = 0.1  # inches; margin around the whole image
-TITLE_LENGTH, LENGTH, BESIDE_LENGTH = 58, 84, 30  # characters per line of titles, other texts, axes side by side
+TITLE_LENGTH, LENGTH, BESIDE_LENGTH = 58, 84, 30  # characters per line: titles, other texts, names of axes side by side
 HEIGHTS = {1: 2.6, 2: 1.6, 3: 1.25}  # inches; height of a panel, by the number of panels above one another
 PLANE, PLANE_BESIDE = 3.3, 1.8  # inches; height of a plane alone, and of planes side by side
 TOUCH = 0.025  # inches by which the boxes of two texts may overlap, as boxes include space around letters
 NARROW_HEIGHT = 0.66  # height of axes in a narrow figure divided by their usual height
 ROW_HEIGHT = 0.3  # inches; height of a bar whose name has up to two lines
-APART, FEWEST_TICKS = 0.05, 3  # inches between neighbouring tick labels; number of ticks that are always kept
+APART, FEWEST_TICKS = 0.05, 3  # inches; least distance of neighbouring tick labels; number of ticks that are kept
 ABSCISSA = 0.45  # inches; height of the tick labels and the name below axes
 TICKS = 0.35  # inches; least width of the tick labels to the left of axes
-LEGEND, BAR, END = 1.5, 1.1, 0.15  # inches to the right of axes with a legend, a colour bar, neither
+LEGEND, BAR, END = 1.5, 1.1, 0.15  # inches to the right of axes with a legend, with a colour bar, with neither
 CANVASES = {"svg": FigureCanvasSVG, "png": FigureCanvasAgg, "pdf": FigureCanvasPdf}
 # The metadata contain neither date nor version, so that equal figures give equal bytes.
 METADATA: dict[str, dict[str, str | None]] = {
@@ -47,15 +47,15 @@ def draw(figure: Figure, image_format: str, theme: ThemeName = "light") -> bytes
         sheet.set_dpi(DPI[image_format])
         image, metadata = BytesIO(), METADATA[image_format] | {"Title": figure.title}
         canvas: Any = CANVASES[image_format](sheet)
-        getattr(canvas, f"print_{image_format}")(image, metadata=metadata)  # `savefig` draws everything twice
+        getattr(canvas, f"print_{image_format}")(image, metadata=metadata)  # `savefig` would draw everything twice
         return image.getvalue()
 
 
 class Place(NamedTuple):
     """Position of the axes of a panel in the image.
 
-    `box` is left, top, width and height as fractions of the image. `x` and `y` belong to the two axes. Each holds the
-    two ends of its axis, and True if the axis is logarithmic.
+    `box` is left, top, width and height as fractions of the image. `x` describes the abscissa and `y` the ordinate: the
+    two ends of the axis, and True if the axis is logarithmic.
     """
 
     panel: Panel
@@ -94,9 +94,9 @@ def _letters(figure: Figure, length: int) -> int:
 
 
 def _head(figure: Figure) -> tuple[str, str, float, float]:
-    """Return the title and the finding of a figure, and two distances from the top [in].
+    """Return the title and the finding of a figure, both broken into lines, and two distances [in].
 
-    Both texts are broken into lines. The distances are those of the finding and of the panels.
+    The distances are measured from the top of the image, to the finding and to the space for the panels.
     """
     title, finding = fill(figure.title, _letters(figure, TITLE_LENGTH)), fill(figure.subtitle, _letters(figure, LENGTH))
     below = EDGE + LINE * TITLE * (1 + title.count("\n"))
@@ -130,7 +130,10 @@ def _shares_abscissa(figure: Figure) -> bool:
 
 
 def _abscissa(figure: Figure) -> float:
-    """Return the height [in] of tick labels and name below axes. In a narrow figure the name may have two lines."""
+    """Return the height [in] of the texts below axes: the tick labels, and the name of the abscissa.
+
+    In a narrow figure the name may have two lines.
+    """
     return ABSCISSA + LINE * TEXT * figure.narrow
 
 

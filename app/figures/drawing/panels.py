@@ -20,26 +20,26 @@ from app.figures.data import Line, Map, Panel, Role, Row, Scale, Values
 from app.figures.drawing.style import DASHES, LIMIT, TEXT, patch, written
 from app.figures.wording import NOISE, number, without_rounding
 
-FARTHEST_LEVEL = 4.0  # ranges of the values; a limit farther away is only named at the edge of the axes
+FARTHEST_LEVEL = 4.0  # multiple of the range of values; a limit farther away is only named at the edge of the axes
 NAME_LENGTH, ROW_NAME_LENGTH = 17, 36  # characters per line of a legend, and of the name of a row
 BAR_SHARE, TINT = 0.8, 0.2  # share of the spacing that bars fill; opacity of fills
 LEGEND_COLUMNS = 2  # columns of a legend above narrow axes
 LINE = 1.3 / 72.0  # inches; height of a line of text per point of letter size
 NAME_BELOW = 36  # characters per line of the name below narrow axes
-ROW = 0.52  # height of a row's bar over the distance between rows
+ROW = 0.52  # height of a row's bar divided by the distance between rows
 LEAST_REACH = 7  # typographic points between a text and its point or line
-# Number of steps in which the name of a line moves along the line; heights of a name per step downwards.
+# Number of steps in which the name of a line can be moved along the line; length of a downward step in name heights.
 ALONG, DOWN = 8, 0.6
 RING = 5  # pixels, half the side of the box around a mark
-SIDES = {"above": 1, "below": -1}  # side of a point on which its text is tried first
+SIDES = {"above": 1, "below": -1}  # side of a point on which the text of the point is tried first
 MOVED = {*SIDES, "row", "column"}  # texts of points, of horizontal and of vertical lines; other texts are not moved
-# Ticks in a decade of ratios; greatest ratio of a map whose ticks are evenly spaced instead.
+# Ticks per decade of ratios. If the greatest ratio of a map is at most LINEAR_RATIO, ticks are evenly spaced instead.
 RATIO_TICKS, LINEAR_RATIO = (1.0, 1.5, 2.0, 3.0, 5.0, 7.0), 1.5
 FEW_DECADES = 100.0  # a logarithmic axis whose ends have a smaller ratio has ticks between powers of ten
 CROWDED = 0.08  # share of the colour bar; a tick closer than this to a critical value is left out
 BESIDE_ROWS = 0.4  # share of the range of rows; room for the texts at the ends of rows
 WIDE = 0.15  # share of the longest bar; if bounds are farther apart than this, their values are written
-STEPS = (1, 2, 2.5, 5, 10)  # distances between ticks, times powers of ten
+STEPS = (1, 2, 2.5, 5, 10)  # permitted distances between ticks, to be multiplied by a power of ten
 NUMBERS = FuncFormatter(lambda value, _: number(value, digits=6))
 
 Style = dict[str, Any]  # keyword arguments of matplotlib's artists
@@ -91,7 +91,7 @@ def draw_panel(axes: Axes, panel: Panel, length: int, *, narrow: bool = False) -
 
 
 def _draw_legend(axes: Axes, panel: Panel, *, narrow: bool) -> None:
-    """Draw the legend beside the axes, or above the axes if the figure is narrow or has a colour bar there."""
+    """Draw the legend beside the axes, or above the axes if the figure is narrow or the panel has a map."""
     handles = {str(handle.get_label()): handle for handle in axes.get_legend_handles_labels()[0]}  # names may repeat
     if handles and narrow:  # above the name of the ordinate, because there is no room beside the axes
         above = axes.transAxes + ScaledTranslation(
@@ -120,7 +120,7 @@ def legend_lines(panel: Panel) -> int:
 
 
 def _end(axes: Axes, panel: Panel) -> None:
-    """Set the ends of the axes as the panel gives them, or else with room around the data.
+    """Set the ends of the axes to the limits in the panel. Without limits, leave room around the data.
 
     If the values of the ordinate differ only by rounding errors, the axis is widened so that these errors do not show.
     """
@@ -221,7 +221,7 @@ def _draw_dots(axes: Axes, place: int, row: Row) -> None:
 
 
 def _draw_row(axes: Axes, place: int, row: Row) -> None:
-    """Draw a row as one bar, or as its parts end to end. Also draw a line between the bounds of its value."""
+    """Draw a row as one bar, or as parts end to end. Also draw a line between the bounds of the row's value."""
     left = 0.0
     for part in row.parts or [replace(row, name="", value=float(np.nan_to_num(row.value)))]:
         label = fill(part.name, NAME_LENGTH)
@@ -411,11 +411,12 @@ def _hidden(curve: Path, box: BboxBase) -> float:
 
 
 def _places(kind: str, size: BboxBase, room: BboxBase, point: float) -> Iterator[tuple[tuple[float, float], float]]:
-    """Yield the positions that are tried for a text, each with a cost that grows with its distance from the point.
+    """Yield the positions that are tried for a text, each position with its cost.
 
-    Positions are in pixels, relative to the point of the text. The name of a horizontal line (`row`) may stand anywhere
-    along the line, above or below it. The name of a vertical line (`column`) stays at the line or beside it, and may
-    move down. `point` is the size of a typographic point in pixels.
+    Positions are in pixels, relative to the point of the text. The cost grows with the distance from this point. The
+    name of a horizontal line (`row`) may stand anywhere along the line, above or below the line. The name of a vertical
+    line (`column`) stays on the line or directly beside the line, and may move down. `point` is the size of a
+    typographic point in pixels.
     """
     gap = LEAST_REACH * point
     if kind == "row":

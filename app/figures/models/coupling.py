@@ -21,9 +21,10 @@ MAP_ENDS = {"overlap": (0.1, 10.0), "capacity": (0.01, 10.0)}  # ends of the axe
 
 
 def friction_map(_: CouplingInputs, result: CouplingResult) -> Figure:
-    """Draw the point of the coupling in the map of the oil supply (abscissa) and the strength of the film (ordinate).
+    """Draw the coupling as a point in the map of friction conditions.
 
-    The map shows the nine areas of friction and the distance from the point to the nearest other area.
+    The abscissa is the oil supply, and the ordinate is the strength of the film. The map shows the nine areas of
+    friction and the distance from the point to the nearest other area.
     """
     lubrication = result.lubrication
     regime, point = lubrication.regime, (lubrication.contact_overlap, lubrication.load_capacity_coefficient)
@@ -58,7 +59,7 @@ def _around(which: str, value: float) -> tuple[float, float]:
 
 
 def _ticks(low: float, high: float) -> list[float]:
-    """Return the boundaries as ticks of an axis, with the powers of ten that lie well outside the boundaries."""
+    """Return the ticks of an axis: the two boundaries, and the powers of ten that lie well outside the boundaries."""
     decades = (10.0**exponent for exponent in range(-12, 13))
     return sorted({low, high, *(decade for decade in decades if decade <= low / 1.9 or decade >= high * 1.9)})
 
@@ -291,7 +292,7 @@ def axial_thrust(inputs: CouplingInputs, result: CouplingResult) -> Figure:
 
 
 def losses(_: CouplingInputs, result: CouplingResult) -> Figure:
-    """Draw the moments on shaft and bearings, and the power that is lost as heat."""
+    """Draw the moments that load shaft and bearings, and the power that is lost as heat."""
     loss = result.losses
     moments = [
         Row("friction", loss.friction_moment, Hue.VERMILLION),

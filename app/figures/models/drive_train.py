@@ -27,7 +27,7 @@ from solvers.scuffing.safety_results import Scuffing
 
 OWN = "own derivation"
 ROUND = np.linspace(0.0, 2.0 * pi, 181)  # a circle in steps of 2°
-WALLS = -1.05, 1.05  # ends of the axes in clearances, with some room
+WALLS = -1.05, 1.05  # ends of the axes in units of the clearance; this leaves some room around the circle
 NEWTONS = 1e3  # per kilonewton
 HUES = {
     "without coupling": Hue.ORANGE,
@@ -123,7 +123,7 @@ def gap(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
 
 
 def slope_parts(_: DriveTrainInputs, result: DriveTrainResult) -> Figure:
-    """Draw the slope of the gap from each of its causes."""
+    """Draw the parts of the gap's slope, one part for each cause."""
     slopes = result.misalignment
     causes = [Row(name, getattr(slopes.parts, part), hue) for name, part, hue in PARTS]
     totals = [
@@ -141,9 +141,9 @@ def slope_parts(_: DriveTrainInputs, result: DriveTrainResult) -> Figure:
 
 
 def effects_apart(inputs: DriveTrainInputs, result: DriveTrainResult) -> dict[str, Values]:
-    """Compute the transverse force per face width [N/mm] along the face if effects are left out.
+    """Compute the transverse force per face width [N/mm] along the face for variants of the unit without some effects.
 
-    Each variant of the unit lacks a single effect or, as `mesh alone`, all effects.
+    A variant lacks a single effect; the variant `mesh alone` lacks all effects. The keys are the names of the variants.
     """
     own, variants = inputs.effects, dict[str, Effects]()
     if own.shafts and inputs.acting_couplings:
@@ -162,7 +162,10 @@ def effects_apart(inputs: DriveTrainInputs, result: DriveTrainResult) -> dict[st
 
 
 def face_load(inputs: DriveTrainInputs, result: DriveTrainResult, others: dict[str, Values]) -> Figure:
-    """Draw the load along the face with all effects of the case, and the loads of `others`, which lack effects."""
+    """Draw the load along the face with all effects of the case, and the loads of variants without some effects.
+
+    `others` holds the loads of the variants by their names.
+    """
     curves, load = result.misalignment.curves, result.load
     if load.face_load_factor is None or load.face_load_at is None:
         raise NoFigure("no_load", "Without load there is no line load to draw", "operation")
@@ -174,7 +177,10 @@ def face_load(inputs: DriveTrainInputs, result: DriveTrainResult, others: dict[s
 
 
 def journals(_: DriveTrainInputs, result: DriveTrainResult) -> Figure:
-    """Draw the position of each journal in its clearance, and its path as the load changes (by Ocvirk's theory)."""
+    """Draw the position of each journal in its clearance.
+
+    Also draw, by Ocvirk's theory, the path that the journal takes as the load changes.
+    """
     wall = Line("clearance", np.cos(ROUND), np.sin(ROUND), Hue.GREY, named=False)
     across, up = (
         Axis(f"displacement over clearance, along {way}", magnitude=False, limits=WALLS, symbol=symbol)
@@ -205,7 +211,7 @@ def journals(_: DriveTrainInputs, result: DriveTrainResult) -> Figure:
 
 
 def _locus(x: float, y: float, reaction: Vector2) -> tuple[Values, Values]:
-    """Return the path of a journal, from the middle of the clearance to its displacement, while the load grows.
+    """Return the path that a journal takes from the middle of the clearance to its displacement as the load grows.
 
     The displacement (x, y) and the path are divided by the clearance. The direction of the load does not change.
     """
@@ -238,9 +244,9 @@ def thrust(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
 
 
 def losses(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
-    """Draw the power losses of the unit by the places where they arise."""
+    """Draw the power losses of the unit, sorted by the places where the losses arise."""
     lost, bearings = result.losses, (*inputs.pinion_shaft.bearings, *inputs.wheel_shaft.bearings)
-    plain = any(isinstance(bearing, JournalBearing) for bearing in bearings)  # the friction of others is not known
+    plain = any(isinstance(bearing, JournalBearing) for bearing in bearings)  # other bearings have no known friction
     powers: tuple[tuple[str, float | None, Hue], ...] = (
         ("plain bearings" if plain else "bearings", lost.bearings if plain else None, Hue.BLUE),
         ("mesh", lost.mesh, Hue.VERMILLION),
@@ -286,7 +292,7 @@ def mesh_as_drawn(inputs: DriveTrainInputs, result: DriveTrainResult) -> Scuffin
 
 
 def where_micropitting_starts(inputs: DriveTrainInputs, result: DriveTrainResult, plain: Scuffing | None) -> Figure:
-    """Draw maps of the film ratio over the flank: of the unit, with its least ratio, and of the unmodified mesh."""
+    """Draw two maps of the film ratio over the flank, one of the unit and one of the unmodified mesh."""
     answer = micropitting.answered(result.micropitting)
     return micropitting.over_flanks(inputs.mesh, answer, result.flank, plain)
 
@@ -312,7 +318,10 @@ def oil_temperature(inputs: DriveTrainInputs) -> float:
 
 
 def curve_over_the_flow(_: DriveTrainInputs, result: DriveTrainResult) -> FlowCurve:
-    """Solve the heat balance at a quarter to four times the oil flow, with the losses and loads of the case."""
+    """Solve the heat balance at oil flows from a quarter of the case's flow to four times this flow.
+
+    The losses and the loads are those of the case.
+    """
     heat = heat_balance.heat_of(result.heat)
     assert result.over_the_flow is not None
     return result.over_the_flow(heat_balance.FLOWS * UNITS["l_per_min"].scale * heat.gear_flow)

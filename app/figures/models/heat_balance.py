@@ -20,7 +20,7 @@ from solvers.scuffing.thermal.temperatures import with_friction
 KILOWATT, KELVIN = UNITS["kw"].scale, UNITS["c"].offset
 ROOM = 0.3  # share of the range of temperatures; room at both ends of the axis
 SMALL = 2e-3  # share of the heat supplied; smaller flows are left out
-FLOWS = np.geomspace(0.25, 4.0, 33)  # oil flows over the oil flow of the case
+FLOWS = np.geomspace(0.25, 4.0, 33)  # oil flows divided by the oil flow of the case
 CASES = ("cool end of the band", "nominal", "hot end of the band")
 SUPPLY = {
     "friction of the mesh": "friction of the mesh",
@@ -71,7 +71,10 @@ def where_heat_goes(heat: Heat) -> Figure:
 def _summed(
     heat: Heat, names: dict[str, str], *, origins: set[str] | None = None, targets: set[str] | None = None
 ) -> dict[str, float]:
-    """Return the heat flows from `origins` or to `targets`, summed for each carrier [kW], the largest first."""
+    """Return the sum of the heat flows of each carrier [kW], the largest sum first.
+
+    If `origins` is given, only flows from these places count. If `targets` is given, only flows to these places count.
+    """
     powers: dict[str, float] = {}
     for flow in heat.flows:
         if (origins is None or flow.from_ in origins) and (targets is None or flow.to in targets):
@@ -92,7 +95,7 @@ def _out_of(heat: Heat, gear: str) -> dict[str, float]:
 
 
 def temperatures(heat: Heat, oil: float) -> Figure:
-    """Draw the temperatures of all nodes, and the bands of the flanks.
+    """Draw the temperatures of all nodes, and the uncertainty bands of the flank temperatures.
 
     Lines show the oil temperature `oil` [°C] and the standard's estimate of the bulk temperature.
     """
@@ -124,7 +127,7 @@ def temperatures(heat: Heat, oil: float) -> Figure:
 
 
 def curve_over_the_flow(inputs: ScuffingInputs, result: Scuffing) -> FlowCurve:
-    """Solve the heat balance of a pair at a quarter to four times the oil flow of the case."""
+    """Solve the heat balance of a pair at oil flows from a quarter of the case's flow to four times this flow."""
     if result.heat is None:
         raise NoFigure("no_oil", "Without an oil there is no heat balance", "lubricant")
     balanced, distribution = with_friction(inputs, solve(inputs.distribution))
@@ -155,9 +158,9 @@ def _own_flow(heat: Heat) -> Level:
 
 
 def oil_flow(inputs: ScuffingInputs, result: Scuffing, curve: FlowCurve) -> Figure:
-    """Draw the temperatures of flanks and drain, and the safety, of a pair over the oil flow.
+    """Draw the temperatures of flanks and drain, and the safety factor, over the oil flow of a pair.
 
-    Marks show the flows at which the verdict on the safety changes.
+    Marks show the flows at which the verdict on the safety factor changes.
     """
     heat, safety, largest = heat_of(result.heat), result.safety, result.flash.blok_max
     scuffing = None if safety is None or largest is None else (safety.scuffing, largest)
@@ -165,11 +168,11 @@ def oil_flow(inputs: ScuffingInputs, result: Scuffing, curve: FlowCurve) -> Figu
 
 
 def over_the_oil_flow(heat: Heat, curve: FlowCurve, oil: float, scuffing: tuple[float, float] | None) -> Figure:
-    """Draw the temperatures of flanks and drain, and the safety, over the oil flow.
+    """Draw the temperatures of flanks and drain, and the safety factor, over the oil flow.
 
-    Marks show the flows at which the verdict on the safety changes. `scuffing` is the scuffing temperature [°C] and the
-    rise of the contact temperature above the bulk temperature [K]; neither depends on the flow. If `scuffing` is None,
-    the safety is not drawn. `oil` is the temperature of the supplied oil [°C].
+    Marks show the flows at which the verdict on the safety factor changes. `scuffing` holds the scuffing temperature
+    [°C] and the rise of the contact temperature above the bulk temperature [K]; neither depends on the flow. If
+    `scuffing` is None, the safety factor is not drawn. `oil` is the temperature of the supplied oil [°C].
     """
     panels = what_the_flow_does(heat, curve)
     if scuffing is not None:
@@ -198,7 +201,7 @@ def _factors(scuffing: float, oil: float, contact: Values) -> Values:
 
 
 def _verdicts(factors: Values) -> list[Level]:
-    """Return the limit of the verdict high risk, and the limit of low risk if the safety factors come near it."""
+    """Return the limit of high risk. Add the limit of low risk if a safety factor comes near this second limit."""
     levels = [Level(HIGH_RISK_BELOW, "high risk below 1", limit=True)]
     if float(np.nanmax(factors)) > (HIGH_RISK_BELOW + LOW_RISK_ABOVE) / 2:
         levels.append(Level(LOW_RISK_ABOVE, "low risk above 2"))
@@ -206,7 +209,7 @@ def _verdicts(factors: Values) -> list[Level]:
 
 
 def _first_crossing(line: Line, limit: float) -> Sequence[Mark]:
-    """Return a mark at the first place where a rising line reaches a limit; empty if there is no such place."""
+    """Return a mark at the first place where a rising line reaches a limit, or no mark if there is no such place."""
     above = np.flatnonzero(line.y >= limit)
     if above.size == 0 or above[0] == 0 or np.isnan(line.y[above[0] - 1]):
         return []
@@ -216,7 +219,10 @@ def _first_crossing(line: Line, limit: float) -> Sequence[Mark]:
 
 
 def safety_over_the_band(inputs: ScuffingInputs, result: Scuffing) -> Figure:
-    """Draw the safety over the bulk temperature, with marks at both ends of the band and at the nominal case."""
+    """Draw the safety factor over the bulk temperature.
+
+    Marks show the nominal case, both ends of the uncertainty band, and the standard's estimate of the bulk temperature.
+    """
     heat, safety, largest = heat_of(result.heat), result.safety, result.flash.blok_max
     if safety is None or safety.blok_factor is None or largest is None:
         raise NoFigure("no_scuffing_temperature", "Safety needs a load and a scuffing temperature", "temperatures")

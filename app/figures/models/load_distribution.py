@@ -63,7 +63,7 @@ def over_flank(
 
 
 def flank_load(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figure:
-    """Draw the line load over the flank, with a mark at its maximum over all roll positions."""
+    """Draw the line load over the flank, with a mark at the largest line load of all roll positions."""
     load, flank, shown = result.load, result.flank, axis(Flank, "line_load")
     panel = over_flank(inputs.gears.face_width, flank, shown, flank.line_load, load.max_line_load, load.max_at)
     spread = "" if load.face_load_factor is None else f", K_Hβ = {number(load.face_load_factor)}"
@@ -73,7 +73,7 @@ def flank_load(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figu
 
 
 def flank_pressure(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figure:
-    """Draw the Hertzian pressure over the flank, with a mark at its maximum over all roll positions."""
+    """Draw the Hertzian pressure over the flank, with a mark at the largest pressure of all roll positions."""
     largest, at, flank = result.pressure.max, result.pressure.max_at, result.flank
     panel = over_flank(inputs.gears.face_width, flank, axis(flank, "pressure"), flank.pressure, largest, at)
     finding = NO_LOAD
@@ -102,10 +102,10 @@ def _modified(flank: Flank) -> Values:
 
 
 def traces(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figure:
-    """Draw profile and helix charts. Removed material points downwards.
+    """Draw profile and helix charts. Removed material is drawn downwards.
 
-    Each chart shows one gear as if this gear alone were modified. The profiles lie at the middle of the face; their
-    abscissa is the diameter of the gear. The helix lies at the middle of the profile.
+    Each chart shows one gear as if this gear alone were modified. The profiles are taken at the middle of the face, and
+    are drawn over the diameter of the gear. The helix is taken at the middle of the profile.
     """
     flank, path = result.flank, meshing_path(inputs.gears)
     gap, pair, width = -_modified(flank), path.pair, inputs.gears.face_width
@@ -141,7 +141,7 @@ def contact_line_load(inputs: LoadDistributionInputs, result: LoadDistribution) 
         raise NoFigure("no_load", "Without load there is no line load to draw", "load")
     y, start = flank.face_fraction * width / MM, load.max_at.face_fraction * width / MM
     profile = load.max_at.profile_fraction
-    if not geometry.base_helix_angle:  # rows of the map are lines; the load may jump between rows
+    if not geometry.base_helix_angle:  # rows of the map are lines of contact; the load may jump between rows
         profile = flank.profile_fraction[int(np.argmax(flank.line_load.max(axis=1)))]
     line_load = RegularGridInterpolator((flank.profile_fraction, y), flank.line_load, bounds_error=False)
     lines = []
@@ -159,7 +159,10 @@ def contact_line_load(inputs: LoadDistributionInputs, result: LoadDistribution) 
 
 
 def transmission_error(_: LoadDistributionInputs, result: LoadDistribution) -> Figure:
-    """Draw the transmission error and the length of the lines of contact over the roll, and the orders of the error."""
+    """Draw the transmission error and the length of the lines of contact over the roll position.
+
+    Also draw the harmonics of the transmission error.
+    """
     error, lines = result.transmission_error, result.contact_lines
     y, mean = axis(error.curves, "error", magnitude=False), Level(error.mean, f"mean {number(error.mean, 'µm')}")
     length = axis(lines.curves, "length")
@@ -193,14 +196,14 @@ def path_of_contact(inputs: LoadDistributionInputs, result: LoadDistribution) ->
 
 
 def path_points(gears: GearPairInputs) -> list[Level]:
-    """Return the points A to E of the path of contact as fractions of its length."""
+    """Return the points A to E of the path of contact. Positions are fractions of the length of the path."""
     path = meshing_path(gears)
     fractions = {name: (roll - path.start) / path.length for name, roll in points_of_contact(path).items()}
     return [Level(fraction, name, vertical=True) for name, fraction in fractions.items()]
 
 
 def stiffness(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figure:
-    """Draw the stiffness of one pair of teeth along the path of contact, and the stiffness by the standard."""
+    """Draw the stiffness of one pair of teeth along the path of contact, and the stiffness that the standard gives."""
     stiff, path = result.stiffness, meshing_path(inputs.gears)
     levels = [Level(stiff.standard_single, f"ISO 6336-1, one pair: {number(stiff.standard_single)}")]
     if stiff.mean_mesh is not None:
@@ -217,7 +220,7 @@ def stiffness(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figur
 
 
 def load_sharing(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figure:
-    """Draw the load sharing factor along the path of contact, and the factor by the standard."""
+    """Draw the load sharing factor along the path of contact, and the factor that the standard gives."""
     curves, lines, finding = result.feature_line, list[Line](), NO_LOAD
     if curves.load_sharing is not None:
         lines.append(Line("this mesh", curves.psi, curves.load_sharing))
@@ -231,7 +234,7 @@ def load_sharing(inputs: LoadDistributionInputs, result: LoadDistribution) -> Fi
 
 
 def pair_share(_: LoadDistributionInputs, result: LoadDistribution) -> Figure:
-    """Draw the share of the force that each line of contact carries, over the roll."""
+    """Draw, over the roll position, the share of the force that each line of contact carries."""
     if result.load.pair_share is None:
         raise NoFigure("no_load", "Without load no pair of teeth carries a share of it", "load")
     roll, lines = result.transmission_error.curves.roll_position, list[Line]()

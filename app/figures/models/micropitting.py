@@ -18,14 +18,16 @@ from solvers.scuffing.micropitting.results import LocalFilm, Micropitting, Wear
 from solvers.scuffing.safety_results import HeatedFlank, Scuffing, ScuffingPath
 
 AS_DRAWN = "without modifications and misalignment"
-SHOWN_RATIOS = 2.5  # end of the colours over the least ratio; greater ratios, at lightly loaded edges, share one colour
+# Largest ratio on the scale of colours, divided by the least ratio. Greater ratios occur at lightly loaded edges and
+# share one colour.
+SHOWN_RATIOS = 2.5
 FILM_OVER_ROUGHNESS = "film over roughness"
 
 
 def solve_unmodified(inputs: ScuffingInputs, *_: Scuffing) -> Scuffing | None:
-    """Solve the pair in closed form without its modifications and misalignment; return None if it has neither.
+    """Solve the pair in closed form without its modifications and misalignment.
 
-    The quantities of the result are in the units in which they are shown.
+    Return None if the pair has neither. The quantities of the result are in the units in which pages show them.
     """
     if inputs.distribution.modifications == Modifications():
         return None
@@ -34,13 +36,13 @@ def solve_unmodified(inputs: ScuffingInputs, *_: Scuffing) -> Scuffing | None:
 
 
 def where_it_starts(inputs: ScuffingInputs, result: Scuffing, plain: Scuffing | None) -> Figure:
-    """Draw maps of the film ratio over the flank: of the pair, with its least ratio, and of the unmodified pair."""
+    """Draw two maps of the film ratio over the flank, one of the pair and one of the unmodified pair."""
     answer = answered(result.micropitting)
     return over_flanks(inputs, answer, result.flank, plain)
 
 
 def answered(answer: Micropitting | None) -> Micropitting:
-    """Return the answer; raise NoFigure if it is None or has no least film ratio."""
+    """Return the answer. Raise NoFigure if the answer is None or has no least film ratio."""
     if answer is None:
         message = "Without an oil and the bulk temperature at which it enters there is no film"
         raise NoFigure("no_oil", message, "lubricant")

@@ -17,8 +17,8 @@ from solvers.pumping.speed_scan import speed_scan
 HUES = {"pinion": Hue.BLUE, "wheel": Hue.VERMILLION}
 NO_FLOW = 1e-9  # g/s; smaller flows count as no flow
 SPEEDS = 24  # number of speeds in the scan; chosen so that the curve looks smooth
-BEYOND = 1.5  # end of the scan over the highest choking speed
-LOWEST = 0.25  # start of the scan over its end
+BEYOND = 1.5  # highest speed of the scan, divided by the highest choking speed
+LOWEST = 0.25  # lowest speed of the scan, divided by the highest speed of the scan
 
 
 def spaces(result: PumpingResult) -> list[tuple[str, SpacesResult]]:
@@ -105,11 +105,11 @@ def scan(inputs: ChokingInputs, result: ChokingSpeeds) -> ChokingCurves:
 
 
 def choking(inputs: ChokingInputs, result: ChokingSpeeds, curves: ChokingCurves) -> Figure:
-    """Draw peak pressure and exit Mach number over the speed, with their limits of sonic flow and the choking speeds.
+    """Draw peak pressure and exit Mach number over the speed, with the limits of sonic flow and the choking speeds.
 
     The exit Mach number is that of an expansion to ambient pressure. If the gas in the outermost slice is itself
-    supersonic (possible in gas dynamics only), the Mach number of this slice, which is smaller, is drawn instead. The
-    curve bends at the speed at which this begins.
+    supersonic (possible in gas dynamics only), the smaller Mach number of this slice is drawn instead. The curve bends
+    at the speed at which the gas in this slice becomes supersonic.
     """
     critical, mach, peak = critical_ratio(inputs.setup), curves.exit_mach, curves.peak_pressure_ratio
     clearances = [Level(critical, f"clearances sonic, {number(critical)}", limit=True)]
@@ -142,7 +142,7 @@ CHOKING_FIGURES = (
 
 
 def stroke(_: PumpingInputs, result: PumpingResult) -> Figure:
-    """Draw the area that the mating tooth leaves of a tooth space, and the radial clearances, over one stroke.
+    """Draw the area of a tooth space that the mating tooth leaves free, and the radial clearances, over one stroke.
 
     The range in which the flanks are in contact is shaded.
     """

@@ -22,8 +22,8 @@ from solvers.scuffing.safety_results import Safety, Scuffing, ScuffingPath, Ther
 UNSOLVED = {"no_solution", "refused"}
 WARNED = "outside validity"
 ROOM = 0.06  # share of the range; room above and below the lines of panels with a common scale
-FARTHEST = 4.0  # ranges of the lines; a level farther away is only named at the edge of the axes
-SHOWN_SAFETIES = 4.0  # end of the axis over the least safety; greater factors, near the pitch point, are cut off
+FARTHEST = 4.0  # multiple of the lines' range; a level farther away is only named at the edge of the axes
+SHOWN_SAFETIES = 4.0  # end of the axis divided by the least factor; greater factors, near the pitch point, are cut off
 
 
 def temperature_on_flank(inputs: ScuffingInputs, result: Scuffing) -> Figure:
@@ -106,7 +106,8 @@ def _bulk_of(result: Scuffing, surface: str) -> float:
 def _flashes(path: ScuffingPath) -> list[Line]:
     """Return the flash temperatures along a path as lines.
 
-    The lines are those of both flanks by thermal EHL, if thermal EHL was solved, and the line by Blok's formula.
+    If thermal EHL was solved, the first two lines show the flash temperatures of both flanks by thermal EHL. The last
+    line shows the flash temperature by Blok's formula.
     """
     lines = list[Line]()
     if path.thermal is not None:
@@ -127,7 +128,7 @@ def _paths(result: Scuffing) -> dict[str, ScuffingPath]:
 def _along(inputs: ScuffingInputs, result: Scuffing, finding: str, panel: Callable[[ScuffingPath], Panel]) -> Figure:
     """Return a figure with a panel for each evaluated line. All panels have the same scale.
 
-    `panel` makes the panel of a path. The points of the path and the ranges with warnings are added to it.
+    `panel` makes the panel of a path. The points of the path and the ranges with warnings are added to this panel.
     """
     points, panels = _points(inputs, result), list[Panel]()
     for path in _paths(result).values():
@@ -172,7 +173,8 @@ def _with_oil(result: Scuffing) -> None:
 def safety_along(inputs: ScuffingInputs, result: Scuffing) -> Figure:
     """Draw the safety factor at the points of the evaluated lines (Eq. 26).
 
-    It is the scuffing temperature divided by the contact temperature, both measured from the temperature of the oil.
+    The factor is the ratio of two temperature differences: scuffing temperature minus oil temperature, divided by
+    contact temperature minus oil temperature.
     """
     _with_oil(result)
     if result.safety is None:
@@ -200,9 +202,9 @@ def safety_along(inputs: ScuffingInputs, result: Scuffing) -> Figure:
 
 
 def _safeties(result: Scuffing, path: ScuffingPath, oil: float, reserve: float) -> list[Line]:
-    """Return the safety factors along a path by thermal EHL and by Blok's formula.
+    """Return the safety factors along a path, by thermal EHL and by Blok's formula, as lines.
 
-    The safety factor is NaN if the contact is not hotter than the oil.
+    The safety factor is NaN at points where the contact is not hotter than the oil.
     """
     *flanks, blok = (replace(line, y=_bulk_of(result, line.title) + line.y) for line in _flashes(path))
     contacts = [replace(blok, role=Role.RESULT)]
@@ -214,10 +216,10 @@ def _safeties(result: Scuffing, path: ScuffingPath, oil: float, reserve: float) 
 
 
 def film(inputs: ScuffingInputs, result: Scuffing) -> Figure:
-    """Draw the film thickness along the evaluated lines, and the thickness that equals the roughness.
+    """Draw the film thickness along the evaluated lines, and a level at the film thickness that equals the roughness.
 
-    Minimum and central film are those of thermal EHL, if it was solved. The third curve is the formula of Dowson and
-    Higginson.
+    If thermal EHL was solved, two curves show the minimum and the central film of this solution. A further curve shows
+    the film by the formula of Dowson and Higginson.
     """
     _with_oil(result)
     thinnest, pair = present(result.film), inputs.distribution
@@ -267,7 +269,7 @@ def friction(inputs: ScuffingInputs, result: Scuffing) -> Figure:
     mean = result.flash.friction_coefficient
     solutions = {name: (path.psi, path.thermal) for name, path in _paths(result).items() if path.thermal is not None}
     if not solutions:
-        message = "Friction along the path comes from the thermal EHL solution only"
+        message = "Friction along the path is available only with the thermal EHL solution"
         raise NoFigure("closed_form", message, "model.lubrication")
     points, warned = _points(inputs, result), _warned(result.path)
     levels = points if mean is None else [*points, Level(mean, f"mean of Blok's flash temperature {number(mean)}")]

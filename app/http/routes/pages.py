@@ -62,7 +62,7 @@ async def open_case(http: Request) -> Response:
     async with http.form(max_files=1, max_fields=0) as form:
         sent = form.get("file")
         if sent is None or isinstance(sent, str):
-            raise Unreadable("The form needs a part named file")
+            raise Unreadable("The form needs a part with the name 'file'")
         asked = opened(await sent.read(), root_of(http))
     if not asked.too_long:
         return redirected(asked.path, asked)

@@ -140,7 +140,7 @@ async def _upload(http: Request) -> Upload:
         parts = {name: await part.read() if not isinstance(part, str) else part.encode() for name, part in form.items()}
         name = getattr(form.get("file"), "filename", None) or ""
     if "file" not in parts:
-        raise Unprocessable("missing", "the form needs a part named file", "file")
+        raise Unprocessable("missing", "the form needs a part with the name 'file'", "file")
     return Upload(parts["file"], PurePath(name).name[: REPORT_NAMES["rexs_file"]], parts.get("request") or None)
 
 

@@ -33,8 +33,8 @@ class Control(NamedTuple):
     label, unit, options
         Label, unit and choices in the form.
     sets
-        Whether the control sets the part; otherwise something else sets the part, and the control only shows its
-        errors.
+        Whether the control sets the part. Otherwise something else sets the part, and the control only shows the errors
+        of the part.
     """
 
     name: str
@@ -60,7 +60,7 @@ def body_of(controls: Iterable[Control], typed: Mapping[str, str]) -> dict[str, 
 
 
 def _put(place: Any, parts: list[str], value: Any) -> None:
-    """Set a value at the end of a path; append to a list if the path names the position after its last one."""
+    """Set a value at the end of a path; append to a list if the path names the position after the list's last item."""
     for part, following in zip(parts, [*parts[1:], None], strict=True):
         key: Any = int(part) if isinstance(place, list) else part
         inner: Any = value if following is None else [] if following.isdecimal() else {}
@@ -80,9 +80,9 @@ def texts_of(controls: Iterable[Control], body: Any) -> dict[str, str]:
 
 
 def control_at(controls: Sequence[Control], path: str) -> str:
-    """Return the name of the control for a path in the body, or for the part around this path, or else the path itself.
+    """Return the name of the control that sets the part of the body at a path, or the nearest part around this path.
 
-    If several controls set one part, the last one counts.
+    If there is no such control, return the path. If several controls set one part, the last control counts.
     """
     parts = path.split(".")
     names = {control.path: control.name for control in controls}
@@ -115,7 +115,7 @@ class Menu(NamedTuple):
 
 
 def menu(name: str, label: str, empty: str, choices: list[Choice], chosen: str, fault: str | None) -> Menu:
-    """Return a menu of these choices, and of the chosen entry if it is not one of them."""
+    """Return a menu of these choices. If the chosen entry is not among the choices, add the entry."""
     labels = {choice.path: choice.label for choice in choices}
     groups = [(group, list(items)) for group, items in groupby(choices, key=lambda choice: choice.group)]
     if chosen and chosen not in labels:
@@ -141,7 +141,7 @@ def field_choices(calculation: Calculation, case: dict[str, Any], *, texts: bool
 
 
 def numbered(title: str, path: str) -> str:
-    """Return the title of an input, with its numbers (from 1) in the lists that its path goes through."""
+    """Return the title of an input. For each list on the input's path, add the number of the item, counted from 1."""
     places = [str(int(part) + 1) for part in path.split(".") if part.isdecimal()]
     return f"{title} {'.'.join(places)}" if places else title
 

@@ -74,7 +74,7 @@ class Table(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Result:
-    """The result of a study as its page shows it: the `first` tables, the figures by name, then the other tables.
+    """The result of a study in the order of the page: the `first` tables, the figures by name, then the other tables.
 
     `answer` is a sentence that answers the question of the study. `leads` are links above the result. `script` is JSON
     for the script of the page; the script opens the case of a point if the user clicks on this point in the first
@@ -97,7 +97,7 @@ class StudyPage(ABC):
     Attributes
     ----------
     link, question, about
-        Name in addresses and label of the page, its heading, and the sentence below that.
+        Name of the page in addresses and its label, heading of the page, and sentence below the heading.
     names
         Names of all controls that the page may have, except the menu of outputs.
     figures, files
@@ -105,17 +105,18 @@ class StudyPage(ABC):
     template
         Template of the result.
     outputs
-        Preferred outputs. If the user chooses no output, the page shows the first of these that the answer has, or else
-        the first headline.
+        Preferred outputs. If the user chooses no output, the page shows the first preferred output that the answer has.
+        If the answer has none of the preferred outputs, the page shows the first headline.
     grows
         Whether the page shows its result while lines arrive; otherwise it shows only the progress.
     needs, choose
-        Controls of which at least one has to be filled in for a study, and the sentence that asks for it.
+        Controls of which at least one must be filled in to start a study, and the sentence that asks the user to do so.
     plan
-        The kind of study, which is made from its body, the largest number of points and the deadline of a point [s].
+        The class of the study. Its arguments are the body, the largest number of points, and the deadline of a point
+        [s].
     case, study, faults
         The case as far as the query states it; the study, which is None until the query has been accepted; and the
-        errors of a rejected query, by control.
+        errors of a rejected query, each with the name of its control.
 
     """
 
@@ -141,7 +142,7 @@ class StudyPage(ABC):
 
     @abstractmethod
     def body(self) -> dict[str, Any]:
-        """Return the body of the request to the endpoint of the study; raises Unprocessable."""
+        """Return the body of the request to the endpoint of the study; raise Unprocessable if the query is invalid."""
 
     @abstractmethod
     def result(self, lines: list[Line]) -> Result:
@@ -186,7 +187,7 @@ class StudyPage(ABC):
 
     @cached_property
     def output(self) -> Leaf:
-        """The output that is shown; raises Unprocessable."""
+        """The output that is shown; raises Unprocessable if the query names no numeric output."""
         path = self.views.get("show") or self.usual_output.path
         output = scalar_at(self.calculation.response, path, "outputs.0", "unknown_output")
         if output.kind not in NUMBERS:
@@ -194,7 +195,7 @@ class StudyPage(ABC):
         return output
 
     def menu(self, name: str, label: str, empty: str, choices: list[Choice]) -> Menu:
-        """Return a menu of these choices; the choice in the query is added if it is not among them."""
+        """Return a menu of these choices. If the choice in the query is not among the choices, add this choice."""
         chosen = self.views.get(name, "")
         return menu(name, label, empty, choices, chosen, dict(self.faults).get(name))
 
@@ -265,7 +266,7 @@ class StudyPage(ABC):
 
 
 class Opened(NamedTuple):
-    """A study page in two parts; if the study runs, its result is sent between them."""
+    """A study page in two parts. If the study runs, its result is sent between the two parts."""
 
     page: StudyPage
     status: int
@@ -282,7 +283,8 @@ def opened(kind: type[StudyPage], asked: Asked, most: int, deadline_s: float) ->
     except REFUSED as error:
         status = 400 if isinstance(error, Unreadable) else 422
         at_controls = [(page.control_at(fault.path), fault.message) for fault in faults_of(error, page.calculation)]
-        # A fault of the table of cases is left as it is, because it names the line.
+        # The message about a fault in the table of cases is not replaced by a question, because the message names the
+        # line.
         texts = {name: text for name, text in asked.views.items() if name != CASES}
         page.faults = [Fault(name, question(texts.get(name, "")) or message) for name, message in at_controls]
     show = page.menu("show", "output", page.usual_output.title, output_choices(page.calculation))
@@ -306,7 +308,10 @@ def opened(kind: type[StudyPage], asked: Asked, most: int, deadline_s: float) ->
 
 
 def checked(kind: type[StudyPage], asked: Asked, most: int, deadline_s: float) -> StudyPage:
-    """Return the page with the study that the query asks for; raises the errors of REFUSED, with paths in the body."""
+    """Return the page with the study that the query asks for.
+
+    If the query is rejected, raise one of the errors in REFUSED. The paths in this error refer to the body.
+    """
     page = kind(asked)
     page.study = page.plan(page.body(), most, deadline_s)
     return page
@@ -378,7 +383,8 @@ def report_progress(page: StudyPage, done: int, *, has_ended: bool = False, prob
 def report(page: StudyPage, lines: list[Line], host: str) -> bytes:
     """Return the style and the body of the report of the case, with a section about the study.
 
-    They are sent after the parts that show the progress. If the case has no answer, return the reason instead.
+    Style and body are sent after the parts that show the progress. If the case has no answer, return the reason
+    instead.
     """
     section = {
         "title": page.link.label,

@@ -9,9 +9,9 @@ from app.errors import DeadlineExceeded, WorkerLost
 from app.pages.studies.page import Opened, StudyPage, drawn, report, report_head, report_progress
 from app.studies.runner import Clock, Line, Lines, Pool, twice_if_lost
 
-FIRST_FRAME_S = 0.3  # until a page shows its first points
+FIRST_FRAME_S = 0.3  # time until a page shows its first points
 FRAME_SHARE = 0.3  # pause until a page is drawn again, as a share of the time that the study has run
-LONGEST_PAUSE_S = 4.0  # between two drawings of a page, however long the study runs
+LONGEST_PAUSE_S = 4.0  # longest time between two drawings of a page, however long the study runs
 NOT_DRAWN = (
     b'<div class="frame"><p class="warning">The figure could not be drawn; the files hold the points.</p>'
     b'<span class="ready" hidden></span></div>'
@@ -21,7 +21,10 @@ logger = logging.getLogger("tribodrive")
 
 
 async def pieces(pool: Callable[[], Pool], opened: Opened, lines: Lines, clock: Clock) -> AsyncGenerator[bytes, None]:
-    """Yield the page of a study: its head, then results of which each replaces the one before, then its tail."""
+    """Yield the page of a study: the head of the page, then results, then the tail of the page.
+
+    Each result replaces the result before it.
+    """
     yield opened.head
     received, due = list[Line](), FIRST_FRAME_S
     async with aclosing(lines):
@@ -40,7 +43,7 @@ async def report_pieces(
 ) -> AsyncGenerator[bytes, None]:
     """Yield the report of a study as one document: parts with the number of solved points, and then the report.
 
-    Each of the parts replaces the one before. `host` is the beginning of the addresses in the report.
+    Each part replaces the part before it. `host` is the beginning of the addresses in the report.
     """
     yield report_head(page) + report_progress(page, 0)
     received, due = list[Line](), FIRST_FRAME_S

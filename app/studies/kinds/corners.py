@@ -81,7 +81,7 @@ class Corners(Sweep):
         if not ranges:
             raise Unprocessable(
                 "no_corners",
-                "no input of this unit is uncertain; name the uncertain inputs in ranges",
+                "no input of this unit is uncertain; list the uncertain inputs in the field 'ranges'",
                 "ranges",
             )
         return grid(ranges, base, min(most, MOST_CORNERS), "ranges")

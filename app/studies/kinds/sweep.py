@@ -384,7 +384,7 @@ class SweepPage(StudyPage):
                 where,
             )
         if start == stop:
-            raise Unprocessable("values_or_range", "from and to must be different", where)
+            raise Unprocessable("values_or_range", "'from' and 'to' must be different", where)
         if choices and is_plain_number(start) and is_plain_number(stop):
             return {**axis, "values": [choice for choice in choices if min(start, stop) <= choice <= max(start, stop)]}
         is_whole = leaf.kind == "integer" and all(isinstance(number, int) for number in (start, stop, count))

@@ -42,7 +42,7 @@ def check(inputs: LineContactInputs) -> None:
 
 
 def lightest(inputs: LineContactInputs) -> LineContactInputs:
-    """Raise the load of a contact to the least load that `check` accepts, unless its own load is accepted.
+    """Raise the load of a contact to the least load that `check` accepts, unless the contact's own load is accepted.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Solution of a single contact from the dry contact: resolution, limit of steps, nested meshes, further attempts."""
+"""Solution of a single contact that starts from the dry contact: resolution, budget, nested meshes, other attempts."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -26,9 +26,10 @@ COARSEST = 61  # nodes of the first of the nested meshes, chosen for speed
 TIGHT = (1e-5, 0.01)  # tolerances of P and of temperature [K]
 LOOSE = (1e-3, 1.0)  # tolerances of P and of temperature [K] on meshes that only give the start on the next mesh
 MARCH = 5  # largest cost of a march of temperatures, in Newton steps
-# Shares of the full speed, a factor of 3 apart, that are solved first if the full speed does not converge at once
+# Shares of the full speed, a factor of 3 apart. The contact is solved at these speeds first if the solution at the
+# full speed does not converge at once.
 SPEED_STEPS = (1 / 27, 1 / 9, 1 / 3)
-SOFT_STRESSES = tuple(5e6 * 2.0**k for k in range(10))  # Pa, Eyring stresses that are solved one after the other
+SOFT_STRESSES = tuple(5e6 * 2.0**k for k in range(10))  # Pa, Eyring stresses of the successive solutions
 
 
 @dataclass(frozen=True, slots=True)

@@ -26,7 +26,7 @@ Numbers = NDArray[Any]
 
 
 class Columns(NamedTuple):
-    """The film across every node along the contact.
+    """The columns of the film, one at every node along the contact.
 
     In every interval (n, m): density [kg/m^3], shear stress [Pa] and shear rate [1/s]. At every node along the contact
     (n,): stress half way across the film [Pa], flow coefficients A [s] and B [kg/(m^2 s)]. At every node across the
@@ -142,7 +142,7 @@ def effective_fluidity(problem: Problem, tau: Numbers, eta: Numbers) -> Numbers:
 
 
 def mid_film_stress(problem: Problem, eta: Numbers, g: Numbers, h: Numbers) -> Numbers:
-    """Return the stress half way across the film for which the sliding speed is u2 - u1.
+    """Return the stress half way across the film, as required for the sliding speed u2 - u1.
 
     Eq. E6; for a Newtonian oil the integral is linear in the stress.
 
@@ -176,7 +176,7 @@ def mid_film_stress(problem: Problem, eta: Numbers, g: Numbers, h: Numbers) -> N
 
 
 def columns(problem: Problem, p: Numbers, g: Numbers, h: Numbers, t: Numbers) -> Columns:
-    """Return shear and flow of the film across every node.
+    """Return shear and flow in the column of the film at every node.
 
     Eq. E7.1. The integrals use the middle of every interval, where the temperature is the mean of the two nodes.
 
@@ -363,7 +363,7 @@ def pressure_gradient(grid: Grid, pressure: Numbers, cavitated: BoolArray) -> Nu
 
 
 def balance_of_load(grid: Grid, pressure: Numbers) -> Any:
-    """Return the integral of P minus pi/2; pi/2 is the integral that carries the load (Eq. 22).
+    """Return the integral of P minus pi/2, the integral at which the pressure carries the load (Eq. 22).
 
     Parameters
     ----------
@@ -398,7 +398,7 @@ def carried_heat(
     flux : (n - 1,) array
         Mass flux through the faces between nodes [kg/(s m)]; the flux at the largest pressure is used.
     at : Columns
-        The film across every node.
+        The columns of the film.
 
     Returns
     -------
@@ -434,7 +434,7 @@ def balance_of_heat(
     t : (n, k) array
         Temperature [K].
     at : Columns
-        The film across every node.
+        The columns of the film.
     carried : Carried
         Quantities that carry heat.
 
@@ -640,7 +640,7 @@ def _edges(psi: Numbers) -> Numbers:
 
 
 def _log_mean(a: Numbers) -> Numbers:
-    """Return the logarithmic means of neighbouring values (n - 1,), exact if the values vary exponentially."""
+    """Return the logarithmic means (n - 1,) of neighbouring values; they are exact if the values vary exponentially."""
     return np.asarray(np.sqrt(a[1:]) * np.sqrt(a[:-1]) * _sinh_ratio(0.5 * np.log(a[1:] / a[:-1])))
 
 

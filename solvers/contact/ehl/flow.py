@@ -23,7 +23,7 @@ PLACE = floats("p", "g", "h")
 
 
 class FlowCoefficients(NamedTuple):
-    """Coefficients ln A and B of the mass flux m = B h - A h^3 dp/dx at all nodes (n,), of COEFFICIENT.
+    """Coefficients ln A and B of the mass flux m = B h - A h^3 dp/dx: records (n,) of type COEFFICIENT at all nodes.
 
     The derivatives are first those at fixed temperatures. In a thermal contact, `newton.include_temperature` adds the
     response of the temperatures.
@@ -50,7 +50,7 @@ def evaluate_columns(
 ) -> None:
     """Compute viscosity, shear and flow of columns start..stop from their nodal temperatures (n, k) [K].
 
-    `at` (n,) of PLACE holds p, G and h of all columns.
+    `at` (n,), of type PLACE, holds p, G and h of all columns.
     """
     for i in range(start, stop):
         p, g, h = at[i].p, at[i].g, at[i].h

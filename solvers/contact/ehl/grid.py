@@ -10,7 +10,7 @@ from solvers.arrays import FloatArray, frozen
 from solvers.compiled import kernel
 
 SHORTEST_INLET = 4.0  # least distance from the inlet to the centre of the contact, in half widths, chosen
-CLEARANCE = 40.0  # ratio of the undeformed gap at the inlet to the central film
+CLEARANCE = 40.0  # ratio of the undeformed gap at the inlet to the central film thickness
 
 
 @kernel
@@ -128,10 +128,10 @@ def _grid(half_octaves: int, nodes: int) -> Grid:
 
 
 def _graded(gap: float, nodes: int) -> FloatArray:
-    """Return nodes (n,) between inlet and outlet whose distances are in proportion to a prescribed spacing.
+    """Return nodes (n,) from inlet to outlet; the distances between nodes are in proportion to a prescribed spacing.
 
-    The pressure of a film much thicker than b^2/R extends over the length (2 R h)^1/2 instead of b. Then lengths of the
-    order of b need no resolution.
+    If the film is much thicker than b^2/R, the pressure extends over the length (2 R h)^1/2 instead of b. Lengths of
+    the order of b then need no resolution.
     """
     inlet = -inlet_length(gap)
     outlet = max(1.25, 1.0 + 1.2 * gap ** (2 / 3))

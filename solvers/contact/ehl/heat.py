@@ -17,10 +17,10 @@ from solvers.contact.ehl.shear import Film
 
 
 class Responses(NamedTuple):
-    """Right-hand sides of the systems of all columns, from which the responses of the temperatures follow, (n, k).
+    """Right-hand sides (n, k) of the linear systems of all columns; the solutions are responses of the temperatures.
 
     `heating` is the derivative of the residual by the mid-film stress. `by_p`, `by_g` and `by_h` are the right-hand
-    sides for p, G = h dp/dx and h. `factor_columns` replaces all right-hand sides by the responses.
+    sides for p, G = h dp/dx and h. `factor_columns` replaces all right-hand sides by the responses of the temperatures.
     """
 
     heating: FloatArray
@@ -69,7 +69,7 @@ WALLS = floats("history_1", "history_2", "change_1", "change_2", "gain_1", "gain
 
 
 class Surfaces(NamedTuple):
-    """Heat fluxes into both surfaces at all columns (n,) [W/m^2], and surface temperatures: `walls` (n,) of WALLS."""
+    """Heat fluxes into both surfaces at all columns (n,) [W/m^2], and `walls` (n,) of type WALLS."""
 
     flux_1: FloatArray
     flux_2: FloatArray
@@ -172,7 +172,7 @@ def balance_columns(
     stop : int
         Column after the last one.
     at : RecordArray
-        G = h dp/dx [Pa] and h [m] of all columns (n,), of PLACE.
+        Records (n,) of type PLACE: G = h dp/dx [Pa] and h [m] of every column.
     film : Film
         Shear and stream functions of the columns.
     heat : Heat
@@ -183,7 +183,7 @@ def balance_columns(
     c [d(psi_zeta t)/dx - d(psi_x t)/dzeta] = (lambda/h) t_zetazeta + h (tau rate + (0.00065 rho0/rho) t u p'), in cells
     around the nodes (Eqs. E8, E15). The flow across the film follows from continuity; Eq. 23 of the paper leaves out
     this flow. Half cells at the walls give the heat fluxes q1 = lambda t_z and q2 = -lambda t_z. Eq. 24 prints no sign,
-    but heat must flow into both solids. The residuals of the half cells are turned into differences of temperature.
+    but heat must flow into both solids. The residuals of the half cells are converted to differences of temperature.
     """
     surfaces, last = heat.surfaces, temperature.shape[1] - 1
     for i in range(start, stop):
@@ -229,7 +229,7 @@ def exchange(problem: Problem, i: int, width: float, h: float, film: Film, heat:
 
 @inlined_kernel
 def column_residual(i: int, temperature: FloatArray, g: float, h: float, film: Film, heat: Heat) -> None:
-    """Compute the heat that the cells of column i lose, minus the heat of shear and compression in them [W/m^2].
+    """Compute the heat that the cells of column i lose, minus the heat of shear and compression there [W/m^2].
 
     Parameters
     ----------
@@ -333,7 +333,7 @@ def column_slopes(
 def _scale_walls(i: int, inertia: float, heat: Heat) -> None:
     """Turn the rows of both half cells into equations for the surface temperatures.
 
-    Half cells have half of the inertia.
+    A half cell has half the inertia of a whole cell.
     """
     column, convection, responses, walls = heat.column, heat.convection, heat.column.responses, heat.surfaces.walls[i]
     for side in range(2):

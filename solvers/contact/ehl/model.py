@@ -30,7 +30,7 @@ from solvers.contact.ehl.results import (
 )
 from solvers.lubricants import Lubricant, oil_in_use
 
-WORST_BALANCE = 1e-3  # relative error of the heat balance; `notices.BALANCE_ERROR`, the limit of the warning, times ten
+WORST_BALANCE = 1e-3  # relative error of the heat balance; ten times `notices.BALANCE_ERROR`, the limit of the warning
 WORST_LOAD = 1e-9  # relative error of the load; far above rounding errors, far below the displayed digits
 WORST_DEPARTURE = 0.1  # K, largest accepted result of `refinement.departure`
 
@@ -62,7 +62,7 @@ def solve(inputs: LineContactInputs) -> LineContactResult:
 
 
 def resolution_for(inputs: LineContactInputs) -> Resolution:
-    """Return the numbers of nodes of the contact, and the expected film for which the mesh is graded."""
+    """Return the numbers of nodes of the contact, and the expected film thickness for which the mesh is graded."""
     model = inputs.model
     return Resolution(
         gap=expected_gap(inputs),
@@ -202,7 +202,7 @@ def _film(inputs: LineContactInputs, constants: Problem, attempt: Attempt) -> Fi
 def warm_up() -> None:
     """Compile every kernel, or load it from the cache, by solving two small contacts.
 
-    The two contacts reach all kernels, because a kernel chooses the laws of the oil when it runs.
+    Two contacts are enough to reach all kernels, because each kernel chooses the laws of the oil at run time.
     """
     contact = Contact(line_load=1e5, radius=0.01, speed_1=2.0, speed_2=1.5)
     for model in (Model(nodes=61), Model(nodes=61, thermal=False)):

@@ -36,7 +36,7 @@ LOWEST_TEMPERATURE = 200.0  # K, lower limit of the temperatures during the iter
 FIRST_DAMPING = 30.0  # first value of the damping of the temperatures, see `linearise_balances`
 FROZEN = 1e4  # more damping than this has no effect
 SHORT_STEP = 3e-3  # largest change of P after which the Jacobian can be reused
-SHRINKING = 0.1  # steps count as shrinking if the ratio of a step to the step before is smaller
+SHRINKING = 0.1  # steps count as shrinking if the ratio of a step to the step before is below this value
 
 
 @inlined_kernel
@@ -65,7 +65,8 @@ def uniform_film(problem: Problem, i: int, p: float, g: float, h: float, coeffic
 
     Notes
     -----
-    Eq. E7.2: A = rho/(12 eta) for a Newtonian oil, times a factor of the law of shear; B = rho um.
+    Eq. E7.2: A is rho/(12 eta), the value of a Newtonian oil, times a factor that depends on the law of shear; B is
+    rho um.
     """
     laws = problem.laws
     term, term_slope = pressure_part(laws, p)
@@ -242,9 +243,9 @@ def newton_step(
 ) -> None:
     """Compute the step (n + 1,) in (P, H0) and (n, k) in T from the linearised equations.
 
-    The factored Jacobian leaves out the transport of heat between columns. GMRES, preconditioned with this Jacobian,
-    corrects the step of the Jacobian alone, so that the load is met after any number of corrections. If the square of
-    the first relative correction is within the tolerance, the first correction is enough.
+    The factored Jacobian leaves out the transport of heat between columns. GMRES is preconditioned with this Jacobian,
+    and corrects the step that the Jacobian alone gives. The load is therefore met after any number of corrections. If
+    the square of the first relative correction is within the tolerance, the first correction is enough.
     """
     n, nodes = step_t.shape
     given, change = np.zeros((n, nodes)), np.zeros(n + 1)

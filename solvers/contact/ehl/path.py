@@ -1,4 +1,4 @@
-"""A sequence of contacts, as along the flank of a tooth, each of which is solved from the contacts before it."""
+"""A sequence of contacts, as along the flank of a tooth. Earlier solutions give the start for the next contact."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
@@ -27,7 +27,7 @@ from solvers.contact.ehl.results import LineContactResult
 from solvers.contact.ehl.state import State, no_steps
 from solvers.errors import InvalidInput
 
-# Largest number of Newton steps from a start that is extrapolated from the contacts before. If the pressure falls
+# Largest number of Newton steps from a start that is extrapolated from earlier contacts. If the pressure falls
 # steeply from one node to the next, the discrete equations have several solutions: one for each pair of nodes between
 # which the fall can lie. A start that needs more steps often ends in the solution for a neighbouring pair of nodes.
 # Therefore the contact is then solved as if it were alone.
@@ -39,7 +39,7 @@ SHARE_WITHOUT_HOPE = 0.1  # share of the usual number of steps that a contact ge
 
 @dataclass(slots=True)
 class _Walk:
-    """The last solved states of the path, the mesh of these states, and the number of consecutive failures."""
+    """The latest solved states of the path, the mesh of these states, and the number of consecutive failures."""
 
     states: list[State] = field(default_factory=list)
     grid: Grid | None = None
@@ -104,7 +104,7 @@ def _solve_next(inputs: LineContactInputs, walk: _Walk) -> LineContactResult:
 
 
 def _attempts(constants: Problem, resolution: Resolution, walk: _Walk, spent: Budget) -> Iterator[Attempt]:
-    """Yield an attempt that starts from the contacts before, then an attempt as for a contact alone."""
+    """Yield an attempt that starts from earlier solutions, then an attempt that ignores these solutions."""
     grid = grid_for(resolution.gap, resolution.nodes)
     walk.move_to(grid)
     if walk.states:

@@ -147,7 +147,7 @@ def _moes_film(l: float, asymptotes: tuple[float, float, float, float]) -> float
 
 
 def moes_gap(contact: Groups) -> float:
-    """Return the film thickness of `moes_central_film` in units of b^2/R; infinite without load.
+    """Return the film thickness of `moes_central_film` in units of b^2/R, or infinity without load.
 
     The grading of the mesh depends on this film thickness.
     """
@@ -177,9 +177,9 @@ def dowson_higginson_film(inputs: LineContactInputs) -> float:
 class Problem(NamedTuple):
     """Constants of a contact for the kernels, in SI units.
 
-    surface_heating_i = (b/(pi rho_i c_i u_i lambda_i))^1/2 [K m^2/W]. Multiplied by Wt q, the product of the matrix
-    `Grid.heat` and the heat flux, it gives the flash temperature of surface i. `flux_scale` is the unit of mass fluxes,
-    rho0 um b^2/R [kg/(m s)]. `rheology` is the position of the law of shear in `inputs.Rheology`.
+    surface_heating_i = (b/(pi rho_i c_i u_i lambda_i))^1/2 [K m^2/W]. The flash temperature of surface i is
+    surface_heating_i times Wt q, where Wt is the matrix `Grid.heat` and q is the heat flux. `flux_scale` is the unit of
+    mass fluxes, rho0 um b^2/R [kg/(m s)]. `rheology` is the position of the law of shear in `inputs.Rheology`.
     """
 
     laws: FluidLaws

@@ -33,8 +33,8 @@ NEAR = (0.12, 12.0)
 # two nodes, wherever the fall should be. The two meshes then agree better with each other than with the exact solution.
 # If the fall is p_H/2 or more, the whole difference counts as error.
 SECOND_ORDER = 1 / 3
-LEFT = {"friction": 1 / 2, "generated_heat": 1 / 2}  # shares of results that depend on heat: their order is below two
-LEFT_BY_FALL = 2.0  # share of the difference that counts as error, per fall of pressure in p_H
+LEFT = {"friction": 1 / 2, "generated_heat": 1 / 2}  # results that depend on heat converge with an order below two
+LEFT_BY_FALL = 2.0  # share of the difference that counts as error, divided by the fall of pressure [p_H]
 AT_INLET = {"central_film", "centre_pressure"}  # the inlet decides these results; falls at the outlet have no effect
 BEFORE_SPIKES = 0.5  # half widths downstream of the centre; pressure spikes lie further downstream
 SURFACES = {"surface_1_flash": 0, "surface_2_flash": -1}  # numbers of the nodes across the film
@@ -66,7 +66,7 @@ def departure(inputs: LineContactInputs, curves: ContactCurves, field: ContactFi
 
 
 def surface_heating(solid: Solid, speed: float, x: FloatArray, flux: FloatArray) -> FloatArray:
-    """Compute the temperature rise of a surface under a heat flux that is linear between positions.
+    """Compute the temperature rise of a surface under a heat flux that varies linearly between positions.
 
     Parameters
     ----------
@@ -130,11 +130,11 @@ def inlet_departure(inputs: LineContactInputs, t: FloatArray) -> float:
 
 
 def undercooling(inputs: LineContactInputs, curves: ContactCurves, t: FloatArray) -> float:
-    """Return the cooling [K] at the coldest point of the temperatures t (n, k) that decompression cannot explain.
+    """Return the part of the cooling [K] at the coldest point of t (n, k) that decompression cannot explain.
 
-    The cooling is the difference from the lowest bulk or inlet temperature. Decompression takes up the heat
-    q = 0.00065 T u |dp/dx| h per area. This heat cools the surfaces by `surface_heating` for the flux q, and the film
-    between the surfaces by q h/(8 lambda).
+    t are the temperatures. The cooling is the difference from the lowest bulk or inlet temperature. Decompression takes
+    up the heat q = 0.00065 T u |dp/dx| h per area. This heat cools the surfaces by `surface_heating` for the flux q,
+    and the film between the surfaces by q h/(8 lambda).
     """
     bulk, contact, oil = inputs.temperatures, inputs.contact, inputs.lubricant
     missing = min(bulk.surface_1, bulk.surface_2, bulk.inlet) - float(t.min())
@@ -223,7 +223,7 @@ def finer_nodes(nodes: int, comparison: Comparison | None) -> int:
 def compare(
     inputs: LineContactInputs, constants: Problem, resolution: Resolution, attempt: Attempt
 ) -> Comparison | None:
-    """Compare a contact with the same contact on half the nodes (Richardson); return None if the latter is not solved.
+    """Compare a contact with the same contact on half the nodes (Richardson); return None if that solution fails.
 
     The solution on half the nodes starts from the contact's own solution. Mostly one Newton step is enough. A spike or
     a hot film needs more steps, because the coarser mesh at first keeps the peak with which it starts.
@@ -249,15 +249,15 @@ def _steepest_fall(attempt: Attempt) -> float:
 def _kink(attempt: Attempt, surface: int) -> float:
     """Return the largest excess [K] of a surface temperature over the mean of its neighbours, downstream of the centre.
 
-    This excess comes from the heat of a spike that affects only one node. A node nearer to the spike would rise by as
-    much again.
+    This excess comes from a spike whose heat affects only one node. If this node lay nearer to the spike, the
+    temperature of this node would rise by the same amount once more.
     """
     t = attempt.state.temperature[attempt.grid.x > 0.0, surface]
     return float((t[1:-1] - 0.5 * (t[:-2] + t[2:])).max())
 
 
 def _parts(inputs: LineContactInputs, constants: Problem, attempt: Attempt) -> dict[str, tuple[float, ...]]:
-    """Return the results of a contact except local maxima, by the names of `MeshError`, as tuples of parts.
+    """Return the results of a contact except local maxima: a tuple of parts for each name of `MeshError`.
 
     Friction, heat and flash temperatures have two parts: before and behind the place where pressure spikes begin. With
     more nodes the film is thicker, so less heat arises before this place. The spike is also sharper, so more heat
@@ -282,6 +282,6 @@ def _parts(inputs: LineContactInputs, constants: Problem, attempt: Attempt) -> d
 
 
 def _before_and_behind(attempt: Attempt, by_node: FloatArray) -> tuple[float, float]:
-    """Return the sums of the contributions (n,) of the nodes before and behind the place where spikes begin."""
+    """Return the sum of `by_node` (n,) over the nodes before the place where spikes begin, and over the other nodes."""
     before = attempt.grid.x <= BEFORE_SPIKES
     return float(by_node[before].sum()), float(by_node[~before].sum())

@@ -92,9 +92,10 @@ def pressure_gradients(x: FloatArray, pressure: FloatArray, cavitated: BoolArray
 
     Notes
     -----
-    Eq. E14: the difference is central, one-sided at the inlet, and zero where the film is broken. At the last node
-    before the rupture the difference is forward, so that the gradient vanishes if the pressure of this node vanishes.
-    The node can then join the broken film without a jump of the gradient.
+    Eq. E14: the difference is one-sided at the inlet and at the last node before the rupture, zero where the film is
+    broken, and central at all other nodes. At the last node before the rupture the difference is forward, so that the
+    gradient vanishes if the pressure of this node vanishes. The node can then join the broken film without a jump of
+    the gradient.
     """
     for i in range(x.size):
         left, right, factor = gradient_stencil(x, i, cavitated)
@@ -175,8 +176,8 @@ def mass_flux_slopes(
 ) -> None:
     """Compute the derivatives of the mass fluxes by the pressures and film thicknesses around each face.
 
-    B and ln A of a node depend on p, G = h dp/dx and h. The derivatives of B and ln A are computed first: by P of the
-    node and of its neighbours, and by H of the node.
+    B and ln A of a node depend on p, G = h dp/dx and h of this node. First, the derivatives of B and ln A by three
+    quantities are computed: P of the node, P of the neighbours of the node, and H of the node.
     """
     n, (couette_scale, _), b, log_a = grid.x.size, _flux_scales(problem), coefficients.b, coefficients.log_a
     slope = problem.maximum_pressure / problem.half_width
@@ -231,7 +232,7 @@ def _upstream(x: FloatArray, i: int) -> tuple[int, float]:
 def add_flux_changes(
     faces: FaceFluxes, cavitated: BoolArray, log_a: FloatArray, b: FloatArray, residual: FloatArray
 ) -> None:
-    """Add to `residual` (n + 1,) the effect of changes of ln A and B at the nodes (n,) on the balance of mass."""
+    """Add to `residual` (n + 1,) the effect on the balance of mass if ln A and B change at the nodes (n,)."""
     before = 0.0
     for i in range(cavitated.size - 1):
         other = i - 1 if i > 0 else 1
@@ -246,7 +247,7 @@ def add_flux_changes(
 def balance_of_mass(
     grid: Grid, pressure: FloatArray, cavitated: BoolArray, faces: FaceFluxes, residual: FloatArray
 ) -> None:
-    """Compute the residuals of the balances of mass and load and of the broken film, in place.
+    """Compute the residuals of the balance of mass and of the balance of load, in place.
 
     Parameters
     ----------
@@ -259,8 +260,8 @@ def balance_of_mass(
     faces : FaceFluxes
         Mass fluxes through the faces.
     residual : FloatArray
-        Receives the residuals (n + 1,): at each node, the outflow minus the inflow, or P at both ends and where the
-        film is broken; after the nodes, the residual of the load [-].
+        Receives the residuals (n + 1,): P at both ends and at broken nodes; the outflow minus the inflow at all other
+        nodes; after the nodes, the residual of the load [-].
 
     Notes
     -----
@@ -286,7 +287,7 @@ def assemble_jacobian(grid: Grid, cavitated: BoolArray, faces: FaceFluxes, jacob
             jacobian[i, :] = 0.0
             jacobian[i, i] = 1.0
             continue
-        # The faces right and left of a node depend on the film at four nodes.
+        # The fluxes through the faces right and left of a node depend on the film thickness at four nodes.
         far, left, here, right = max(i - 2, 0), i - 1, i, i + 1
         by_far, by_left = -by_film[i - 1, 0], by_film[i, 0] - by_film[i - 1, 1]
         by_here, by_right = by_film[i, 1] - by_film[i - 1, 2], by_film[i, 2]

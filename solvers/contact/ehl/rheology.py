@@ -4,8 +4,8 @@ The stress is tau = tau_m + G (zeta - 1/2), where G is h dp/dx and zeta is the h
 functions contain all that depends on the law, and choose the law by `Problem.rheology`:
 
 limited_gradient  G, limited to values at which the law can be evaluated
-mid_film_stress   the stress half way across a column for which the sliding speed is u2 - u1
-shear_rates       the shear rate of every interval for its stress, and the derivative of the rate by the stress
+mid_film_stress   the stress half way across a column, as required for the sliding speed u2 - u1
+shear_rates       the shear rate of every interval at the given stress, and the derivative of the rate by the stress
 uniform_shear     flow and stress in a film at one temperature
 
 A further law needs a name in `inputs.Rheology`, a branch in these four functions, and a branch in `effective_fluidity`,
@@ -27,7 +27,7 @@ STRESS_LIMIT = 300.0  # largest |h dp/dx|/(2 tau0); exp(300)^2 does not overflow
 
 
 def softened(problem: Problem, stress: float) -> Problem | None:
-    """Give the contact a Ree-Eyring oil of a lower Eyring stress [Pa]; return None if `stress` is not lower."""
+    """Change the law of shear to Ree-Eyring with `stress` [Pa]; return None if the present stress is not higher."""
     if problem.rheology == REE_EYRING and stress >= problem.eyring_stress:
         return None
     return problem._replace(rheology=REE_EYRING, eyring_stress=stress)
@@ -44,7 +44,7 @@ def limited_gradient(problem: Problem, g: float) -> float:
 
 @inlined_kernel
 def mid_film_stress(problem: Problem, i: int, g: float, h: float, shear: Shear) -> float:
-    """Compute the stress half way across column i for which the sliding speed is u2 - u1.
+    """Compute the stress half way across column i, as required for the sliding speed u2 - u1.
 
     Parameters
     ----------
@@ -90,7 +90,7 @@ def _eyring_mid_stress(problem: Problem, i: int, g: float, h: float, shear: Shea
     """Compute tau_m = tau0 a from a closed form of e^a; for du < 0 the conjugate form avoids cancellation."""
     m = shear.fluidity.shape[1]
     tau0, dz = problem.eyring_stress, 1.0 / m
-    # e^(G (zeta - 1/2)/tau0) in the first interval, and the ratio of this factor in two neighbouring intervals
+    # e^(G (zeta - 1/2)/tau0) in the first interval, and the ratio of this factor between neighbouring intervals
     growth, ratio = np.exp(g * (0.5 * dz - 0.5) / tau0), np.exp(g * dz / tau0)
     c_plus, c_minus = 0.0, 0.0
     for j in range(m):
@@ -106,7 +106,7 @@ def _eyring_mid_stress(problem: Problem, i: int, g: float, h: float, shear: Shea
 
 @inlined_kernel
 def shear_rates(problem: Problem, i: int, g: float, tau_m: float, shear: Shear) -> None:
-    """Compute stress, shear rate and effective fluidity of column i and their derivatives by the stress, in place.
+    """Compute stress, rate and effective fluidity of column i, and derivatives of rate and fluidity by the stress.
 
     Parameters
     ----------

@@ -63,7 +63,10 @@ class MidFilm(NamedTuple):
 
 
 class Film(NamedTuple):
-    """Arrays of n columns of the film with m intervals of equal height and m + 1 nodes; `moments` (n,) of MOMENTS."""
+    """Arrays of n columns of the film, each with m intervals of equal height and m + 1 nodes.
+
+    `moments` (n,) has the type MOMENTS.
+    """
 
     shear: Shear
     moments: RecordArray
@@ -81,7 +84,7 @@ def film_arrays(nodes: int, film_nodes: int) -> Film:
 
 @inlined_kernel
 def viscosities(problem: Problem, i: int, temperature: FloatArray, p: float, shear: Shear) -> None:
-    """Compute fluidity 1/eta and density of each interval of column i at its mean temperature, in place."""
+    """Compute fluidity 1/eta and density of each interval of column i at the mean temperature of the interval."""
     laws, m = problem.laws, temperature.shape[1] - 1
     term, term_slope = pressure_part(laws, p)
     base, _, by_heating = density(laws, p, laws.reference_temperature)

@@ -14,8 +14,8 @@ from solvers.contact.ehl.reynolds import FaceFluxes, face_arrays, film_shape, ma
 from solvers.contact.ehl.rheology import limited_gradient
 from solvers.contact.ehl.shear import Film, film_arrays
 
-# Numbers of the first column of a pass: 0, or 1 for a pass that leaves out the first column. They are not literals,
-# because numba would compile the passes again for each literal.
+# Number of the column with which a pass begins: 0, or 1 for a pass that leaves out the first column. Both numbers have
+# the type np.int64, because numba would compile the passes again for each literal.
 FIRST, NEXT = cast("int", np.int64(0)), cast("int", np.int64(1))
 
 
@@ -44,8 +44,9 @@ def no_steps() -> RecordArray:
 class Work(NamedTuple):
     """Quantities that follow from a state.
 
-    `height` is the film thickness H (n,), and `gradient` is dP/dX (n,). `at` (n,) of PLACE holds pressure, h dp/dx and
-    film thickness of the columns in SI units. The other fields hold flow coefficients, mass fluxes, shear and heat.
+    `height` is the film thickness H (n,), and `gradient` is dP/dX (n,). `at` (n,), of type PLACE, holds pressure,
+    h dp/dx and film thickness of the columns in SI units. The other fields hold flow coefficients, mass fluxes, shear
+    and heat.
     """
 
     height: FloatArray

@@ -23,15 +23,16 @@ from solvers.contact.ehl.state import State, Work
 
 LARGEST_STEP = 40.0  # K, largest change of a temperature in one iteration of a column
 COLUMN_ITERATIONS = 60  # limit; a column that has not converged by then does not converge at all
-REVERSE_SWEEPS = 3  # chosen; a sweep carries the heat of reverse flow against the direction of the march only once
+REVERSE_SWEEPS = 3  # number of sweeps if there is reverse flow, chosen; all sweeps but the last carry heat back
 
 
 @kernel
 def march_temperatures(problem: Problem, grid: Grid, state: State, work: Work) -> None:
     """Compute a first guess of the temperatures at given pressures, one column after the other.
 
-    All columns have the same mass flux of Couette flow, without a pressure gradient. The iteration of a column starts
-    from the temperatures of the column before it. Thus all columns stay on the same branch of solutions as the inlet.
+    The flow is Couette flow without a pressure gradient, with the same mass flux in all columns. The iteration of a
+    column starts from the temperatures of the column before it. Thus all columns stay on the same branch of solutions
+    as the inlet.
     """
     film, heat, temperature = work.film, work.heat, state.temperature
     n, nodes = temperature.shape
@@ -103,10 +104,10 @@ def temperature_step(
 ) -> None:
     """Solve the linearised heat balance of all columns for the temperature step `step` (n, k).
 
-    The solution marches along the flow. If there is reverse flow, the columns with reverse flow are first swept forward
-    and backward, with the latest step of their right neighbours. `given` (n, k) is the temperature change that a change
-    of pressure causes at fixed temperatures upstream. `weight` multiplies the residual: it is 1 for a Newton step, and
-    0 for the effect of `given` alone.
+    The solution marches along the flow. If there is reverse flow, the columns up to the last one with reverse flow are
+    first swept forward and backward; each column then uses the latest step of its right neighbour. `given` (n, k) is
+    the temperature change that a change of pressure causes at fixed temperatures upstream. `weight` multiplies the
+    residual: it is 1 for a Newton step, and 0 for the effect of `given` alone.
     """
     n, last = step.shape[0], step.shape[1] - 1
     surfaces, residual = heat.surfaces, heat.column.residual

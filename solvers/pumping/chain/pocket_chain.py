@@ -106,7 +106,7 @@ def _renew(
 ) -> None:
     """Fill pockets with ambient gas when their stroke begins, and update the balances.
 
-    The content of a pocket is added to the balances when its stroke begins and when it ends.
+    The content of a pocket is added to the balances when the stroke of the pocket begins and when the stroke ends.
     """
     per_energy = gas.exponent - 1.0
     for i in range(low, high):

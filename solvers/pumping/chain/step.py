@@ -19,8 +19,8 @@ from solvers.pumping.flow.nozzle import Gas, mass_flux
 
 _NEWTON_LIMIT = 200  # number of iterations after which a step counts as not converged
 _TOLERANCE = 1e-10  # largest residual, relative to a pocket's content at ambient pressure
-_ROUNDING = 1e-7  # largest residual if Newton's method no longer reduces it because pressures differ by round-off only
-_HALVINGS = 12  # largest number of halvings of a Newton step; a step below 1/4096 of it does not help
+_ROUNDING = 1e-7  # largest residual accepted if Newton's method cannot reduce it, because pressures differ by round-off
+_HALVINGS = 12  # largest number of halvings of a Newton step; steps below 1/4096 of Newton's step do not help
 
 
 STATE = floats("pressure", "mass")
@@ -126,7 +126,7 @@ def advance(
     pockets : RecordArray
         Records of POCKET, (pockets + 1,); the new states and the balances are changed in place.
     low, high : int
-        First active pocket, and the pocket after the last active one.
+        First active pocket, and the pocket after the last active pocket.
     dt : float
         Length of the step [s].
     isentropic : bool

@@ -13,7 +13,7 @@ class Duct(NamedTuple):
     """A stretch of a tooth space cut into equal cells.
 
     `start` is the distance from the end that meshes first [m]; `width` is the width of a cell [m], and `cells` the
-    number of cells. `lag` is the angle by which the stroke comes later per metre of face [rad/m]. `speed` is the speed
+    number of cells. `lag` is the angle by which the stroke begins later per metre of face [rad/m]. `speed` is the speed
     of the owner, the gear to which the space belongs [rad/s]. Row k of `table` (`wall_table`) holds the walls at the
     angle `first_angle` + k `angle_step` [rad]. `discharge` is the discharge coefficient.
     """
@@ -62,7 +62,7 @@ def wall_at(duct: Duct, z: float, angle: float) -> Wall:
 
 @kernel
 def phase_of(duct: Duct, i: int, angle: float) -> float:
-    """Compute the phase of cell i [rad]: the owner's angle minus the lag of the cell, on which the walls depend."""
+    """Compute the phase of cell i [rad], on which the walls depend: the owner's angle minus the lag of the cell."""
     return angle - duct.lag * (duct.start + (i + 0.5) * duct.width)
 
 
@@ -70,7 +70,7 @@ def phase_of(duct: Duct, i: int, angle: float) -> float:
 def active_range(duct: Duct, angle: float) -> tuple[int, int]:
     """Find the first active cell and the cell after the last active cell.
 
-    A cell is active if its phase is in the stroke.
+    A cell is active if the phase of the cell lies within the stroke.
     """
     low, high = 0, 0
     for i in range(duct.cells):
@@ -91,7 +91,7 @@ def stroke_end(duct: Duct) -> float:
 
 @kernel
 def stroke_share(duct: Duct, z: float, angle: float, turn: float) -> float:
-    """Compute the share of a step of `turn` from `angle` [rad] in which the position z [m] is in its stroke."""
+    """Compute the share of a step of `turn` from `angle` [rad] in which the stroke is under way at z [m]."""
     phase = angle - duct.lag * z
     inside = min(phase + turn, stroke_end(duct)) - max(phase, duct.first_angle)
     return min(max(inside / turn, 0.0), 1.0)

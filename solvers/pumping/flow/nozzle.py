@@ -93,7 +93,7 @@ def flux_squared(gas: Gas, upstream: float, density: float, drop: float) -> tupl
 
 @kernel
 def _expansion(power: float, drop: float) -> tuple[float, float]:
-    """Compute the density ratio y = x^power of an isentropic expansion by the pressure ratio x = 1 - drop, and y - x.
+    """Compute the density ratio y = x^power of an isentropic expansion, and y - x; x = 1 - drop is the pressure ratio.
 
     For small drops x and y are nearly equal. The difference y - x is then computed from the series
     1 - y = power drop (1 + (1 - power)/2 drop (1 + (2 - power)/3 drop (1 + ...))).

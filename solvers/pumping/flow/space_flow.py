@@ -105,21 +105,21 @@ def add_means(profile: RecordArray, i: int, static: float, stagnation: float, dt
 
 @kernel
 def include_pressure(profile: RecordArray, i: int, pressure: float) -> None:
-    """Update the highest and the lowest pressure of cell i by a pressure [Pa]."""
+    """Update the highest and the lowest pressure of cell i with a new pressure [Pa]."""
     profile[i].highest = max(profile[i].highest, pressure)
     profile[i].lowest = min(profile[i].lowest, pressure)
 
 
 @kernel
 def include_speed(extremes: RecordArray, mach: float, velocity: float) -> None:
-    """Update the extremes of the stroke by an axial Mach number and a velocity [m/s]."""
+    """Update the extremes of the stroke with a new axial Mach number and a new velocity [m/s]."""
     extremes[0].mach = max(extremes[0].mach, mach)
     extremes[0].velocity = max(extremes[0].velocity, velocity)
 
 
 @kernel
 def include_demand(extremes: RecordArray, mach: float) -> None:
-    """Update the largest demand of the stroke by the Mach number of an expansion to ambient pressure at an end."""
+    """Update the largest demand of the stroke with the Mach number of an expansion to ambient pressure at an end."""
     extremes[0].demand = max(extremes[0].demand, mach)
 
 
@@ -191,7 +191,7 @@ class March:
 
 
 def space_flow(angle: FloatArray, marches: list[March], *, conserves_energy: bool) -> SpaceFlow:
-    """Join the marches through all stretches of a face to one flow."""
+    """Join the marches through all stretches of a face into one flow."""
     marched = [march.record for march in marches]
     field = np.concatenate([record.field for record in marched], axis=1).view(np.recarray)
     profile = np.concatenate([record.profile for record in marched]).view(np.recarray)

@@ -1,6 +1,7 @@
 """Quasi-one-dimensional gas dynamics of a tooth space: ducts are marched through their strokes, step by step.
 
-A cell takes part while it is in its stroke. This model converges if the grid is refined; the pocket chain does not.
+A cell takes part in the steps while the cell is in its stroke. This model converges if the grid is refined; the pocket
+chain does not converge.
 """
 
 from math import ceil
@@ -29,7 +30,7 @@ from solvers.pumping.gas.step import Cells, empty_cells, set_walls, step
 from solvers.pumping.space.face import Stretch
 
 LEAST_SLICES = 4  # chosen: limited slopes need three cells
-_HASTE = 2.5  # factor on the number of steps for sound in gas at rest, which gives the room in the record
+_HASTE = 2.5  # the record has room for this factor times the number of steps for sound in gas at rest
 COURANT = 0.7  # Courant number; less than the limit of the scheme, 1, because waves may become faster within a step
 _ROUNDING = 1e-6  # share of a step; a step may be longer by this share, so that no smaller remainder is left
 _RETRIES = 12  # number of halvings of a failed step, chosen
@@ -121,13 +122,13 @@ def _taking_part(gas: Gas, duct: Duct, angle: float, turn: float) -> tuple[int, 
 
     Returns the first of these cells, and the cell after the last of them.
 
-    A cell takes part while its centre is in its stroke. The first and the last cell of the duct also take part while
-    their outer end is in its stroke, so that gas can leave through an end as long as the end is open. Walls and
-    balances count only the share of the step that lies in the stroke.
+    A cell takes part while the stroke is under way at the centre of the cell. The first and the last cell of the duct
+    also take part while the stroke is under way at the end of the duct, so that gas can leave through an end as long as
+    the end is open. Walls and balances count only the share of the step that lies in the stroke.
 
     If the stroke runs along the face faster than sound, cells take part a few cell widths early. Physical waves then do
-    not reach the border to the idle cells, but on a grid waves spread over a few cells. If the border were among these
-    cells, the gas that passes the border would fill the next cells. The flow could then develop in two different ways,
+    not reach the border to the idle cells, but on a grid waves spread over a few cells. If the border lay within this
+    spread, the gas that passes the border would fill the next cells. The flow could then develop in two different ways,
     depending on the sequence of steps.
     """
     low, high, rear = 0, 0, duct.cells - 1
@@ -166,10 +167,10 @@ def _fill(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, new_low: int,
 
 @kernel
 def _border(gas: Gas, duct: Duct, cells: Cells, low: int, high: int) -> State:
-    """Compute the state of the gas with which the next cells begin, from a border at the centre of these cells.
+    """Compute the state of the gas with which the next cells begin: the state of a border at the centre of these cells.
 
-    The state of the last active cells is extrapolated to the border by one cell width. If no cell is active yet, the
-    gas is ambient gas at rest.
+    The states of the last two active cells are extrapolated by one cell width to the border. If no cell is active yet,
+    the gas is ambient gas at rest.
     """
     if not low < high < duct.cells:
         return State(gas.density, 0.0, gas.pressure)
@@ -228,9 +229,9 @@ def _record_cells(
     """Record losses to the walls, mean temperatures and extremes of the active cells.
 
     Mean temperatures follow from the trapezoidal rule. `longest` is the turn of a whole step [rad]. The extremes leave
-    out two kinds of cells. If the stroke of a cell ends within the step, the cell is closed for the remainder of the
-    step and collects the inflow. In its first steps a cell starts from the state of the border; the leakage of the cell
-    settles within a fraction of a step, so an implicit scheme of second order overshoots.
+    out two kinds of cells. A cell whose stroke ends within the step is closed for the remainder of the step and
+    collects the inflow. A cell whose stroke has just begun starts from the state of the border; the leakage of this
+    cell settles within a fraction of a step, so the implicit scheme of second order overshoots.
     """
     old, new, loss, dt = cells.state, cells.next_state, cells.loss, turn / duct.speed
     for i in range(low, high):

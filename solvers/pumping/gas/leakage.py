@@ -3,8 +3,8 @@
 All amounts are per metre of face. Gas that leaks out has the velocity of the cell; gas that leaks in comes from rest.
 The only unknown is the flux through the radial gaps. The square of this flux is nearly linear in the pressure.
 Therefore Newton's method for the square converges for any gap and any pressure, even if the exchange is very stiff.
-Mass, momentum and energy of the cell follow from the flux without further iteration. Therefore they are conserved
-even if the flux has an error.
+Mass, momentum and energy of the cell follow from the flux without further iteration. These three quantities are
+therefore conserved even if the flux has an error.
 """
 
 from typing import NamedTuple

@@ -101,7 +101,7 @@ def _star_flux(g: float, state: State, s: float, s_m: float) -> Conserved:
 
 @kernel
 def reservoir_face(gas: Gas, cell: State) -> tuple[State, float]:
-    """Compute the state of a face that opens into the ambient, and its demand.
+    """Compute the state of a face that opens into the ambient, and the demand of this face.
 
     Parameters
     ----------
@@ -116,8 +116,8 @@ def reservoir_face(gas: Gas, cell: State) -> tuple[State, float]:
         State of the face. Outflow expands to the ambient pressure, at most to Mach 1. Inflow comes from ambient gas at
         rest. If the cell is supersonic outwards, the face has the state of the cell.
     demand : float
-        Mach number of an expansion to the ambient pressure, negative for inflow. If it is above 1, the face is choked,
-        or the cell is supersonic.
+        Mach number of an expansion to the ambient pressure, negative for inflow. If the demand is above 1, the face is
+        choked, or the cell is supersonic.
 
     Notes
     -----
@@ -178,7 +178,7 @@ def _inflow(gas: Gas, invariant: float, cell_sound_speed: float) -> State:
     The inflow is at most sonic. `cell_sound_speed` is the speed of sound of the cell's gas after an expansion to
     ambient pressure [m/s]. If this gas is hotter than the ambient gas, a contact discontinuity lies between both gases,
     and the invariant v + 2c/(g-1) holds on the side of the cell. In the code, `ratio` is the speed of sound at the face
-    divided by that of the ambient gas; it is the larger root of a quadratic equation.
+    divided by the speed of sound in the ambient gas. This ratio is the larger root of a quadratic equation.
     """
     g, stagnation = gas.exponent, gas.sound_speed
     slope, jet = 2.0 / (g - 1.0) * cell_sound_speed, 2.0 / (g - 1.0) * stagnation**2

@@ -54,8 +54,8 @@ class Cells(NamedTuple):
     At the start of the step: `content` (CONSERVED), `state` (STATE) and `walls` (WALL). At the end of the step:
     `next_content`, `next_state` and `next_walls`. In the middle of the step: the state `half` (STATE), the `face_area`
     [m^2] and the `flux` through the faces (CONSERVED). `slope` is the change of the state over a cell (STATE). For the
-    whole step: `loss` (LOSS), `ends` (END), `leak` (LEAK) and `share`, which is the share of the step in which the
-    centre of a cell is in its stroke. Outside the stroke the walls of a cell stand still, and nothing leaks.
+    whole step: `loss` (LOSS), `ends` (END), `leak` (LEAK) and `share`, the share of the step in which the stroke is
+    under way at the centre of a cell. Outside the stroke the walls of a cell stand still, and nothing leaks.
     """
 
     content: RecordArray
@@ -96,7 +96,7 @@ def empty_cells(cells: int) -> Cells:
 
 @kernel
 def set_walls(duct: Duct, cells: Cells, low: int, high: int, angle: float, turn: float) -> None:
-    """Set the walls of the active cells at the start and end of a step, and the face areas in the middle of it."""
+    """Set the walls of the active cells at the start and end of a step, and the face areas in mid-step."""
     for i in range(low, high):
         z = duct.start + (i + 0.5) * duct.width
         share = stroke_share(duct, z, angle, turn)
@@ -126,7 +126,7 @@ def step(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, dt: float, ord
     cells : Cells
         Arrays of the duct; `next_content` and `next_state` are the result, changed in place.
     low, high : int
-        First active cell, and the cell after the last active one.
+        First active cell, and the cell after the last active cell.
     dt : float
         Length of the step [s].
     order : int
@@ -181,7 +181,7 @@ def _put_slope(slope: RecordArray, i: int, density: float, velocity: float, pres
 
 @kernel
 def _limited(side: int, back: float, ahead: float) -> float:
-    """Return van Leer's limited slope of two neighbouring differences; in an end cell (side -1 or 1), `_end_slope`."""
+    """Return van Leer's limited slope of neighbouring differences, or `_end_slope` in an end cell (side -1 or 1)."""
     if side < 0:
         return _end_slope(back, ahead)
     if side > 0:
@@ -191,7 +191,7 @@ def _limited(side: int, back: float, ahead: float) -> float:
 
 @kernel
 def _end_slope(nearest: float, next_one: float) -> float:
-    """Compute the slope of a parabola in an end cell from two differences; at most twice the nearest difference."""
+    """Compute the slope of a parabola in an end cell from two differences; limit it to twice the nearest difference."""
     slope = 1.5 * nearest - 0.5 * next_one
     if slope * nearest <= 0.0:
         return 0.0

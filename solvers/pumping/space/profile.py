@@ -20,20 +20,20 @@ _GOLDEN = 0.6180339887498949  # (sqrt(5) - 1) / 2, the golden section
 
 @kernel
 def involute(roll: float, base: float) -> float:
-    """Compute the polar angle [rad] from the start of an involute on the base circle to a roll length [m]."""
+    """Compute the polar angle [rad] between the start of an involute and its point at a roll length [m]."""
     angle: float = roll / base - np.arctan(roll / base)
     return angle
 
 
 @kernel
 def sector(roll: float, base: float) -> float:
-    """Compute the area under an involute, 1/2 integral r^2 dpsi, from the base circle to a roll length [m^2]."""
+    """Compute the area [m^2] under an involute, 1/2 integral r^2 dpsi, from its start up to a roll length [m]."""
     return roll**3 / (6.0 * base)
 
 
 @kernel
 def sector_to_involute(space: ToothSpace, roll: float) -> float:
-    """Compute the area between the owner's axis and half the profile of the space, up to a roll length [m^2]."""
+    """Compute the area [m^2] between the owner's axis and half the space's profile, up to a roll length [m]."""
     base = space.base_radius
     return space.root.sector_area + sector(roll, base) - sector(space.root.involute_roll, base)
 
@@ -49,7 +49,7 @@ def _distance_to_fillet(fillet: RackFillet, t: float, radius: float, angle: floa
 def _nearest_on_fillet(fillet: RackFillet, radius: float, angle: float) -> tuple[float, float]:
     """Find the point of the fillet nearest to (radius, angle).
 
-    Returns the parameter of this point on the fillet, and the distance of both points [m].
+    Returns the parameter of this point on the fillet, and the distance between both points [m].
     """
     step = fillet.end / (_SCAN - 1)
     best, nearest = 0, np.inf
@@ -72,7 +72,7 @@ def _nearest_on_fillet(fillet: RackFillet, radius: float, angle: float) -> tuple
 def _foot_on_flank(space: ToothSpace, radius: float, angle: float) -> tuple[float, float]:
     """Find the point of the space's flank nearest to (radius, angle).
 
-    Returns the roll length of this point [m], and the distance of both points [m].
+    Returns the roll length of this point [m], and the distance between both points [m].
     """
     base, start = space.base_radius, space.root.involute_roll
     if radius > base:
@@ -92,8 +92,8 @@ def _foot_on_flank(space: ToothSpace, radius: float, angle: float) -> tuple[floa
 def nearest_on_profile(space: ToothSpace, radius: float, angle: float) -> tuple[float, float, float, float]:
     """Find the point of half the space's profile nearest to (radius, angle).
 
-    Returns the distance of both points [m]; radius [m] and angle [rad] of the nearest point; and the area between the
-    owner's axis and the profile up to the nearest point [m^2].
+    Returns the distance between both points [m]; radius [m] and angle [rad] of the nearest point; and the area between
+    the owner's axis and the profile up to the nearest point [m^2].
     """
     root, base = space.root, space.base_radius
     roll, distance = _foot_on_flank(space, radius, angle)
@@ -117,7 +117,7 @@ def nearest_on_profile(space: ToothSpace, radius: float, angle: float) -> tuple[
 def foot_on_mate(space: ToothSpace, radius: float, angle: float) -> tuple[float, float]:
     """Find the point of the mate's flank nearest to (radius, angle).
 
-    Returns the roll length of this point [m], and the distance of both points [m].
+    Returns the roll length of this point [m], and the distance between both points [m].
     """
     base = space.mate_base_radius
     foot = 0.0

@@ -53,9 +53,9 @@ def _close(
 def _corner_section(space: ToothSpace, angle: float, mate_angle: float) -> tuple[float, float, float, float, float]:
     """Find the section between a tip corner and the other gear.
 
-    With contact gaps, the tip corner that is nearer to the other gear counts; with tip gaps, the mate's tip corner.
-    Returns the clearance [m]; radius [m] and half angle [rad] of the foot on the space; the area between the owner's
-    axis and the profile up to this foot [m^2]; and the roll length of the foot on the mate [m].
+    With contact gaps, the tip corner that is nearer to the other gear counts; with tip gaps, the mate's tip corner
+    counts. Returns the clearance [m]; radius [m] and half angle [rad] of the foot on the space; the area between the
+    owner's axis and the profile up to this foot [m^2]; and the roll length of the foot on the mate [m].
     """
     clearance, r, psi, below = from_mate(space, angle, mate_angle, space.mate_tip_roll)
     foot = space.mate_tip_roll
@@ -73,9 +73,9 @@ def _flank_section(
 ) -> tuple[float, float, float, float, float]:
     """Find the section of a side on the line of action; returns the same values as `_corner_section`.
 
-    If the line of action misses the involute of one gear, the section joins the point on the flank of the other gear to
-    the nearest point of the first gear. If the distance of the end of the missed involute from the other gear is
-    smaller, this distance is the clearance.
+    If the line of action misses the involute of gear A, the section joins the point of the line of action on the flank
+    of the other gear B to the nearest point of gear A. The clearance is the length of this section, or the distance
+    between the end of the missed involute and gear B if this distance is smaller.
     """
     start = space.root.involute_roll
     if roll < start:
@@ -95,8 +95,8 @@ def _flank_section(
 def _carried(space: ToothSpace, roll: float, gap: float) -> float:
     """Compute the area of gas [m^2] that rolling flanks have carried through a section of width `gap` [m].
 
-    The area is positive towards growing roll lengths. It is the integral of the gap times half the sum of the rolling
-    velocities of both flanks over time, from the angle at which both velocities are 0.
+    The area is positive towards growing roll lengths. The gas moves with the mean of the rolling velocities of both
+    flanks. The integral over time of each rolling velocity begins at the angle at which this velocity is 0.
     """
     facing = space.line_of_action - gap
     roll = min(max(roll, facing - space.mate_tip_roll), space.tip_roll)

@@ -14,7 +14,7 @@ from solvers.sources import MILIAN
 
 POSITIONS = 361  # number of positions, one at every 1/360 of the stroke, chosen
 # A change of the logarithm of the area in one step counts as a jump if it exceeds SMOOTH times the change in the
-# neighbouring steps by JUMP. JUMP, chosen, is far above the rounding errors of the search for the section.
+# neighbouring steps by more than JUMP. JUMP, chosen, is far above the rounding errors of the search for the section.
 SMOOTH = 3.0
 JUMP = 0.01
 

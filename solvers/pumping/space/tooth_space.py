@@ -70,7 +70,7 @@ def circumferential_backlash(pair: GearPair, normal_backlash: float) -> float:
     pair : GearPair
         The gear pair at its centre distance.
     normal_backlash : float
-        Normal backlash by which the mate's tooth is thinner, in addition to the backlash of the centre distance [m].
+        Normal backlash due to a thinner tooth of the mate, in addition to the backlash of the centre distance [m].
 
     Returns
     -------
@@ -88,7 +88,7 @@ def circumferential_backlash(pair: GearPair, normal_backlash: float) -> float:
 
 
 def normal_backlash(pair: GearPair, extra: float) -> float:
-    """Compute the backlash along the normal of the flanks [m], including `extra` [m] by a thinner tooth."""
+    """Compute the backlash along the normal of the flanks [m], including `extra` [m] due to a thinner tooth."""
     tangential = circumferential_backlash(pair, extra)
     return tangential * cos(pair.working_pressure_angle) * cos(pair.base_helix_angle)
 
@@ -145,7 +145,7 @@ def tooth_space(pair: GearPair, extra_backlash: float, gap: Gap, *, of_pinion: b
 
 
 def stroke_limits(space: ToothSpace) -> StrokeLimits:
-    """Compute the angles at which the mate's tooth enters and leaves the space and its driving flank is in contact.
+    """Compute the angles at which the mate's tooth enters and leaves the space and at which contact begins and ends.
 
     Parameters
     ----------

@@ -1,5 +1,5 @@
 """Micropitting and mild wear of the flanks.
 
-The modules, in the order of the calculation: oil, film and mean_values; standard (method B), local (method A) and wear;
-check. The formulas are those of ISO/TR 15144-1:2014 (today ISO/TS 6336-22), as read in a public implementation.
+The calculation uses the modules in this order: oil, film and mean_values; standard (method B), local (method A) and
+wear; check. The formulas are those of ISO/TR 15144-1:2014 (today ISO/TS 6336-22), as read in a public implementation.
 """

@@ -28,7 +28,10 @@ LIKELY_BELOW, UNLIKELY_ABOVE = 1.0, 2.0  # limits of the safety factor, from com
 
 @dataclass(frozen=True, slots=True)
 class CheckedFlank:
-    """Answer of a check, film of the flank, and film ratio over the maps of the flank; unknown values are None."""
+    """Answer of a check, film of the flank, and film ratio at the points of the flank's maps.
+
+    Unknown values are None.
+    """
 
     answer: Micropitting | None = None
     film: FlankFilm | None = None
@@ -54,14 +57,14 @@ def check_micropitting(
     grid : FlashMap
         Points of the flank at which the film is computed, and the load at these points.
     thermal_film : float, optional
-        Thinnest film by thermal EHL [m]; None if it is unknown.
+        Thinnest film by thermal EHL [m]; None if this film is unknown.
     bulk : callable, optional
         Function that returns the bulk temperature [K] along the face; None if the bulk temperature is constant.
 
     Returns
     -------
     CheckedFlank
-        The checked flank. The result is empty if the check is not requested, or if the oil or the bulk temperature is
+        The checked flank. All values are None if the check is not requested, or if the oil or the bulk temperature is
         unknown.
     """
     check, oil = inputs.micropitting, inputs.known_oil
@@ -109,7 +112,7 @@ def _local(
 def _local_points(
     distribution: LoadDistribution, film: FlankFilm | None, permissible: float | None
 ) -> list[LocalPoint]:
-    """Return the film at the characteristic points of the feature line; points outside the path are left out."""
+    """Return the film at the characteristic points of the feature line that lie on the path of contact."""
     path = distribution.path_of_contact
     places = {name: x / path.length for name, x in characteristic_points(path).items() if 0.0 <= x <= path.length}
     psi = np.array([*places.values()])
@@ -146,7 +149,7 @@ def _standard(
 
 
 def _safety(ratio: float | None, permissible: float | None) -> float | None:
-    """Compute the safety factor S_lambda = lambda / lambda_GFP (Eq. M7); None if either film ratio is unknown."""
+    """Compute the safety factor S_lambda = lambda / lambda_GFP (Eq. M7); None if one of the two ratios is unknown."""
     return None if ratio is None or permissible is None else ratio / permissible
 
 

@@ -38,7 +38,10 @@ class Conditions:
 
 
 class Contacts(NamedTuple):
-    """Hertzian pressure above 0 [Pa], reduced radius [m] and surface speeds [m/s] of contacts; arrays of one shape."""
+    """Hertzian pressure [Pa], reduced radius [m] and surface speeds [m/s] of contacts.
+
+    All arrays have the same shape. Every pressure is above 0.
+    """
 
     pressure: FloatArray
     radius: FloatArray

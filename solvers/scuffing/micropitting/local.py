@@ -20,7 +20,7 @@ from solvers.scuffing.thermal.flank import (
     on_diagonals,
 )
 
-LEAST = 1e-9  # film ratio; all films with a smaller ratio count as equally thin
+LEAST = 1e-9  # film ratio; smaller film ratios are treated as equal to this value
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,7 +28,7 @@ class FlankFilm:
     """Values on which the film ratio over the flank depends.
 
     `bulk` is a function that returns the bulk temperature along the face. If `bulk` is None, the bulk temperature of
-    `conditions` is used everywhere; at this temperature the oil enters the contact.
+    `conditions` is used everywhere. The oil enters the contact at the bulk temperature.
     """
 
     inputs: ScuffingInputs
@@ -37,7 +37,7 @@ class FlankFilm:
     bulk: FaceFunction | None
 
     def ratio(self, points: ContactPoints, y: FloatArray) -> FloatArray:
-        """Compute the film ratio at points of the flank; NaN where nothing is in contact."""
+        """Compute the film ratio at points of the flank; NaN at points where the flanks do not touch."""
         touching = points.in_contact
         conditions = self.conditions
         if self.bulk is not None:
@@ -68,7 +68,7 @@ def contacts_of(points: ContactPoints, modulus: float) -> Contacts:
 def flank_film(
     inputs: ScuffingInputs, distribution: LoadDistribution, bulk: FaceFunction | None = None
 ) -> FlankFilm | None:
-    """Return the film of a flank; None if the oil, the bulk temperature, the load or the speed is missing."""
+    """Return the values for the film of a flank; None if oil, bulk temperature, load or speed is missing."""
     given, temperatures, oil = inputs.distribution, inputs.temperatures, inputs.known_oil
     if oil is None or temperatures.bulk is None or distribution.balance.force == 0.0 or given.load.pinion_speed == 0.0:
         return None
@@ -86,16 +86,16 @@ def find_least(flank: FlankFilm, grid: FlashMap, ratio: FloatArray) -> Peak | No
     Parameters
     ----------
     flank : FlankFilm
-        The film of the flank.
+        The values on which the film ratio depends.
     grid : FlashMap
         The grid of the flash temperature.
     ratio : ndarray
-        Film ratio over the grid.
+        Film ratio at the points of the grid.
 
     Returns
     -------
     Peak or None
-        Least ratio and its place [m]; None if nothing is in contact, or if the loaded path reaches a base circle.
+        Least ratio and its place [m]; None if the flanks touch nowhere, or if the loaded path reaches a base circle.
     """
     if np.isnan(ratio).all() or reaches_base_circle(flank.distribution.balance.survey):
         return None

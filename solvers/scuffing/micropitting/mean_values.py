@@ -105,7 +105,7 @@ def loss_factor(path: PathOfContact) -> float:
 def bulk_temperature(
     given: LoadDistributionInputs, path: PathOfContact, oil_temperature: float, supply: OilSupply, friction: float
 ) -> float:
-    """Compute the bulk temperature of a pair without tip relief from the friction loss of the mesh.
+    """Compute the bulk temperature from the friction loss of the mesh, for a pair without tip relief.
 
     Parameters
     ----------

@@ -59,7 +59,7 @@ def range_notices(given: LoadDistributionInputs, path: PathOfContact) -> Iterato
 def standard_notices(
     given: LoadDistributionInputs, path: PathOfContact, standard: StandardFilm | None
 ) -> Iterator[Notice]:
-    """Yield a note with the reason if method B gives no film."""
+    """Yield a note that says why method B gives no film; yield nothing if method B gives a film."""
     if standard is not None:
         return
     reasons = {
@@ -75,7 +75,7 @@ def standard_notices(
 
 
 def hot_film_notices(film: FlankFilm, least: Peak) -> Iterator[Notice]:
-    """Warn if the contact with the thinnest film is hotter than the range in which the laws of the oil hold."""
+    """Warn if the contact with the thinnest film is too hot for the laws of the oil."""
     points = contact_at_points(film.inputs.distribution, film.distribution, np.array([least.x]), np.array([least.y]))
     bulk = film.conditions.bulk if film.bulk is None else film.bulk(np.array([least.y]))
     contact = float(np.max(bulk + flash_temperature(film.conditions, contacts_of(points, film.conditions.modulus))))

@@ -18,7 +18,7 @@ Real = TypeVar("Real", float, FloatArray)
 ZERO = 273.0  # K, rounded zero of the Celsius scale in the report; the exact zero is 273.15 K
 ROUNDED = 273.15 - ZERO  # K, difference between the exact and the rounded zero
 DENSITY_SLOPE = 0.7  # kg/(m^3 K)
-DENSITY_ZERO = 289.0  # K, on the scale of the report
+DENSITY_ZERO = 289.0  # K, reference temperature of the density on the scale of the report
 REFERENCE = 38.0  # C, reference temperature of viscosity and pressure-viscosity coefficient
 REFERENCE_COEFFICIENT: dict[OilKind, tuple[float, float]] = {
     "mineral": (2.657e-8, 0.1348),
@@ -35,7 +35,7 @@ def density(sheet: OilSheet, temperature: Real) -> Real:
     Parameters
     ----------
     sheet : OilSheet
-        The oil. If the density at 15 C is not given, it is estimated from the viscosity at 40 C.
+        The oil. If the density at 15 C is not given, this density is estimated from the viscosity at 40 C.
     temperature : float or ndarray
         Temperature [K].
 
@@ -77,15 +77,16 @@ def viscosity(oil: OilSheet | Lubricant, temperature: Real) -> Real:
 
     Notes
     -----
-    Eq. M2 of the chapter on micropitting. The equation holds for an oil that is given by a data sheet. An
-    oil that is given by its viscosity follows its own law.
+    Eq. M2 of the chapter on micropitting. The equation holds for an oil that is given by a data sheet. An oil that is
+    given by its viscosity follows its own law.
     """
     if isinstance(oil, OilSheet):
         intercept, slope = oil.walther()
         kinematic: Any = 10.0**10.0 ** (intercept - slope * np.log10(temperature)) - WALTHER_SHIFT
         return cast("Real", kinematic * SQUARE_MILLIMETRE * density(oil, temperature))
     laws = oil.laws
-    oil.viscosity_at(0.0, float(np.min(temperature, initial=oil.reference_temperature)))  # raises for thick oil
+    # This call raises the error if the oil is too thick.
+    oil.viscosity_at(0.0, float(np.min(temperature, initial=oil.reference_temperature)))
     if oil.pressure_viscosity_law == "barus":
         heating = temperature - laws.reference_temperature
         return cast("Real", np.exp(laws.log_viscosity - laws.temperature_viscosity * heating))

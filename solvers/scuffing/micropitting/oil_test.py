@@ -26,7 +26,7 @@ STEEL = Solid(
     thermal_conductivity=45.0,
     roughness=0.5e-6,
 )
-PERMISSIBLE_SHARE = 1.4  # permissible film ratio over the film ratio in the test, if the material factor is 1
+PERMISSIBLE_SHARE = 1.4  # permissible film ratio divided by the film ratio in the test, if the material factor is 1
 SURFACE_FACTOR: dict[FlankSurface, float] = {
     "case_hardened": 1.0,
     "case_hardened_retained_austenite": 0.95,
@@ -66,7 +66,7 @@ def film_of_test(oil: OilSheet | Lubricant, stage: int) -> FilmOfTest:
     Returns
     -------
     FilmOfTest
-        The least film ratio and its place, with the torque, friction and bulk temperature of the test.
+        The least film ratio and its place; torque, coefficient of friction and bulk temperature of the test.
     """
     torque = STAGE_TORQUE[stage]
     given = LoadDistributionInputs(GEARS, Load(torque, SPEED), pinion_material=STEEL, wheel_material=STEEL)
@@ -88,14 +88,15 @@ def permissible_ratio(check: MicropittingCheck, test: FilmOfTest | None) -> floa
     Parameters
     ----------
     check : MicropittingCheck
-        The check with the surfaces of the flanks, the material factor, or the permissible ratio itself.
+        Inputs of the check: surfaces of the flanks, material factor and permissible ratio.
     test : FilmOfTest, optional
         Film in the test of the oil; None if no failure load stage is given.
 
     Returns
     -------
     float or None
-        The ratio that follows from the test [-]. Without a test, the given ratio; None if no ratio is given.
+        Permissible film ratio [-]. With a test, the ratio follows from the film in the test. Without a test, the
+        ratio is the given ratio, or None if no ratio is given.
 
     Notes
     -----

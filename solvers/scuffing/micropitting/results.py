@@ -1,4 +1,4 @@
-"""Results of the checks against micropitting and wear; SI units, arrays read-only."""
+"""Results of the checks against micropitting and wear; SI units, read-only arrays."""
 
 from typing import Literal
 
@@ -12,7 +12,7 @@ Verdict = Literal["micropitting is likely", "limited margin", "micropitting is u
 
 @record
 class FilmOfTest:
-    """The film of the test gears C-GF in this oil, at the load stage at which the oil fails."""
+    """The film of the test gears C-GF in the oil of the pair, at the load stage at which the oil fails."""
 
     ratio: float = quantity(
         "specific film thickness of the micropitting test",
@@ -28,7 +28,7 @@ class FilmOfTest:
 
 @record
 class LocalPoint:
-    """The film at a point of the feature line; ratio and safety factor are None if nothing is in contact there."""
+    """The film at a point of the feature line; ratio and safety factor are None if the flanks do not touch there."""
 
     point: PointName = quantity("point of the feature line")
     psi: float = quantity("position of the point", "Ψ", text="fraction of the path, and of the feature line")

@@ -59,7 +59,7 @@ def has_relief(given: LoadDistributionInputs) -> bool:
 
 
 def has_standard_film(given: LoadDistributionInputs, path: PathOfContact) -> bool:
-    """Return True if method B has load sharing factors for the pair, and if every point of the path has a pressure."""
+    """Return True if method B has load sharing factors for the pair and no point of the path is near a base circle."""
     plane = path.plane
     ends = reduced_radius(plane, np.array([0.0, path.length]))
     unmodified_spur = plane.tan_base_helix == 0.0 and not has_relief(given)
@@ -110,7 +110,7 @@ def solve_standard(
     given : LoadDistributionInputs
         The pair and its load; neither torque nor speed is 0. The modifications are not used.
     path : PathOfContact
-        The path of contact of the pair. Its transverse contact ratio is from 1 to 2; no point is near a base circle.
+        The path of contact of the pair. The transverse contact ratio is from 1 to 2; no point is near a base circle.
     oil : OilSheet or Lubricant
         The oil.
     oil_temperature : float

@@ -12,14 +12,14 @@ from solvers.scuffing.results import LoadDistribution
 
 
 class WearDepths(NamedTuple):
-    """Depth of wear of each gear per revolution of the gear [m], maps [profile, face]; NaN next to a base circle."""
+    """Maps [profile, face] of the depth of wear of each gear per revolution of the gear [m]; NaN near a base circle."""
 
     pinion: FloatArray
     wheel: FloatArray
 
 
 def wear_depths(coefficient: float, distribution: LoadDistribution) -> WearDepths:
-    """Compute the depth of wear of both flanks, which is k w |v_g| / v_i per passage through the mesh.
+    """Compute the depth of wear of both flanks.
 
     Parameters
     ----------
@@ -35,8 +35,9 @@ def wear_depths(coefficient: float, distribution: LoadDistribution) -> WearDepth
 
     Notes
     -----
-    Eq. M15 of the chapter on micropitting; v_g is the sliding speed, and v_i is the surface speed of the gear. Next
-    to a base circle the flank of one gear hardly moves, and the depth of wear has no limit.
+    Eq. M15 of the chapter on micropitting: the depth of wear per passage through the mesh is k w |v_g| / v_i. Here w is
+    the line load, v_g is the sliding speed, and v_i is the surface speed of the gear. Next to a base circle the flank
+    of one gear hardly moves, so that the depth of wear has no limit.
     """
     path, flank = distribution.path_of_contact, distribution.flank
     speeds = np.stack(path.surface_speeds(flank.profile_fraction * path.length, 1.0))
@@ -61,7 +62,8 @@ def solve_wear(coefficient: float, distribution: LoadDistribution) -> Wear:
     Returns
     -------
     Wear
-        For each flank the largest depth with its place, the largest depth over the face along the path, and the map.
+        Results for each flank: the largest depth and its place, the largest depth over the face at every position of
+        the path, and the map of the depth.
     """
     depths = wear_depths(coefficient, distribution)
     pinion, wheel = (_largest(depth, distribution) for depth in depths)
@@ -73,7 +75,7 @@ def solve_wear(coefficient: float, distribution: LoadDistribution) -> Wear:
         wheel_at_psi=wheel.psi,
         wheel_at_face=wheel.face,
         psi=distribution.flank.profile_fraction,
-        pinion=frozen(depths.pinion.max(axis=1)),  # a row of the map is NaN either as a whole or nowhere
+        pinion=frozen(depths.pinion.max(axis=1)),  # either all or none of the values in a row are NaN
         wheel=frozen(depths.wheel.max(axis=1)),
         pinion_map=frozen(depths.pinion),
         wheel_map=frozen(depths.wheel),
@@ -81,7 +83,10 @@ def solve_wear(coefficient: float, distribution: LoadDistribution) -> Wear:
 
 
 class _Largest(NamedTuple):
-    """Largest depth [m], and its place: fraction of the path, distance on the face [m]; None if there is no limit."""
+    """Largest depth of wear [m] and its place, as fraction of the path and as distance on the face [m].
+
+    All values are None if the depth has no limit.
+    """
 
     value: float | None
     psi: float | None

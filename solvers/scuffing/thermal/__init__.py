@@ -1,4 +1,4 @@
 """Temperatures of the contact.
 
-The main modules, in the order of the calculation: practice and blok; temperatures; thermal_path; verdict.
+The calculation uses the main modules in this order: practice and blok; temperatures; thermal_path; verdict.
 """

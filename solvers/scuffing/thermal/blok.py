@@ -31,7 +31,7 @@ def blok_flash(given: LoadDistributionInputs, points: ContactPoints) -> FloatArr
     apart = np.where(points.undefined, np.nan, 0.0)
     if given.friction_coefficient is None:
         return np.where(points.in_contact, np.nan, apart)
-    with np.errstate(divide="ignore", invalid="ignore"):  # at points that are not in contact
+    with np.errstate(divide="ignore", invalid="ignore"):  # division by zero at points that are not in contact
         flash = blok_flash_temperature(
             friction=given.friction_coefficient,
             line_load=points.line_load,

@@ -1,10 +1,10 @@
-"""Blok's flash temperature and the film of the formula over the flank, with the hottest point and the thinnest film.
+"""Blok's flash temperature and Dowson and Higginson's film over the flank, with the hottest point and thinnest film.
 
 The feature line of the paper is a diagonal of the flank. If the load is carried at one end of the face, the feature
 line misses the hot corner of the flank. If the flank is crowned, the feature line crosses the loaded middle of the face
 only near the pitch point, where the flanks do not slide. The search for the largest value therefore covers the whole
 flank. Contacts at one place along the path differ only in their load. The search takes the largest value over the face
-at every place along the path, and refines the places with the highest of these values.
+at every place along the path. It then searches on finer grids around the places with the highest of these values.
 """
 
 from collections.abc import Callable
@@ -24,7 +24,7 @@ from solvers.scuffing.results import ContactPoints, LoadDistribution
 from solvers.scuffing.thermal.blok import blok_flash
 
 SURVEY_POINTS = 4001  # points of the feature line at which the formulas are evaluated to find extreme values
-REACHES = (2, 1, 1)  # of the zooms to both sides, in steps of the previous grid; steps become finer by 2, 4 and 4
+REACHES = (2, 1, 1)  # extent of each zoom to both sides, in steps of the previous grid; divides the step by 2, 4 and 4
 ZOOM_POINTS = 9  # number of points of a zoom, both along the path and across the face
 ZOOM_FRACTIONS = np.linspace(0.0, 1.0, ZOOM_POINTS)
 
@@ -42,10 +42,10 @@ ContactFunction = Callable[[ContactPoints], FloatArray]
 class FlashMap:
     """Blok's flash temperature `flash` [K] over a grid of the flank; NaN where the flash temperature has no limit.
 
-    The grid has x (n,) along the path and y (m,) along the face [m]; values over the grid have the shape (n, m). `load`
-    is the line load [N/m], `heaviest` is the contact under the largest load of every row. A row contains the points
-    with one x. `mapped` is True for the rows of the flank's maps. The other rows are added where the load jumps along
-    the path: one row on each side of a jump.
+    The grid has the coordinates x (n,) along the path and y (m,) along the face [m]. Values over the grid have the
+    shape (n, m); a row contains the points with the same x. `load` is the line load [N/m]. `heaviest` contains, for
+    every row, the contact under the largest load of the row. `mapped` is True for the rows of the flank's maps. The
+    other rows are added where the load jumps along the path: one row on each side of a jump.
     """
 
     x: FloatArray
@@ -66,13 +66,13 @@ def contact_at_points(
 def contacts_under_load(
     given: LoadDistributionInputs, distribution: LoadDistribution, x: FloatArray, load: FloatArray
 ) -> ContactPoints:
-    """Return the contacts at distances x [m] from A under line loads [N/m]; both are arrays of one shape."""
+    """Return the contacts at distances x [m] from A under line loads [N/m]; x and load are arrays of one shape."""
     modulus = reduced_modulus(given.pinion_material, given.wheel_material)
     return contact_points(distribution.path_of_contact, x, load, given.load.pinion_speed, modulus)
 
 
 def map_flash(given: LoadDistributionInputs, distribution: LoadDistribution) -> FlashMap:
-    """Compute Blok's flash temperature over the points of the flank's maps and on both sides of jumps of the load.
+    """Compute Blok's flash temperature at the points of the flank's maps, and on both sides of every load jump.
 
     At one place along the path the flash temperature is proportional to the load divided by the square root of the
     half-width. The half-width is proportional to the square root of the load. The flash temperature therefore grows
@@ -92,7 +92,7 @@ def map_flash(given: LoadDistributionInputs, distribution: LoadDistribution) -> 
     heaviest = contacts_under_load(given, distribution, x, load.max(axis=1))
     share = load / np.where(heaviest.line_load > 0.0, heaviest.line_load, 1.0)[:, None]
     largest = blok_flash(given, heaviest)
-    with np.errstate(invalid="ignore"):  # at points where the flash temperature has no limit
+    with np.errstate(invalid="ignore"):  # NaN appears at points where the flash temperature has no limit
         flash = np.where(share > 0.0, largest[:, None] * np.sqrt(share * np.sqrt(share)), 0.0)
     return FlashMap(x, y, load, heaviest, flash, mapped)
 
@@ -138,7 +138,7 @@ def find_hottest(
         The result of `map_flash` for the pair and its load distribution.
     bulk : callable, optional
         Function that returns the bulk temperature [K] at distances y [m] from the end that meshes first. If the
-        function is given, the largest sum of bulk and flash temperature is searched, else the largest flash
+        function is given, the largest sum of bulk and flash temperature is determined, otherwise the largest flash
         temperature.
 
     Returns
@@ -160,7 +160,7 @@ def find_hottest(
 def find_thinnest(
     given: LoadDistributionInputs, distribution: LoadDistribution, flash: FlashMap, film_at: ContactFunction
 ) -> Peak | None:
-    """Find the thinnest film of the formula over the flank.
+    """Find the thinnest film over the flank by the formula of Dowson and Higginson.
 
     Parameters
     ----------
@@ -171,7 +171,7 @@ def find_thinnest(
     flash : FlashMap
         The result of `map_flash` for the pair and its load distribution.
     film_at : callable
-        Function that returns the film [m] at contacts; the result of `formula_film`.
+        Function that returns the film [m] at contacts, as made by `formula_film`.
 
     Returns
     -------
@@ -197,8 +197,8 @@ def find_thinnest(
 def formula_film(inputs: ScuffingInputs) -> ContactFunction:
     """Return a function that computes the minimum film [m] at contacts by the formula of Dowson and Higginson.
 
-    The film is NaN at points that are not in contact. It is NaN at all points if the oil or the bulk temperature is
-    unknown.
+    The film is NaN at points that are not in contact. The film is NaN at all points if the oil or the bulk temperature
+    is unknown.
     """
     lubricant, bulk = inputs.lubricant, inputs.temperatures.bulk
     if lubricant is None or bulk is None:
@@ -207,7 +207,7 @@ def formula_film(inputs: ScuffingInputs) -> ContactFunction:
     modulus = reduced_modulus(inputs.distribution.pinion_material, inputs.distribution.wheel_material)
 
     def film_at(points: ContactPoints) -> FloatArray:
-        with np.errstate(divide="ignore", invalid="ignore"):  # at points that are not in contact
+        with np.errstate(divide="ignore", invalid="ignore"):  # division by zero at points that are not in contact
             film = dowson_higginson_minimum(
                 viscosity=viscosity,
                 pressure_viscosity=pressure_viscosity,
@@ -228,9 +228,10 @@ def on_diagonals(distribution: LoadDistribution, peak: Peak, function: FlankFunc
 
 
 def _or_beside(distribution: LoadDistribution, peak: Peak, function: FlankFunction) -> Peak:
-    """Return the given peak, or a higher peak on the profile line through it or, for spur pairs, on the other diagonal.
+    """Return the given peak, or a higher peak on the profile line through the given peak.
 
-    The largest value over the flank must not be below a value on the feature line, which is one diagonal of the flank.
+    For spur pairs, the other diagonal of the flank is also searched for a higher peak. The largest value over the flank
+    must not be below a value on the feature line, which is one diagonal of the flank.
     In the mirror image of a spur pair the other diagonal is the feature line. Both diagonals are therefore searched, so
     that a pair and its mirror image have the same largest value.
     """
@@ -241,11 +242,11 @@ def _or_beside(distribution: LoadDistribution, peak: Peak, function: FlankFuncti
 
 
 def _peak_at_kinks(distribution: LoadDistribution, function: FlankFunction, peak: Peak) -> Peak:
-    """Find the largest value at the points where contact lines of the roll positions cross the profile line of a peak.
+    """Find the largest value at the points where the contact lines of the roll positions cross a peak's profile line.
 
-    The approach is linear between roll positions. At the place where another pair of teeth takes over load, the load is
-    therefore largest at a roll position. The search over the grid can miss this place, because roll positions may lie
-    closer together than the points of the grid.
+    Between roll positions, the approach is linear. The load has a maximum where another pair of teeth begins to carry
+    load. This maximum therefore lies at a roll position. The search over the grid can miss this maximum, because roll
+    positions may lie closer together than the points of the grid.
     """
     plane, rolls = distribution.path_of_contact.plane, distribution.balance.rolls
     # At the other positions the load of a spur gear jumps; the map contains both sides of these jumps.
@@ -272,11 +273,11 @@ def _height(peak: Peak) -> float:
 
 
 def find_largest(grid: FlashMap, values: FloatArray, function: FlankFunction) -> Peak:
-    """Find the largest value of a function over the flank, starting from its `values` (n, m) on the grid.
+    """Find the largest value of a function over the flank, starting from the function's `values` (n, m) on the grid.
 
-    The largest values of the rows form a ridge along the path. Around the highest tops of the ridge the function is
-    evaluated on finer and finer grids. Every grid contains the place of the largest value of the previous grid, so that
-    this value is not lost.
+    The largest values of the rows form a ridge along the path. Around the highest tops of the ridge, the function is
+    evaluated on finer and finer grids. Every grid contains the place of the previous grid's largest value, so that this
+    value is not lost.
     """
     across = np.argmax(values, axis=1)
     highest = np.array(tops(values[np.arange(grid.x.size), across])[-TOPS:])

@@ -15,7 +15,7 @@ from solvers.scuffing.inputs import LoadDistributionInputs, ScuffingInputs
 from solvers.scuffing.results import LoadDistribution
 from solvers.scuffing.thermal.practice import FLOODED_UP_TO
 
-STEEL_EXPANSION = 12e-6  # 1/K, of gears and casing
+STEEL_EXPANSION = 12e-6  # 1/K, thermal expansion of gears and casing
 
 
 def is_beyond_the_estimate(gears: GearPairInputs, pinion_speed: float) -> bool:
@@ -34,9 +34,9 @@ def pair_heat(inputs: ScuffingInputs, distribution: LoadDistribution, estimate: 
     inputs : ScuffingInputs
         The pair, its oil (which must be known) and its cooling.
     distribution : LoadDistribution
-        Load distribution of the pair, with the coefficient of friction for the losses.
+        Load distribution of the pair, with the friction loss of the mesh.
     estimate : float or None
-        Bulk temperature by ISO/TR 13989-1 [K]; the result states this temperature for comparison.
+        Bulk temperature by ISO/TR 13989-1 [K]; the result only repeats this temperature for comparison.
 
     Returns
     -------
@@ -46,9 +46,10 @@ def pair_heat(inputs: ScuffingInputs, distribution: LoadDistribution, estimate: 
     Raises
     ------
     InvalidInput
-        `exclusive` or `measured_unreachable` for measured temperatures.
+        `exclusive` if two given values exclude each other, `measured_unreachable` if the model cannot reach a measured
+        temperature.
     NoSolution
-        `heat_balance` or `thermal_runaway`.
+        `heat_balance` if the iteration does not converge, `thermal_runaway` if the equilibrium is unstable.
     """
     heat = heat_balance.solve(balance_inputs(inputs, distribution, estimate))
     return with_backlash_loss(heat, distribution.path_of_contact.pair)
@@ -71,13 +72,16 @@ def balance_inputs(
 
 
 def with_backlash_loss(heat: Heat, pair: GearPair) -> Heat:
-    """Add the loss of backlash to the heat balance, for steel gears that are hotter than their steel casing."""
+    """Add to the results of a heat balance how much backlash is lost because steel gears are hotter than the casing."""
     radii = (pair.pinion_working_radius, pair.wheel_working_radius)
     return heat_balance.backlash_loss(heat, radii, pair.working_pressure_angle, STEEL_EXPANSION)
 
 
 def with_flanks(inputs: ScuffingInputs, heat: Heat) -> ScuffingInputs:
-    """Return the inputs with the flank temperatures of the heat balance as the bulk temperatures of both gears."""
+    """Return the inputs with the flank temperatures of the heat balance.
+
+    The bulk temperature becomes the mean of both flank temperatures.
+    """
     flanks = (heat.pinion.flank, heat.wheel.flank)
     return replace(inputs, temperatures=replace(inputs.temperatures, bulk=sum(flanks) / 2, flanks=flanks))
 
@@ -106,7 +110,7 @@ def gear_geometries(given: LoadDistributionInputs, path: PathOfContact) -> tuple
 def mesh_heat(inputs: ScuffingInputs, distribution: LoadDistribution) -> MeshHeat:
     """Return the friction loss of the mesh.
 
-    The loss depends on the temperature of the oil unless the user gives the coefficient of friction.
+    The loss depends on the oil temperature, unless the user gives the coefficient of friction.
     """
     return MeshHeat(
         power=distribution.friction_loss.power or 0.0,

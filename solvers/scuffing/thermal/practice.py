@@ -1,8 +1,8 @@
 """Estimates of ISO/TR 13989-1: mean friction, scuffing temperature from an FZG test, bulk temperature, risk class.
 
-The formulas, the load factors and the upper limit of 50 m/s on the speed follow a public implementation of the
-standard. The lower limit of 150 N/mm on the line load is quoted and was not verified against the standard. The
-coefficient of friction for the losses is Schlenk's.
+The formulas, the load factors and the upper limit of 50 m/s for the speed follow a public implementation of the
+standard. The lower limit of 150 N/mm for the line load is quoted from a secondary source and was not verified against
+the standard. The coefficient of friction for the losses is Schlenk's.
 """
 
 from typing import Literal
@@ -14,14 +14,14 @@ from solvers.scuffing.inputs import LoadDistributionInputs, OilSupply
 ScuffingRisk = Literal["high", "moderate", "low"]
 
 OIL_SUPPLY_FACTOR: dict[OilSupply, float] = {"spray": 1.2, "dip": 1.0, "submerged": 0.2}  # X_S
-OIL_KIND_FACTOR: dict[OilKind, float] = {"mineral": 1.0, "pao": 0.8, "polyglycol": 0.7, "ester": 1.0}  # part of X_L
+OIL_KIND_FACTOR: dict[OilKind, float] = {"mineral": 1.0, "pao": 0.8, "polyglycol": 0.7, "ester": 1.0}  # factor in X_L
 OIL_KIND_LOSS_FACTOR: dict[OilKind, float] = {"mineral": 1.0, "pao": 0.8, "polyglycol": 0.7, "ester": 0.8}  # X_L
 LEAST_LINE_LOAD = 150.0  # N/mm, lower limit in both friction laws
 FASTEST_PITCH_LINE = 50.0  # m/s, upper limit of v_t in both friction laws
 TEST_TEMPERATURE = 363.15  # K, oil temperature in the FZG test A/8.3/90
-FLOODED_UP_TO = 60.0  # m/s, pitch-line velocity; beyond it the estimated bulk temperature is a lower bound
+FLOODED_UP_TO = 60.0  # m/s, pitch-line velocity; at higher velocities the estimated bulk temperature is a lower bound
 FLASH_SHARE = 0.47  # ratio of the rise of the bulk temperature to the mean flash temperature, if X_S = 1
-HIGH_RISK_BELOW, LOW_RISK_ABOVE = 1.0, 2.0  # safety factors; quoted, not verified against the standard
+HIGH_RISK_BELOW, LOW_RISK_ABOVE = 1.0, 2.0  # limits of the safety factor; quoted, not verified against the standard
 
 
 def lubricant_factor(viscosity: float, kind: OilKind) -> float:
@@ -125,8 +125,8 @@ def loss_friction(inputs: LoadDistributionInputs, path: PathOfContact, viscosity
     -----
     mu = 0.048 [w_bt/(v_SigmaC rho_redC)]^0.2 eta_oil^-0.05 Ra^0.25 X_L (Eq. R10). Here w_bt = F_bt/b follows from the
     transmitted torque; values below 150 N/mm are raised to 150 N/mm. F_bt acts at the base circle and does not contain
-    load factors. X_L is 1 for mineral oils, 0.8 for
-    polyalphaolefins and 0.7 for polyglycols; for esters 0.8 is assumed.
+    load factors. X_L is 1 for mineral oils, 0.8 for polyalphaolefins and 0.7 for polyglycols; for esters 0.8 is
+    assumed.
     """
     line_load = inputs.load.torque / path.pair.pinion.base_radius / inputs.gears.face_width
     oil = OIL_KIND_LOSS_FACTOR[kind] * float((viscosity * 1e3) ** -0.05)
@@ -136,9 +136,9 @@ def loss_friction(inputs: LoadDistributionInputs, path: PathOfContact, viscosity
 def _load_and_speed(inputs: LoadDistributionInputs, path: PathOfContact, line_load: float) -> float:
     """Return [w/(v_SigmaC rho_C)]^0.2 for a line load w [N/m].
 
-    In the formula w is in N/mm; values below 150 N/mm are raised to 150 N/mm. v_SigmaC [m/s] is the sum of the
-    tangential speeds at the pitch point. If the pitch-line velocity exceeds 50 m/s, the speeds at 50 m/s are used.
-    rho_C is the reduced radius at the pitch point [mm].
+    The formula uses w in N/mm; values of w below 150 N/mm are raised to 150 N/mm. v_SigmaC [m/s] is the sum of the
+    tangential speeds at the pitch point. If the pitch-line velocity exceeds 50 m/s, v_SigmaC is computed for a
+    pitch-line velocity of 50 m/s. rho_C is the reduced radius at the pitch point [mm].
     """
     pair, pitch = path.pair, path.pitch_point
     speed = inputs.load.pinion_speed * min(1.0, FASTEST_PITCH_LINE / pitch_line_velocity(inputs, path))
@@ -152,7 +152,7 @@ def _rough(inputs: LoadDistributionInputs) -> float:
 
 
 def scuffing_temperature(stage: int, structure_factor: float, factor: float) -> float:
-    """Compute the scuffing temperature of an oil from its FZG test A/8.3/90.
+    """Compute the scuffing temperature of an oil from the FZG test A/8.3/90 of the oil.
 
     Parameters
     ----------
@@ -200,7 +200,7 @@ def bulk_temperature(oil: float, supply: OilSupply, mean_flash: float) -> float:
 
 
 def scuffing_risk(safety: float) -> ScuffingRisk:
-    """Return the risk class of the standard for a safety factor by Blok.
+    """Return the risk class of the standard for a safety factor that is computed with Blok's flash temperature.
 
     The risk is high below 1, low above 2, and moderate in between. These limits are quoted from a secondary source.
     """

@@ -1,9 +1,9 @@
 """Values of a scuffing check that are estimated if they are not given.
 
-These values are the coefficient of friction, the bulk temperature, the oil at this temperature, and the scuffing
-temperature. No iteration is needed: friction uses the viscosity at the oil temperature, and only the film uses the
-viscosity at the bulk temperature. A bulk temperature by heat balance follows from the losses. In the balance the
-coefficient of friction for the losses depends on the oil temperature.
+These values are the coefficient of friction, the bulk temperature, the properties of the oil at the bulk temperature,
+and the scuffing temperature. No iteration is needed, because friction uses the viscosity at the oil temperature, and
+only the film uses the viscosity at the bulk temperature. A bulk temperature by heat balance follows from the losses. In
+the heat balance, the coefficient of friction for the losses depends on the oil temperature.
 """
 
 from collections.abc import Iterator
@@ -37,14 +37,15 @@ from solvers.scuffing.thermal.practice import (
 )
 
 COLDEST_OIL, HOTTEST_OIL = 223.15, 573.15  # K, range of the reference temperature of an oil
-STEEL_MODULI = (170e9, 240e9)  # Pa; cast iron and bronze are below, hard metal is above
-MEAN_POINTS = 1001  # for the mean flash temperature along the feature line
+STEEL_MODULI = (170e9, 240e9)  # Pa; cast iron and bronze are below this range, hard metal is above
+MEAN_POINTS = 1001  # number of points for the mean flash temperature along the feature line
 
 
 class InForce(NamedTuple):
     """Inputs and load distribution of a scuffing check, after every estimate has been replaced by a number.
 
-    `flash` is Blok's flash temperature over the flank. `heat` is the heat balance of the pair; None if none was solved.
+    `flash` is Blok's flash temperature over the flank. `heat` is the heat balance of the pair; None if no heat balance
+    was solved.
     """
 
     inputs: ScuffingInputs
@@ -57,8 +58,8 @@ def in_force(inputs: ScuffingInputs, distribution: LoadDistribution) -> InForce:
     """Return inputs and load distribution with numbers for friction, temperatures and oil.
 
     The heat balance is solved only if the flank temperatures are not given. The flank temperatures are given if the
-    pair belongs to a unit, because a unit solves its own heat balance before. Raises the errors of `with_friction`,
-    `pair_heat` and `with_temperatures`.
+    pair belongs to a gear unit, because the heat balance of the unit is solved before the pair is checked. Raises the
+    errors of `with_friction`, `pair_heat` and `with_temperatures`.
     """
     inputs, distribution = with_friction(inputs, distribution)
     flash = map_flash(inputs.distribution, distribution)
@@ -73,9 +74,9 @@ def in_force(inputs: ScuffingInputs, distribution: LoadDistribution) -> InForce:
 def with_friction(inputs: ScuffingInputs, distribution: LoadDistribution) -> tuple[ScuffingInputs, LoadDistribution]:
     """Return the inputs with the friction for the flash temperature, and the load distribution with the friction loss.
 
-    A given coefficient of friction is used for both. Otherwise the flash temperature uses the coefficient of ISO/TR
-    13989-1, which is on the safe side for scuffing. The losses use Schlenk's coefficient, which is a mean value for the
-    efficiency. Both coefficients are None if the oil, the load or the speed is missing.
+    A given coefficient of friction is used for flash temperature and losses. Otherwise the flash temperature uses the
+    coefficient of ISO/TR 13989-1, which is on the safe side for scuffing. The losses use Schlenk's coefficient, which
+    is a mean value for the efficiency. Both coefficients are None if the oil, the load or the speed is missing.
     """
     if inputs.friction == "given":
         return inputs, distribution
@@ -95,14 +96,14 @@ def with_friction(inputs: ScuffingInputs, distribution: LoadDistribution) -> tup
 def with_temperatures(inputs: ScuffingInputs, distribution: LoadDistribution, flash: FlashMap) -> ScuffingInputs:
     """Return the inputs with numbers for bulk and scuffing temperature, and with the oil at the bulk temperature.
 
-    Bulk temperature and lubricant are None if there is no oil. They are also None if the bulk temperature cannot be
+    Bulk temperature and lubricant are None if there is no oil. Both are also None if the bulk temperature cannot be
     estimated because the flash temperature has no mean.
 
     Raises
     ------
     InvalidInput
-        `missing_bulk` if the bulk temperature is neither given nor estimated, `oil_temperature` if an oil given by its
-        data sheet would be too hot or too cold at the bulk temperature, `scuffing_temperature` if the oil is not cooler
+        `missing_bulk` if the bulk temperature is neither given nor estimated, `oil_temperature` if the bulk temperature
+        is outside the range of an oil that is given by its data sheet, `scuffing_temperature` if the oil is not cooler
         than the scuffing temperature.
     """
     temperatures, oil = inputs.temperatures, inputs.known_oil

@@ -13,7 +13,8 @@ from solvers.scuffing.inputs import ScuffingInputs
 from solvers.scuffing.results import ContactPoints
 from solvers.scuffing.safety_results import PointStatus, ThermalPath
 
-# The scuffing input from which an input of the contact follows. The other inputs have the same name in both.
+# Maps an input of the line contact to the scuffing input that determines its value. The inputs that are not listed have
+# the same name in the line contact and in the scuffing check.
 FIELDS = {
     "line_load": "power",
     "speed_1": "pinion_speed",
@@ -27,18 +28,18 @@ CURVES = tuple(item.name for item in fields(ThermalPath) if item.name != "status
 def thermal_paths(
     inputs: ScuffingInputs, lines: Sequence[ContactPoints]
 ) -> tuple[tuple[ThermalPath, ...], tuple[Notice, ...]]:
-    """Solve the thermal EHL contact at the points of the lines that are in contact.
+    """Solve the thermal EHL contact along lines, at the points at which the flanks are in contact.
 
     The solution of a point starts from the solutions of the preceding points on the line. The oil enters the contact at
     the bulk temperature. If a heat balance gives pinion and wheel different bulk temperatures, each surface has the
     bulk temperature of its gear. A point outside the range of the solver gets the status "refused". A point without
-    convergence gets the status "no_solution". The other points are solved nevertheless. The warnings are those of all
-    lines together.
+    convergence gets the status "no_solution". The other points are solved nevertheless. Every warning is returned once
+    for all lines, with the number of points to which the warning applies.
 
     Raises
     ------
     InvalidInput
-        The solver's error if it refuses every point.
+        The error of the solver if the solver refuses every point.
     """
     contacts = [
         {point: contact_at(inputs, points, point) for point in np.flatnonzero(points.in_contact).tolist()}
@@ -59,10 +60,10 @@ def thermal_paths(
 def _solve_line(
     points: ContactPoints, contacts: dict[int, ehl.LineContactInputs], refusals: dict[int, InvalidInput]
 ) -> tuple[ThermalPath, list[ehl.LineContactResult]]:
-    """Solve one line; return its path, and the results of the points that were solved under their own load.
+    """Solve one line; return the path of the line, and the results of the points solved under their own load.
 
-    A point that is refused because its load is too light is solved under the lightest load of the solver, to get
-    bounds.
+    If a point is refused because its load is too light, the point is solved under the lightest load that the solver
+    accepts. This solution gives bounds for flash temperature and film.
     """
     light = {point: ehl.lightest(contacts[point]) for point, why in refusals.items() if why.code == "load_range"}
     solvable = {
@@ -83,7 +84,10 @@ def _solve_line(
 
 
 def contact_at(inputs: ScuffingInputs, points: ContactPoints, point: int) -> ehl.LineContactInputs:
-    """Return the inputs of the line contact at one of the points; oil and bulk temperature must be known."""
+    """Return the inputs of the line contact at the point with the index `point`.
+
+    The oil and the bulk temperature must be known.
+    """
     given, temperatures, lubricant = inputs.distribution, inputs.temperatures, inputs.lubricant
     assert temperatures.bulk is not None
     assert temperatures.surfaces is not None
@@ -105,7 +109,7 @@ def contact_at(inputs: ScuffingInputs, points: ContactPoints, point: int) -> ehl
 
 
 def _refusal(contact: ehl.LineContactInputs) -> InvalidInput | None:
-    """Return the error with which the solver refuses a contact; None if it accepts the contact."""
+    """Return the error with which the solver refuses a contact; None if the solver accepts the contact."""
     try:
         ehl.check(contact)
     except InvalidInput as refusal:
@@ -130,7 +134,7 @@ def _values(result: ehl.LineContactResult) -> dict[str, float | None]:
 
 
 def _bounds(result: ehl.LineContactResult) -> dict[str, float | None]:
-    """Return bounds for a point with a too light load, from the solution under the lightest load of the solver."""
+    """Return bounds for a point whose load is too light, from the solution under the lightest load of the solver."""
     assert result.temperature is not None
     flash = max(result.temperature.surface_1_flash, result.temperature.surface_2_flash)
     return {"flash_bound": flash, "film_bound": result.film.minimum}
@@ -153,5 +157,5 @@ def _notices(results: Sequence[ehl.LineContactResult], refusals: Sequence[Invali
 
 
 def _field(of_contact: str | None) -> str | None:
-    """Return the scuffing input from which an input of the contact follows."""
+    """Return the scuffing input that determines an input of the line contact."""
     return None if of_contact is None else FIELDS.get(of_contact, of_contact)

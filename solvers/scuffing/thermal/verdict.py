@@ -1,6 +1,7 @@
 """Largest flash temperature and thinnest film of the lines and of the flank, or the reason why they are not stated.
 
-Both are stated only if bounds show that no unsolved point is hotter, and that none has a thinner film.
+Both values are stated only if bounds show that no unsolved point is hotter and that no unsolved point has a thinner
+film.
 """
 
 from collections.abc import Sequence
@@ -20,16 +21,16 @@ from solvers.scuffing.thermal.practice import scuffing_risk
 
 
 class CheckedLine(NamedTuple):
-    """The check along a line of the flank, and the distances of the points from the end that meshes first [m]."""
+    """Results along a line of the flank, and the distance of every point from the end that meshes first [m]."""
 
     path: ScuffingPath
     face: FloatArray
 
 
 def unknown_points(paths: Sequence[ThermalPath], bulks: Sequence[FloatArray]) -> int:
-    """Count the unsolved points of the paths that may be the hottest or have the thinnest film.
+    """Count the unsolved points that may be hotter than all solved points, or may have a thinner film.
 
-    `bulks` contains the bulk temperatures [K] at the points of every path. For each path this is either one row for
+    `bulks` contains the bulk temperatures [K] at the points of every path. The array of a path has either one row for
     both gears, or two rows for pinion and wheel.
     """
     status = np.concatenate([path.status for path in paths])
@@ -52,7 +53,7 @@ def unknown_points(paths: Sequence[ThermalPath], bulks: Sequence[FloatArray]) ->
 def hotter_surface(path: ThermalPath, bulk: FloatArray) -> FloatArray:
     """Return the temperature of the hotter surface at each point [K].
 
-    `bulk` [K] is either one row for both gears, or two rows for pinion and wheel.
+    `bulk` [K] has either one row for both gears, or two rows for pinion and wheel.
     """
     pinion, wheel = np.broadcast_to(bulk, (2, path.pinion_flash.size))
     hotter: FloatArray = np.fmax(path.pinion_flash + pinion, path.wheel_flash + wheel)
@@ -62,7 +63,7 @@ def hotter_surface(path: ThermalPath, bulk: FloatArray) -> FloatArray:
 def largest_flash(lines: Sequence[CheckedLine], hottest: Peak | None, path_length: float) -> Flash:
     """Return the largest flash temperature by Blok, and the largest flash temperature by thermal EHL.
 
-    The flash temperature by thermal EHL is that of the hotter surface.
+    At each point, the thermal EHL solution gives a flash temperature for each surface. The larger value is used.
 
     Parameters
     ----------
@@ -102,7 +103,9 @@ def largest_flash(lines: Sequence[CheckedLine], hottest: Peak | None, path_lengt
 def thinnest_film(
     lines: Sequence[CheckedLine], thinnest: Peak | None, path_length: float, given: LoadDistributionInputs
 ) -> Film:
-    """Return the thinnest film; the ratio is that of the thermal EHL solution if there is one, else of the formula.
+    """Return the thinnest film and its ratio to the roughness.
+
+    The ratio is computed with the film by thermal EHL if this film is solved, else with the film of the formula.
 
     Parameters
     ----------
@@ -140,7 +143,7 @@ def thinnest_film(
 
 
 def without_thermal(flash: Flash, film: Film) -> tuple[Flash, Film]:
-    """Return flash temperature and film with the values of the formulas alone, without the thermal EHL solution."""
+    """Remove the values by thermal EHL from flash temperature and film; the values of the formulas remain."""
     by_formula = replace(
         flash, thermal_ehl_max=None, thermal_ehl_at_psi=None, thermal_ehl_at_profile=None, thermal_ehl_at_face=None
     )
@@ -150,7 +153,7 @@ def without_thermal(flash: Flash, film: Film) -> tuple[Flash, Film]:
 def _extreme(
     lines: Sequence[CheckedLine], curves: Sequence[FloatArray], *, largest: bool
 ) -> tuple[float, float, float] | None:
-    """Return the extreme value of all lines with its profile position (fraction of the path) and face position [m].
+    """Return the extreme value of all lines, and its profile position (fraction of the path) and face position [m].
 
     The result is None if the lines have no value.
     """
@@ -164,7 +167,7 @@ def _extreme(
 
 
 def _place_on(path: ScuffingPath, values: FloatArray, *, largest: bool) -> float | None:
-    """Return psi of the extreme value of a path; None if all values are NaN."""
+    """Return psi at the largest or smallest value along a path; None if all values are NaN."""
     if not _any_number(values):
         return None
     return float(path.psi[np.nanargmax(values) if largest else np.nanargmin(values)])
@@ -175,7 +178,7 @@ def _any_number(values: FloatArray) -> bool:
 
 
 def _what_leaves_no_film(distribution: LoadDistribution) -> str:
-    """Return the input that is the cause of points without a film: torque or speed if zero, else the modifications."""
+    """Return the input that causes points without a film: torque or speed if its value is 0, else the modifications."""
     if distribution.balance.force == 0.0:
         return "pinion_torque"
     return "modifications" if np.any(distribution.feature_line.pinion_speed > 0.0) else "pinion_speed"
@@ -188,10 +191,10 @@ def path_notices(
     safety: Safety | None,
     unknown: int,
 ) -> tuple[Notice, ...]:
-    """List warnings about points without a film, unsolved points, and a safety factor without a meaning.
+    """List warnings about points without a film, about unsolved points, and about a meaningless safety factor.
 
-    `unknown` is the number of unsolved points at which an extreme value may lie. A note is added if the feature line
-    alone would have another risk class than the flank.
+    `unknown` is the number of unsolved points at which an extreme value may lie. A note is added if the risk class of
+    the feature line alone differs from the risk class of the flank.
     """
     notices = []
     status = [outcome for path in paths for outcome in path.status]
@@ -223,7 +226,7 @@ def path_notices(
 
 
 def _other_verdict(flank: float, feature_line: float | None) -> list[Notice]:
-    """Return a note if the feature line has another risk class than the flank.
+    """Return a note if the risk class of the feature line differs from the risk class of the flank.
 
     Before version 0.3 only the feature line was judged.
     """
