@@ -14,7 +14,7 @@ OUTSIDE = "starter: outside its limits"
 
 
 class ExampleSummary(BaseModel):
-    """What an example is about."""
+    """Name, subject, source and endpoint of an example."""
 
     name: Annotated[str, Output("name in the address of the example")]
     title: Annotated[str, Output("what it shows")]
@@ -28,7 +28,7 @@ class ExampleSummary(BaseModel):
 
 
 class Example(ExampleSummary):
-    """A ready request body."""
+    """An example with a request body that is ready to send."""
 
     request: Annotated[dict[str, Any], Output("the body to post")]
 

@@ -37,7 +37,7 @@ class Case(BaseModel):
 
 
 class SpectrumCase(BaseModel):
-    """A case of the load spectrum as /v1/spectrum takes it."""
+    """A case of the load spectrum, in the form that /v1/spectrum takes."""
 
     name: Annotated[str, Output("name in the file")]
     share: Annotated[float, Output("share of the operating time")]
@@ -45,7 +45,7 @@ class SpectrumCase(BaseModel):
 
 
 class Stage(BaseModel):
-    """A cylindrical stage with ready requests."""
+    """A cylindrical gear stage with requests that are ready to send."""
 
     id: Annotated[int, Output("component in the file")]
     name: Annotated[str, Output("its name there")]
@@ -66,7 +66,7 @@ class Stage(BaseModel):
 
 
 class GearUnit(BaseModel):
-    """A gear unit read from a file; nothing is solved."""
+    """A gear unit as read from a file; nothing is calculated."""
 
     version: Annotated[str, Output("version of REXS that the file states")]
     application: Annotated[str, Output("program that wrote the file")]

@@ -58,7 +58,7 @@ class Number(NamedTuple):
 
 
 class Fault(BaseModel, frozen=True):
-    """Something wrong in the file."""
+    """A fault in the file."""
 
     code: Annotated[str, Output("stable name, meant for programs")]
     component: Annotated[int | None, Output("component in the file")]

@@ -8,7 +8,7 @@ from solvers.heat_balance import results
 
 
 class CasingOfGears(Section, of=si.Casing):
-    """The casing; without an area it does not take part."""
+    """The casing in the heat balance. If no area is given, the balance leaves the casing out."""
 
     def unused(self) -> dict[str, bool]:
         """Mark all other fields as unused if the area of the casing is not given."""
@@ -16,7 +16,11 @@ class CasingOfGears(Section, of=si.Casing):
 
 
 class MeasuredTemperatures(Section, of=si.Measured):
-    """Temperatures measured in operation: one of a gear fixes the wetting share, that of the drain the other losses."""
+    """Temperatures measured in operation.
+
+    The measured temperature of a gear determines the wetting share. The measured drain temperature determines the other
+    losses.
+    """
 
     exclusive: ClassVar = (("pinion_flank_c", "pinion_body_c"), ("wheel_flank_c", "wheel_body_c"))
 
@@ -27,7 +31,7 @@ class MeasuredTemperatures(Section, of=si.Measured):
 
 
 class GearCooling(Section, of=si.Cooling):
-    """How the oil reaches the teeth, what else heats it, and what was measured."""
+    """The supply of oil to the teeth, further losses that heat the oil, and measured temperatures."""
 
     def unused(self) -> dict[str, bool]:
         """Mark the fields as unused whose values a measured temperature or a given oil flow replaces."""
@@ -45,36 +49,36 @@ class GearCooling(Section, of=si.Cooling):
 
 
 class GearHeat(Group, of=results.GearTemperatures):
-    """A gear in the balance."""
+    """Temperatures of a gear in the heat balance, its frictional heat, and its cooling by the oil film."""
 
 
 class BearingHeatBalance(Group, of=results.BearingHeat):
-    """A plain bearing in the balance."""
+    """Temperatures, oil flow and friction of a plain bearing in the heat balance."""
 
 
 class FlowOfHeat(Group, of=results.HeatFlow):
-    """Heat from one place of the network to another."""
+    """A heat flow from one place in the network of the heat balance to another."""
 
 
 class HeatLosses(Group, of=results.HeatLosses):
-    """What heats oil and gears."""
+    """The power losses that heat the oil and the gears."""
 
 
 class HeatSuppliedRemoved(Group, of=results.Balance):
-    """Heat supplied and removed."""
+    """The heat that is supplied, the heat that is removed, and the relative difference between both."""
 
 
 class BulkByStandards(Group, of=results.BulkEstimates):
-    """Bulk temperatures by rules of standards, for comparison."""
+    """Bulk temperatures by the rules of two standards, for comparison with the heat balance."""
 
 
 class BandOfHeat(Group, of=results.HeatBand):
-    """Range of what is unknown of the cooling; not a probability."""
+    """Range of results that the uncertainty of the cooling allows; it states no probability."""
 
 
 class HeatBalanceResult(Group, of=results.Heat):
-    """Temperatures, losses and flows of heat."""
+    """Temperatures, losses and heat flows that result from the heat balance."""
 
 
 class CoolingInForce(Group, of=results.CoolingInForce):
-    """What was left open of the cooling."""
+    """Values used for the inputs of the cooling that the request left open."""

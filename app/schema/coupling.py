@@ -28,15 +28,15 @@ class CouplingDesign(Section, of=si.Coupling, without=("crowning_ratio",)):
 
 
 class CrownedCoupling(CouplingDesign, of=si.Coupling):
-    """The coupling."""
+    """The coupling with its crowning."""
 
 
 class CouplingLoad(Section, of=si.Operation, without=("misalignment",)):
-    """Torque, speed and arrangement."""
+    """Torque and speed of the coupling, and its arrangement."""
 
 
 class CouplingOperation(CouplingLoad):
-    """Operating point; the tilt is given, or follows from the shafts' offset."""
+    """The operating point. The tilt is either given or follows from the parallel offset of the shafts."""
 
     exclusive: ClassVar = (("misalignment_deg", "parallel_offset_mm"),)
     choice_missing: ClassVar = "misalignment_or_offset"
@@ -66,7 +66,7 @@ class CouplingOperation(CouplingLoad):
 
 
 class CouplingOperationRange(CouplingLoad):
-    """Operating point with a range of misalignment."""
+    """The operating point, with a range of misalignment instead of a single tilt."""
 
     misalignment_range_deg: Annotated[
         list[float],
@@ -84,11 +84,18 @@ class CouplingOperationRange(CouplingLoad):
 
 
 class MixedFrictionTable(Section, of=si.MixedFrictionTable):
-    """Measured mixed friction against sliding velocity, held constant outside; a single point is a constant."""
+    """Measured coefficients of mixed friction at rising sliding velocities.
+
+    Below the first and above the last velocity, the coefficient stays constant. A table with a single point means a
+    constant coefficient.
+    """
 
 
 class MixedFrictionCurve(Section, of=si.MixedFrictionCurve):
-    """Our law of mixed friction: it falls to its lowest value at one sliding velocity and rises again beyond."""
+    """A law of mixed friction that comes from this project and not from the paper.
+
+    The coefficient falls to its lowest value at one sliding velocity, and rises again at higher velocities.
+    """
 
 
 class CouplingFriction(Section, of=si.Friction):
@@ -104,11 +111,11 @@ class CouplingFriction(Section, of=si.Friction):
 
 
 class CouplingModel(Section, of=si.ModelOptions):
-    """Choices where the paper leaves room."""
+    """Options of the model at points that the paper leaves open."""
 
 
 class _CouplingRequest(Request):
-    """What the three coupling calculations have in common."""
+    """The parts that the requests of all three coupling calculations have in common."""
 
     coupling: Annotated[CouplingDesign, Input("coupling")]
     operation: Annotated[CouplingLoad, Input("operating point")]
@@ -144,7 +151,8 @@ class CouplingRequest(_CouplingRequest):
 class SleeveOrbitRequest(CouplingRequest):
     """A gear coupling whose floating sleeve is followed over one revolution.
 
-    Its motion is one of tooth springs and sleeve mass: oil, friction and the contact's shape are accepted, not used.
+    The calculation models the teeth as springs and the sleeve as a mass. Oil, friction and the shape of the contact may
+    be given, but are not used.
     """
 
     def options(self) -> dict[str, Any]:
@@ -162,7 +170,7 @@ class SleeveOrbitRequest(CouplingRequest):
 
 
 class RecommendationRequest(_CouplingRequest):
-    """A gear coupling whose crowning is sought."""
+    """A gear coupling for which the best crowning is sought."""
 
     coupling: Annotated[CouplingDesign, Input("coupling", text="the coupling without its crowning")]
     operation: Annotated[CouplingOperationRange, Input("operating point", text="with a range of misalignment")]
@@ -185,11 +193,11 @@ class CouplingGeometry(Group, of=results.Geometry):
 
 
 class CouplingKinematicCurves(Group, of=results.KinematicCurves):
-    """Motion over one revolution of a tooth; 90° and 270° are the tilt positions."""
+    """The motion of a tooth over one revolution; the tilt positions are at 90° and 270°."""
 
 
 class CouplingKinematics(Group, of=results.Kinematics):
-    """Largest values of the tooth's motion over a revolution."""
+    """Largest values of the motion of a tooth over one revolution."""
 
     views: ClassVar = {
         "max_sliding_velocity": View(headline=3, limit="limits.sliding_velocity_limit_m_per_s", bound="upper")
@@ -197,19 +205,25 @@ class CouplingKinematics(Group, of=results.Kinematics):
 
 
 class CouplingLoadCurves(Group, of=results.LoadCurves):
-    """Tooth forces."""
+    """The tangential force of each tooth at the requested rotor angle."""
 
 
 class CouplingLoadDistribution(Group, of=results.LoadDistribution):
-    """Load over the teeth of one mesh, the one where the hub drives the sleeve, at the rotor angle asked for."""
+    """The load on the teeth of the mesh in which the hub drives the sleeve, at the requested rotor angle."""
 
 
 class FrictionRegime(Group, of=results.Regime):
-    """Area of the map of friction conditions; an open end of its friction band is null."""
+    """An area of the map of friction conditions, with its friction band.
+
+    If the paper states no lower or no upper end of the band, this end is null.
+    """
 
 
 class CouplingLubrication(Group, of=results.Lubrication):
-    """Contact and film of the highest loaded tooth of a revolution."""
+    """Contact and film of the most heavily loaded tooth while one tooth is in the tilt position.
+
+    If there are pitch deviations, this is the most heavily loaded tooth in a whole revolution.
+    """
 
     views: ClassVar = {
         "hertz_pressure": View(limit=2000.0, bound="upper"),
@@ -219,11 +233,11 @@ class CouplingLubrication(Group, of=results.Lubrication):
 
 
 class SelfInducedThrust(Group, of=results.SelfInducedThrust):
-    """Thrust without axial motion."""
+    """The axial thrust that two meshes cause without axial motion."""
 
 
 class CouplingThrust(Group, of=results.AxialThrust):
-    """Axial thrust, mean over one tooth pitch (one revolution with pitch deviations)."""
+    """Mean axial thrust over one tooth pitch or, if there are pitch deviations, over one revolution."""
 
     views: ClassVar = {
         "design_force": View(headline=1),
@@ -233,25 +247,25 @@ class CouplingThrust(Group, of=results.AxialThrust):
 
 
 class CouplingLosses(Group, of=results.Losses):
-    """Friction losses and moments of one mesh, the one where the hub drives the sleeve."""
+    """Friction losses and moments of the mesh in which the hub drives the sleeve."""
 
 
 class CouplingLimits(Group, of=results.Limits):
-    """Limits and stiffnesses."""
+    """Limits of the operation of the coupling, and the stiffnesses of one mesh."""
 
     views: ClassVar = {"allowable_misalignment": View(headline=4)}
 
 
 class SleeveOrbit(Group, of=results.Orbit):
-    """Path of the sleeve centre."""
+    """The path of the sleeve's centre over one revolution."""
 
 
 class SleeveInertia(Group, of=results.InertiaForce):
-    """Inertia force of the sleeve mass of one mesh."""
+    """Inertia force of the part of the sleeve's mass that is assigned to one mesh."""
 
 
 class RecommendedPoint(Group, of=crowning.RecommendedPoint):
-    """The recommended coupling at one end of the range."""
+    """Results of the recommended coupling at one end of the range of misalignment."""
 
     views: ClassVar = {
         "contact_overlap": View(limit=1.0, bound="upper"),
@@ -260,7 +274,7 @@ class RecommendedPoint(Group, of=crowning.RecommendedPoint):
 
 
 class CrowningScan(Group, of=crowning.CrowningScan):
-    """How crowning trades off."""
+    """Smallest load capacity and largest contact overlap in the range of misalignment, over the crowning ratio."""
 
     views: ClassVar = {"max_contact_overlap": View(limit=1.0)}
 
@@ -272,7 +286,7 @@ def _used(name: str, title: str) -> Output:
 
 
 class ProportionsInForce(Group):
-    """A coupling's proportions and the stiffness of its teeth."""
+    """The proportions of a coupling and the stiffness of its teeth, as used."""
 
     face_width_mm: Annotated[float, _used("face_width", "face width used")]
     tooth_height_mm: Annotated[float, _used("tooth_height", "tooth height used")]
@@ -280,25 +294,34 @@ class ProportionsInForce(Group):
 
 
 class CouplingProportions(ProportionsInForce, Derived):
-    """Proportions and stiffness of the teeth, as used if the request omits them."""
+    """The proportions of the coupling and the stiffness of its teeth, as used.
+
+    If the request omits one of these values, the default is used.
+    """
 
 
 class CouplingDerived(CouplingProportions, of=results.Derived):
-    """Proportions and stiffness of the teeth and viscosity of the oil, as used if the request omits them."""
+    """The proportions of the coupling, the stiffness of its teeth and the viscosity of the oil, as used.
+
+    If the request omits one of these values, the default is used.
+    """
 
 
 class CouplingResponse(Response, of=results.CouplingResult):
-    """A gear coupling at one operating point; sections are missing where there is no solution."""
+    """Results of a gear coupling at one operating point.
+
+    If there is no solution, the sections with results are missing.
+    """
 
     derived: CouplingDerived
 
 
 class SleeveOrbitDerived(Derived, of=results.Geometry, only=("pitch_radius",)):
-    """The circle on which the teeth stand."""
+    """The radius of the circle on which the teeth stand."""
 
 
 class SleeveOrbitResponse(Response, of=results.OrbitResult):
-    """One revolution of a floating sleeve under its own inertia."""
+    """Path and inertia force of a floating sleeve over one revolution."""
 
     derived: SleeveOrbitDerived
 

@@ -39,7 +39,7 @@ from solvers.scuffing import inputs as mesh
 
 
 class TrainGears(BacklashGears, of=si.Arrangement, only=("hand",)):
-    """The gear pair."""
+    """The gear pair with its backlash and the hand of its helix."""
 
     rack_tip_radius: Annotated[
         float | None,
@@ -59,21 +59,21 @@ class TrainGears(BacklashGears, of=si.Arrangement, only=("hand",)):
 
 
 class TrainOperation(ScuffingLoad, of=si.Arrangement, without=("hand",)):
-    """Torque or power, speed, and how the unit stands and turns."""
+    """Torque or power, speed, sense of rotation, and the position of the unit in space."""
 
     choice_missing: ClassVar = "load_missing"
 
 
 class GroundCurve(Section, of=mesh.LeadCurve):
-    """Any gap along the face beyond the named modifications; empty lists are none."""
+    """A gap of any shape along the face, in addition to the named modifications; empty lists mean no gap."""
 
 
 class TrainModifications(FlankModifications, of=mesh.Modifications):
-    """Modifications as ground, positive where material is missing."""
+    """The modifications as they are ground; a gap is positive where material is missing."""
 
 
 class TrainModel(MeshModel, PumpingOptions, of=si.DriveTrainInputs, only=("face_stations", "coupling_friction")):
-    """Choices where the papers leave room, and the resolution."""
+    """Options of the model at points that the papers leave open, and the resolution."""
 
 
 def _isotropic(value: Any) -> Any:
@@ -92,7 +92,7 @@ Stiffness = Annotated[Matrix, BeforeValidator(_isotropic, json_schema_input_type
 
 
 class CylindricalSection(Section, of=si.ShaftSection):
-    """A cylinder of a shaft."""
+    """A cylindrical section of a shaft."""
 
     outer_diameter_mm: Annotated[
         float | None,
@@ -108,7 +108,7 @@ class CylindricalSection(Section, of=si.ShaftSection):
 
 
 class ShaftBearing(Section):
-    """A radial bearing: a plain one, one by its stiffness, or a rigid one."""
+    """A radial bearing: a short plain bearing, a bearing with a given stiffness, or a rigid bearing."""
 
     position_mm: Annotated[float, Input.of(si.RadialBearing, "position")]
     type: Annotated[
@@ -188,7 +188,7 @@ class ShaftBearing(Section):
 
 
 class ThrustBearing(Section):
-    """What holds a shaft axially."""
+    """The thrust bearing, which holds a shaft axially."""
 
     ultimate_load_n: Annotated[float | None, Input.of(si.Shaft, "ultimate_thrust")] = None
 
@@ -235,7 +235,10 @@ class UnitShaft(Section, of=si.Shaft, without=("ultimate_thrust",)):
 
 
 class ShaftAlignment(Section, of=si.Alignment):
-    """How both machines grow as they warm up; with it the hub's offset is the cold one."""
+    """The growth of the unit and of the machine as they warm up.
+
+    If the growth is given, the offset of the machine's hub is the offset in the cold state.
+    """
 
 
 class UnitCoupling(Section, of=si.UnitCoupling):
@@ -253,11 +256,11 @@ class UnitCoupling(Section, of=si.UnitCoupling):
 
 
 class ToothHeat(Section, of=si.Heat):
-    """How warm the teeth are, and how much of the pumped gas's heat they take."""
+    """Temperatures of the teeth, and the ratio of their temperature rise to the temperature rise of the pumped gas."""
 
 
 class TrainTemperatures(ContactTemperatures, of=si.DriveTrainInputs, only=("local_bulk",)):
-    """Temperatures of contact and oil."""
+    """Temperatures of the contact and the oil."""
 
     bulk_c: Annotated[
         float | None,
@@ -273,11 +276,11 @@ class TrainTemperatures(ContactTemperatures, of=si.DriveTrainInputs, only=("loca
 
 
 class TrainEffects(Section, of=si.Effects):
-    """What is taken into account."""
+    """The effects that the calculation takes into account."""
 
 
 class ThrustCollar(Section):
-    """A collar on the pinion that takes the place of its thrust bearing."""
+    """A collar on the pinion that replaces the thrust bearing of the pinion's shaft."""
 
     radius_mm: Annotated[float | None, Input.of(si.DriveTrainInputs, "collar_radius")] = None
 
@@ -412,55 +415,63 @@ class WarmUpRequest(DriveTrainRequest, of=warm_up.WarmUpInputs):
 
 
 class BearingLoad(Group, of=results.BearingResult):
-    """A bearing; what only a plain one has is null of others."""
+    """Results of a bearing; values that only a plain bearing has are null for other bearings."""
 
 
 class ShaftThrust(Group, of=thrust_budget.Thrust):
-    """Axial load, positive towards +Z; of a coupling's friction only the limit is known."""
+    """Axial forces on a shaft, positive towards +Z.
+
+    Only the limit of the friction in the couplings is known. The load on the thrust bearing therefore lies between the
+    two bounds `lower_n` and `upper_n`.
+    """
 
     views: ClassVar = {"use": View(limit=1.0)}
 
 
 class ShaftLine(Group, of=results.ShaftCurves):
-    """Displaced axis of a shaft."""
+    """Displacement and twist of a shaft along its axis."""
 
 
 class UnitCouplingState(Group, of=results.CouplingResult):
-    """A coupling as its shaft meets it."""
+    """Tilts and friction of both hubs of a coupling, and the loads of the coupling on the unit's hub."""
 
 
 class BearingInForce(Group, of=derived.DerivedBearing):
-    """A plain bearing's defaults; null of others."""
+    """Clearance and oil viscosity used for a plain bearing; both are null for other bearings."""
 
 
 class SectionInForce(Group, of=derived.DerivedSection):
-    """A section's diameter."""
+    """The outer diameter used for a section of a shaft."""
 
 
 class ShaftInForce(Group, of=derived.DerivedShaft):
-    """A shaft's defaults."""
+    """Values used for the inputs of a shaft that the request left open."""
 
 
 class HeatInForce(Group, of=derived.DerivedHeat):
-    """Wall responses."""
+    """The wall responses used for both gears."""
 
 
 class TemperaturesInForce(Group, of=derived.DerivedTemperatures):
-    """Bulk and scuffing temperature."""
+    """The bulk temperature, the scuffing temperature and the lubricant factor that are used."""
 
 
 class GapCurves(Group, of=results.GapCurves):
-    """Over the face, positive where the flanks part."""
+    """Gaps and force over the face; a gap is positive where the flanks move apart."""
 
 
 class TrainLoad(Group, of=results.FaceLoad):
-    """How the face carries."""
+    """The distribution of the load over the face."""
 
     views: ClassVar = {"face_load_factor": View(headline=2), "contact_fraction": View(percent=True)}
 
 
 class TrainSafety(Group, of=results.TrainSafety):
-    """Safety factor against scuffing; thermal EHL values are null in closed form, or where a point is not known."""
+    """Safety factors against scuffing.
+
+    The factors by thermal EHL are null if `model.lubrication` is `closed_form`, or if the value at one of their points
+    is not known.
+    """
 
     views: ClassVar = {
         "blok_feature": View(limit=1.0, bound="lower"),
@@ -472,71 +483,80 @@ class TrainSafety(Group, of=results.TrainSafety):
 
 
 class TrainFlash(Group, of=results.FlashPlaces):
-    """Largest flash temperature by Blok."""
+    """Largest flash temperatures and largest contact temperature by Blok."""
 
 
 class TrainLosses(Group, of=results.TrainLosses):
-    """What the unit loses."""
+    """Power losses of the unit, and its efficiency."""
 
 
 class TrainBalance(Group, of=results.ForceBalance):
-    """How well forces and moments on the shafts balance; null without load."""
+    """Remaining errors in the balance of forces and moments on the shafts; null without load."""
 
 
 class TrainConvergence(Group, of=results.Convergence):
-    """How shafts and mesh came to one gap."""
+    """The iteration by which shafts and mesh agree on one gap: number of steps and last residual."""
 
 
 class TrainMaps(Group, of=results.FlankMaps):
-    """Over the flank, `[profile][face]`."""
+    """Maps of the flank, indexed `[profile][face]`."""
 
 
 class ShaftSummary(Group, of=results.ShaftResult, without=("curves",)):
-    """A shaft."""
+    """Bearings and thrust of a shaft."""
 
 
 class ShaftState(ShaftSummary, of=results.ShaftResult):
-    """A shaft with its displaced axis."""
+    """Bearings, thrust and displaced axis of a shaft."""
 
 
 class CouplingInForce(Group, of=derived.DerivedCoupling):
-    """A coupling's defaults."""
+    """Values used for the inputs of a coupling that the request left open."""
 
     coupling: ProportionsInForce
 
 
 class OilInForce(Group, of=OilInUse, stands=False):
-    """The gears' oil as it enters the contact."""
+    """Properties of the gears' oil at the place where the oil enters the contact."""
 
 
 class StateDerived(Group, of=derived.Derived, only=("temperatures",)):
-    """What the request left open, as a state of the unit has it."""
+    """Values that this state of the unit uses for inputs that the request left open."""
 
 
 class DriveTrainDerived(MeshDerived, of=derived.Derived):
-    """What the request left open, in groups named as its sections are."""
+    """Values used for inputs that the request left open, in groups with the names of the request's sections."""
 
     lubricant: OilInForce | None
 
 
 class MisalignmentParts(Group, of=results.Parts):
-    """Slope of the shafts' gap over the face by its causes, as the load lies that shafts and mesh agreed on."""
+    """Slope of the shafts' gap over the face, split by cause.
+
+    The parts are computed for the load distribution on which the calculations of shafts and mesh agreed.
+    """
 
     member_unit: ClassVar = "um"
 
 
 class MisalignmentSummary(Group, of=results.Misalignment, without=("curves",)):
-    """Gap over the face by shafts and heat; minus: it opens towards the end that meshes first, which carries less."""
+    """The gap over the face that the shafts and the heat cause.
+
+    A negative slope means that the gap opens towards the end that meshes first. This end then carries less load.
+    """
 
     views: ClassVar = {"shaft_slope": View(headline=3)}
 
 
 class MisalignmentState(MisalignmentSummary, of=results.Misalignment):
-    """Gap over the face with its curves."""
+    """The gap over the face that the shafts and the heat cause, with its curves.
+
+    A negative slope means that the gap opens towards the end that meshes first. This end then carries less load.
+    """
 
 
 class TrainSummary(Group, of=results.DriveTrainResult, without=("flank", "states", "heat")):
-    """The unit in another state, in short."""
+    """A summary of the results of the unit in another state."""
 
     misalignment: MisalignmentSummary
     shafts: list[ShaftSummary]
@@ -544,27 +564,30 @@ class TrainSummary(Group, of=results.DriveTrainResult, without=("flank", "states
 
 
 class TrainStates(Group, of=results.States):
-    """The unit in other states than the one described."""
+    """The unit in states other than the state that the request describes."""
 
     cold: TrainSummary | None
 
 
 class WarmUpCurves(Group, of=CurvesOfNodes):
-    """Over time."""
+    """Temperatures over time."""
 
 
 class WarmUpOfNodes(Group, of=WarmUp):
-    """How every node warms up."""
+    """The warm-up of every node of the heat balance."""
 
     views: ClassVar = {"greatest_difference": View(headline=1)}
 
 
 class AlignmentAtTimes(Group, of=warm_up.AlignmentOverTime):
-    """Load and safety at five times."""
+    """Load, safety and slope at five points in time of the warm-up."""
 
 
 class WarmUpResponse(Response, of=warm_up.UnitWarmUp):
-    """A gear unit that warms up; sections are missing where there is no solution."""
+    """Results of a gear unit that warms up.
+
+    If there is no solution, the sections with results are missing.
+    """
 
     views: ClassVar = {
         "least_safety": View(headline=2, limit=1.0, bound="lower", needs="temperatures.scuffing_c"),
@@ -573,7 +596,10 @@ class WarmUpResponse(Response, of=warm_up.UnitWarmUp):
 
 
 class DriveTrainResponse(Response, of=results.DriveTrainResult):
-    """A gear unit whole; sections are missing where there is no solution."""
+    """Results of a complete gear unit.
+
+    If there is no solution, the sections with results are missing.
+    """
 
     def remarks(self) -> dict[str, str]:
         """Return the uncertainty of the flank temperatures of a heat balance without measured temperatures."""

@@ -12,7 +12,7 @@ from solvers.pumping.inputs import PumpingSetup
 
 
 class GearMember(Section, of=GearTeeth):
-    """One gear of the pair; coefficients count normal modules."""
+    """One gear of the pair; its coefficients are in normal modules."""
 
     exclusive: ClassVar = (("addendum", "tip_diameter_mm"),)
     choice_missing: ClassVar = "missing_property"
@@ -26,7 +26,7 @@ class GearMember(Section, of=GearTeeth):
 
 
 class Gears(Section, of=GearPairInputs, without=("rack_tip_radius",)):
-    """An external parallel-axis pair, spur or helical; the pinion drives.
+    """An external gear pair with parallel axes, spur or helical; the pinion drives.
 
     Each model adds `rack_tip_radius` with its own default.
     """
@@ -57,15 +57,15 @@ class PumpingGears(BacklashGears):
 
 
 class Surface(Section, of=Solid, without=("roughness",)):
-    """The solid under one surface; steel by default."""
+    """The material under one surface; the default is steel."""
 
 
 class GearMaterial(Surface, of=Solid):
-    """Material and finish of one gear."""
+    """Material and roughness of one gear."""
 
 
 class GearMaterials(Section):
-    """Materials of the pair."""
+    """Materials of both gears."""
 
     pinion: Annotated[GearMaterial, Input("pinion material")] = GearMaterial()
     wheel: Annotated[GearMaterial, Input("wheel material")] = GearMaterial()

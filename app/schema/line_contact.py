@@ -13,15 +13,15 @@ from solvers.oils import lubricant_at
 
 
 class LineContact(Section, of=ehl.Contact):
-    """Load, curvature and speeds."""
+    """Load, curvature and speeds of the contact."""
 
 
 class LineContactTemperatures(Section, of=ehl.Temperatures):
-    """Temperatures far from the contact."""
+    """Temperatures of the surfaces far from the contact, and of the oil at the inlet."""
 
 
 class FilmModel(Section, of=ehl.Model, without=("thermal",)):
-    """Physics and resolution of the film."""
+    """Physical model and numerical resolution of the film."""
 
     def unused(self) -> dict[str, bool]:
         """Mark the Eyring stress as unused in a Newtonian film."""
@@ -29,7 +29,7 @@ class FilmModel(Section, of=ehl.Model, without=("thermal",)):
 
 
 class LineContactModel(FilmModel, of=ehl.Model):
-    """Physics and resolution of the contact."""
+    """Physical model and numerical resolution of the contact."""
 
 
 class LineContactRequest(Request):
@@ -73,21 +73,21 @@ class LineContactRequest(Request):
 
 
 class LineContactDerived(OilDerived, of=results.Derived):
-    """What load, curvature and speeds make of the two surfaces, and the oil at the inlet."""
+    """Mean speed and reduced modulus of the two surfaces, and properties of the oil at the inlet."""
 
 
 class HertzContact(Group, of=results.HertzContact):
-    """The dry contact."""
+    """Half width and largest pressure of the dry contact."""
 
     views: ClassVar = {"max_pressure": View(limit=4000.0, bound="upper")}
 
 
 class ContactNumbers(Group, of=results.Dimensionless):
-    """Dimensionless numbers."""
+    """Dimensionless numbers of the contact."""
 
 
 class FilmThickness(Group, of=results.FilmThickness):
-    """Film thickness; null without a solution, but for the formula."""
+    """Film thickness. Without a solution, only the value by formula is given; the other values are null."""
 
     views: ClassVar = {"minimum": View(headline=1)}
 
@@ -97,19 +97,19 @@ class FilmPressure(Group, of=results.ContactPressure):
 
 
 class FilmTemperature(Group, of=results.ContactTemperature):
-    """Temperatures."""
+    """Largest temperatures of the film and of both surfaces."""
 
     views: ClassVar = {"film_max": View(headline=2)}
 
 
 class FilmFriction(Group, of=results.ContactFriction):
-    """Friction."""
+    """Friction in the film."""
 
     views: ClassVar = {"coefficient": View(headline=3)}
 
 
 class FilmHeat(Group, of=results.ContactHeat):
-    """Heat per length of contact; into the surfaces and convected out positive."""
+    """Heat per length of contact; heat that enters a surface or leaves with the oil is positive."""
 
 
 class ContactConvergence(Group, of=results.Convergence):
@@ -117,11 +117,15 @@ class ContactConvergence(Group, of=results.Convergence):
 
 
 class MeshErrors(Group, of=results.MeshError):
-    """Estimated error that the mesh leaves, relative; small friction and flash temperatures over 0.001 and 25 K."""
+    """Estimated relative errors that the numerical mesh causes.
+
+    The error of a coefficient of friction below 0.001 is relative to 0.001. The error of a flash temperature below 25 K
+    is relative to 25 K.
+    """
 
 
 class ContactCurves(Group, of=results.ContactCurves):
-    """Along the contact; temperatures are null if isothermal."""
+    """Curves along the contact; temperatures and heat fluxes are null if the contact is isothermal."""
 
 
 class ContactField(Group, of=results.ContactField):
@@ -129,4 +133,4 @@ class ContactField(Group, of=results.ContactField):
 
 
 class LineContactResponse(Response, of=results.LineContactResult):
-    """A lubricated line contact; what was not solved is null."""
+    """Results of a lubricated line contact; values that were not solved are null."""

@@ -1,7 +1,7 @@
 """Models of requests and responses, filled from the dataclasses of the solvers.
 
     class CouplingModel(Section, of=si.ModelOptions):
-        \"\"\"Choices where the paper leaves room.\"\"\"
+        \"\"\"Options of the model at points that the paper leaves open.\"\"\"
 
 has a field for each declaration of `si.ModelOptions`. If the quantity has a unit, the name of the field ends with the
 unit. A trailing underscore, which keeps a solver's name from being a word of Python (`from_`), is dropped.
@@ -279,7 +279,7 @@ def _with_choices(document: dict[str, Any], section: type[Any]) -> None:
 
 
 class Section(Documented):
-    """A part of a request: unknown fields are refused, numbers are numbers, finite and in range.
+    """A part of a request; it refuses unknown fields, and numbers that are texts, infinite or out of range.
 
     `choice_code` is the code of the error if two fields that exclude each other are given. `choice_missing` is the code
     of the error if no field of such a group is given; if it is None, no field of the group is required.
@@ -375,7 +375,7 @@ class Request(Section):
 
 
 class Group(Documented):
-    """A part of a response; nothing in it is NaN or infinite."""
+    """A part of a response; none of its numbers is NaN or infinite."""
 
     model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
     _declares: ClassVar = Output
@@ -391,7 +391,7 @@ class Group(Documented):
 
 
 class Notice(Group):
-    """A value outside its range of validity, or without meaning."""
+    """A warning about a value that is outside its range of validity or has no meaning."""
 
     rank: Annotated[
         Rank,
@@ -409,7 +409,7 @@ class Notice(Group):
 
 
 class Assumption(Group):
-    """A default that this result used and that is ours, not the paper's."""
+    """A default used for this result that comes from this project and not from the paper."""
 
     field: Annotated[str, Output("assumed field", text="dotted name of the request field")]
     value: Annotated[Any, Output("assumed value", text="the value used")]
@@ -417,7 +417,7 @@ class Assumption(Group):
 
 
 class Derived(Group):
-    """What follows from the request before any physics."""
+    """Values that follow from the request before any physics is computed."""
 
 
 GROUNDS = frozenset({"assumptions", "model_version", "sources", "model", "derived", "inputs", "case"})
@@ -425,7 +425,10 @@ GROUNDS = frozenset({"assumptions", "model_version", "sources", "model", "derive
 
 
 class Response(Group):
-    """What every result says about itself; each adds its results."""
+    """The part that all answers have in common: status, warnings and the basis of the results.
+
+    A subclass adds the results.
+    """
 
     _optional: ClassVar = True
     _stands: ClassVar = False

@@ -37,7 +37,7 @@ def _of_a_sheet(name: str, ge: float, le: float, text: str, assumed: str | None 
 
 
 class SheetOil(Section):
-    """An oil by its ISO grade or viscosity at 40 °C, and by how it thins, where that is what is known of it."""
+    """An oil described by its ISO grade or its viscosity at 40 °C, and by how its viscosity falls with temperature."""
 
     exclusive: ClassVar[tuple[tuple[str, ...], ...]] = (
         ("iso_vg", "viscosity_pa_s", "kinematic_viscosity_40_mm2_per_s"),
@@ -130,7 +130,10 @@ class SheetOil(Section):
 
 
 class Oil(SheetOil, of=Lubricant):
-    """The oil of a lubricated contact: by grade, by data sheet or by its viscosity; nothing names none."""
+    """The oil of a lubricated contact, described by its grade, its data sheet or its viscosity.
+
+    If none of these is given, the calculation has no oil.
+    """
 
     exclusive: ClassVar = (
         *SheetOil.exclusive,
@@ -226,7 +229,7 @@ _WITH_VISCOSITY = [name for name, field in Oil.model_fields.items() if isinstanc
 
 
 class CouplingLubricant(SheetOil):
-    """Oil at the teeth."""
+    """The oil at the teeth of the coupling."""
 
     viscosity_pa_s: Annotated[
         float | None,
@@ -274,4 +277,7 @@ class CouplingLubricant(SheetOil):
 
 
 class OilDerived(Derived, of=OilInUse):
-    """Properties of the oil at its reference temperature, given or by grade and data sheet; null without an oil."""
+    """Properties of the oil at its reference temperature; null if no oil is given.
+
+    A property is either given or follows from the grade or data sheet.
+    """

@@ -24,11 +24,11 @@ class PumpingOperation(Section, of=si.PumpingInputs):
 
 
 class Mist(Section, of=si.Ambient):
-    """The air and oil mist around the mesh, a perfect gas."""
+    """The air and oil mist around the mesh, modelled as a perfect gas."""
 
 
 class PumpingOptions(Section, of=si.PumpingModel):
-    """Choices where the paper leaves room."""
+    """Options of the model at points that the paper leaves open."""
 
     def unused(self) -> dict[str, bool]:
         """Mark options as unused that the flow model does not have.
@@ -44,7 +44,7 @@ class PumpingOptions(Section, of=si.PumpingModel):
 
 
 class _PumpingSetup(Request, of=si.PumpingSetup, without=("normal_backlash",)):
-    """What both calculations have in common."""
+    """The parts that the requests of both pumping calculations have in common."""
 
     gears: PumpingGears
 
@@ -74,17 +74,21 @@ class ChokingSpeedRequest(_PumpingSetup, of=si.ChokingInputs):
 
 
 class PumpingMassFlow(Group, of=results.MassFlow):
-    """Mass flow out of the tooth spaces: net by exit, the first five sum to zero; gross at the ends."""
+    """Mass flow out of the tooth spaces of one gear.
+
+    `front`, `rear`, `radial`, `grooves` and `reset` are the net flows through the different exits; they add up to zero.
+    The other flows are the outflow and the inflow at each end of the face.
+    """
 
     member_unit: ClassVar = "g_per_s"
 
 
 class StrokeCurves(Group, of=stroke.StrokeTable):
-    """Section of the tooth space over one stroke."""
+    """Area and clearances of the tooth space over one stroke."""
 
 
 class PumpingStroke(Group, of=results.Stroke):
-    """One stroke of a tooth space; angles of its gear from the line of centres."""
+    """One stroke of a tooth space; angles are those of the space's gear, measured from the line of centres."""
 
 
 class PumpingBalance(Group, of=results.Balance):
@@ -92,17 +96,17 @@ class PumpingBalance(Group, of=results.Balance):
 
 
 class PumpingProfile(Group, of=results.FaceProfile):
-    """Along the face, outside the grooves."""
+    """Curves along the face, without the grooves."""
 
 
 class PumpingField(Group, of=results.GasField):
-    """Over angle and position, indexed [angle][position]."""
+    """Fields over angle and position, indexed [angle][position]."""
 
     views: ClassVar = {"axial_mach": View(limit=1.0)}
 
 
 class PumpingSpaces(Group, of=results.SpacesResult):
-    """The tooth spaces of one gear."""
+    """Results of the tooth spaces of one gear."""
 
     views: ClassVar = {
         "peak_axial_mach": View(headline=2, limit=1.0, verdict=".axial_choked"),
@@ -112,47 +116,53 @@ class PumpingSpaces(Group, of=results.SpacesResult):
 
 
 class PumpingGeometry(Group, of=results.MeshGeometry):
-    """The mesh."""
+    """Geometry of the mesh."""
 
 
 class PumpingTotal(Group, of=results.Totals):
-    """Of all spaces asked for."""
+    """Results of all tooth spaces that the request selects."""
 
     views: ClassVar = {"pumping_power": View(headline=1)}
 
 
 class LeadCurves(Group, of=lead_correction.LeadCurves):
-    """Along the pinion's face."""
+    """Thermal growth and lead correction along the face of the pinion."""
 
 
 class PumpingLeadCorrection(Group, of=lead_correction.LeadCorrection):
-    """Thermal lead correction of the pinion where the metal warms as much as the gas."""
+    """Lead correction of the pinion for its thermal growth, if the metal warms as much as the gas."""
 
 
 class PumpingPulsation(Group, of=pulsation.Pulsation):
-    """Amplitudes of the mass flow at the ends, at multiples of the meshing frequency."""
+    """Amplitudes of the mass flow at both ends of the face, at multiples of the meshing frequency."""
 
 
 class PumpingResolution(Group, of=results.Resolution):
-    """Relative uncertainties by what half and a quarter of the slices, steps or positions change."""
+    """Relative uncertainties of the results that the resolution causes.
+
+    They follow from the changes of the results with half and with a quarter of the slices, steps or positions.
+    """
 
 
 class ChokingCurves(Group, of=results.ChokingCurves):
-    """What a coarse scan saw, the largest over the spaces asked for."""
+    """Results of a coarse scan of the speed: the largest values over the selected tooth spaces."""
 
     views: ClassVar = {"exit_mach": View(limit=1.0)}
 
 
 class PumpingDerived(Derived, of=results.Derived):
-    """Centre distance and resolution, where the request left them open."""
+    """Centre distance, number of slices and tip radius of the rack, as used."""
 
 
 class PumpingResponse(Response, of=results.PumpingResult):
-    """Pumping at one operating point; sections are missing where there is no solution."""
+    """Results of pumping at one operating point.
+
+    If there is no solution, the sections with results are missing.
+    """
 
 
 class ChokingSpeedResponse(Response, of=results.ChokingSpeeds):
-    """Lowest pinion speeds with sonic flow in any of the spaces asked for."""
+    """The lowest pinion speeds at which the flow becomes sonic in any of the selected tooth spaces."""
 
     views: ClassVar = {
         "radial_choking_speed": View(headline=1, limit="search_limit_rpm"),

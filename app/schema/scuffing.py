@@ -26,7 +26,7 @@ from solvers.scuffing.thermal.pair_heat import is_beyond_the_estimate
 
 
 class FlankModifications(Section, of=si.Modifications, without=("lead_curve",)):
-    """Gaps along the transverse line of action, positive where material is missing."""
+    """Gaps along the transverse line of action; a gap is positive where material is missing."""
 
     def unused(self) -> dict[str, bool]:
         """Mark the length of each relief of zero height as unused, and the exponent if all reliefs are zero."""
@@ -36,7 +36,7 @@ class FlankModifications(Section, of=si.Modifications, without=("lead_curve",)):
 
 
 class ScuffingLoad(Section, of=si.Load):
-    """Torque or power, and speed; exactly one of torque and power is given."""
+    """The speed, and either the torque or the power."""
 
     exclusive: ClassVar = (("pinion_torque_n_m", "power_kw"),)
     choice_code: ClassVar = "torque_or_power"
@@ -46,11 +46,11 @@ class ScuffingLoad(Section, of=si.Load):
 
 
 class LoadDistributionModel(Section, of=(si.Model, si.Resolution)):
-    """Choices where the paper leaves room."""
+    """Options of the load distribution at points that the paper leaves open."""
 
 
 class GearPairRequest(Request):
-    """A loaded, modified, misaligned gear pair."""
+    """A loaded gear pair with modifications and misalignment."""
 
     gears: Annotated[ScuffingGears, Input("gear pair")]
     load: Annotated[ScuffingLoad, Input("load", text="torque or power, and speed")]
@@ -76,7 +76,7 @@ def distribution_inputs(request: Request, gears: GearPairInputs, load: si.Load) 
 
 
 class LoadDistributionRequest(GearPairRequest):
-    """A loaded, modified, misaligned gear pair and the friction between its flanks."""
+    """A loaded gear pair with modifications and misalignment, and the friction between its flanks."""
 
     friction_coefficient: Annotated[float, Input.of(si.LoadDistributionInputs, "friction_coefficient")] = 0.06
     model: Annotated[
@@ -95,7 +95,7 @@ FILM_SAFETY = View(limit=1.0, bound="lower")
 
 
 class MicropittingTestFilm(Group, of=film_results.FilmOfTest):
-    """The film of the test gears C-GF in this oil at the failure load stage."""
+    """The film of the test gears C-GF with this oil, at the load stage at which the oil fails."""
 
 
 class LocalFilmPoint(Group, of=film_results.LocalPoint):
@@ -105,53 +105,61 @@ class LocalFilmPoint(Group, of=film_results.LocalPoint):
 
 
 class LocalFilm(Group, of=film_results.LocalFilm):
-    """The film over the flank under its own load (method A)."""
+    """The film at each point of the flank, computed with the load at this point (method A)."""
 
     views: ClassVar = {"safety": replace(FILM_SAFETY, needs="micropitting.failure_load_stage", verdict=".verdict")}
 
 
 class StandardFilmPoint(Group, of=film_results.StandardPoint):
-    """The film at a point of the path."""
+    """The film at a point of the path of contact."""
 
     views: ClassVar = {"safety": FILM_SAFETY}
 
 
 class StandardFilm(Group, of=film_results.StandardFilm):
-    """The film of a spur pair without relief under an even load (method B)."""
+    """The film of a spur pair without relief, computed with a uniform load over the face (method B)."""
 
     views: ClassVar = {"safety": FILM_SAFETY}
 
 
 class MicropittingResult(Group, of=film_results.Micropitting):
-    """The film against the one that the oil's test asks for."""
+    """The film over the flanks, compared with the film that the micropitting test of the oil requires."""
 
 
 class FlankWear(Group, of=film_results.Wear):
-    """Depth of mild wear per million revolutions of either gear."""
+    """Depth of mild wear of each gear per million revolutions of this gear."""
 
 
 class ScuffingGeometry(Group, of=results.Geometry):
-    """The mesh."""
+    """Geometry of the mesh."""
 
 
 class ContactLengthCurves(Group, of=results.LengthCurves):
-    """Total contact length over one base pitch; a spur gear's jumps stand twice."""
+    """Total length of the contact lines over one base pitch.
+
+    If the length of a spur gear jumps at a roll position, this position occurs twice: with the length before and after
+    the jump.
+    """
 
 
 class ContactLineLengths(Group, of=results.ContactLines):
-    """Total length of the contact lines."""
+    """Extremes and mean of the total length of the contact lines."""
 
 
 class ToothStiffnessCurves(Group, of=results.StiffnessCurves):
-    """Stiffness of one pair of teeth along the path."""
+    """Stiffness of one pair of teeth along the path of contact."""
 
 
 class ToothStiffness(Group, of=results.Stiffness):
-    """Stiffness per face width."""
+    """Stiffness of one pair of teeth and of the mesh, per face width."""
 
 
 class TransmissionErrorCurves(Group, of=results.ErrorCurves):
-    """Transmission error over one base pitch; a spur gear's jumps stand twice."""
+    """Transmission error over one base pitch.
+
+    If the error of a spur gear jumps at a roll position, this position occurs twice: with the error before and after
+    the jump.
+    """
 
 
 class TransmissionErrorResult(Group, of=results.TransmissionError):
@@ -161,7 +169,10 @@ class TransmissionErrorResult(Group, of=results.TransmissionError):
 
 
 class MeshLoss(Group, of=results.FrictionLoss):
-    """Friction loss at its mean coefficient; power and efficiency are those of the transmitted power."""
+    """Friction loss of the mesh, computed with the mean coefficient of friction.
+
+    Power and efficiency are computed for the transmitted power, without load factors.
+    """
 
 
 class FlankPlace(Group, of=results.Place):
@@ -169,25 +180,31 @@ class FlankPlace(Group, of=results.Place):
 
 
 class FlankPressure(Group, of=results.Pressure):
-    """Dry Hertzian pressure."""
+    """Largest Hertzian pressure of the dry contact, and its place."""
 
     views: ClassVar = {"max": View(headline=1)}
 
 
 class FeatureLineCurves(Group, of=results.FeatureLine):
-    """Along the feature line from A1 to E2; the points A, C and E of the path lie on it."""
+    """Curves along the feature line from A1 to E2.
+
+    The points A, C and E of the path of contact lie on this line.
+    """
 
 
 class FlankFields(Group, of=results.Flank):
-    """Over the flank, `[profile][face]`."""
+    """Maps of the flank, indexed `[profile][face]`."""
 
 
 class FlashTemperature(Group, of=safety_results.Flash):
-    """Largest flash temperature; thermal EHL values are null in closed form."""
+    """Largest flash temperatures and their places.
+
+    Values by thermal EHL are null if `model.lubrication` is `closed_form`.
+    """
 
 
 class ContactTemperatureResult(Group, of=safety_results.ContactTemperature):
-    """Bulk temperature, and the largest contact temperature: bulk plus flash."""
+    """The bulk temperature, and the largest sum of bulk and flash temperature (contact temperature)."""
 
     views: ClassVar = {
         "blok_max": View(headline=2, limit="safety.scuffing_c", bound="upper"),
@@ -196,13 +213,13 @@ class ContactTemperatureResult(Group, of=safety_results.ContactTemperature):
 
 
 class ThinnestFilm(Group, of=safety_results.Film):
-    """Thinnest film; null where nothing is loaded."""
+    """The thinnest film and its place; null if no point of the flank carries load."""
 
     views: ClassVar = {"thickness_ratio": View(headline=3, limit=1.0, bound="lower", verdict=".thickness_regime")}
 
 
 class ScuffingSafety(Group, of=safety_results.Safety):
-    """Safety factor against scuffing."""
+    """Safety factors against scuffing, with the scuffing temperature."""
 
     views: ClassVar = {
         "blok_factor": View(
@@ -219,17 +236,20 @@ class ScuffingSafety(Group, of=safety_results.Safety):
 
 
 class ScuffingPathCurves(Group, of=(safety_results.ScuffingPath, safety_results.ThermalPath)):
-    """Along a line from A to E; what only the thermal EHL solution knows is null in closed form."""
+    """Curves along a line from A to E.
+
+    Values that only the thermal EHL solution provides are null if `model.lubrication` is `closed_form`.
+    """
 
     views: ClassVar = {"thickness_ratio": View(limit=1.0, bound="lower")}
 
 
 class MeshDerived(Derived, of=results.Derived, without=("rack_tip_radius",)):
-    """Load and lengths where the request left them open."""
+    """Load and lengths as used, including those that the request left open."""
 
 
 class ScuffingDerived(MeshDerived, of=results.Derived):
-    """Load and lengths where the request left them open, and what is used of the rack."""
+    """Load, lengths and tip radius of the rack as used, including those that the request left open."""
 
 
 class FlankLoad(Group, of=results.LoadOnFlank):
@@ -241,15 +261,24 @@ class FlankLoad(Group, of=results.LoadOnFlank):
 
 
 class LoadDistributionResponse(Response, of=results.LoadDistribution):
-    """How a gear pair carries its load; sections are missing where there is no solution."""
+    """Results of the load distribution of a gear pair.
+
+    If there is no solution, the sections with results are missing.
+    """
 
 
 class ScuffingTest(Section, of=si.ScuffingTest):
-    """A scuffing test of the oil; stages of other tests than A/8.3/90 mean other temperatures."""
+    """A scuffing test of the oil.
+
+    Only the test A/8.3/90 is accepted: in other tests the same load stage means other temperatures.
+    """
 
 
 class ContactTemperatures(Section, of=si.Temperatures):
-    """Temperatures of teeth and oil, as numbers or by what practice makes of test and supply."""
+    """Temperatures of the teeth and the oil.
+
+    They are given as numbers, or follow from the scuffing test and the oil supply by rules of practice.
+    """
 
     exclusive: ClassVar = (("scuffing_c", "scuffing_test"),)
 
@@ -277,7 +306,7 @@ class ContactTemperatures(Section, of=si.Temperatures):
 
 
 class ScuffingTemperatures(ContactTemperatures):
-    """Temperatures of teeth and oil."""
+    """Temperatures of the teeth and the oil."""
 
     @model_validator(mode="after")
     def known_bulk(self) -> Self:
@@ -292,7 +321,11 @@ class Surfaces(Section, of=si.FlankSurfaces):
 
 
 class Micropitting(Section, of=si.MicropittingCheck):
-    """A micropitting test of the oil, or the film that the flanks need, and a wear coefficient."""
+    """Inputs of the checks against micropitting and wear.
+
+    The film that the flanks need is either given, or it follows from a micropitting test of the oil. The wear follows
+    from a wear coefficient.
+    """
 
     exclusive: ClassVar = (("failure_load_stage", "permissible_ratio"),)
 
@@ -309,11 +342,11 @@ class Micropitting(Section, of=si.MicropittingCheck):
 
 
 class MeshModel(LoadDistributionModel, FilmModel, of=si.ScuffingInputs, without=("line", "micropitting", "cooling")):
-    """Choices where the paper leaves room, and physics and resolution of the film."""
+    """Options of the load distribution and of the film."""
 
 
 class ScuffingModel(MeshModel, of=si.ScuffingInputs, only=("line",)):
-    """Choices where the paper leaves room, the part of the flank that is checked, and the film."""
+    """Options of the load distribution and of the film, and the part of the flank that is checked."""
 
 
 PRACTICAL_FRICTION = Input.of(
@@ -351,7 +384,7 @@ def _is_given(sent: Any, path: str) -> bool:
 
 
 class MeshInOil(Request):
-    """What requests about scuffing have in common: a loaded pair with an oil, temperatures and a law of friction.
+    """The parts that requests about scuffing have in common: a loaded pair, an oil, temperatures, a law of friction.
 
     `methods` maps the field of a method to fields of values: if one of the values is given, and the request does not
     name the method, the method is "given".
@@ -509,7 +542,7 @@ class ScuffingRequest(MeshInOil, GearPairRequest):
 
 
 class ScuffingOilDerived(ScuffingDerived, of=(safety_results.ScuffingDerived, OilInUse)):
-    """Load and lengths, and the oil as it enters the contact."""
+    """Load and lengths as used, and properties of the oil at the place where the oil enters the contact."""
 
 
 def how_well_known(response: Response, *paths: str) -> dict[str, str]:
@@ -518,11 +551,14 @@ def how_well_known(response: Response, *paths: str) -> dict[str, str]:
 
 
 class HeatedFlankFields(Group, of=safety_results.HeatedFlank):
-    """Over the flank, `[profile][face]`."""
+    """Maps of the flank, indexed `[profile][face]`."""
 
 
 class ScuffingResponse(LoadDistributionResponse, of=safety_results.Scuffing):
-    """Load distribution and scuffing check; sections are missing where there is no solution."""
+    """Results of the load distribution and of the scuffing check.
+
+    If there is no solution, the sections with results are missing.
+    """
 
     flank: HeatedFlankFields | None
     derived: ScuffingOilDerived

@@ -59,7 +59,10 @@ Cases = Annotated[list[dict[str, Value]] | None, Field(min_length=1)]
 
 
 class Part(BaseModel):
-    """A part of a study: unknown fields are refused, numbers are finite, and one of `exactly_one` is given."""
+    """A part of a study; it refuses unknown fields and infinite numbers.
+
+    Exactly one of the fields in `exactly_one` must be given.
+    """
 
     model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
     exactly_one: ClassVar[tuple[str, ...]] = ()
@@ -86,7 +89,7 @@ class FieldsTogether(Part):
 
 
 class Axis(FieldsTogether):
-    """One axis of a grid: the values a field takes, listed or spread between two ends."""
+    """One axis of a grid: the values of a field, either listed or spread evenly between two ends."""
 
     path: Annotated[FieldPaths, Input("varied field", text="dotted path of the field, or several that move together")]
     values: Annotated[
@@ -134,7 +137,7 @@ class Triangular(Range):
 
 
 class Normal(Spread):
-    """Normally distributed, cut at four deviations and at the field's own range."""
+    """A normal distribution, cut off at four standard deviations and at the permissible range of the field."""
 
     distribution: Annotated[Literal["normal"], KIND]
     mean: Annotated[float, Input("mean")]
@@ -142,7 +145,10 @@ class Normal(Spread):
 
 
 class Lognormal(Spread):
-    """Its logarithm is normally distributed; cut at four deviations and at the field's own range."""
+    """A distribution in which the logarithm of the value is normally distributed.
+
+    It is cut off at four standard deviations and at the permissible range of the field.
+    """
 
     distribution: Annotated[Literal["lognormal"], KIND]
     median: Annotated[float, Input("median", gt=0.0)]
@@ -177,7 +183,7 @@ Outputs = Annotated[
 
 
 class StudyRequest(Part):
-    """The endpoint and the request of a study."""
+    """The endpoint of a study and the request that the study varies."""
 
     endpoint: Annotated[str, Input("endpoint", text="the endpoint that is asked, as in GET /v1/examples")]
     request: Annotated[

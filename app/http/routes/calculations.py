@@ -27,7 +27,7 @@ figures = APIRouter(tags=["figures"])
 
 
 class FigureSummary(BaseModel):
-    """One figure of an endpoint; it is at `{endpoint}/figures/{name}.{format}`."""
+    """One figure of an endpoint; its address is `{endpoint}/figures/{name}.{format}`."""
 
     endpoint: Annotated[str, Output("where to post the request")]
     name: Annotated[str, Output("name in the address")]

@@ -58,7 +58,10 @@ pages = APIRouter(include_in_schema=False)
     summary="The stages of a gear unit's file (REXS) as ready requests",
 )
 async def read_unit(http: Request) -> Response:
-    """Read the stages of a gear unit as ready requests, and list values that are missing, assumed, unused or wrong."""
+    """Read a file and return the stages of its gear unit as requests that are ready to send.
+
+    The answer also lists the values that are missing, assumed, unused or wrong.
+    """
     upload = await _upload(http)
     unit = await http.app.state.pool.calculate(http, answer.unit_json, upload.content, _most_bytes(http))
     return Response(unit, media_type="application/json")
@@ -75,10 +78,10 @@ async def read_unit(http: Request) -> Response:
 async def write_results(
     http: Request, stage: Annotated[int, Query(description="id of the stage's component")]
 ) -> Response:
-    """Write the numbers of a stage into the file as attributes of its component.
+    """Write the numerical results of a stage into the file, as attributes of the component of the stage.
 
-    A quantity of the standard has the attribute of the standard; others have `custom_tribodrive_*`. The rest of the
-    file is kept.
+    A result for which the standard has an attribute is written to this attribute. Any other result is written to an
+    attribute whose name begins with `custom_tribodrive_`. The rest of the file is unchanged.
     """
     upload = await _upload(http)
     limits: Settings = http.app.state.settings
@@ -117,7 +120,10 @@ async def open_unit(http: Request) -> Response:
 
 @pages.get("/rexs/{name}", response_class=HTMLResponse)
 async def show_unit(http: Request, name: str) -> Response:
-    """Show the page of a unit while it is kept: stages, findings, and links to the calculations."""
+    """Show the page of a unit as long as the page is kept.
+
+    The page has the stages, the findings, and links to the calculations.
+    """
     shown = http.app.state.answers.get(_key(root_of(http), name))
     if shown is None:
         return problem_page(http, 410, "The file has to be opened again", GONE)

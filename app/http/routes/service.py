@@ -27,7 +27,7 @@ class Health(BaseModel):
 
 
 class Readiness(BaseModel):
-    """Ready calculations, and the number of workers."""
+    """The calculations that are ready, and the number of workers."""
 
     status: Annotated[Literal["ok"], Output("always ok: an answer is the message")] = "ok"
     warm: Annotated[list[str], Output("models, or parts of them, whose kernels are loaded")]
@@ -57,7 +57,7 @@ async def healthz() -> Health:
 
 @router.get("/readyz", responses=documented(503))
 async def readyz(http: Request) -> Readiness:
-    """Return `ok` if all calculations are ready, else 503 with the progress of the warm-up. Never waits."""
+    """Return `ok` if all calculations are ready, else 503 with the progress of the warm-up, without waiting."""
     start_up: StartUp = http.app.state.start_up
     pool: Pool = http.app.state.pool
     start_up.require_all()

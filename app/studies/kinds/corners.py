@@ -62,10 +62,13 @@ class CornersRequest(DriveTrainStudy):
 
 
 class Corners(Sweep):
-    """Every corner is the endpoint's own answer, up to 256 of them; `extremes` are the least and largest values.
+    """The answer of the endpoint at every corner, for at most 256 corners.
 
-    Where no output needs the thermal film, it is not calculated: corners are twenty times as fast and have fewer
-    warnings. The last line warns `no_convergence_of_corner` where corners have no solution; their own lines say why.
+    The lines `extremes` give the least and the largest value of each output.
+
+    If no output needs the thermal film, the film is not calculated. The study is then twenty times as fast and has
+    fewer warnings. If some corners have no solution, the last line has the warning `no_convergence_of_corner`, and the
+    lines of these corners state the reasons.
     """
 
     path = "/v1/drive-train/corners"

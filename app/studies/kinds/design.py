@@ -74,7 +74,7 @@ class Variable(FieldsTogether):
 
 
 class DesignRequest(DriveTrainStudy):
-    """The flank correction whose worst corner is best."""
+    """A gear unit for which the flank correction with the best result at its worst corner is sought."""
 
     variables: Annotated[list[Variable], Field(min_length=1, max_length=10), Input("variables")]
     corners: Annotated[Ranges, Input("corners", text=RANGES, default_text="the request's own")] = None
@@ -94,12 +94,14 @@ class DesignRequest(DriveTrainStudy):
 
 
 class Design(Study):
-    """A search with COBYQA that starts from the request's own correction.
+    """A search with the method COBYQA that starts from the correction in the request.
 
-    The objective of a correction is its value at the worst operating point and corner. `safety.minimum` needs the
-    thermal film, a second a corner; with `safety.blok_flank`, or `model.lubrication` in closed form, the search is
-    twenty times as fast. Where variables have a `step`, `rounded` in the last line is the best correction in whole
-    steps, calculated like the others.
+    The objective of a correction is the value of the chosen output at the worst operating point and corner. The output
+    `safety.minimum` needs the thermal film, which takes one second per corner. The search is twenty times as fast with
+    the output `safety.blok_flank`, or if `model.lubrication` is `closed_form`.
+
+    If variables have a `step`, `rounded` in the last line is the best correction rounded to whole steps. The objective
+    of this correction is calculated in the same way.
     """
 
     path = "/v1/drive-train/design"

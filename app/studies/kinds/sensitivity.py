@@ -39,7 +39,7 @@ MOST_ROWS = 40  # largest number of rows of the table, so that a user can read i
 
 
 class SensitivityRequest(StudyRequest):
-    """How each output moves with each input."""
+    """A request whose inputs are moved one at a time, to see how much each of the outputs changes."""
 
     inputs: Annotated[
         list[FieldPath] | None,
@@ -127,13 +127,15 @@ def differences(moved: Perturbation, outputs: dict[float, float | None]) -> Line
 
 
 class Sensitivity(Study):
-    """Derivatives of the outputs by every number of the case, from differences with its tolerance as step.
+    """Derivatives of the outputs with respect to the numbers of the case, by finite differences.
 
-    A field without a tolerance is moved by 1 %, a temperature by 1 K, an integer by 1.
+    The step of an input is its tolerance. If an input has no tolerance, a temperature is moved by 1 K and any other
+    input by 1 %. An integer is always moved by 1.
 
-    `change` is what one step does to the output, `elasticity` per cent of the output for a per cent of the input;
-    `kink` says that the two sides differ by more than 10 %, `curved` that half the step gives another derivative by
-    more than 10 %; it is null for fields without a tolerance.
+    `change` is the change of the output by one step of the input. `elasticity` is the change of the output in per cent
+    if the input changes by 1 %. `kink` is true if the slopes on the two sides of the value differ by more than 10 %.
+    `curved` is true if half the step gives a derivative that differs by more than 10 %; it is null for integers and for
+    inputs without a tolerance.
     """
 
     path = "/v1/sensitivity"

@@ -95,7 +95,7 @@ TOLERANCES = tuple(f"t{place}" for place in range(12))  # fields that may scatte
 
 
 class LoadCase(Part):
-    """A part of the operating time, and what it changes in the request."""
+    """A part of the operating time, and the values that it changes in the request."""
 
     name: Annotated[str | None, Field(max_length=100), Input("name", default_text="its number")] = None
     share: Annotated[
@@ -105,7 +105,7 @@ class LoadCase(Part):
 
 
 class Tolerances(Part):
-    """The distributions of the fields of a machine, and how many machines are drawn."""
+    """The distributions of the fields that differ between machines, and the number of machines that are drawn."""
 
     method: Annotated[Method, METHOD] = "sobol"
     count: Annotated[int, COUNT] = 128
@@ -117,7 +117,10 @@ class Tolerances(Part):
 
 
 class Threshold(Part):
-    """A number, or normally distributed: a property of oil and material, one value for all cases of a machine."""
+    """The value of a limit, either fixed or normally distributed.
+
+    The limit is a property of oil and material. Therefore a machine has one value of the limit in all cases.
+    """
 
     value: Annotated[float | None, Input("fixed limit", ge=-LARGEST, le=LARGEST)] = None
     mean: Annotated[float | None, Input("mean of the limit", ge=-LARGEST, le=LARGEST)] = None
@@ -141,7 +144,7 @@ class SpectrumLimit(Part):
 
 
 class SpectrumRequest(StudyRequest):
-    """A machine with its tolerances over the cases of its load spectrum."""
+    """A machine with its tolerances, and the cases of its load spectrum."""
 
     cases: Annotated[
         list[LoadCase],
@@ -179,13 +182,17 @@ SCUFFING = {
 
 
 class Spectrum(Study):
-    """Machines are drawn from the tolerances; each runs every case, and its worst case is compared with the limits.
+    """Probabilities that machines exceed the limits. The machines are drawn from the tolerances.
 
-    The last line has the probability of exceeding each limit with its 90 % interval, for the spectrum and for each case
-    alone; how often each case is the worst (`decides`); the rank correlation with each tolerance; and of every output
-    the mean over the operating time, the extremes, and the 5, 50 and 95 % quantiles in each case. Draws without
-    solution are counted: where there are any, the probability is only known between its `bounds`. Where no output needs
-    the thermal film, it is not calculated. Lines of `progress` come every half second.
+    Each machine runs every case, and its worst case is compared with the limits.
+
+    For each limit, the last line has the probability of exceeding the limit with its 90 % interval, for the spectrum
+    and for each case alone. It also has the share of machines for which a case is the worst one (`decides`), and the
+    rank correlation of the output in the worst case with each tolerance. For each output, the last line has the mean
+    over the operating time, the extremes, and the 5, 50 and 95 % quantiles in each case.
+
+    Draws without a solution are counted. If there are such draws, only the `bounds` of the probability are known. If no
+    output needs the thermal film, the film is not calculated. A line `progress` comes every half second.
     """
 
     path = "/v1/spectrum"

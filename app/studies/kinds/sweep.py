@@ -61,7 +61,7 @@ MOST_REASONS = 6  # number of remarks on points; the most frequent remarks are s
 
 
 class Sample(Part):
-    """Points at random: evenly over ranges, or by distributions."""
+    """Random points, either uniform over ranges or drawn from distributions."""
 
     exactly_one = ("ranges", "inputs")
     method: Annotated[Method, METHOD] = "latin_hypercube"
@@ -82,7 +82,7 @@ class Bound(Part):
 
 
 class Best(Part):
-    """Which point is the best one."""
+    """The criterion by which the best point is chosen."""
 
     exactly_one = ("minimise", "maximise")
     minimise: Annotated[FieldPath | None, Input("output to minimise")] = None
@@ -153,12 +153,17 @@ class Summary(runner.Tally):
 
 
 class Sweep(Study):
-    """Every point is the endpoint's own answer.
+    """The answer of the endpoint at every point.
 
-    Lines are `sweep`, then `point` in order with the first axis slowest, `progress` when nothing else was sent for two
-    seconds, and `end`; or `error`, which ends a study early and is the last row of a table. A stream without either was
-    cut off: with `from_index` the study goes on, with the same points and lines from there.
-    The end of a sample has the 5, 50 and 95 % quantiles, and in `quantile_bounds` their 90 % confidence intervals.
+    The first line is `sweep`. Then there is a line `point` for each point; the first axis varies most slowly. A line
+    `progress` comes if no other line was sent for two seconds. The last line is `end`. A line `error` ends a study
+    early; in a table it is the last row.
+
+    A stream that has neither `end` nor `error` was cut off. A request with `from_index` continues the study: the points
+    stay the same, and the lines start at that index.
+
+    For a random sample, the line `end` has the 5, 50 and 95 % quantiles, and in `quantile_bounds` the 90 % confidence
+    intervals of these quantiles.
     """
 
     path = "/v1/sweep"
