@@ -1,4 +1,4 @@
-"""Former classes of oils, with the fields of a request; the next minor version removes these classes.
+"""Former classes of oils, whose fields are those of a request; the next minor version removes these classes.
 
 Use `OilSheet`, `iso_vg` or `sheet_of_index` for an oil that is given by its data sheet or grade, and `Lubricant` for an
 oil that is given by its viscosity.

@@ -105,9 +105,8 @@ def viscosity_of_index(viscosity_40: float, index: float) -> float:
     least, largest = LEAST_VISCOSITY, thick * (1.0 - 1e-9)
     if not (least < largest and excess(least) <= 0.0 <= excess(largest)):
         message = (
-            f"no oil with {thick:.4g} mm²/s at 40 °C and at least 2 mm²/s at 100 °C has a viscosity index of "
-            f"{index:.4g}, and the index is not defined below 2 mm²/s; give the viscosity at 100 °C instead of the "
-            "index"
+            f"an oil with {thick:.4g} mm²/s at 40 °C cannot have a viscosity index of {index:.4g}. The index is "
+            "defined only for oils with at least 2 mm²/s at 100 °C; give the viscosity at 100 °C instead of the index"
         )
         raise InvalidInput("viscosity_index", message, "lubricant.viscosity_index")
     return float(brentq(excess, least, largest, xtol=1e-12)) * SQUARE_MILLIMETRE

@@ -72,7 +72,7 @@ def bearings_of(stage: StageDraft, shaft: Component) -> list[Component]:
 
 
 class _DriveTrain:
-    """Filler of the fields of one drive train."""
+    """Builder that fills in the fields of one drive train."""
 
     def __init__(self, stage: StageDraft) -> None:
         self._stage, self._reading = stage, stage.reading

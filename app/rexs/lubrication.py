@@ -6,7 +6,7 @@ from app.rexs.stages import SAME, StageDraft
 
 
 class Lubrication:
-    """Filler of `lubricant`, `temperatures` and the coefficient of friction in the draft of a stage."""
+    """Builder that fills in the oil, the temperatures and the coefficient of friction in the draft of a stage."""
 
     def __init__(self, stage: StageDraft) -> None:
         self._stage, self._reading = stage, stage.reading

@@ -14,7 +14,7 @@ from app.rexs.stages import ROLES, Involute, StageDraft
 
 
 class Modifications:
-    """Filler of `modifications` in the draft of a stage."""
+    """Builder that fills in the section `modifications` in the draft of a stage."""
 
     def __init__(self, stage: StageDraft) -> None:
         self._stage, self._reading = stage, stage.reading

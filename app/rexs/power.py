@@ -61,7 +61,10 @@ class Train:
         self._reading, self._pairs = reading, pairs
         self._shafts = reading.model.by_type["shaft"]
         if len(self._shafts) > MOST_SHAFTS:
-            message = f"speeds and torques are not determined, because the unit has {len(self._shafts)} shafts"
+            message = (
+                f"speeds and torques are not computed, because the unit has {len(self._shafts)} shafts; the largest "
+                f"number is {MOST_SHAFTS}"
+            )
             reading.find("too_many_shafts", None, None, message)
             self._shafts, self._pairs = [], []
         self._group = self._groups()

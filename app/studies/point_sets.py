@@ -149,7 +149,10 @@ def _spread(axis: Axis, leaves: tuple[Leaf, ...], place: str) -> list[Any]:
 
 
 def scattering(scatters: Sequence[Range | Scatter], base: BaseRequest, place: str) -> tuple[Leaf, ...]:
-    """Return the fields of the distributions at `place` of a study. Raises Unprocessable."""
+    """Return the fields that the distributions vary; `place` is the path of the distributions in the study.
+
+    Raises Unprocessable if a field cannot vary, or a value is outside its range.
+    """
     check_distinct([scatter.path for scatter in scatters], place)
     leaves = []
     for number, scatter in enumerate(scatters):

@@ -185,7 +185,7 @@ class Study(ABC):
         try:
             self.case = case_of(self.path, self.body.model_dump(exclude={"from_index"}), SOURCES)
         except ValueError:  # the error is in a field that every point replaces
-            message = "holds a number that is not finite, or text that is not Unicode"
+            message = "the request holds a number that is not finite, or text that is not Unicode"
             raise Unprocessable("not_json", message, "request") from None
 
     def _outputs(self, base: BaseRequest) -> tuple[Leaf, ...]:

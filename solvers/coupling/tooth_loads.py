@@ -254,9 +254,9 @@ def length_to_lowest(ahead: FloatArray, change: FloatArray, start: float) -> flo
     """Find the length of a step at which the energy is lowest, or LONGEST_STEP if the energy has no minimum.
 
     The slope of the energy rises piecewise linearly with the length, from its negative value `start` at length zero.
-    Newton's method finds the length at which the slope is zero. The iteration is kept between a length before and a
-    length behind the lowest energy. While no tooth resists, the length is doubled, because the next tooth may be many
-    steps away.
+    Newton's method finds the length at which the slope is zero. The iteration stays between two lengths, one shorter
+    and one longer than the length at which the energy is lowest. While no tooth resists, the length is doubled, because
+    the next tooth may be many steps away.
     """
     before, behind, length = 0.0, LONGEST_STEP, 1.0
     while length < LONGEST_STEP:

@@ -1,4 +1,7 @@
-"""The former class of bearings of any type, with the fields of a request. The next minor version removes this class."""
+"""The former class of bearings of any type, whose fields are those of a request.
+
+The next minor version removes this class.
+"""
 
 from typing import Literal
 

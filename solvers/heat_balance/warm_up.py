@@ -1,6 +1,6 @@
 """Warm-up of a gear pair or gear unit: temperatures of the network over time, with heat capacities of the nodes.
 
-From the beginning, the losses are those of the running unit; the losses change only with the viscosity of the oil.
+The unit runs at full speed and load from the beginning. The losses change only with the viscosity of the oil.
 """
 
 from typing import Any

@@ -47,8 +47,8 @@ def setup_notices(setup: PumpingSetup, path: PathOfContact, active_slices: float
         notices.append(Notice("single_slice", message, "slices"))
     if setup.model.flow is Flow.GAS_DYNAMICS and active_slices < FEW_SLICES:
         message = (
-            f"only {active_slices:.0f} slices are in the stroke at one time. Below {FEW_SLICES} slices the dissipation "
-            "of the numerical grid raises the power at low speed by tens of percent; use more slices"
+            f"at any one time only {active_slices:.0f} slices take part in the stroke. Below {FEW_SLICES} slices the "
+            "dissipation of the numerical grid raises the power at low speed by tens of percent; use more slices"
         )
         notices.append(Notice("few_slices", message, "slices"))
     return notices

@@ -133,7 +133,7 @@ def net_uncertainty(grids: Grids, jumped: float) -> float:
 
 
 def radial_uncertainty(grids: Grids, jumped: float) -> float:
-    """Estimate the uncertainty of the net radial mass in a stroke [kg], which is at least `net_uncertainty`."""
+    """Estimate the uncertainty of the net radial mass in a stroke [kg]; the estimate is at least `net_uncertainty`."""
     radial = SAFETY * abs(grids.flow.masses.radial - grids.halved.masses.radial)
     return max(radial, net_uncertainty(grids, jumped))
 

@@ -86,8 +86,8 @@ def model_notices(path: PathOfContact, model: Model) -> list[Notice]:
         notices.append(
             Notice(
                 "transverse_section",
-                "above a helix angle of 15 degrees, teeth in the transverse section are too stiff (by 16 % at 20 "
-                "degrees, by 40 % at 30 degrees)",
+                "above a helix angle of 15 degrees, the tooth model in the transverse section overestimates the "
+                "stiffness (by 16 % at 20 degrees, by 40 % at 30 degrees)",
                 "section",
             )
         )

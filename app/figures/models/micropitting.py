@@ -47,7 +47,7 @@ def answered(answer: Micropitting | None) -> Micropitting:
         message = "Without an oil and the bulk temperature at which it enters there is no film"
         raise NoFigure("no_oil", message, "lubricant")
     if answer.local.least_ratio is None:
-        message = "No least film is known: nothing is loaded, or the loaded path reaches a base circle"
+        message = "The minimum film thickness is unknown: no point is loaded, or the loaded path reaches a base circle"
         raise NoFigure("no_film", message, "load")
     return answer
 

@@ -130,7 +130,7 @@ class Threshold(Part):
     def one_kind(self) -> Self:
         """Refuse a limit that is neither fixed nor distributed."""
         if (self.mean is None) != (self.deviation is None) or (self.value is None) == (self.mean is None):
-            raise PydanticCustomError("value_or_mean", "Give either value, or mean and deviation")
+            raise PydanticCustomError("value_or_mean", "Give either the value alone, or both mean and deviation")
         return self
 
 
@@ -295,7 +295,7 @@ class Spectrum(Study):
         ]
 
     def _tolerances_header(self) -> Line | None:
-        """Return the tolerances for the first line of the study, with the share cut off from each distribution."""
+        """Return the tolerances for the first line of the study, and the share cut off from each distribution."""
         if self.body.tolerances is None:
             return None
         inputs = [
@@ -912,7 +912,9 @@ def _suggested(calculation: Calculation, case: dict[str, Any]) -> str:
 
 
 def _tolerances_table(header: Line, limit: Line | None) -> Table:
-    """Return a table of the fields that scatter, with the share cut off and the correlation with the worst case."""
+    """Return a table of the fields that scatter, with the correlation with the worst case, and with
+    the share of each distribution that is cut off.
+    """
     numbers = ("mean", "deviation", "median", "factor", "min", "mode", "max")
     ranks = (limit and limit["rank_correlation"]) or {}
     rows = []

@@ -353,7 +353,8 @@ class SweepPage(StudyPage):
     def declared(self) -> tuple[Control, ...]:
         """Return the controls of the axes.
 
-        Errors of one axis are shown at the first end of this axis. Errors that concern all axes are shown at `x.count`.
+        Errors of one axis are shown at the control for the start of this axis. Errors that concern all axes are shown
+        at `x.count`.
         """
         controls = [Control("x.count", "vary", sets=False)]
         for place, name in enumerate(AXES):

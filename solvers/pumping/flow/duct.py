@@ -30,7 +30,11 @@ class Duct(NamedTuple):
 
 
 class Wall(NamedTuple):
-    """Area of a tooth space [m^2], sum of both clearances [m], area of gas that the flanks have carried out [m^2]."""
+    """Walls of a tooth space: its area, both clearances, and the gas that its flanks have carried along.
+
+    `area` is the cross-section of the space [m^2], `clearance` the sum of both clearances [m], and `carried` the
+    cross-section of the gas that the moving flanks have carried out of the space [m^2].
+    """
 
     area: float
     clearance: float

@@ -142,8 +142,8 @@ def section(space: ToothSpace, angle: float) -> Section:
     Returns
     -------
     Section
-        Free area [m^2], clearances [m] and area of gas that the flanks have carried out [m^2]. Only differences of
-        the carried area between two angles have a meaning.
+        Free area [m^2], clearances [m], and area of the gas that the flanks have carried out of the space [m^2]. Only
+        differences of the carried area between two angles have a meaning.
 
     Notes
     -----
