@@ -912,8 +912,9 @@ def _suggested(calculation: Calculation, case: dict[str, Any]) -> str:
 
 
 def _tolerances_table(header: Line, limit: Line | None) -> Table:
-    """Return a table of the fields that scatter, with the correlation with the worst case, and with
-    the share of each distribution that is cut off.
+    """Return a table of the fields that scatter.
+
+    It has the correlation of each field with the worst case, and the share that is cut off from each distribution.
     """
     numbers = ("mean", "deviation", "median", "factor", "min", "mode", "max")
     ranks = (limit and limit["rank_correlation"]) or {}
