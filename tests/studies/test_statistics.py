@@ -208,7 +208,7 @@ class TestDistributions:
         if deviation > 1e8:
             pointer, code, message = fault_of(Sweep, body, 10_000)
             assert (pointer, code) == ("/sample/inputs/0/deviation", "out_of_range")
-            assert "permissible 0 to 2;" in message
+            assert "permissible range of the field (0 to 2);" in message
             return
         values = np.array(Sweep(body, 10_000, 30.0).points.rows)[:, 0]
         if deviation < 1e-12:

@@ -157,7 +157,7 @@ def test_a_sleeve_that_moves_between_few_teeth_has_an_uncertain_orbit() -> None:
     assert (notice.code, notice.field) == ("orbit_resolution", "misalignment")
     largest = max(result.inertia_force.harmonics_x.max(), result.inertia_force.harmonics_y.max())
     share = 100 * result.harmonics_uncertainty / largest
-    assert notice.message.endswith(f"largest harmonic of the force uncertain by {share:.2g} %")
+    assert notice.message.endswith(f"largest harmonic of the force is therefore uncertain by {share:.2g} %")
 
 
 def test_an_orbit_on_two_teeth_has_no_place_of_its_own() -> None:
