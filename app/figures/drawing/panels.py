@@ -28,6 +28,7 @@ LINE = 1.3 / 72.0  # inches; height of a line of text per point of letter size
 NAME_BELOW = 36  # characters per line of the name below narrow axes
 ROW = 0.52  # height of a row's bar divided by the distance between rows
 LEAST_REACH = 7  # typographic points between a text and its point or line
+AWAY = 3  # heights by which the name of a horizontal line may be farther from the line if nearer places are taken
 # Number of steps in which the name of a line can be moved along the line; length of a downward step in name heights.
 ALONG, DOWN = 8, 0.6
 RING = 5  # pixels, half the side of the box around a mark
@@ -421,9 +422,10 @@ def _places(kind: str, size: BboxBase, room: BboxBase, point: float) -> Iterator
     gap = LEAST_REACH * point
     if kind == "row":
         free = max(room.width - size.width - 2 * gap, 0.0)
-        for step, side in product(range(ALONG + 1), (1, -1)):
+        for step, away, side in product(range(ALONG + 1), range(AWAY + 1), (1, -1)):
             left = gap + size.width / 2 + free * step / ALONG
-            yield (-left, side * (gap + size.height / 2)), 0.05 * step + 0.02 * (side < 0)
+            off = gap + size.height / 2 + away * size.height
+            yield (-left, side * off), 0.05 * step + 0.02 * (side < 0) + 1.5 * away
     elif kind == "column":
         for step, side in product(range(ALONG + 1), (0, 1, -1)):
             below = gap + size.height / 2 + DOWN * step * size.height
