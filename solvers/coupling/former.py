@@ -46,7 +46,7 @@ class Load:
 
 @record
 class OperatingPoint(Load):
-    """Former version of `Operation`, in which the offset of the shafts may be given instead of the tilt."""
+    """Former version of `Operation`; the offset of the shafts may be given instead of the tilt."""
 
     misalignment: float | None = described(
         "Tilt of the hub against the sleeve; None: by the parallel offset [rad].", default=None
@@ -67,7 +67,10 @@ class OperatingPoint(Load):
 
 @record
 class OperatingRange(Load):
-    """Former operating point with a range of misalignment; use `Operation` and `RecommendationInputs` instead."""
+    """Former class of an operating point with a range of misalignment.
+
+    Use `Operation` and `RecommendationInputs` instead.
+    """
 
     misalignment_range: tuple[float, float] = described("Smallest and largest tilt of the hub [rad].", kw_only=True)
 

@@ -262,7 +262,7 @@ def tangential_displacement(mesh: MeshMotion, teeth: ToothPositions) -> FloatArr
 
 
 def max_contact_travel(mesh: MeshMotion) -> float:
-    """Return s_1max [m], which is R_t |delta| with tangential kinematics and R_e |delta| with spatial kinematics."""
+    """Return the largest contact travel s_1max [m]: R_t |delta| if `tangential`, R_e |delta| if `spatial`."""
     return hypot(mesh.travel_sin, mesh.travel_cos)
 
 

@@ -317,13 +317,13 @@ class Derived:
 
     @classmethod
     def of(cls, inputs: CouplingInputs) -> Self:
-        """Return the values in use for inputs that may be left open."""
+        """Return the values in use, including the values for omitted inputs."""
         return cls(inputs.coupling, inputs.lubricant.viscosity, inputs.lubricant.viscosity_index)
 
 
 @record
 class CouplingResult:
-    """All results at one operating point; `derived` contains the values in use for inputs that were left open."""
+    """All results at one operating point; `derived` contains the values in use for omitted inputs."""
 
     geometry: Geometry = quantity("geometry", text="radii")
     kinematics: Kinematics = quantity("motion of the teeth")
