@@ -72,7 +72,7 @@ def checked(inputs: T, prefix: str = "") -> T:
 
 
 class _Ends(NamedTuple):
-    """The least and the greatest permissible value in SI, and the declaration from which both follow."""
+    """The least and the greatest permissible value in SI, and the declaration that states both values."""
 
     least: float
     greatest: float

@@ -72,7 +72,7 @@ def share_to_pinion(
     position : FloatArray
         Position of the points along the path [m].
     effusivity_ratio : float
-        Effusivity sqrt(k rho c) of the wheel over that of the pinion [-].
+        Effusivity sqrt(k rho c) of the wheel divided by the effusivity of the pinion [-].
 
     Returns
     -------

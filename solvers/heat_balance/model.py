@@ -1,4 +1,4 @@
-"""Heat balance: build the network from the inputs, calibrate the network, find the equilibrium and the band."""
+"""Heat balance: build the network from the inputs, calibrate the network, find the equilibrium, compute the band."""
 
 from collections.abc import Iterator
 from dataclasses import replace
@@ -325,7 +325,7 @@ def backlash_loss(
 
 
 def cooling_in_force(cooling: Cooling, heat: Heat) -> CoolingInForce:
-    """Return the values in use for those inputs of the cooling that may be left open.
+    """Return the values in use for those inputs of the cooling that may be omitted.
 
     Parameters
     ----------
