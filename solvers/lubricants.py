@@ -254,7 +254,7 @@ def log_viscosity(laws: FluidLaws, pressure_term: float, temperature: float) -> 
 
 @kernel
 def density(laws: FluidLaws, pressure: float, temperature: float) -> tuple[float, float, float]:
-    """Compute the density of the oil and its derivatives with the formula of Dowson and Higginson.
+    """Compute the density of the oil, and the derivatives of the density, with the formula of Dowson and Higginson.
 
     Parameters
     ----------

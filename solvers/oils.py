@@ -324,7 +324,7 @@ class OilSheet:
 
         Notes
         -----
-        Eq. R4: beta = -d ln eta/dt, where eta is the product of density and viscosity by the Walther law.
+        Eq. R4: beta = -d ln eta/dt, where eta is the density times the kinematic viscosity by the Walther law.
         """
         if self.temperature_viscosity is not None:
             return self.temperature_viscosity

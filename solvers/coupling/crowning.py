@@ -66,7 +66,7 @@ class CrowningScan:
 class Recommendation:
     """The crowning ratio with the largest load capacity of all ratios that meet every constraint.
 
-    A constraint is met if it holds over the whole range of misalignment. If no ratio meets every constraint, `feasible`
+    A constraint must be met over the whole range of misalignment. If no ratio meets every constraint, `feasible`
     is False, and `failed_constraint` names the constraint that excludes all ratios: `contact_overlap`, `edge_contact`,
     `hertz_pressure`, `contact_width` or `sliding_velocity`. The crowning ratio, its load capacity and the results at
     both ends of the range are then None.

@@ -294,7 +294,7 @@ def displacement_peak_to_peak(mesh: MeshMotion) -> float:
 def displacement_peak(mesh: MeshMotion) -> float:
     """Return the tooth angle [rad] at which f_t is largest.
 
-    With tangential kinematics this angle is 90 degrees; with spatial kinematics it differs from 90 degrees.
+    With tangential kinematics this angle is 90 degrees; with spatial kinematics this angle differs from 90 degrees.
     """
     return pi / 2.0 + 0.5 * atan2(-mesh.mixed, mesh.tilt - mesh.pivot)
 

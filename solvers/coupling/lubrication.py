@@ -306,7 +306,7 @@ def film_state(inputs: CouplingInputs, geometry: Geometry, mesh: MeshMotion) -> 
 
 
 def _capacity_ratio(capacity: float, force: float) -> float:
-    """Return the load capacity coefficient; it is zero without a film, and inf if there is a film but no force."""
+    """Return the load capacity coefficient, which is zero without a film, and inf if there is a film but no force."""
     if capacity == 0.0:
         return 0.0
     return capacity / force if force > 0.0 else inf
@@ -355,7 +355,7 @@ def mixed_friction(law: MixedFrictionCurve | MixedFrictionTable, sliding_velocit
 
     Notes
     -----
-    Eq. C17. The paper shows the curve in Fig. 10, but does not print its points.
+    Eq. C17. The paper shows the curve in Fig. 10, but does not print points of the curve.
     """
     if isinstance(law, MixedFrictionTable):
         return float(np.interp(sliding_velocity, law.sliding_velocity, law.coefficient))

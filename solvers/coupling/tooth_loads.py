@@ -151,9 +151,9 @@ def turn_to_torque(ahead: FloatArray, start: float) -> tuple[float, float]:
 
 @kernel
 def centred_rows(ahead: FloatArray, unit: float, unit_force: float, rotation: FloatArray) -> None:
-    """Replace the lead of each tooth by its force with a centred sleeve, in place, and write the rotation of each row.
+    """Replace the lead of each tooth by the tooth force, in place, and write the rotation of each row.
 
-    `unit` = T/(r_o c_t) and `unit_force` = T/r_o are the scales of lengths and forces.
+    The sleeve is centred. `unit` = T/(r_o c_t) and `unit_force` = T/r_o are the scales of lengths and forces.
     """
     psi = 1.0
     for row in range(ahead.shape[0]):
@@ -223,7 +223,8 @@ def next_step(hessian: Hessian, missing: Motion) -> tuple[Motion, float]:
     """Return the Newton step for the `missing` forces, and the rate at which the energy falls along this step.
 
     If more than half of the missing force acts in a direction without stiffness, the step is along this direction
-    instead. Such a step does not change the forces of the loaded teeth; it ends when another tooth meets the sleeve.
+    instead. Such a step does not change the forces of the loaded teeth; the step ends when another tooth meets the
+    sleeve.
     """
     step, free_x, free_y = solve_loaded(hessian, missing)
     unheld = hypot(free_x, free_y)
@@ -399,7 +400,7 @@ class ToothLoads:
 
 
 def interference_at_rest(coupling: Coupling, mesh: MeshMotion, teeth: ToothPositions) -> FloatArray:
-    """Compute the lead of each tooth: its interference without common rotation and without displacement of the sleeve.
+    """Compute the leads of the teeth: the interferences without common rotation and without displacement of the sleeve.
 
     Parameters
     ----------

@@ -168,8 +168,9 @@ def reduced_radius(plane: ContactPlane, x: Real) -> Real:
 
     Notes
     -----
-    The radius of curvature of an involute helicoid across its straight generator is r_K/cos beta_b. Eq. 13 prints r_K
-    cos^3 beta_b/(1 - 2 sin^2 beta_b). This expression agrees to second order in beta_b, but is singular at 45 degrees.
+    The radius of curvature of an involute helicoid across its straight generator is r_K/cos beta_b, where r_K is the
+    transverse radius of curvature. Eq. 13 prints r_K cos^3 beta_b/(1 - 2 sin^2 beta_b). This expression agrees to
+    second order in beta_b, but is singular at 45 degrees.
     """
     s = plane.start + x
     return s * (plane.line_of_action - s) / (plane.line_of_action * plane.cos_base_helix)

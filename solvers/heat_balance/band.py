@@ -106,8 +106,8 @@ def flank_band(
 ) -> tuple[tuple[float, float], tuple[float, float]]:
     """Return the lowest and the highest temperature [K] of each gear's flank.
 
-    If a flank temperature was measured and used for the calibration, the band of this flank extends from
-    3 K below to 3 K above the measured temperature.
+    If a flank temperature was measured and used for the calibration, the band of this flank extends from 3 K
+    below to 3 K above the measured temperature.
     """
     bands = []
     for gear, node in enumerate(("pinion_flank", "wheel_flank")):

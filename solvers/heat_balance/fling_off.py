@@ -14,7 +14,7 @@ from math import pi, sqrt
 
 from solvers.heat_balance.oil import CoolingOil
 
-TOOTH_HEIGHT = 2.25  # H in normal modules: addendum, dedendum and tip clearance of the basic rack
+TOOTH_HEIGHT = 2.25  # H in normal modules: addendum 1.0 plus dedendum 1.25 of the basic rack
 LONG_TURN = 0.98  # heat number q of a thick film in a long turn, from a similarity solution
 FLOODED = 50.0  # scaled thickness; a thicker film does not cool better
 USED_SHARE = 0.9  # share of the heat of a flooded flank; `turn_film` is the thickness of a film that takes this share

@@ -294,7 +294,7 @@ def _deviation(network: Network, cooling: Cooling, rises: FloatArray) -> float |
 def backlash_loss(
     heat: Heat, working_radii: tuple[float, float], working_pressure_angle: float, expansion: float
 ) -> Heat:
-    """Add to the result the backlash that is lost because the gears are warmer than the casing.
+    """Return the result with the backlash that is lost because the gears are warmer than the casing.
 
     Parameters
     ----------

@@ -100,7 +100,7 @@ def warm_up(network: Network, capacities: Capacities, start: float, until: float
 
 
 def _integrated(network: Network, capacity: FloatArray, begin: FloatArray, end: float) -> Any:
-    """Integrate the rises from time zero to `end`, and return them as a function of time."""
+    """Integrate the rises from time zero to `end`, and return the rises as a function of time."""
     solution = solve_ivp(
         lambda _, rises: network.residual(rises) / capacity,
         (0.0, end),

@@ -37,7 +37,7 @@ def _hottest(number: int) -> float:
 
 
 def _relief(number: int) -> float:
-    """Return the share of the temperature rise that a groove avoids."""
+    """Return the share of the temperature rise that a groove prevents."""
     return 1.0 - _rise(case(number, grooves=GROOVE)) / _rise(case(number))
 
 
