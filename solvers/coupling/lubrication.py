@@ -419,8 +419,8 @@ def regime_friction(overlap: float, load_capacity_coefficient: float, mixed: flo
     Notes
     -----
     Eq. C18. The paper states only a band of friction for each area. The law used here interpolates between the end
-    values of these bands. The law lies inside the bands of areas 1.1, 1.3, 2.1, 2.2, 2.3 and 3.1. In area 1.2 the law is a
-    smooth transition. Near overlap 1 the law may leave the band of area 3.2; the paper calls the boundaries of the
+    values of these bands. The law lies inside the bands of areas 1.1, 1.3, 2.1, 2.2, 2.3 and 3.1. In area 1.2 the law
+    is a smooth transition. Near overlap 1 the law may leave the band of area 3.2; the paper calls the boundaries of the
     areas fluid. The coefficient of friction never rises when the load capacity coefficient rises.
     """
     if overlap > 2.0:
