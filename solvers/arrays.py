@@ -22,7 +22,7 @@ This ratio is far above rounding errors and far below any measured share.
 
 
 def frozen(values: ArrayLike) -> NDArray[Any]:
-    """Return the values as a read-only array; if they already are an array, the elements are not copied."""
+    """Return the values as a read-only array; the elements of a given array are not copied."""
     array = np.asarray(values).view()
     array.flags.writeable = False
     return array
@@ -41,8 +41,8 @@ def records(shape: int | tuple[int, ...], fields: Fields) -> RecordArray:
     """Return a record array of zeros.
 
     Kernels pass groups of arrays to each other as one record array, because numba counts references to every array that
-    is passed in a call. With one array per field, a march of the pocket chain took 3.3 times as long, and a march of
-    the gas dynamics took 1.4 times as long.
+    is passed in a call. With one array per field, a run of the pocket chain took 3.3 times as long, and a run of the
+    gas dynamics took 1.4 times as long.
     """
     return np.zeros(shape, fields).view(np.recarray)
 

@@ -11,14 +11,14 @@ from pathlib import Path
 
 PACKAGE = Path(__file__).resolve().parent
 NO_CALCULATION = "published"
-"""The package of published numbers for comparison, which does not affect results."""
+"""The package of published numbers for comparison; this package does not affect results."""
 DECLARE = frozenset({"quantity", "Quantity", "described"})
 LABELS = frozenset({"title", "symbol", "source", "text", "default_text", "assumed", "index"})
 """Keyword arguments of a declaration that are text and do not affect results; positional arguments are text too."""
 
 
 def cache_base() -> Path:
-    """Return the folder for cached digests and kernels; it is in `NUMBA_CACHE_DIR` or in the user's cache folder."""
+    """Return the folder for cached digests and kernels, inside `NUMBA_CACHE_DIR` or the user's cache folder."""
     variables = ("NUMBA_CACHE_DIR", "XDG_CACHE_HOME", "LOCALAPPDATA")
     chosen = next((os.environ[name] for name in variables if os.environ.get(name)), "~/.cache")
     return Path(os.path.expanduser(chosen), "tribodrive")  # noqa: PTH111  Path.expanduser raises if there is no home

@@ -1,4 +1,4 @@
-"""Former classes of oils, whose fields are those of a request; the next minor version removes these classes.
+"""Former oil classes, which have the same fields as a request; the next minor version removes these classes.
 
 Use `OilSheet`, `iso_vg` or `sheet_of_index` for an oil that is given by its data sheet or grade, and `Lubricant` for an
 oil that is given by its viscosity.

@@ -36,8 +36,8 @@ def guarded(
     Returns
     -------
     callable
-        The solver as users call it. In addition to the errors of `solve`, it raises InvalidInput (`out_of_range`) with
-        the dotted name of the field.
+        The solver as users call it. In addition to the errors of `solve`, this function raises InvalidInput
+        (`out_of_range`) with the dotted name of the field.
     """
 
     @wraps(solve)
@@ -53,7 +53,7 @@ def guarded(
 
 
 def checked(inputs: T, prefix: str = "") -> T:
-    """Return the dataclass `inputs` if every declared number in it is inside its range.
+    """Return the dataclass `inputs` if every declared number in `inputs` is inside its range.
 
     Otherwise raise `InvalidInput` with the code `out_of_range` and the dotted name of the first wrong field. This check
     is for inputs that are built in Python; the service checks requests when they arrive.
@@ -72,7 +72,7 @@ def checked(inputs: T, prefix: str = "") -> T:
 
 
 class _Ends(NamedTuple):
-    """The least and the greatest permissible value in SI, and the declaration from which both follow."""
+    """The least and the greatest permissible value in SI, and the declaration that states both values."""
 
     least: float
     greatest: float

@@ -23,7 +23,7 @@ HOTTEST = 403.15  # K, of oil and teeth; at this temperature mineral oils age wi
 COLDEST_OIL = 243.15  # K; below the pour point of most gear oils
 
 ROELANDS_PRESSURE = 5.1e-9  # 1/Pa
-ROELANDS_LOG_VISCOSITY = 9.67  # -ln of the viscosity 6.31e-5 Pa s at the pole
+ROELANDS_LOG_VISCOSITY = 9.67  # -ln(6.31e-5); the viscosity at the pole is 6.31e-5 Pa s
 ROELANDS_POLE_TEMPERATURE = 138.0  # K
 
 
@@ -254,7 +254,7 @@ def log_viscosity(laws: FluidLaws, pressure_term: float, temperature: float) -> 
 
 @kernel
 def density(laws: FluidLaws, pressure: float, temperature: float) -> tuple[float, float, float]:
-    """Compute the density of the oil and its derivatives with the formula of Dowson and Higginson.
+    """Compute the density of the oil, and the derivatives of the density, with the formula of Dowson and Higginson.
 
     Parameters
     ----------

@@ -36,11 +36,11 @@ REFERENCE_OILS = (
     (55.0, (0.85921, 11.1009, -83.190), (0.17130, 11.3680, -76.940)),
     (70.0, (0.83531, 14.6731, -216.246), (0.16841, 11.8493, -96.947)),
 )
-"""Each row holds a smallest viscosity at 100 C [mm^2/s], the coefficients (a, b, c) of L, and those of H.
+"""Each row holds a smallest viscosity at 100 C [mm^2/s], the coefficients (a, b, c) of L, and the coefficients of H.
 
-A row is valid from its smallest viscosity up to that of the next row. L = a Y^2 + b Y + c, where Y is the viscosity at
-100 C; the formula of H is the same. An oil with this Y has the index 0 if its viscosity at 40 C [mm^2/s] is L, and the
-index 100 if this viscosity is H (ASTM D2270, Table X2.1; read in a public implementation).
+A row is valid from its smallest viscosity up to the smallest viscosity of the next row. L = a Y^2 + b Y + c, where Y is
+the viscosity at 100 C; the formula of H is the same. An oil with this Y has the index 0 if its viscosity at 40 C
+[mm^2/s] is L, and the index 100 if this viscosity is H (ASTM D2270, Table X2.1; read in a public implementation).
 """
 
 
@@ -62,8 +62,8 @@ def viscosity_index(viscosity_40: float, viscosity_100: float) -> float:
     Notes
     -----
     Eq. R2: the index is 100 (L - U)/(L - H) if this is at most 100; otherwise the index is 100 + (10^N - 1)/0.00715
-    with N = log(H/U)/log Y. L and H follow from Y (see `REFERENCE_OILS`). The standard defines no index below Y = 2
-    mm^2/s; in this range the first formula is used with the first row of `REFERENCE_OILS`.
+    with N = log(H/U)/log Y. L and H follow from Y (see `REFERENCE_OILS`). The standard defines no index if Y is below
+    2 mm^2/s; in this range the first formula is used with the first row of `REFERENCE_OILS`.
     """
     u, y = viscosity_40 / SQUARE_MILLIMETRE, viscosity_100 / SQUARE_MILLIMETRE
     _, low, high = max((row for row in REFERENCE_OILS if row[0] <= y), default=REFERENCE_OILS[0])
@@ -324,7 +324,7 @@ class OilSheet:
 
         Notes
         -----
-        Eq. R4: beta = -d ln eta/dt, where eta is the product of density and viscosity by the Walther law.
+        Eq. R4: beta = -d ln eta/dt, where eta is the density times the kinematic viscosity by the Walther law.
         """
         if self.temperature_viscosity is not None:
             return self.temperature_viscosity

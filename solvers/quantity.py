@@ -109,7 +109,7 @@ class Quantity:
     default : Any
         Default of an input or of an option; `...` if there is none.
     default_text : str, optional
-        Words for the default if the default is None.
+        Words that describe the default if the default is None.
     assumed : str, optional
         Reason for a default that is our own choice and not from the paper; a result that depends on this default lists
         the reason.
@@ -122,8 +122,8 @@ class Quantity:
         share of the value. The larger of the two is used. Every input that may be zero has a `tolerance`, so that a
         sensitivity analysis can vary the input.
     if_above, if_negative : str, optional
-        Advice on what to give instead. `if_above` is the advice for text and for a value above the range, `if_negative`
-        is the advice for a negative value.
+        Advice on what to enter instead. `if_above` is shown if the entry is not a number or is above the range,
+        `if_negative` is shown if the entry is negative.
     length : tuple of (int, int), optional
         Least and largest number of values of a list.
     detail : str
@@ -273,7 +273,7 @@ def allowed(declared: Quantity) -> str:
 
 
 def advice(declared: Quantity, value: Any) -> str:
-    """Return advice on what to give instead of text or of a value outside the range.
+    """Return advice on what to enter if the entry is not a number or is outside the range.
 
     `value` is in the shown unit. The advice may be empty.
     """

@@ -64,11 +64,12 @@ class CrowningScan:
 
 @record
 class Recommendation:
-    """The crowning ratio with the largest load capacity among the ratios that meet every constraint over the range.
+    """The crowning ratio with the largest load capacity of all ratios that meet every constraint.
 
-    If no ratio meets every constraint, `feasible` is False, and `failed_constraint` names the constraint that excludes
-    all ratios: `contact_overlap`, `edge_contact`, `hertz_pressure`, `contact_width` or `sliding_velocity`. The crowning
-    ratio, its load capacity and the results at both ends of the range are then None.
+    A constraint must be met over the whole range of misalignment. If no ratio meets every constraint, `feasible`
+    is False, and `failed_constraint` names the constraint that excludes all ratios: `contact_overlap`, `edge_contact`,
+    `hertz_pressure`, `contact_width` or `sliding_velocity`. The crowning ratio, its load capacity and the results at
+    both ends of the range are then None.
     """
 
     feasible: bool = quantity("feasible crowning", text="whether any crowning ratio meets every constraint")
@@ -84,9 +85,10 @@ class Recommendation:
     warnings: tuple[Notice, ...]
 
 
-MIN_CROWNING_RATIO = 0.2  # chosen: far below the ratios in practice
-MAX_CROWNING_RATIO = 1000.0  # chosen: the teeth are nearly straight
-# Public name of each constraint, and the attribute of `CrowningState` that falls as the crowning ratio rises.
+MIN_CROWNING_RATIO = 0.2  # chosen: far below the ratios used in practice
+MAX_CROWNING_RATIO = 1000.0  # chosen: at this ratio the teeth are nearly straight
+# Constraints that set a lower bound of the crowning ratio: public name, and name of the attribute of `CrowningState`.
+# The values of these attributes fall as the crowning ratio rises.
 _LOWER_BOUNDS = (("hertz_pressure", "pressure"), ("contact_width", "width"), ("contact_overlap", "overlap"))
 MAX_SCANNED_RATIO = 100.0  # chosen: end of the scanned range
 _SCAN_POINTS = 49  # chosen: neighbouring ratios differ by a factor of 1.14
@@ -202,7 +204,8 @@ def crowning_window(state: Callable[[float], CrowningState]) -> tuple[float, flo
         if bound >= MAX_CROWNING_RATIO:
             return low, low, name
         low = max(low, bound)
-    # A margin keeps the window inside both bounds despite rounding: the overlap must be below 1, not equal to 1.
+    # The overlap must be below 1, not equal to 1. A margin therefore keeps the window inside both bounds despite
+    # rounding errors.
     low *= 1.0 + 1e-9
     high = _root(state, "edge") * (1.0 - 1e-9)
     return low, high, None if low < high else "edge_contact"
@@ -253,7 +256,7 @@ def recommend(inputs: RecommendationInputs) -> Recommendation:
     constraints: the overlap is below 1 at both ends of the range, the contact stays on the face at the largest
     misalignment, and the contact stays within the limits of Hertz's theory. If the range is a single value, the limit
     of the sliding velocity is a fourth constraint; with a wider range, exceeding this limit only causes a warning. The
-    warnings include those of `solve` at both ends of the range.
+    warnings include the warnings that `solve` gives at both ends of the range.
     """
     _check(inputs)
     state = cache(partial(crowning_state, inputs))
@@ -299,7 +302,7 @@ def _best_ratio(state: Callable[[float], CrowningState], low: float, high: float
 
 
 def _merged(notices: tuple[Notice, ...]) -> tuple[Notice, ...]:
-    """Return the first notice of each code; the field `misalignment` becomes `misalignment_range`."""
+    """Return the first notice of each code, with `misalignment_range` in place of the field name `misalignment`."""
     first: dict[str, Notice] = {}
     for notice in notices:
         first.setdefault(notice.code, notice)
@@ -323,7 +326,7 @@ def _point(result: CouplingResult) -> RecommendedPoint:
 
 
 def _scan(state: Callable[[float], CrowningState]) -> CrowningScan:
-    """Compute the curves over those crowning ratios for which the contact can be computed."""
+    """Compute the curves over all scanned crowning ratios for which the contact can be computed."""
     ratios = np.geomspace(MIN_CROWNING_RATIO, MAX_SCANNED_RATIO, _SCAN_POINTS)
     points = [(ratio, point) for ratio in ratios if (point := state(float(ratio))).computable]
     return CrowningScan(
@@ -335,7 +338,7 @@ def _scan(state: Callable[[float], CrowningState]) -> CrowningScan:
 
 
 def _infeasible(failed: str, scan: CrowningScan, used: Derived, warnings: tuple[Notice, ...]) -> Recommendation:
-    """Return the recommendation for the case that no crowning ratio meets every constraint."""
+    """Return the recommendation that states that no crowning ratio meets every constraint."""
     return Recommendation(
         feasible=False,
         crowning_ratio=None,

@@ -1,4 +1,4 @@
-"""Former classes of inputs, whose fields are those of a request; the next minor version removes these classes.
+"""Former input classes, which have the same fields as a request; the next minor version removes these classes.
 
 Use `Coupling`, `Operation` and `Lubricant` instead. `Coupling` has defaults for its proportions. `Operation` contains
 the tilt; `tilt_of_offset` computes the tilt from a parallel offset. `Lubricant` contains the viscosity at the teeth;
@@ -46,7 +46,7 @@ class Load:
 
 @record
 class OperatingPoint(Load):
-    """Former version of `Operation`, in which the offset of the shafts may be given instead of the tilt."""
+    """Former version of `Operation`; the offset of the shafts may be given instead of the tilt."""
 
     misalignment: float | None = described(
         "Tilt of the hub against the sleeve; None: by the parallel offset [rad].", default=None
@@ -67,7 +67,10 @@ class OperatingPoint(Load):
 
 @record
 class OperatingRange(Load):
-    """Former operating point with a range of misalignment; use `Operation` and `RecommendationInputs` instead."""
+    """Former class of an operating point with a range of misalignment.
+
+    Use `Operation` and `RecommendationInputs` instead.
+    """
 
     misalignment_range: tuple[float, float] = described("Smallest and largest tilt of the hub [rad].", kw_only=True)
 

@@ -21,7 +21,7 @@ from solvers.coupling.tooth_loads import coaxial_limit, mesh_loads
 
 
 class ToothSums(NamedTuple):
-    """Sums over the teeth, as means over the rotor angles; each summand is the tangential force F_t times some factors.
+    """Sums over the teeth, averaged over the rotor angles; each summand contains the tangential force F_t as a factor.
 
     Here v_r is the relative velocity, sgn(v_r) is the direction of friction, and phi is the tooth angle. Three sums
     contain the direction: `axial` is sum F_t sgn(v_r), `tilting` is sum F_t sgn(v_r) sin(phi), and `pivoting` is sum
@@ -79,7 +79,10 @@ class LoadedMesh:
 
 
 def loaded_mesh(inputs: CouplingInputs, mesh: MeshMotion) -> LoadedMesh:
-    """Compute the tooth sums of a mesh over one tooth pitch or, if there are pitch deviations, over one revolution."""
+    """Compute the tooth sums of a mesh.
+
+    The sums are means over one tooth pitch or, if there are pitch deviations, over one revolution.
+    """
     samples = rotor_samples(inputs.coupling, mesh, inputs.operation.axial_velocity)
     floating = inputs.model.sleeve == "floating"
     loads = mesh_loads(inputs.coupling, mesh, samples.teeth, inputs.operation.torque, floating=floating)
@@ -117,7 +120,7 @@ def mesh_thrust(loaded: LoadedMesh, friction: float, axial_velocity: float) -> t
     Notes
     -----
     Eq. C19, the paper's general expression. A tooth without relative velocity may carry any friction between -mu F_n
-    and mu F_n. The thrust counts this friction as zero, and the slack counts this friction as mu F_n. Without axial
+    and mu F_n. In the thrust this friction is zero; in the slack this friction is mu F_n. Without axial
     velocity the thrust is zero, because half a turn later every tooth has the same load and slides in the opposite
     direction.
     """
@@ -158,7 +161,7 @@ def uniform_load_thrust(limit: float, axial_velocity: float, max_sliding_velocit
 def customary_thrust(operation: Operation) -> float | None:
     """Return the customary thrust 0.25 T/D [N], where D is the shaft diameter; return None if no diameter is given.
 
-    This rule is common practice with API 617 and 671; it is taken from a secondary source.
+    This rule is common practice with API 617 and 671. The rule is quoted from a secondary source.
     """
     return None if operation.shaft_diameter is None else 0.25 * operation.torque / operation.shaft_diameter
 
@@ -248,7 +251,7 @@ def self_induced_thrust(inputs: CouplingInputs, geometry: Geometry, friction: fl
 
     In the angular arrangement the closed forms are zero. If each mesh has one tooth pair, or equal loads on all teeth,
     the moments of friction in the two meshes are opposite. The sleeve then requires no lateral force at the teeth. The
-    paper explains this only "for reasons of symmetry".
+    paper gives no explanation except "for reasons of symmetry".
     """
     coupling, torque = inputs.coupling, inputs.operation.torque
     equilibrium = sleeve_equilibrium(inputs, geometry, friction, 0.0)

@@ -245,9 +245,9 @@ class Lubricant:
 class MixedFrictionCurve:
     """Our own law of mixed friction: the coefficient falls from `highest` at rest to `lowest` at `velocity` [m/s].
 
-    The defaults of `highest` and `lowest` are the ends of the paper's band in area 1.1. The default of `velocity` is
-    chosen so that the friction of the heavily crowned coupling is lowest at 0.4 degrees and 200 rad/s. The paper does
-    not state the speed for Fig. 11.
+    The defaults of `highest` and `lowest` are the ends of the paper's friction band in area 1.1. The default of
+    `velocity` is chosen so that the friction of the heavily crowned coupling is lowest at 0.4 degrees and 200 rad/s.
+    The paper does not state the speed for Fig. 11.
     """
 
     highest: float = quantity(
@@ -428,7 +428,7 @@ class CouplingInputs:
 
 @record
 class RecommendationInputs:
-    """Inputs of the search for the best crowning ratio over a range of misalignment, with 0 < minimum <= maximum.
+    """Inputs of the search for the best crowning ratio over a range of misalignment; 0 < minimum <= maximum.
 
     `design` contains all other inputs; the search ignores the crowning ratio and the misalignment of `design`.
     """

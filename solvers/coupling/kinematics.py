@@ -262,7 +262,7 @@ def tangential_displacement(mesh: MeshMotion, teeth: ToothPositions) -> FloatArr
 
 
 def max_contact_travel(mesh: MeshMotion) -> float:
-    """Return s_1max [m], which is R_t |delta| with tangential kinematics and R_e |delta| with spatial kinematics."""
+    """Return the largest contact travel s_1max [m]: R_t |delta| if `tangential`, R_e |delta| if `spatial`."""
     return hypot(mesh.travel_sin, mesh.travel_cos)
 
 
@@ -294,7 +294,7 @@ def displacement_peak_to_peak(mesh: MeshMotion) -> float:
 def displacement_peak(mesh: MeshMotion) -> float:
     """Return the tooth angle [rad] at which f_t is largest.
 
-    With tangential kinematics this angle is 90 degrees; with spatial kinematics it differs from 90 degrees.
+    With tangential kinematics this angle is 90 degrees; with spatial kinematics this angle differs from 90 degrees.
     """
     return pi / 2.0 + 0.5 * atan2(-mesh.mixed, mesh.tilt - mesh.pivot)
 

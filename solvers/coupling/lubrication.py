@@ -38,13 +38,14 @@ MAX_CONTACT_WIDTH = 0.1
 UNBOUNDED_LOAD = 0.20395702057972376
 """Dimensionless load W of a gap with an infinitely long inlet; 12 W is Pahl's constant 2.447.
 
-The exit of this gap is at tan g = 0.47513.
+In the notation of `starved_load`, the exit of this gap is at tan g = 0.47513.
 """
 OVERLAP_BOUNDARIES = (1.0, 2.0)  # Pahl, regimes of Figs 9 to 11
 CAPACITY_BOUNDARIES = (0.2, 0.8)  # Pahl, regimes of Figs 9 to 11
 UNSTABLE_AREA = "3.3"
 
-# Name of each area of Fig. 9, and lower and upper end of the paper's band of friction; None if the paper states no end.
+# Name of each area of Fig. 9, and both ends of the paper's band of friction; an end is None if the paper does not state
+# this end.
 _AREAS: dict[str, tuple[str, float | None, float | None]] = {
     "1.1": ("mixed lubrication", 0.05, 0.1),
     "1.2": ("transition from mixed to boundary lubrication", 0.1, 0.1),
@@ -60,7 +61,7 @@ _AREAS: dict[str, tuple[str, float | None, float | None]] = {
 
 @dataclass(frozen=True, slots=True)
 class FilmState:
-    """The coordinates `overlap` and `load_capacity_coefficient` of the friction map, and the values that lead to them.
+    """The coordinates `overlap` and `load_capacity_coefficient` of the friction map, and intermediate results.
 
     `overlap` is inf if the contact does not travel. `load_capacity_coefficient` is inf if there is a film but no tooth
     force.
@@ -77,11 +78,11 @@ class FilmState:
 
 
 def max_normal_force(inputs: CouplingInputs, mesh: MeshMotion) -> float:
-    """Compute the largest normal tooth force [N] while one tooth is in the tilt position, at 90 degrees.
+    """Compute the largest normal tooth force [N] at the rotor angle at which one tooth is at 90 degrees.
 
     If the pitch deviations of the teeth differ, the result is the largest force in a whole revolution. With `spatial`
-    kinematics the displacement is largest beyond the tilt position, and a tooth carries more there than in the tilt
-    position.
+    kinematics the displacement of a tooth is largest beyond the tilt position. The tooth carries more there than in
+    the tilt position.
     """
     if len(set(inputs.coupling.pitch_errors or ())) <= 1:
         return float(_largest_forces(inputs, mesh, _positions_at(pi / 2, inputs.coupling.teeth)).max())
@@ -273,8 +274,8 @@ def film_state(inputs: CouplingInputs, geometry: Geometry, mesh: MeshMotion) -> 
     Returns
     -------
     FilmState
-        Overlap Pu = a_HZ/s_1max and load capacity coefficient Tr = F_HD/F_n,max [-], and the values from which they
-        follow.
+        Overlap Pu = a_HZ/s_1max and load capacity coefficient Tr = F_HD/F_n,max [-], and the values from which Pu
+        and Tr follow.
 
     Notes
     -----
@@ -305,7 +306,7 @@ def film_state(inputs: CouplingInputs, geometry: Geometry, mesh: MeshMotion) -> 
 
 
 def _capacity_ratio(capacity: float, force: float) -> float:
-    """Return the load capacity coefficient; it is zero without a film, and inf if there is a film but no force."""
+    """Return the load capacity coefficient, which is zero without a film, and inf if there is a film but no force."""
     if capacity == 0.0:
         return 0.0
     return capacity / force if force > 0.0 else inf
@@ -338,7 +339,7 @@ def _distance_to_boundary(overlap: float, load_capacity_coefficient: float) -> f
 
 
 def mixed_friction(law: MixedFrictionCurve | MixedFrictionTable, sliding_velocity: float) -> float:
-    """Compute the coefficient of friction in area 1.1 of the friction map, which has mixed lubrication.
+    """Compute the coefficient of friction in area 1.1 (mixed lubrication) of the friction map.
 
     Parameters
     ----------
@@ -354,7 +355,7 @@ def mixed_friction(law: MixedFrictionCurve | MixedFrictionTable, sliding_velocit
 
     Notes
     -----
-    Eq. C17. The paper shows the curve in Fig. 10, but does not print its points.
+    Eq. C17. The paper shows the curve in Fig. 10, but does not print points of the curve.
     """
     if isinstance(law, MixedFrictionTable):
         return float(np.interp(sliding_velocity, law.sliding_velocity, law.coefficient))
@@ -397,7 +398,7 @@ def _poorly_supplied(overlap: float, load_capacity_coefficient: float) -> float:
 
 
 def regime_friction(overlap: float, load_capacity_coefficient: float, mixed: float, lowest: float) -> float:
-    """Compute the coefficient of friction at any point of the friction map; the coefficient is continuous.
+    """Compute the coefficient of friction, which is continuous over the whole friction map.
 
     Parameters
     ----------
@@ -417,10 +418,10 @@ def regime_friction(overlap: float, load_capacity_coefficient: float, mixed: flo
 
     Notes
     -----
-    Eq. C18. The paper states only a band of friction for each area. The law used here keeps to the end values of the
-    bands, and lies inside the bands of areas 1.1, 1.3, 2.1, 2.2, 2.3 and 3.1. In area 1.2 the law is a smooth
-    transition. Near overlap 1 the law may leave the band of area 3.2; the paper calls the boundaries of the areas
-    fluid. The coefficient of friction never rises when the load capacity coefficient rises.
+    Eq. C18. The paper states only a band of friction for each area. The law used here interpolates between the end
+    values of these bands. The law lies inside the bands of areas 1.1, 1.3, 2.1, 2.2, 2.3 and 3.1. In area 1.2 the law
+    is a smooth transition. Near overlap 1 the law may leave the band of area 3.2; the paper calls the boundaries of the
+    areas fluid. The coefficient of friction never rises when the load capacity coefficient rises.
     """
     if overlap > 2.0:
         return _poorly_supplied(overlap, load_capacity_coefficient)

@@ -15,7 +15,7 @@ ORBIT_RESOLUTION = 0.01
 """Relative uncertainty of an orbit above which a notice is given."""
 TALLEST_TOOTH = 4.0  # in modules, chosen
 LEAST_ORBIT = 1e-10
-"""Largest displacement [m] below which an orbit counts as zero. With perfect teeth only rounding errors remain."""
+"""An orbit with a smaller largest displacement [m] counts as zero. With perfect teeth only rounding errors remain."""
 
 
 def motion_notices(
@@ -134,7 +134,7 @@ def orbit_notices(
     harmonic: float,
     harmonic_uncertainty: float | None,
 ) -> Iterator[Notice]:
-    """Yield the notices about an orbit: the sleeve's position may not be unique, or the orbit may be inaccurate.
+    """Yield notices if the sleeve's position is not unique at some rotor angle, or if the orbit may be inaccurate.
 
     `fewest_teeth` is the smallest number of loaded teeth at any rotor angle. `displacement` [m] is the largest
     displacement of the orbit, and `harmonic` [N] is the largest harmonic of the inertia force.

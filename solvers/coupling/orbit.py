@@ -22,8 +22,8 @@ from solvers.coupling.tooth_loads import LOADED, floating_loads, largest_value
 from solvers.errors import InvalidInput, NoSolution
 
 MAX_SWEEPS = 50  # limit; a path that has not settled after this number of sweeps does not settle at all
-REPEAT_TOLERANCE = 1e-12  # m, close to the rounding error of a path of about ten micrometres
-HIGHEST_ORDER = 12  # highest Fourier order of the path; the uncertainty covers twice as many orders
+REPEAT_TOLERANCE = 1e-12  # m, chosen: one ten-millionth of a path of about ten micrometres
+HIGHEST_ORDER = 12  # highest Fourier order of the path; the paths for the uncertainty have twice as many orders
 REFINEMENTS = (2, 3)  # factors on the number of rotor angles, for the uncertainty of an orbit
 
 
@@ -76,9 +76,10 @@ def solve_orbit(inputs: CouplingInputs) -> OrbitResult:
     than 1e-12 m. The inertia force follows from the path by differentiation in Fourier space, with orders k up to 12.
     The sweeps converge as long as m_s (k omega)^2 is well below the lateral stiffness.
 
-    The uncertainty follows from two further paths. Both have twice as many orders and start from the settled path. One
-    has twice as many rotor angles, the other has three times as many. One further path would not be enough, because the
-    errors at two resolutions may happen to agree if teeth load and unload.
+    The uncertainty follows from two further paths. Both further paths have twice as many orders and start from the
+    settled path. One path has twice as many rotor angles as the settled path, the other path has three times as many.
+    One further path would not be enough, because the errors at two resolutions may happen to agree if teeth alternately
+    carry load and lift off.
     """
     check_inputs(inputs)
     if inputs.operation.torque == 0.0:

@@ -85,8 +85,8 @@ class LoadCurves:
 class LoadDistribution:
     """Load distribution of the mesh in which the hub drives the sleeve, at the requested rotor angle.
 
-    `load_concentration` is the ratio of the largest to the mean tooth force; it is None without torque. `rotation` is
-    the common rotation of the hub relative to the sleeve, as a length at the pitch radius. Beyond
+    `load_concentration` is the ratio of the largest to the mean tooth force; this ratio is None without torque.
+    `rotation` is the common rotation of the hub relative to the sleeve, as a length at the pitch radius. Beyond
     `unloading_misalignment` some tooth carries no load; this limit applies to a centred sleeve with many teeth and no
     pitch deviations. `sleeve_displacement` (x, y) is relative to the hub. `iterations` is the number of iterations for
     a floating sleeve, and 0 for a centred sleeve.
@@ -203,11 +203,11 @@ class AxialThrust:
 
     In the arrangement `single`, `force` is the thrust of one mesh and is positive in the direction of the axial
     velocity. In the other arrangements, `force` acts on one shaft and is positive if the shafts are pulled together.
-    The bounds differ from `force` only if friction is `indeterminate` because nothing slides. `fraction_of_limit` is
-    `force` divided by `coaxial_limit`; it is None without load. `breakaway_force` is the thrust at which coaxial shafts
-    start to slide from rest, without a film. `uniform_load_force` is the closed form of one mesh with equal tooth
-    loads. A thrust bearing must hold `design_force`, the larger of |force| and `breakaway_force`. `customary_force` is
-    the thrust by a rule of practice, for comparison; it is None without a shaft diameter.
+    `lower_bound` and `upper_bound` differ from `force` only if friction is `indeterminate` because nothing slides.
+    `fraction_of_limit` is `force` divided by `coaxial_limit`, or None without load. `breakaway_force` is the thrust at
+    which coaxial shafts start to slide from rest, without a film. `uniform_load_force` is the closed form of one mesh
+    with equal tooth loads. A thrust bearing must hold `design_force`, the larger of |force| and `breakaway_force`.
+    `customary_force` is the thrust by a rule of practice, for comparison, or None without a shaft diameter.
     """
 
     force: float = quantity(
@@ -317,13 +317,13 @@ class Derived:
 
     @classmethod
     def of(cls, inputs: CouplingInputs) -> Self:
-        """Return the values in use for inputs that may be left open."""
+        """Return the values in use, including the values for omitted inputs."""
         return cls(inputs.coupling, inputs.lubricant.viscosity, inputs.lubricant.viscosity_index)
 
 
 @record
 class CouplingResult:
-    """All results at one operating point; `derived` contains the values in use for inputs that were left open."""
+    """All results at one operating point; `derived` contains the values in use for omitted inputs."""
 
     geometry: Geometry = quantity("geometry", text="radii")
     kinematics: Kinematics = quantity("motion of the teeth")
@@ -392,9 +392,10 @@ class OrbitResult:
     """Results for one revolution of a floating sleeve under its own inertia.
 
     `sweeps` is the number of sweeps over the revolution until the path settled, and `change` [m] is the change of the
-    path in the last sweep. For the uncertainties, the path is computed again with two and with three times as many
-    rotor angles and twice as many orders. The uncertainties are the largest resulting changes of the largest
-    displacement [m] and of any harmonic of the force [N]. They are None if one of these paths does not settle.
+    path in the last sweep. For the uncertainties, two further paths with twice as many orders are computed: one
+    with twice as many rotor angles, the other with three times as many. The uncertainties are the largest resulting
+    changes of the largest displacement [m] and of any harmonic of the force [N]. The uncertainties are None if one of
+    the further paths does not settle.
     `derived` contains the radii of the teeth.
     """
 

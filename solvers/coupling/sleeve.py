@@ -1,14 +1,15 @@
-"""Equilibrium of a floating sleeve between two misaligned hubs with a parallel offset (Z) or an angle (M) (Fig. 13).
+"""Equilibrium of a floating sleeve between two misaligned hubs with a parallel offset (arrangement Z) or an angle (M).
 
 The units are those of `tooth_loads`. In arrays with an axis for the mesh, index 0 is the left mesh and index 1 is the
 right mesh.
 
-The unknowns are (psi, e_x, e_y) of each mesh. The six equations are the balance of torque at each mesh, the balance of
-the two lateral forces on the sleeve, and the balance of the two moments on the sleeve. The direction of friction at a
-tooth does not depend on the unknowns. The moments of friction require a lateral force g at the left mesh and -g at the
-right mesh. For a given g, each mesh can be balanced alone, like a single floating sleeve; this problem is convex. Two
-equations remain for the two components of g: Phi(g) = g, where Phi(g) is the lateral force that the moments of friction
-require if g acts. Newton's method solves these equations with the exact derivative of the tooth loads.
+The equilibrium is that of Fig. 13. The unknowns are the rotation and the displacement (psi, e_x, e_y) of each mesh. The
+six equations are the balance of torque at each mesh, the balance of the two lateral forces on the sleeve, and the
+balance of the two moments on the sleeve. The direction of friction at a tooth does not depend on the unknowns. The
+moments of friction require a lateral force g at the left mesh and -g at the right mesh. For a given g, each mesh can be
+balanced alone, like a single floating sleeve; this problem is convex. Two equations remain for the two components of g:
+Phi(g) = g, where Phi(g) is the lateral force that the moments of friction require if g acts. Newton's method solves
+these equations with the exact derivative of the tooth loads.
 """
 
 from dataclasses import dataclass
@@ -82,7 +83,8 @@ def add_friction_moment(
             torque += arm[i]
             x -= arm[i] * normal_x[i]
             y -= arm[i] * normal_y[i]
-    # The Hessian is symmetric. Its inverse times the weights (torque, x, y) gives the derivatives by torque and force.
+    # The Hessian is symmetric. The inverse of the Hessian, times the weights (torque, x, y), gives the derivatives by
+    # torque and force.
     slope, _, _ = solve_loaded(hessian, Motion(torque, x, y))
     return moment, slope.x, slope.y
 
@@ -227,9 +229,10 @@ def balance_rows(
 
 @dataclass(frozen=True, slots=True)
 class SleeveEquilibrium:
-    """Means of two meshes on one sleeve over one tooth pitch or, if there are pitch deviations, over one revolution.
+    """Thrust and overturning moment of two meshes on one sleeve.
 
-    `thrust` [N] acts on one shaft and is positive if it pulls the shafts together. `overturning_moment` [N m] is the
+    Both are means over one tooth pitch or, if there are pitch deviations, over one revolution. `thrust` [N] acts on one
+    shaft and is positive if `thrust` pulls the shafts together. `overturning_moment` [N m] is the
     moment of friction on the sleeve.
     """
 
@@ -238,7 +241,7 @@ class SleeveEquilibrium:
 
 
 def two_meshes(inputs: CouplingInputs, geometry: Geometry) -> tuple[MeshMotion, MeshMotion]:
-    """Return the left mesh, where the hub drives the sleeve, and the right mesh.
+    """Return the left mesh, where the hub drives the sleeve, and the right mesh, where the sleeve drives the hub.
 
     With a parallel offset (Z) the right hub tilts in the same direction as the left hub. With an angle (M) the right
     hub tilts in the opposite direction.

@@ -1,4 +1,4 @@
-"""Distribution of the torque, and for a floating sleeve of a lateral force, over the teeth of one mesh (Figs 3, 4).
+"""Distribution of the torque over the teeth of one mesh (Figs 3, 4); a floating sleeve may also carry a lateral force.
 
 Tooth i carries F_t = c_t max(0, psi + f_t + pitch deviation - e . n/cos(alpha)); the maximum is taken because teeth
 never pull. Here psi is the common rotation as a length at the pitch radius, f_t is the tangential displacement of the
@@ -40,7 +40,7 @@ from solvers.errors import NoSolution
 
 MAX_ITERATIONS = 10_000  # limit; no balance should reach this limit, because each step lowers the energy
 BALANCE_TOLERANCE = 1e-13  # in units of T/r_o; a few hundred rounding errors
-LONGEST_STEP = 1e100  # used as infinity, because its square does not overflow
+LONGEST_STEP = 1e100  # stands for infinity; the square of this number does not overflow
 STIFF = 1e-12
 """Ratio of sleeve stiffness to loaded-tooth stiffness below which the stiffness counts as zero.
 
@@ -52,14 +52,14 @@ FLAT = 1e-12
 LOADED = 1e-6
 """Ratio of tooth force to mean tooth force above which a tooth counts as loaded."""
 SLIDING_VELOCITY_LIMIT = 0.12
-"""Limit of steady sliding in gear couplings [m/s] (Tribology Handbook B4.6); short tilts may be 1.6 times as large."""
+"""Limit of steady sliding in gear couplings [m/s] (Tribology Handbook B4.6); 1.6 times as large for short tilts."""
 GRAVITY = 9.80665  # m/s^2, standard gravity (CGPM 1901)
 _SEARCHES = 2  # chosen: number of searches around the samples near which the highest value may lie
 _FINER = 8  # chosen: ratio of the steps of successive searches; two searches locate a peak to 1/128 of the first step
 
 
 class Motion(NamedTuple):
-    """Common rotation of the teeth and displacement of the sleeve; also used for torque and lateral force."""
+    """Common rotation of the teeth and displacement of the sleeve, or torque and lateral force."""
 
     rotation: float
     x: float
@@ -120,9 +120,9 @@ def rotation_of_leads(ahead: FloatArray, highest: float, start: float) -> float:
 
     Notes
     -----
-    Eq. C8: sum max(0, psi + lead_i) = 1, where lead_i is w_i minus the largest of the leads. The result is the same as
-    with sorting, where the leads are sorted in descending order, and k is the largest number for which
-    psi_k = (1 - sum_1..k lead)/k loads tooth k. The sum is a convex and piecewise linear function of psi. From any
+    Eq. C8: sum max(0, psi + lead_i) = 1, where lead_i is w_i minus the largest of the leads. Sorting gives the same
+    result: the leads are sorted in descending order, and k is the largest number for which psi_k = (1 - sum_1..k
+    lead)/k loads tooth k; this psi_k is the root. The sum is a convex and piecewise linear function of psi. From any
     positive start, the first step of Newton's method leads to the root or to a larger value. Each further step reduces
     psi and unloads at least one tooth, until the linear piece that contains the root is reached.
     """
@@ -151,9 +151,9 @@ def turn_to_torque(ahead: FloatArray, start: float) -> tuple[float, float]:
 
 @kernel
 def centred_rows(ahead: FloatArray, unit: float, unit_force: float, rotation: FloatArray) -> None:
-    """Replace the lead of each tooth by its force with a centred sleeve, in place, and write the rotation of each row.
+    """Replace the lead of each tooth by the tooth force, in place, and write the rotation of each row.
 
-    `unit` = T/(r_o c_t) and `unit_force` = T/r_o are the scales of lengths and forces.
+    The sleeve is centred. `unit` = T/(r_o c_t) and `unit_force` = T/r_o are the scales of lengths and forces.
     """
     psi = 1.0
     for row in range(ahead.shape[0]):
@@ -223,7 +223,8 @@ def next_step(hessian: Hessian, missing: Motion) -> tuple[Motion, float]:
     """Return the Newton step for the `missing` forces, and the rate at which the energy falls along this step.
 
     If more than half of the missing force acts in a direction without stiffness, the step is along this direction
-    instead. Such a step does not change the forces of the loaded teeth; it ends when another tooth meets the sleeve.
+    instead. Such a step does not change the forces of the loaded teeth; the step ends when another tooth meets the
+    sleeve.
     """
     step, free_x, free_y = solve_loaded(hessian, missing)
     unheld = hypot(free_x, free_y)
@@ -399,7 +400,7 @@ class ToothLoads:
 
 
 def interference_at_rest(coupling: Coupling, mesh: MeshMotion, teeth: ToothPositions) -> FloatArray:
-    """Compute the lead of each tooth: its interference without common rotation and without displacement of the sleeve.
+    """Compute the leads of the teeth: the interferences without common rotation and without displacement of the sleeve.
 
     Parameters
     ----------
@@ -509,7 +510,7 @@ def mesh_loads(
     """Compute the tooth loads of one mesh without external force.
 
     Raises NoSolution (`sleeve_balance`) if a floating sleeve cannot be balanced. The residual in NoSolution is the
-    lateral force divided by T/r_o.
+    lateral force of the teeth on the sleeve, divided by T/r_o.
     """
     if not floating or torque == 0.0:
         return centred_loads(coupling, mesh, teeth, torque)

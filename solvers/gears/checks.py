@@ -61,7 +61,8 @@ def centre_distance_in_use(given: float | None, backlash_free: float) -> float:
     """Return the centre distance in use [m].
 
     This is the backlash-free centre distance if no centre distance is given, or if the given centre distance is smaller
-    by no more than the rounding of printed values. Otherwise the given centre distance is used.
+    than the backlash-free centre distance by no more than the rounding of printed values. Otherwise the given centre
+    distance is used.
 
     Raises
     ------

@@ -91,7 +91,7 @@ def transverse_gear(inputs: GearPairInputs, teeth: GearTeeth) -> Gear:
 
 
 def virtual_gear(inputs: GearPairInputs, teeth: GearTeeth, base_helix_angle: float) -> Gear:
-    """Return the virtual spur gear of the normal section; the same rack cuts both gears.
+    """Return the virtual spur gear of the normal section, cut by the rack of the real gear.
 
     Parameters
     ----------
@@ -105,8 +105,8 @@ def virtual_gear(inputs: GearPairInputs, teeth: GearTeeth, base_helix_angle: flo
     Returns
     -------
     Gear
-        Virtual gear with z/(cos^2 beta_b cos beta) teeth; its attribute `teeth` is the number of teeth of the real
-        gear.
+        Virtual gear with z/(cos^2 beta_b cos beta) teeth; the attribute `teeth` is the number of teeth of the
+        real gear.
 
     Notes
     -----
@@ -119,7 +119,7 @@ def virtual_gear(inputs: GearPairInputs, teeth: GearTeeth, base_helix_angle: flo
 def _cut(inputs: GearPairInputs, teeth: GearTeeth, count: float, module: float, pressure_angle: float) -> Gear:
     """Return a gear with `count` teeth in a plane with the given module [m] and pressure angle [rad].
 
-    Heights are multiples of the normal module, also if `module` is the transverse module. A profile shift makes a tooth
+    Heights are multiples of the normal module, even if `module` is the transverse module. A profile shift makes a tooth
     thicker in proportion to the tangent of the pressure angle in this plane.
     """
     height, normal_angle = inputs.normal_module, inputs.normal_pressure_angle
@@ -143,7 +143,7 @@ class RackFillet(NamedTuple):
     """The rack tip that cuts a tooth root; lengths [m].
 
     `centre_x` and `centre_y` are the coordinates of the centre of the tip arc in the normal plane. `centre_x` is
-    measured from the centre line of the rack tooth, `centre_y` is measured from the reference circle. `end` is the arc
+    measured from the centre line of the rack tooth; `centre_y` is measured from the reference circle. `end` is the arc
     parameter at which the fillet meets the involute.
     """
 
@@ -172,10 +172,13 @@ class RootProfile(NamedTuple):
 
 @kernel
 def fillet_point(fillet: RackFillet, t: float) -> tuple[float, float]:
-    """Return radius [m] and half space angle [rad] of the fillet at arc parameter t [rad]."""
+    """Return the radius [m] of a fillet point and its angle [rad] from the centre line of the tooth space.
+
+    The arc parameter t [rad] selects the point.
+    """
     y = fillet.centre_y - fillet.tip_radius * np.cos(t)
     x = (fillet.centre_x + fillet.tip_radius * np.sin(t)) / fillet.cos_helix
-    across = -y * np.tan(t) * fillet.cos_helix  # x + shift; the normal at the contact passes through the pitch point
+    across = -y * np.tan(t) * fillet.cos_helix  # x + shift, because the normal passes through the pitch point
     shift = across - x
     up = y + fillet.reference_radius
     return np.hypot(across, up), np.arctan2(across, up) - shift / fillet.reference_radius
@@ -185,7 +188,7 @@ def fillet_point(fillet: RackFillet, t: float) -> tuple[float, float]:
 def fillet_sector_area(fillet: RackFillet, end: float) -> float:
     """Return the area between the centre of the gear and the fillet from t = 0 to `end` [m^2].
 
-    The area is 1/2 integral r^2 dpsi, where psi is the half space angle.
+    The area is 1/2 integral r^2 dpsi, where psi is the angle from the centre line of the tooth space.
     """
     r, tip, cos_helix = fillet.reference_radius, fillet.tip_radius, fillet.cos_helix
     area = 0.0
@@ -216,7 +219,7 @@ def root_profile(pair: GearPairInputs, teeth: GearTeeth, gear: Gear) -> RootProf
         fillet = fillet._replace(end=end)
     radius, half_angle = fillet_point(fillet, fillet.end)
     root_half_angle = fillet_point(fillet, 0.0)[1]
-    step = _half_space_angle(gear, radius) - half_angle  # 0, unless an undercut ends on the base circle
+    step = _half_space_angle(gear, radius) - half_angle  # not 0 only if an undercut ends on the base circle
     area = root_half_angle * gear.root_radius**2 / 2 + fillet_sector_area(fillet, fillet.end) + step * radius**2 / 2
     return RootProfile(fillet, gear.root_radius, root_half_angle, roll, area)
 

@@ -19,7 +19,7 @@ LEAST_LOAD = 1e3  # N/m
 
 
 def pair_notices(path: PathOfContact) -> list[Notice]:
-    """Return the warnings about limited rack tip radii, undercut, thin tips and a path shortened by fillets."""
+    """Return the warnings about a limited rack tip radius, undercut, a thin tip, and a path that fillets shorten."""
     inputs, notices = path.pair.inputs, []
     for gear, teeth, name in (
         (path.pair.pinion, inputs.pinion, "pinion"),

@@ -134,8 +134,8 @@ class ContactPlane(NamedTuple):
     """Rectangle of the plane of action; x runs from A to E, y runs from the end of the face that meshes first [m].
 
     Contact line number j has the equation x + y `tan_base_helix` = phase + j `base_pitch`. At x the roll length of the
-    pinion is `start` + x, and the roll length of the wheel is `line_of_action` minus this length. If the reduced radius
-    is below `least_radius`, which happens near a base circle, pressure and flash temperature have no meaning.
+    pinion is `start` + x, and the roll length of the wheel is `line_of_action` minus `start` minus x. If the reduced
+    radius is below `least_radius`, which happens near a base circle, pressure and flash temperature have no meaning.
     """
 
     path_length: float
@@ -168,8 +168,9 @@ def reduced_radius(plane: ContactPlane, x: Real) -> Real:
 
     Notes
     -----
-    The radius of curvature of an involute helicoid across its straight generator is r_K/cos beta_b. Eq. 13 prints r_K
-    cos^3 beta_b/(1 - 2 sin^2 beta_b). This expression agrees to second order in beta_b, but is singular at 45 degrees.
+    The radius of curvature of an involute helicoid across its straight generator is r_K/cos beta_b, where r_K is the
+    transverse radius of curvature. Eq. 13 prints r_K cos^3 beta_b/(1 - 2 sin^2 beta_b). This expression agrees to
+    second order in beta_b, but is singular at 45 degrees.
     """
     s = plane.start + x
     return s * (plane.line_of_action - s) / (plane.line_of_action * plane.cos_base_helix)
@@ -179,7 +180,8 @@ def reduced_radius(plane: ContactPlane, x: Real) -> Real:
 class PathOfContact:
     """Path of contact in roll lengths of the pinion [m]: `start` at A, `end` at E, `pitch_point` at C.
 
-    `shortened_by` names the gears whose fillet ends the path before the tip of the mating gear does.
+    `shortened_by` names the gears whose fillet limits the path. Without this limit, the path would extend to the tip of
+    the mating gear.
     """
 
     pair: GearPair
@@ -256,8 +258,8 @@ class PathOfContact:
         Notes
         -----
         The velocity of a flank across the contact line is exactly omega times the transverse radius of curvature.
-        Instead, Eq. 18 takes the radius of curvature across the contact line, which is too large by the factor 1/cos
-        beta_b.
+        Instead, Eq. 18 takes the radius of curvature across the contact line; this radius is too large by the factor
+        1/cos beta_b.
         """
         s = self.start + x
         wheel_speed = pinion_speed * self.pair.pinion.teeth / self.pair.wheel.teeth

@@ -3,7 +3,7 @@
 The data flow through the modules in this order: inputs and oil -> losses, bearings, fling_off, convection and
 conduction -> network (nodes and heat flows) -> solution (equilibrium), calibration (with measured temperatures) and
 band -> results and notices. `model.solve` calls these modules. `warm_up` computes the temperatures of the network over
-time, with the heat capacities of the nodes. The model is our own derivation; sources are given with the equations.
+time, with the heat capacities of the nodes. The model is our own derivation; the sources are named at the equations.
 """
 
 from solvers.guards import guarded

@@ -1,4 +1,4 @@
-"""Band of the flank temperatures between much and little oil on the flanks; no probability is stated for this band."""
+"""Band of flank temperatures that the uncertain amount of oil on the flanks allows; the band states no probability."""
 
 from dataclasses import dataclass, replace
 
@@ -16,8 +16,8 @@ MEASURED_WITHIN = 3.0  # K, chosen: uncertainty of a measured temperature
 class Extreme:
     """Cooling by the oil at one end of the band.
 
-    If `rewetting_share` is None, the nominal value is kept. `measured` [K] is added to the measured temperature of a
-    gear.
+    If `rewetting_share` is None, the nominal rewetting share is kept. `measured` [K] is added to the measured
+    temperature of a gear.
     """
 
     wetting_share: float
@@ -45,7 +45,8 @@ def extreme_network(network: Network, cooling: Cooling, extreme: Extreme) -> Net
     Returns
     -------
     Network
-        The network with the shares and the factor of this end; flow and losses are unchanged.
+        The network with the wetting share, rewetting share and fling-off factor of this end; flow and losses are
+        unchanged.
 
     Notes
     -----
@@ -66,7 +67,7 @@ def extreme_network(network: Network, cooling: Cooling, extreme: Extreme) -> Net
 
 
 def _fitted_again(network: Network, node: str, temperature: float) -> Network:
-    """Return the network with the wetting share at which the node is at, or nearest to, the temperature [K]."""
+    """Return the network with the wetting share at which the node is at, or nearest to, the given temperature [K]."""
     place, wanted = network.nodes.index(node), temperature - network.oil.inlet
     all_oil = wetted(network, MOST_WETTING)
     if float(equilibrium(all_oil).rises[place]) >= wanted:  # no share cools the node to this temperature
@@ -105,7 +106,8 @@ def flank_band(
 ) -> tuple[tuple[float, float], tuple[float, float]]:
     """Return the lowest and the highest temperature [K] of each gear's flank.
 
-    If a flank temperature was measured and used for the calibration, its band extends by 3 K to either side.
+    If a flank temperature was measured and used for the calibration, the band of this flank extends from 3 K
+    below to 3 K above the measured temperature.
     """
     bands = []
     for gear, node in enumerate(("pinion_flank", "wheel_flank")):

@@ -1,4 +1,4 @@
-"""Calibration of the wetting share with a measured gear temperature, and of other losses with the drain temperature."""
+"""Fit the wetting share to a measured gear temperature, and the other losses to a measured drain temperature."""
 
 from dataclasses import replace
 
@@ -51,7 +51,7 @@ def oil_flows(network: Network, rises: FloatArray) -> FloatArray:
 
 
 def with_drain(network: Network, drain: float) -> Network:
-    """Return the network with the value of the other losses at which the drain has the measured temperature.
+    """Return the network and choose the other losses so that the oil in the drain has the measured temperature.
 
     Parameters
     ----------
@@ -68,7 +68,7 @@ def with_drain(network: Network, drain: float) -> Network:
     Raises
     ------
     InvalidInput
-        `measured_unreachable` if the drain is not warmer than the supplied oil.
+        `measured_unreachable` if the oil in the drain is not warmer than the supplied oil.
 
     Notes
     -----
@@ -193,7 +193,7 @@ def _fitted(network: Network, place: int, wanted: float, drain: float | None) ->
             unknown[free] += step * min(1.0, LARGEST_FIT / turn if turn > 0.0 else 1.0)
             if float(np.abs(step).max()) < FITTED:
                 break
-            if unknown[network.size] > LARGEST_FIT:  # this share is far more than all oil
+            if unknown[network.size] > LARGEST_FIT:  # a wetting share above e; the greatest possible share is 1
                 return None
         else:
             return None

@@ -1,4 +1,4 @@
-"""Convection from the rim and the faces of a rotating gear to air; oil mist cools better by a given factor."""
+"""Convection from the rim and the faces of a rotating gear to air; a given factor accounts for oil mist."""
 
 RECOVERY = 0.88  # recovery factor of a turbulent boundary layer
 AIR_HEAT = 1006.0  # J/(kg K)

@@ -4,7 +4,9 @@ A jet lays a fresh film on the flanks once per turn. The centrifugal acceleratio
 tooth height H. The thickness of the film decreases as h = min(h0, sqrt(nu x/(omega^2 r t))). Meanwhile heat is
 conducted through the film, from an isothermal wall to an adiabatic free surface. If times are divided by t* = sqrt(nu
 H/(a r))/omega and thicknesses by sqrt(a t*), the heat per turn depends only on the thickness of the film as laid and on
-the duration of the turn.
+the duration of the turn. Here nu is the kinematic viscosity and a is the thermal diffusivity of the oil; omega is the
+speed and r is the radius of the gear; x is the distance along the tooth height, t is the time since the jet, and h0 is
+the thickness as laid.
 """
 
 from dataclasses import dataclass
@@ -12,9 +14,9 @@ from math import pi, sqrt
 
 from solvers.heat_balance.oil import CoolingOil
 
-TOOTH_HEIGHT = 2.25  # H in normal modules: addendum, dedendum and tip clearance of the basic rack
+TOOTH_HEIGHT = 2.25  # H in normal modules: addendum 1.0 plus dedendum 1.25 of the basic rack
 LONG_TURN = 0.98  # heat number q of a thick film in a long turn, from a similarity solution
-FLOODED = 50.0  # scaled thickness; a film that is thicker than this does not cool better
+FLOODED = 50.0  # scaled thickness; a thicker film does not cool better
 USED_SHARE = 0.9  # share of the heat of a flooded flank; `turn_film` is the thickness of a film that takes this share
 LIMITED_FROM = 0.98  # chosen: share of the oil's heat capacity above which the oil flow limits the cooling
 FILM_POWER, TIME_POWER = -5.5, -8.0  # exponents of the closed form, fitted to numerical solutions within 2.5 %

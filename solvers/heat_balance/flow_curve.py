@@ -1,4 +1,4 @@
-"""Temperatures as functions of the oil flow, which show the effect of more oil."""
+"""Temperatures as functions of the oil flow; these functions show the effect of more oil."""
 
 from dataclasses import replace
 
@@ -41,7 +41,7 @@ def over_the_flow(inputs: HeatBalanceInputs, flows: FloatArray) -> FlowCurve:
     network = calibrated(network_of(inputs), inputs.cooling)
     start: FloatArray | None = None
     rows = []
-    for flow in flows[::-1]:  # starts with the coolest case
+    for flow in flows[::-1]:  # the largest flow, which cools best, comes first
         varied = replace(network, spray=replace(network.spray, flow=float(flow)))
         start, row = _solved(varied, start)
         rows.append(row)
@@ -52,7 +52,8 @@ def over_the_flow(inputs: HeatBalanceInputs, flows: FloatArray) -> FlowCurve:
 def _solved(network: Network, start: FloatArray | None) -> tuple[FloatArray | None, tuple[float, float, float]]:
     """Return the rises [K] of all nodes, and the rises of both flanks and of the drain.
 
-    The next case starts from the rises of all nodes. If there is no equilibrium, the function returns None and NaN.
+    The solution of the next case starts from the rises of all nodes. If there is no equilibrium, the function returns
+    None instead of the rises of all nodes, and NaN for both flanks and the drain.
     """
     try:
         rises = equilibrium(network, start).rises

@@ -62,7 +62,8 @@ class Casing:
 class Measured:
     """Temperatures measured in operation: at most one temperature per gear, and the temperature of the drained oil.
 
-    A thermocouple in a tooth or in the rim measures the body, an infrared sensor measures the flank.
+    A thermocouple in a tooth or in the rim measures the temperature of the body. An infrared sensor measures the
+    temperature of the flank.
     """
 
     pinion_flank: float | None = quantity(

@@ -72,7 +72,7 @@ def share_to_pinion(
     position : FloatArray
         Position of the points along the path [m].
     effusivity_ratio : float
-        Effusivity sqrt(k rho c) of the wheel over that of the pinion [-].
+        Effusivity sqrt(k rho c) of the wheel divided by the effusivity of the pinion [-].
 
     Returns
     -------
@@ -144,7 +144,7 @@ def acceleration_power(oil: CoolingOil, flow: float, velocity: float, jet: float
     Notes
     -----
     Eq. H9: rho Q v (v - v_jet). Of this energy, (v - v_jet)^2/2 per unit mass of oil becomes heat when the oil hits the
-    teeth; the rest becomes heat when the casing stops the oil.
+    teeth; the rest of the energy becomes heat when the casing stops the oil.
     """
     return oil.density * flow * velocity * (velocity - jet)
 

@@ -1,4 +1,4 @@
-"""Heat balance: build the network from the inputs, calibrate the network, find the equilibrium and the band."""
+"""Heat balance: build the network from the inputs, calibrate the network, find the equilibrium, compute the band."""
 
 from collections.abc import Iterator
 from dataclasses import replace
@@ -294,7 +294,7 @@ def _deviation(network: Network, cooling: Cooling, rises: FloatArray) -> float |
 def backlash_loss(
     heat: Heat, working_radii: tuple[float, float], working_pressure_angle: float, expansion: float
 ) -> Heat:
-    """Add to the result the backlash that is lost because the gears are warmer than the casing.
+    """Return the result with the backlash that is lost because the gears are warmer than the casing.
 
     Parameters
     ----------
@@ -325,7 +325,7 @@ def backlash_loss(
 
 
 def cooling_in_force(cooling: Cooling, heat: Heat) -> CoolingInForce:
-    """Return the values in use for those inputs of the cooling that may be left open.
+    """Return the values in use for those inputs of the cooling that may be omitted.
 
     Parameters
     ----------

@@ -60,10 +60,10 @@ class CooledGear:
 
 @dataclass(frozen=True, slots=True)
 class Spray:
-    """Oil of the jets: flow [m^3/s], speeds of pitch line and jet [m/s], shares, and factor on the fling-off cooling.
+    """Oil of the jets: flow [m^3/s], speeds of pitch line and jet [m/s], shares, and factor of the fling-off cooling.
 
-    The velocity of the jet is positive if the jet is directed into the mesh, and negative if the jet is directed
-    against the teeth that leave the mesh.
+    The shares are the wetting share and the rewetting share. The velocity of the jet is positive if the jet is directed
+    into the mesh, and negative if the jet is directed against the teeth that leave the mesh.
     """
 
     flow: float
@@ -182,7 +182,7 @@ class Network:
         Returns
         -------
         list of Flow
-            The flows that section 1 of the chapter on the heat balance describes.
+            The flows that section 1 of the manual's chapter on the heat balance describes.
 
         Notes
         -----

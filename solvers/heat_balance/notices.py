@@ -17,7 +17,7 @@ USUAL_RISE = (2.0, 60.0)  # K, chosen: usual temperature rise of the oil by the 
 
 
 def heat_notices(network: Network, rises: FloatArray, cooling: Cooling) -> Iterator[Notice]:
-    """Yield warnings about speed, oil, bearing films and missing measurements that make the heat balance doubtful."""
+    """Yield warnings if the speed, the oil, a bearing film or a missing measurement makes the heat balance doubtful."""
     if network.spray.velocity < SLOW:
         message = (
             f"the pitch line velocity of {network.spray.velocity:.4g} m/s is below {SLOW:g} m/s. Oil that runs down "

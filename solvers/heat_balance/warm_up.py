@@ -1,4 +1,4 @@
-"""Warm-up of a gear pair or gear unit: temperatures of the network over time, with heat capacities of the nodes.
+"""Warm-up of a gear pair or gear unit: the temperatures of the nodes over time, with the nodes' heat capacities.
 
 The unit runs at full speed and load from the beginning. The losses change only with the viscosity of the oil.
 """
@@ -16,8 +16,8 @@ from solvers.heat_balance.solution import equilibrium, jacobian
 from solvers.quantity import quantity, record
 
 LONGEST = 6.0  # time constants; after this time 1/400 of the change remains
-WARM = 0.95
-POINTS = 2000  # number of points in time among which the time to `WARM` is searched
+WARM = 0.95  # share of the whole change of a temperature
+POINTS = 2000  # number of points in time that are searched for the time at which `WARM` is reached
 SHOWN = 200
 
 
@@ -100,7 +100,7 @@ def warm_up(network: Network, capacities: Capacities, start: float, until: float
 
 
 def _integrated(network: Network, capacity: FloatArray, begin: FloatArray, end: float) -> Any:
-    """Integrate the rises from time zero to `end`, and return them as a function of time."""
+    """Integrate the rises from time zero to `end`, and return the rises as a function of time."""
     solution = solve_ivp(
         lambda _, rises: network.residual(rises) / capacity,
         (0.0, end),
@@ -116,7 +116,7 @@ def _integrated(network: Network, capacity: FloatArray, begin: FloatArray, end: 
 
 
 def _time_95(times: FloatArray, rises: FloatArray, final: float) -> float | None:
-    """Return the time after which the difference from the final rise stays below 5 % of the whole change.
+    """Return the time [s] after which the difference from the final rise stays below 5 % of the whole change.
 
     Returns None if there is no such time, or if the temperature of the node does not change.
     """

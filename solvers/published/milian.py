@@ -14,7 +14,7 @@ from solvers.pumping import Closure, Flow, Gap, Groove, PumpingInputs, PumpingMo
 from solvers.pumping.model import solve
 from solvers.pumping.results import SpacesResult
 
-# The gears of Table 1, and the gears of Tables 2 and 3; the text of the paper states the speeds of the latter.
+# Gears of Table 1, and gears of Tables 2 and 3. The speeds for Tables 2 and 3 are stated in the text of the paper.
 TABLE_1 = GearPairInputs(
     GearTeeth(47, 0.291, 1.0, 1.475),
     GearTeeth(103, 0.322, 1.0, 1.474),

@@ -38,7 +38,7 @@ def pahl_coupling(
     model: ModelOptions | None = None,
     **coupling: Any,
 ) -> CouplingInputs:
-    """Return the inputs for the coupling of the paper; further keywords change fields of the coupling."""
+    """Return the inputs for the coupling of the paper; the keywords `coupling` replace fields of the coupling."""
     steel = Coupling(teeth=TEETH, module=3e-3, face_width=24e-3, tooth_height=6e-3)
     return CouplingInputs(
         coupling=replace(steel, **coupling),
@@ -75,7 +75,7 @@ def loaded(misalignment_deg: float) -> float:
 
 @cache
 def _orbit(misalignment_deg: float) -> OrbitResult:
-    """Solve the orbit at 1000 1/s, with a first and a third harmonic of 2 um each in the pitch deviations (Fig. 5)."""
+    """Solve the orbit at 1000 1/s, for pitch deviations with a first and a third harmonic of 2 um each (Fig. 5)."""
     errors = harmonic_pitch_errors((1, 2e-6, 0.0), (3, 2e-6, 0.7))
     return solve_orbit(pahl_coupling(misalignment_deg, speed=1000.0, pitch_errors=errors))
 
@@ -87,7 +87,7 @@ def third_over_first(misalignment_deg: float) -> float:
 
 
 def overlap_one(crowning: float) -> float:
-    """Return the misalignment [deg] at which the contact areas of a tooth just overlap."""
+    """Return the misalignment [deg] at which the contact overlap of a tooth is 1."""
 
     def excess(misalignment_deg: float) -> float:
         return (pahl(misalignment_deg, friction=None, crowning_ratio=crowning).lubrication.contact_overlap or 0.0) - 1.0

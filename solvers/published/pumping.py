@@ -18,13 +18,13 @@ def case(
     model: PumpingModel = PRINTED,
     face_width: float = 0.2,
 ) -> PumpingResult:
-    """Solve one of the two cases of the paper at a speed [rpm]; None stands for the speed in the paper."""
+    """Solve one of the two cases of the paper at a speed [rpm]; if the speed is None, use the speed in the paper."""
     gears, own = CASES[number]
     return run(replace(gears, face_width=face_width), own if speed is None else speed, model, grooves=grooves)
 
 
 def table_1(flow: Flow = Flow.INCOMPRESSIBLE, discharge: float = 1.0, slices: int | None = None) -> PumpingResult:
-    """Solve the spur gears of Table 1 with tip gaps at 1000 rpm."""
+    """Solve, at 1000 rpm, the spur gears of Table 1, including their tip gaps."""
     return run(TABLE_1, 1000.0, replace(TIP, flow=flow, discharge_coefficient=discharge), slices, 0.0)
 
 
@@ -37,7 +37,7 @@ def _hottest(number: int) -> float:
 
 
 def _relief(number: int) -> float:
-    """Return the share of the temperature rise that a groove avoids."""
+    """Return the share of the temperature rise that a groove prevents."""
     return 1.0 - _rise(case(number, grooves=GROOVE)) / _rise(case(number))
 
 

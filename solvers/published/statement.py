@@ -37,7 +37,7 @@ class Statement:
     remark: str = described("Why the statement does not hold; empty if it holds.", default="")
 
     def row(self) -> Row:
-        """Compute the number and return it beside the statement."""
+        """Compute the number, and return this number beside the statement."""
         computed = self.compute()
         deviation = None if not self.number else computed / self.number - 1.0
         holds = self.least <= computed <= self.most
@@ -73,7 +73,7 @@ class Says:
     def not_reproduced(
         self, number: float, unit: str, compute: Callable[[], float], by_equations: float, remark: str
     ) -> Statement:
-        """Return the statement of a printed number that disagrees with the equations of the source.
+        """Return a statement whose printed number disagrees with the equations of the source.
 
         The statement holds if the computed number is within 3 % of `by_equations`, the number that follows from the
         equations.

@@ -101,7 +101,10 @@ def root_load(number: int, model: Model) -> float:
 
 
 def film_over_formula() -> float:
-    """Return the largest ratio of computed film thickness to film thickness by the formula along the path (Fig. 23)."""
+    """Return the largest ratio of computed film thickness to film thickness by a formula (Fig. 23).
+
+    The formula is that of Dowson and Higginson. The ratio is the largest of all points of the path.
+    """
     path = scuffing().path
     assert path.thermal is not None
     return float(np.nanmax(path.thermal.minimum_film / path.dowson_higginson))
