@@ -18,7 +18,7 @@ MOST_LINES = 100  # largest number of lines in contact at the same time; real ge
 MOST_ZONES = 12  # largest number of zones of one line; further zones are joined to the last zone
 LEAST_SAMPLES = 8  # least number of samples per smooth part
 BISECTIONS = 45  # halvings of the step between samples: 2^-45 of the step is below the rounding of a gap
-GOLDEN_STEPS = 30  # they narrow the minimum to 0.618^30 = 5e-7 of two sample steps; the gap is flat there
+GOLDEN_STEPS = 30  # narrow a minimum to 0.618^30 = 5e-7 of two sample steps; finer is useless, as the gap is flat there
 GOLDEN = 0.6180339887498949  # (sqrt(5) - 1) / 2, the golden section
 
 
@@ -94,10 +94,10 @@ def contact_lengths(path: PathOfContact) -> ContactLengths:
 class RollPositions(NamedTuple):
     """Roll positions [m] in one base pitch, in ascending order.
 
-    `corner` marks the roll positions whose line meets a corner of the plane or of the gap; at these positions loads may
-    change abruptly. `side` is 0 for helical gears. The contact length of spur gears jumps at corners. For spur gears
-    every corner therefore occurs twice: with side -1 for the limit from below, and with side +1 for the limit from
-    above.
+    `corner` marks the roll positions at which a contact line meets a corner of the plane or of the gap; loads may
+    change abruptly there. `side` is 0 for helical gears. The contact length of spur gears jumps at corners. For spur
+    gears every corner therefore occurs twice: with side -1 for the limit from below, and with side +1 for the limit
+    from above.
     """
 
     phase: FloatArray
@@ -108,7 +108,7 @@ class RollPositions(NamedTuple):
 def roll_positions(
     plane: ContactPlane, count: int, along_path: tuple[float, ...] = (), along_face: tuple[float, ...] = ()
 ) -> RollPositions:
-    """Return at least `count` roll positions, equidistant between the corners.
+    """Return at least `count` roll positions, equidistant between neighbouring corners.
 
     A contact line passes a point (x, y) at the roll position (x + y tan beta_b) mod p_bt. This roll position is called
     a corner if the point is a corner of the plane, or if a kink of the gap crosses another kink or an edge of the plane

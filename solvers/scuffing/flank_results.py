@@ -16,7 +16,7 @@ from solvers.scuffing.tooth_stiffness import compliance_at, line_load
 
 SUBSTEPS = 4  # number of substeps per step between roll positions, if a line is loaded over a part of its length only
 FACE_POINTS = 101  # one point per percent of the face
-NEARLY = 0.98  # lower tops, as share of the largest value, cannot become the largest by refinement
+NEARLY = 0.98  # share of the largest value; tops below this share cannot become the largest by refinement
 TOPS = 3  # number of tops (local maxima) that are refined, beginning with the highest
 ZOOMS = 3  # number of zooms; each narrows the place of the maximum by a factor of 3
 ZOOM_POINTS = 7  # number of points per zoom; they lie between the neighbours of a top
@@ -111,7 +111,7 @@ def face_loads(balance: LoadBalance, y: FloatArray, substeps: int = SUBSTEPS) ->
 
 @kernel
 def _face_loads(mesh: Mesh, phase: FloatArray, error: FloatArray, substeps: int, y: FloatArray) -> FloatArray:
-    """Compute q at all places y of the face: integrate the load from A to E by the trapezoidal rule.
+    """Integrate the load along the path from A to E by the trapezoidal rule, for each of the places y of the face.
 
     The integral for a place of the face uses the points at which the contact lines of the roll positions pass this
     place. A step between roll positions begins at the point where the previous step ends. If TE jumps there, this point

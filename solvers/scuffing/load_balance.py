@@ -1,8 +1,8 @@
 """Load balance over the contact lines: the approach TE of the flanks at every roll position, and the loads at this TE.
 
 Every line is cut into slices of the length dl = dy / cos beta_b. The line load, which is the load per length of contact
-line, is computed at the middle of every slice. It is w = k max(TE - Delta, 0), where k is the stiffness of a pair of
-teeth and Delta is the gap. The sum of w dl over the slices is F_bn (Eq. 9 with one TE for all points of a roll
+line, is computed at the middle of every slice. This load is w = k max(TE - Delta, 0), where k is the stiffness of a
+pair of teeth and Delta is the gap. The sum of w dl over the slices is F_bn (Eq. 9 with one TE for all points of a roll
 position). If a line is loaded over a part of its length only, the part that is loaded at the last TE is cut into slices
 again, until TE no longer changes. The slices then cover exactly the contact, even if the contact is small. If TE is not
 linear between two roll positions, further roll positions are added between these two. The paper's iteration (Eq. 10)
@@ -42,7 +42,7 @@ NEAR_ROUNDING = 1e-12  # relative residual of the force that is accepted if a st
 TOLERANCE = 1e-10  # largest relative residual of the force in a solution
 MAX_COVERS = 20  # number of times that the lines of one roll position are cut into slices
 SETTLED = 1e-6  # relative change of the approach; if two covers differ by less, the last cover is accepted
-STRAIGHT = 2e-3  # TE is linear if it is closer than this share of the approach to the line through its neighbours
+STRAIGHT = 2e-3  # share of the approach; TE is linear if its distance from the line between neighbours is smaller
 MAX_HALVINGS = 8  # largest number of times that a step between roll positions is halved
 MOST_ADDED = 1000  # largest number of roll positions that are added per halving
 LEAST_LINE_LOAD = 0.1  # N/m, mean line load; below this load the approach is as small as the rounding of large gaps

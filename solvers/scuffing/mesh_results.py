@@ -30,7 +30,7 @@ def iso_load_sharing(path: PathOfContact, x: FloatArray) -> FloatArray | None:
 
     X_Gamma is the load sharing factor, and X_but is the buttressing factor. Narrow gears (eps_gamma < 2) have the load
     sharing of spur gears of quality 7 or better. Wide gears have the load sharing 1 / eps_alpha. The standard has no
-    diagram for eps_alpha < 1, and none for spur gears with eps_alpha >= 2.
+    diagram for eps_alpha < 1, and no diagram for spur gears with eps_alpha >= 2.
     """
     ratio = path.transverse_contact_ratio
     if ratio < 1.0 or (path.overlap_ratio == 0.0 and ratio >= 2.0):

@@ -131,7 +131,7 @@ class Film:
     thinnest film, only `dowson_higginson_min` is stated. If `thermal_ehl_min` is stated, place, ratio and regime belong
     to this film, even if the film of the formula is thinner; otherwise they belong to the film of the formula.
     `min_at_psi` is the place of the thinnest film on the feature line. `min_at_profile` and `min_at_face` [m] are the
-    place of `thermal_ehl_min`, or else of `dowson_higginson_min`.
+    place of `thermal_ehl_min` if this film is stated, otherwise the place of `dowson_higginson_min`.
     """
 
     dowson_higginson_min: float | None = quantity(
@@ -265,10 +265,10 @@ class ScuffingPath:
     points of a line are equidistant. Further points are added at the places where Blok's flash temperature is largest
     and where the film of the formula is thinnest. A point without load or motion has the status "unloaded"; its film
     and its ratio are NaN, and its flash temperature by Blok is 0. A loaded point at which the reduced radius vanishes
-    has the status "refused"; all its values are NaN. `thermal` is None in closed form. Otherwise, points that the
-    thermal EHL solver could not solve have the status "no_solution", and points that the solver does not accept have
-    the status "refused". The thickness ratio is computed from the film by thermal EHL, or from the film of the
-    formula if `thermal` is None.
+    has the status "refused"; all its values are NaN. `thermal` is None if only the closed-form formulas are evaluated.
+    Otherwise, points that the thermal EHL solver could not solve have the status "no_solution", and points that the
+    solver does not accept have the status "refused". The thickness ratio is computed from the film by thermal EHL, or
+    from the film of the formula if `thermal` is None.
     """
 
     psi: FloatArray = quantity(

@@ -4,8 +4,9 @@ At a slice of a contact line, the flanks approach each other by delta along the 
 line load w. There are two contact models:
     linear contact      delta = C w
     half-space contact  delta = a w omega,  omega = A/a - ln w      (w in N/m)
-The half-space contact has the closed form w = delta / (a omega) with omega - ln omega = A/a + ln(a / delta), a branch
-of Lambert's function. `PairCompliance` contains a, and C or A at points of the path of contact.
+The half-space contact has the closed form w = delta / (a omega). Here omega is the solution of
+omega - ln omega = A/a + ln(a / delta), which is a branch of Lambert's function. `PairCompliance` contains a, and C or A
+at points of the path of contact.
 """
 
 from dataclasses import dataclass, replace
@@ -234,7 +235,9 @@ def root_rotation(shape: ToothShape, points: LoadPoints, material: Solid) -> Flo
     ndarray
         Deflection per line load [1/Pa].
 
-    Notes ----- Eq. L7: delta_G / w = 24 h_x^2 cos^2 omega_x / (pi E S_F^2), with the load angle omega_x. The paper
+    Notes
+    -----
+    Eq. L7: delta_G / w = 24 h_x^2 cos^2 omega_x / (pi E S_F^2), with the load angle omega_x. The paper
     prints h_x instead of h_x^2. The rotation is proportional to M/(E S_F^2), and M contains the arm h_x. The rotation
     times the arm h_x therefore gives h_x^2, and only h_x^2 gives the right unit.
     """

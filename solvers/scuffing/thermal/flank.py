@@ -1,10 +1,10 @@
-"""Flash temperature (Blok) and film (Dowson and Higginson) over the flank, with the hottest point and the thinnest film.
+"""Flash temperature (Blok) and film (Dowson and Higginson) over the flank, with the hottest point and thinnest film.
 
 The feature line of the paper is a diagonal of the flank. If the load is carried at one end of the face, the feature
 line misses the hot corner of the flank. If the flank is crowned, the feature line crosses the loaded middle of the face
 only near the pitch point, where the flanks do not slide. The search for the largest value therefore covers the whole
 flank. Contacts at one place along the path differ only in their load. The search takes the largest value over the face
-at every place along the path. It then searches on finer grids around the places with the highest of these values.
+at every place along the path, and then continues on finer grids around the places with the highest of these values.
 """
 
 from collections.abc import Callable
