@@ -18,7 +18,7 @@ MOST_LINES = 100  # largest number of lines in contact at the same time; real ge
 MOST_ZONES = 12  # largest number of zones of one line; further zones are joined to the last zone
 LEAST_SAMPLES = 8  # least number of samples per smooth part
 BISECTIONS = 45  # halvings of the step between samples: 2^-45 of the step is below the rounding of a gap
-GOLDEN_STEPS = 30  # narrow a minimum to 0.618^30 = 5e-7 of two sample steps; finer is useless, as the gap is flat there
+GOLDEN_STEPS = 30  # number of steps; they narrow a minimum, where the gap is flat, to 5e-7 of two sample steps
 GOLDEN = 0.6180339887498949  # (sqrt(5) - 1) / 2, the golden section
 
 

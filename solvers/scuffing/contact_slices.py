@@ -49,8 +49,8 @@ class Slices(NamedTuple):
     `x` and `y` are the place of the middle of a slice [m], `length` is the length of the slice along the line [m], and
     `gap` is the gap at the middle [m]. `constant` and `limit` describe the compliance of the pair of teeth
     (`tooth_stiffness.compliance_at`). `load` is the line load w [N/m]. `log_load` is ln w, the guess for the next
-    solution. `stiffness` is the derivative of w with respect to the approach [N/m^2]. `line` is the number of
-    the line.
+    solution. `stiffness` is the derivative of w with respect to the approach [N/m^2]. `line` is the number of the
+    line.
     """
 
     x: FloatArray
