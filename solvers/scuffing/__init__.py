@@ -1,4 +1,4 @@
-"""Load distribution of helical gears with modifications and misalignment, and their scuffing safety.
+"""Load distribution and scuffing safety of helical gears with modifications and misalignment.
 
 `model.solve` computes the load distribution. The calculation uses these modules, in this order: inputs; contact_lines,
 modification (the gap over the plane of action) and tooth_stiffness; contact_slices; load_balance (the approach of the

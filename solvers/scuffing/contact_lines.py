@@ -12,13 +12,13 @@ from solvers.errors import InvalidInput
 from solvers.gears.pair import ContactPlane, PathOfContact
 from solvers.scuffing.modification import Gap, gap_at
 
-COINCIDENT = 1e-9  # base pitches; breakpoints closer to each other than this count as one
+COINCIDENT = 1e-9  # in base pitches; breakpoints that are closer to each other are treated as one breakpoint
 LEAST_STEPS = 8  # least number of steps between two breakpoints, even if the breakpoints are close to each other
-MOST_LINES = 100  # largest number of lines in contact at the same time; real gears have less than a tenth of it
+MOST_LINES = 100  # largest number of lines in contact at the same time; real gears have fewer than ten
 MOST_ZONES = 12  # largest number of zones of one line; further zones are joined to the last zone
 LEAST_SAMPLES = 8  # least number of samples per smooth part
 BISECTIONS = 45  # halvings of the step between samples: 2^-45 of the step is below the rounding of a gap
-GOLDEN_STEPS = 30  # 0.618^30 = 5e-7 of the step between samples; the gap is flat at its minimum
+GOLDEN_STEPS = 30  # number of steps; they narrow a minimum, where the gap is flat, to 5e-7 of two sample steps
 GOLDEN = 0.6180339887498949  # (sqrt(5) - 1) / 2, the golden section
 
 
@@ -57,9 +57,10 @@ def contact_lengths(path: PathOfContact) -> ContactLengths:
 
     Notes
     -----
-    These formulas replace the lost Eq. 4 of the paper. The mean of Eq. 4 is L = eps_alpha b / cos beta_b. The length
-    as a function of the roll position is the periodic convolution of two rectangles of the lengths
-    eps_alpha = n_a + f_a and eps_beta = n_b + f_b. With the unit u = b / (eps_beta cos beta_b):
+    Eq. 4 is missing in the paper; these formulas replace it. The mean length is L = eps_alpha b / cos beta_b. The
+    total length as a function of the roll position is the periodic convolution of two rectangles. The lengths of the
+    rectangles are eps_alpha = n_a + f_a and eps_beta = n_b + f_b, each split into a whole number and a fraction. With
+    the unit u = b / (eps_beta cos beta_b):
 
     L_min = u [n_a eps_beta + n_b f_a + max(0, f_a + f_b - 1)],  L_max = u [n_a eps_beta + n_b f_a + min(f_a, f_b)].
     """
@@ -93,10 +94,10 @@ def contact_lengths(path: PathOfContact) -> ContactLengths:
 class RollPositions(NamedTuple):
     """Roll positions [m] in one base pitch, in ascending order.
 
-    `corner` marks the roll positions whose line meets a corner of the plane or of the gap; at these positions loads may
-    change abruptly. `side` is 0 for helical gears. The contact length of spur gears jumps at corners. For spur gears
-    every corner therefore occurs twice: with side -1 for the limit from below, and with side +1 for the limit from
-    above.
+    `corner` marks the roll positions at which a contact line meets a corner of the plane or of the gap; loads may
+    change abruptly there. `side` is 0 for helical gears. The contact length of spur gears jumps at corners. For spur
+    gears every corner therefore occurs twice: with side -1 for the limit from below, and with side +1 for the limit
+    from above.
     """
 
     phase: FloatArray
@@ -107,7 +108,7 @@ class RollPositions(NamedTuple):
 def roll_positions(
     plane: ContactPlane, count: int, along_path: tuple[float, ...] = (), along_face: tuple[float, ...] = ()
 ) -> RollPositions:
-    """Return at least `count` roll positions, equidistant between the corners.
+    """Return at least `count` roll positions, equidistant between neighbouring corners.
 
     A contact line passes a point (x, y) at the roll position (x + y tan beta_b) mod p_bt. This roll position is called
     a corner if the point is a corner of the plane, or if a kink of the gap crosses another kink or an edge of the plane
@@ -142,7 +143,8 @@ def line_ends(plane: ContactPlane, phase: float, side: float) -> tuple[float, fl
     phase : float
         Place of the line at y = 0 [m].
     side : float
-        For a spur line at an end of the path, 1 for the limit from above and -1 for the limit from below; 0 elsewhere.
+        Only for spur gears, if the line lies at an end of the path: 1 for the limit from above, -1 for the limit from
+        below. Otherwise 0.
 
     Returns
     -------
@@ -153,9 +155,9 @@ def line_ends(plane: ContactPlane, phase: float, side: float) -> tuple[float, fl
 
     Notes
     -----
-    Eq. L3: the line is x = phase - y tan beta_b. A spur line at an end of the path is in contact if `side` selects the
-    limit from inside the path. A helical line that only meets a corner of the rectangle is not in contact; otherwise
-    rounding would decide whether this line has the least gap of the unloaded teeth.
+    Eq. L3: the line is x = phase - y tan beta_b. The line of a spur gear at an end of the path is in contact if `side`
+    selects the limit from inside the path. The line of a helical gear that only meets a corner of the rectangle is not
+    in contact; otherwise rounding would decide whether this line has the least gap of the unloaded teeth.
     """
     if plane.tan_base_helix == 0.0:
         nudged = phase + side * COINCIDENT * plane.base_pitch
@@ -196,9 +198,9 @@ def gap_on_line(form: Gap, plane: ContactPlane, line: float, y: float) -> float:
 
 @kernel
 def valley(form: Gap, plane: ContactPlane, line: float, low: float, high: float) -> float:
-    """Find y [m] of the least gap between two points of a line by golden section.
+    """Find, by golden section, the y [m] at which the gap on a line is least between the points `low` and `high`.
 
-    The gap has one valley between the two points.
+    The gap has only one minimum between the two points.
     """
     inner, outer = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
     at_inner, at_outer = gap_on_line(form, plane, line, inner), gap_on_line(form, plane, line, outer)
@@ -216,9 +218,10 @@ def valley(form: Gap, plane: ContactPlane, line: float, low: float, high: float)
 
 @kernel
 def _edge(form: Gap, plane: ContactPlane, line: float, inside: float, outside: float, reach: float) -> float:
-    """Find y [m] of the end of contact between a loaded point `inside` and an unloaded point `outside` of a line.
+    """Find the y [m] of the end of contact on a line.
 
-    At the end of contact, the gap equals the approach `reach` [m].
+    The end lies between the loaded point `inside` and the unloaded point `outside`. At the end, the gap equals the
+    approach `reach` [m].
     """
     for _ in range(BISECTIONS):
         middle = 0.5 * (inside + outside)

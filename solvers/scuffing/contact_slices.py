@@ -49,7 +49,8 @@ class Slices(NamedTuple):
     `x` and `y` are the place of the middle of a slice [m], `length` is the length of the slice along the line [m], and
     `gap` is the gap at the middle [m]. `constant` and `limit` describe the compliance of the pair of teeth
     (`tooth_stiffness.compliance_at`). `load` is the line load w [N/m]. `log_load` is ln w, the guess for the next
-    solution. `stiffness` is the derivative of w by the approach [N/m^2]. `line` is the number of the line.
+    solution. `stiffness` is the derivative of w with respect to the approach [N/m^2]. `line` is the number of the
+    line.
     """
 
     x: FloatArray
@@ -204,9 +205,9 @@ def _beside(
 
 @inlined_kernel
 def load_under(compliance: PairCompliance, approach: float, x: float, log_load: float) -> tuple[float, float]:
-    """Return the line load w [N/m] of a pair under an `approach` [m] at x [m], and ln w.
+    """Return the line load w [N/m] of a pair at x [m] from A, and ln w.
 
-    `log_load` is a guess of ln w.
+    `approach` [m] is the approach of the flanks at this point; `log_load` is a guess of ln w.
     """
     constant, limit = compliance_at(compliance, x)
     load, _, log_load = line_load(approach, constant, compliance.logarithmic, limit, log_load)
@@ -216,11 +217,11 @@ def load_under(compliance: PairCompliance, approach: float, x: float, log_load: 
 class Survey(NamedTuple):
     """Sums and largest values at every roll position; arrays over the roll positions.
 
-    `friction_moment` is int w |s - s_C| dl [N m]. `loaded_length` and `length` are the loaded and the total length of
-    the contact lines [m]. `held` is the number of slices whose approach exceeds the limit of the half-space.
-    `undefined` is the number of loaded points that are too near a base circle to have a pressure. `peak_load` is the
-    largest w [N/m], and `peak_pressure` is the largest w / R_n [N/m^2]. `line_forces` (positions, lines) are the forces
-    on the lines [N].
+    `friction_moment` is int w |s - s_C| dl [N m], where s - s_C is the distance from the pitch point along the path.
+    `loaded_length` and `length` are the loaded and the total length of the contact lines [m]. `held` is the number of
+    slices whose approach exceeds the limit of the half-space. `undefined` is the number of loaded points that are too
+    near a base circle to have a pressure. `peak_load` is the largest w [N/m], and `peak_pressure` is the largest
+    w / R_n [N/m^2]. `line_forces` (positions, lines) are the forces on the lines [N].
     """
 
     friction_moment: FloatArray
@@ -235,7 +236,7 @@ class Survey(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Peak:
-    """A largest value and its place: distance x [m] from A, and distance y [m] from the end that meshes first."""
+    """A largest value and its place: distance x [m] from A, and distance y [m] from the face end that meshes first."""
 
     value: float
     x: float
@@ -308,7 +309,7 @@ def survey_ends(mesh: Mesh, phase: float, side: float, error: float, survey: Sur
 
 
 def reaches_base_circle(survey: Survey) -> bool:
-    """Return True if a load acts so near a base circle that pressure and flash temperature have no limit."""
+    """Return True if a load acts so near a base circle that pressure and flash temperature grow without limit."""
     return bool(np.any(survey.undefined > 0.0))
 
 

@@ -19,8 +19,9 @@ from solvers.scuffing.load_balance import TOLERANCE, solve_near
 
 @dataclass(frozen=True, slots=True)
 class FaceResponse:
-    """Transverse `force` [N] at the stations, averaged over a base pitch, and its `derivative` [N/m] by the gaps.
+    """Transverse force at the stations, averaged over a base pitch, and its derivative with respect to the gaps.
 
+    `force` [N] has one value for each station. In `derivative` [N/m], a row belongs to a force and a column to a gap.
     The force over the whole face is the same at every roll position. Therefore every row and every column of the
     derivative adds up to 0. At every roll position, `error` is the approach of the flanks [m], and `log_load` is ln w
     of the slices. `error` and `log_load` are the start values for the next response of the same mesh under a similar
@@ -36,7 +37,7 @@ class FaceResponse:
 def face_response(
     mesh: Mesh, rolls: RollPositions, force: float, slices: int, stations: int, start: FaceResponse | None = None
 ) -> FaceResponse:
-    """Compute the force over the face and its derivative by the gap over the face.
+    """Compute the force over the face and its derivative with respect to the gap over the face.
 
     Parameters
     ----------
@@ -56,7 +57,7 @@ def face_response(
     Returns
     -------
     FaceResponse
-        Force at the stations and its derivative by the gap at the stations.
+        Force at the stations and its derivative with respect to the gap at the stations.
 
     Raises
     ------

@@ -16,10 +16,10 @@ from solvers.scuffing.tooth_stiffness import compliance_at, line_load
 
 SUBSTEPS = 4  # number of substeps per step between roll positions, if a line is loaded over a part of its length only
 FACE_POINTS = 101  # one point per percent of the face
-NEARLY = 0.98  # share of the largest value; a lower top cannot become the largest by refinement
-TOPS = 3  # number of the highest tops, which are refined
+NEARLY = 0.98  # share of the largest value; tops below this share cannot become the largest by refinement
+TOPS = 3  # number of tops (local maxima) that are refined, beginning with the highest
 ZOOMS = 3  # number of zooms; each narrows the place of the maximum by a factor of 3
-ZOOM_POINTS = 7  # number of points per zoom, between the neighbours of a top
+ZOOM_POINTS = 7  # number of points per zoom; they lie between the neighbours of a top
 SAME = 1e-6  # share of the range of places, or of a length; smaller differences are rounding
 
 
@@ -40,11 +40,11 @@ def face_load_factor(balance: LoadBalance, y: float) -> float:
 
     Notes
     -----
-    Eq. L17: K_Hbeta is the largest value of q(y) = int w dx / p_bt divided by the mean value of q. This follows the
-    idea of ISO 6336-1, annex E. The mean value follows from the force in the balance and the face width. The search
-    first computes q at equidistant places, at kinks of the gap and at `y`, without substeps between roll positions. The
-    search then refines the place with the largest q. If lines are loaded over a part of their length only, q without
-    substeps is inexact; several places with nearly the largest q are then refined.
+    Eq. L17: K_Hbeta is the largest value of q(y) = int w dx / p_bt divided by the mean value of q. This definition
+    follows the idea of ISO 6336-1, annex E. The mean value is computed from the force in the balance and the face
+    width. The search first computes q at equidistant places, at kinks of the gap and at `y`, without substeps between
+    roll positions. The search then refines the place with the largest q. If lines are loaded over a part of their
+    length only, q without substeps is inexact. The search then refines several places at which q is nearly as large.
     """
     plane = balance.mesh.plane
     evenly = np.linspace(0.0, plane.face_width, FACE_POINTS)
@@ -52,7 +52,7 @@ def face_load_factor(balance: LoadBalance, y: float) -> float:
     highest = tops(face_loads(balance, places, 1))[-TOPS if _in_part(balance) else -1 :]
     largest = max(_largest_around(balance, places, top) for top in highest)
     factor = largest * plane.face_width / (balance.force * plane.cos_base_helix)
-    return max(factor, 1.0)  # a largest value below the mean is an error of the trapezoidal rule
+    return max(factor, 1.0)  # only an error of the trapezoidal rule makes the largest value less than the mean
 
 
 def _in_part(balance: LoadBalance) -> bool:
@@ -111,7 +111,7 @@ def face_loads(balance: LoadBalance, y: FloatArray, substeps: int = SUBSTEPS) ->
 
 @kernel
 def _face_loads(mesh: Mesh, phase: FloatArray, error: FloatArray, substeps: int, y: FloatArray) -> FloatArray:
-    """Integrate the load along the path from A to E by the trapezoidal rule, at all places y of the face together.
+    """Integrate the load along the path from A to E by the trapezoidal rule, for each of the places y of the face.
 
     The integral for a place of the face uses the points at which the contact lines of the roll positions pass this
     place. A step between roll positions begins at the point where the previous step ends. If TE jumps there, this point

@@ -97,16 +97,17 @@ class Load:
 
 
 def angular_speed(revolutions_per_minute: float) -> float:
-    """Return the angular speed [rad/s] of a speed in revolutions per minute."""
+    """Convert a speed in revolutions per minute into an angular speed [rad/s]."""
     return revolutions_per_minute * pi / 30
 
 
 @record
 class LeadCurve:
-    """A gap [m] over the face along the transverse line of action, positive where material is missing.
+    """A gap [m] that varies over the face.
 
-    The positions [m] are distances from the end that meshes first, in ascending order. The gap is linear between the
-    positions, and constant before the first and after the last position.
+    The gap is measured along the transverse line of action, and is positive where material is missing. The positions
+    [m] are distances from the end that meshes first, in ascending order. The gap is linear between the positions, and
+    constant before the first and after the last position.
     """
 
     position: tuple[float, ...] = quantity(
@@ -417,8 +418,8 @@ class Temperatures:
     from the oil, the oil supply and Blok's flash temperature; `bulk` is None before this estimate. If `bulk_method` is
     "heat_balance", the bulk temperature is the mean of `flanks`. `flanks` are the temperatures of both flanks [K] from
     the heat balance. If a bulk temperature is given, `bulk_method` must be "given". The scuffing temperature is a
-    property of oil and material that the paper does not state. The user gives the scuffing temperature as a number, or
-    gives the result of a scuffing test. Without a scuffing temperature there is no safety factor.
+    property of oil and material; the paper states no value. The user gives either the scuffing temperature or the
+    result of a scuffing test. Without a scuffing temperature there is no safety factor.
     """
 
     bulk: float | None = quantity(
@@ -483,7 +484,10 @@ class Temperatures:
 
     @property
     def surfaces(self) -> tuple[float, float] | None:
-        """Bulk temperatures of pinion and wheel [K]: `flanks` if a heat balance gives them, else `bulk` for both."""
+        """Bulk temperatures of pinion and wheel [K].
+
+        The value is `flanks` if `flanks` is known, otherwise `bulk` for both gears, and None if `bulk` is None, too.
+        """
         if self.flanks is not None or self.bulk is None:
             return self.flanks
         return self.bulk, self.bulk
@@ -514,10 +518,10 @@ class MicropittingCheck:
     """Inputs of the checks against micropitting and wear.
 
     The inputs describe the micropitting test of the oil, and the surfaces and the quality of the flanks.
-    `permissible_ratio` is given instead of the test. `material_factor` replaces the factors of the surfaces. If
-    `material_factor` is None, the smaller factor of both surfaces is used. If neither a failure load stage nor a
-    permissible ratio is given, the film is computed, but the safety factor is not. `quality_grade` is only used for the
-    load sharing of the standard.
+    `permissible_ratio` may be given instead of the test. `material_factor` replaces the factors of the surfaces. If
+    `material_factor` is None, the smaller of the factors of the two surfaces is used. If neither a failure load stage
+    nor a permissible ratio is given, the film is computed, but the safety factor is not. `quality_grade` is only used
+    for the load sharing of the standard.
     """
 
     failure_load_stage: int | None = quantity(
@@ -585,11 +589,11 @@ class ScuffingInputs:
     If `oil` is given, `lubricant` becomes this oil at the bulk temperature. If neither `oil` nor `lubricant` is given,
     film, contact temperature and safety factor are not computed. `friction` is "given" to use the coefficient of
     `distribution`, or "iso_tr_13989" to use the mean coefficient of ISO/TR 13989-1 for Blok's flash temperature, and
-    Schlenk's coefficient for the losses. `lubrication` is "thermal_ehl" to solve the film under the local load with the
-    model `film`, or "closed_form" to use only the formulas of Blok and of Dowson and Higginson. These formulas are
-    evaluated in either case. `line` is "flank" to check the whole flank, or "feature_line" to check only the paper's
-    diagonal from A1 to E2. Each checked line has `path_points` equidistant points. `cooling` is only used if the bulk
-    temperature follows from the heat balance.
+    Schlenk's coefficient for the losses. `lubrication` is "thermal_ehl" to compute the thermal EHL film under the local
+    load with the options in `film`, or "closed_form" to use only the formulas of Blok and of Dowson and Higginson. With
+    "thermal_ehl" these formulas are evaluated, too. `line` is "flank" to check the whole flank, or "feature_line" to
+    check only the paper's diagonal from A1 to E2. Each checked line has `path_points` equidistant points. `cooling` is
+    only used if the bulk temperature follows from the heat balance.
     """
 
     distribution: LoadDistributionInputs

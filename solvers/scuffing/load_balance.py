@@ -1,13 +1,14 @@
 """Load balance over the contact lines: the approach TE of the flanks at every roll position, and the loads at this TE.
 
-Every line is cut into slices of the length dl = dy / cos beta_b. The line load w = k max(TE - Delta, 0), a load per
-length of contact line, is computed at the middle of every slice. The sum of w dl over the slices is F_bn (Eq. 9 with
-one TE for all points of a roll position). If a line is loaded over a part of its length only, the part that is loaded
-at the last TE is cut into slices again, until TE no longer changes. The slices then cover exactly the contact, even if
-the contact is small. If TE is not linear between roll positions, further roll positions are added between them. The
-paper's iteration (Eq. 10) converges only if the mean relief in contact is below TE/2. Here Newton's method is used,
-because the force F(TE) is convex and increasing. With linear contact, Newton's method reaches the exact solution in a
-finite number of steps.
+Every line is cut into slices of the length dl = dy / cos beta_b. The line load, which is the load per length of contact
+line, is computed at the middle of every slice. This load is w = k max(TE - Delta, 0), where k is the stiffness of a
+pair of teeth and Delta is the gap. The sum of w dl over the slices is F_bn (Eq. 9 with one TE for all points of a roll
+position). If a line is loaded over a part of its length only, the part that is loaded at the last TE is cut into slices
+again, until TE no longer changes. The slices then cover exactly the contact, even if the contact is small. If TE is not
+linear between two roll positions, further roll positions are added between these two. The paper's iteration (Eq. 10)
+converges only if the mean relief in contact is below TE/2. This module uses Newton's method instead, because the force
+F(TE) is convex and increasing. With linear contact, Newton's method reaches the exact solution in a finite number of
+steps.
 """
 
 from dataclasses import dataclass, replace
@@ -35,18 +36,18 @@ from solvers.scuffing.contact_slices import (
 from solvers.scuffing.modification import gap_at
 from solvers.scuffing.tooth_stiffness import LEAST_OMEGA, line_load_near
 
-MAX_STEPS = 60  # largest number of Newton steps; a roll position that needs more steps never converges
+MAX_STEPS = 60  # largest number of Newton steps; if more steps were needed, the iteration would never converge
 ROUNDING = 1e-14  # relative residual of the force, below which a Newton step gains nothing
 NEAR_ROUNDING = 1e-12  # relative residual of the force that is accepted if a step does not reduce the residual
 TOLERANCE = 1e-10  # largest relative residual of the force in a solution
 MAX_COVERS = 20  # number of times that the lines of one roll position are cut into slices
 SETTLED = 1e-6  # relative change of the approach; if two covers differ by less, the last cover is accepted
-STRAIGHT = 2e-3  # largest distance of a linear TE from the line through its neighbours, as share of the approach
+STRAIGHT = 2e-3  # share of the approach; TE is linear if its distance from the line between neighbours is smaller
 MAX_HALVINGS = 8  # largest number of times that a step between roll positions is halved
 MOST_ADDED = 1000  # largest number of roll positions that are added per halving
 LEAST_LINE_LOAD = 0.1  # N/m, mean line load; below this load the approach is as small as the rounding of large gaps
-LEAST_SPREAD = 1e-12  # m, least range of a kinematic error that is tested for linearity
-BESIDE = 1e-12  # distance of the points on both sides of a load jump from the jump, as share of the path
+LEAST_SPREAD = 1e-12  # m; a smaller range of the kinematic error is replaced by this value
+BESIDE = 1e-12  # distance between a load jump and the points just before and behind the jump, as share of the path
 
 
 Start = tuple[FloatArray, FloatArray]
@@ -55,7 +56,7 @@ Start = tuple[FloatArray, FloatArray]
 
 @kernel
 def _secant_start(table: Slices, count: int, logarithmic: float, force: float) -> float:
-    """Return the exact TE of the linear problem, in which half-spaces have the secant compliance at the mean load.
+    """Solve exactly the linear problem in which half-spaces have the secant compliance at the mean load; return TE [m].
 
     The first step treats all slices as if they were in contact and could also pull. The TE of this step is too large,
     because slices that pull reduce the force. The next steps of Newton's method reduce TE, with fewer and fewer slices
@@ -88,10 +89,10 @@ def _secant_start(table: Slices, count: int, logarithmic: float, force: float) -
 def _press(table: Slices, count: int, logarithmic: float, error: float) -> tuple[float, float, float, float]:
     """Take one iteration step of every slice towards the load of the slice at the approach `error` [m].
 
-    Returns the force [N], the derivative of the force by the approach [N/m], the error of the force that remains
-    because the loads of slices have not converged [N], and the distance of the approach from the nearest kink [m]. The
-    load of a slice has two kinks as a function of the approach: where the slice comes into contact, and where the
-    compliance of the slice begins to be held constant.
+    Returns four values: the force [N], the derivative of the force with respect to the approach [N/m], the error of the
+    force that remains because the loads of slices have not converged [N], and the distance of the approach from the
+    nearest kink [m]. The load of a slice, as a function of the approach, has two kinks: one where the slice comes into
+    contact, and one where the compliance of the slice begins to be held constant.
     """
     force, slope, unsettled, nearest = 0.0, 0.0, 0.0, np.inf
     for i in range(count):
@@ -111,7 +112,7 @@ def _press(table: Slices, count: int, logarithmic: float, error: float) -> tuple
 
 @kernel
 def _follow(table: Slices, count: int, change: float) -> float:
-    """Add to every load the derivative of the load times a change of TE [m], and return the force [N]."""
+    """Change every load by its derivative times `change`, which is a change of TE [m], and return the force [N]."""
     force = 0.0
     for i in range(count):
         table.load[i] += table.stiffness[i] * change
@@ -169,7 +170,7 @@ def newton(table: Slices, count: int, logarithmic: float, force: float, error: f
 
 @kernel
 def solve_position(table: Slices, count: int, logarithmic: float, force: float) -> tuple[float, float, float]:
-    """Solve the balance of one roll position; return what `newton` returns."""
+    """Solve the balance of one roll position without start values; return the values that `newton` returns."""
     return newton(table, count, logarithmic, force, _secant_start(table, count, logarithmic, force))
 
 
@@ -178,8 +179,8 @@ def solve_near(table: Slices, count: int, logarithmic: float, force: float, erro
     """Solve the balance of one roll position from the start values of a similar position.
 
     The start values are `error`, which is the TE [m] of the similar position, and ln w in the table. If `error` is NaN,
-    or if the iteration from these start values fails, the balance is solved without start values. Returns what `newton`
-    returns.
+    or if the iteration from these start values fails, the balance is solved without start values. Returns the values
+    that `newton` returns.
     """
     if not np.isnan(error):
         error, residual, steps = newton(table, count, logarithmic, force, error)
@@ -256,7 +257,7 @@ def balance_load(
 
 
 def _nothing(rolls: RollPositions) -> Start:
-    """Return start values that are all missing."""
+    """Return start values that are missing (NaN) at every roll position."""
     return np.full(rolls.phase.size, np.nan), np.zeros((rolls.phase.size, 0))
 
 
@@ -272,7 +273,7 @@ def _bent_steps(balance: LoadBalance) -> IntArray:
     """Return the indices of the steps between roll positions across which TE is not linear, in ascending order.
 
     TE is linear at a position if TE is close to the straight line through TE at both neighbouring positions. Corners
-    are left out.
+    are not tested.
     """
     phase, error = balance.rolls.phase, balance.transmission_error
     spread = np.full(error.size, max(float(np.ptp(error)), LEAST_SPREAD))
@@ -287,7 +288,7 @@ def _bent_steps(balance: LoadBalance) -> IntArray:
 
 
 def _merged(balance: LoadBalance, added: LoadBalance, places: IntArray) -> LoadBalance:
-    """Merge two balances of one mesh; `places` are the indices at which the added roll positions are inserted."""
+    """Merge two balances of one mesh; `places` are the indices before which the added roll positions are inserted."""
 
     def together(old: Any, new: Any) -> Any:
         """Merge two arrays over the roll positions, or tuples of such arrays."""

@@ -1,7 +1,7 @@
 """Results for the mesh from the balanced load: load sharing, stiffness, transmission error, friction loss.
 
-Eq. 15 is given in the paper. The load sharing X_Gamma and the buttressing factor X_but are quoted from general
-knowledge of the standard and were not compared with the standard.
+Eq. 15 is given in the paper. The load sharing X_Gamma and the buttressing factor X_but follow general knowledge of
+ISO/TR 13989-1 and were not compared with the text of this standard.
 """
 
 from dataclasses import dataclass
@@ -30,7 +30,7 @@ def iso_load_sharing(path: PathOfContact, x: FloatArray) -> FloatArray | None:
 
     X_Gamma is the load sharing factor, and X_but is the buttressing factor. Narrow gears (eps_gamma < 2) have the load
     sharing of spur gears of quality 7 or better. Wide gears have the load sharing 1 / eps_alpha. The standard has no
-    diagram for eps_alpha < 1, and none for spur gears with eps_alpha >= 2.
+    diagram for eps_alpha < 1, and no diagram for spur gears with eps_alpha >= 2.
     """
     ratio = path.transverse_contact_ratio
     if ratio < 1.0 or (path.overlap_ratio == 0.0 and ratio >= 2.0):
@@ -43,7 +43,7 @@ def iso_load_sharing(path: PathOfContact, x: FloatArray) -> FloatArray | None:
 
 
 def _narrow(x: FloatArray, length: float, double: float) -> FloatArray:
-    """Return the load sharing of narrow gears: 1/3 to 2/3 from A to B, 1 from B to D, and 2/3 to 1/3 from D to E."""
+    """Return the load sharing of narrow gears: 1/3 at A to 2/3 at B, 1 between B and D, 2/3 at D to 1/3 at E."""
     from_end = np.minimum(x, length - x)
     with_mate = 1 / 3 + from_end / (3 * double) if double > 0.0 else np.ones_like(x)
     return np.where(from_end < double, with_mate, 1.0)
@@ -52,8 +52,8 @@ def _narrow(x: FloatArray, length: float, double: float) -> FloatArray:
 def _buttressing(path: PathOfContact, x: FloatArray) -> FloatArray:
     """Return the factor by which helical teeth carry more load near the ends of the path; 1 for spur gears.
 
-    The factor is 1 + 0.3 min(eps_beta, 1) at A and E. From there the factor falls to 1 within a distance of
-    0.2 sin beta_b in Gamma (Eq. 15), where Gamma is the profile parameter.
+    The factor is 1 + 0.3 min(eps_beta, 1) at A and E. Towards the middle of the path, the factor falls to 1 while the
+    profile parameter Gamma changes by 0.2 sin beta_b (Eq. 15).
     """
     plane = path.plane
     ramp = 0.2 * plane.tan_base_helix * plane.cos_base_helix * path.pitch_point
@@ -97,11 +97,12 @@ def standard_stiffness(
     Eq. L16: c' = c'_th C_M C_R C_B cos beta, c_ga = c' (0.75 eps_alpha + 0.25), c_gb = 0.85 c_ga, with
 
     1/c'_th = 0.04723 + 0.15551/z_n1 + 0.25791/z_n2 - 0.00635 x1 - 0.11654 x1/z_n1 - 0.00193 x2 - 0.24188 x2/z_n2
-              + 0.00529 x1^2 + 0.00182 x2^2 [mm um/N] and C_B of the basic rack.
+              + 0.00529 x1^2 + 0.00182 x2^2 [mm um/N].
 
-    Gear 1 is the gear with fewer teeth, even if the other gear drives. If both gears have the same number of teeth,
-    gear 1 is the gear with the larger profile shift (our choice). For materials other than steel, c' is multiplied by
-    E/206 GPa. Below a line load of 100 N/mm, c' falls with the fourth root of the line load.
+    C_M is the ratio of measured to theoretical stiffness, C_R the factor of the gear disc and C_B the factor of the
+    basic rack. Gear 1 is the gear with fewer teeth, even if the other gear drives. If both gears have the same number
+    of teeth, gear 1 is the gear with the larger profile shift (our choice). For materials other than steel, c' is
+    multiplied by E/206 GPa. Below a line load of 100 N/mm, c' falls with the fourth root of the line load.
     """
     inputs = path.pair.inputs
     virtual = cos(path.pair.base_helix_angle) ** 2 * cos(inputs.helix_angle)
@@ -219,7 +220,7 @@ def transmission_error(balance: LoadBalance) -> TransmissionError:
 
 
 def period_mean(values: FloatArray, phase: FloatArray) -> float:
-    """Return the mean of values at roll positions over one base pitch."""
+    """Return the mean over one base pitch of values that are given at the roll positions."""
     return float(np.trapezoid(values, phase) / phase[-1])
 
 

@@ -35,8 +35,8 @@ from solvers.scuffing.tooth_stiffness import pair_compliance
 class PreparedMesh:
     """Values of a mesh before the load balance: path of contact, lengths of the contact lines, roll positions, forces.
 
-    `mesh` has the gap of the inputs; the other values do not depend on the gap. `tangential_force` is F_bt [N], and
-    `force` is the force in the balance [N].
+    `mesh` contains the gap that follows from the inputs; the other values do not depend on the gap. `tangential_force`
+    is F_bt [N]. `force` is the force [N] that the load balance distributes over the contact lines.
     """
 
     path: PathOfContact
@@ -103,7 +103,7 @@ def solve(inputs: LoadDistributionInputs) -> LoadDistribution:
     Raises
     ------
     InvalidInput
-        The errors of `mesh_of`.
+        The errors that `mesh_of` raises.
     NoSolution
         `load_balance` if the load balance does not converge.
     """
@@ -178,7 +178,7 @@ def _derived(path: PathOfContact, form: Gap, load: Load) -> Derived:
 
 
 def _contact_lines(lengths: ContactLengths, balance: LoadBalance) -> ContactLines:
-    """Return the extremes of the contact length in closed form, and the contact length at the roll positions."""
+    """Return extremes and mean of the total contact length in closed form, and the length at the roll positions."""
     phase = balance.rolls.phase
     return ContactLines(
         min_length=lengths.minimum,

@@ -12,14 +12,14 @@ from solvers.gears.pair import PathOfContact
 from solvers.scuffing.inputs import LeadCurve, Modifications
 
 LEAD_POINTS = 401  # one point per 0.25 % of the face; between these points lead curves are linear
-MOST_EDGES = 6  # two ends, two end reliefs, two reliefs along the path
+MOST_EDGES = 6  # largest number of edges: two ends of the line, two end reliefs, two reliefs along the path
 
 
 @kernel
 def place_of(x: float, points_per_metre: float, points: int) -> tuple[int, float]:
     """Return the index of the point before x, and the distance of x from this point as a share of the step.
 
-    The points are equidistant and start at 0.
+    The points are equidistant and start at 0; the step is the distance between neighbouring points.
     """
     position = x * points_per_metre
     index = min(max(int(position), 0), points - 2)
@@ -35,7 +35,7 @@ def interpolated(table: FloatArray, place: tuple[int, float]) -> float:
 
 
 class Gap(NamedTuple):
-    """Gap Delta(x, y) along the transverse line of action; amplitudes and lengths are in [m], and none of them is None.
+    """Gap Delta(x, y) along the transverse line of action; amplitudes and lengths [m] are numbers, never None.
 
     `lead` is the gap [m] of the lead curve at equidistant points of the face, from end to end.
     """
@@ -59,9 +59,9 @@ class Gap(NamedTuple):
 def gap(modifications: Modifications, path: PathOfContact) -> Gap:
     """Return the gap, with default lengths for reliefs whose length is not given.
 
-    The paper gives no lengths. By default tip and root relief are g_alpha - p_bt long, so that they end at D and B
-    (long relief). This length is limited to at least a tenth and at most half of the path. End relief is a tenth of the
-    face long.
+    The paper gives no lengths. By default tip and root relief are g_alpha - p_bt long, so that the tip relief ends at D
+    and the root relief at B (long relief). This length is at least a tenth of the path and at most half of the path;
+    values outside this range are replaced by the nearest limit. By default the end relief is a tenth of the face long.
     """
     width = path.pair.inputs.face_width
     long_relief = min(max(path.length - path.pair.transverse_base_pitch, 0.1 * path.length), 0.5 * path.length)
@@ -243,7 +243,7 @@ def smooth_parts(form: Gap, line: float, tan_base_helix: float, ends: tuple[floa
     """Write y of the ends and of the kinks of a contact line to `edges`, in ascending order.
 
     The contact line is x = line - y tan_base_helix. A kink is a place at which a relief begins, or at which both end
-    reliefs meet. The kinks of a lead curve at its points are left out. Returns the number of edges, at most
+    reliefs meet. The kinks at the points of a lead curve are left out. Returns the number of edges, which is at most
     `MOST_EDGES`.
     """
     length = min(form.end_relief_length, 0.5 * form.face_width)

@@ -115,7 +115,7 @@ def relief_notices(path: PathOfContact, modifications: Modifications) -> list[No
 
 
 def load_notices(balance: LoadBalance) -> list[Notice]:
-    """Return warnings about a missing or light load, a too wide contact, and pressures without a limit."""
+    """Return warnings about a missing or light load, a contact that is too wide, and a pressure without a limit."""
     notices = []
     if balance.force == 0.0:
         message = "no torque presses the flanks together; only the kinematic transmission error is computed"

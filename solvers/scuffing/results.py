@@ -87,8 +87,8 @@ class Stiffness:
     """Stiffness per face width [Pa] of one pair of teeth and of the mesh.
 
     The stiffness of one pair is the secant stiffness at the line load `secant_load` [N/m]. `pitch` is None if the pitch
-    point lies outside the path. `mean_mesh` is None without load. `standard_...` is the stiffness by ISO 6336-1, method
-    B.
+    point lies outside the path. `mean_mesh` is None without load. `standard_single` and `standard_mesh` follow
+    ISO 6336-1, method B.
     """
 
     max: float = quantity("largest stiffness of one pair", "k_max", f"{XUE}, Fig. 8", unit="n_per_mm_um")
@@ -140,7 +140,10 @@ class ErrorCurves:
 
 @record
 class TransmissionError:
-    """Transmission error along the transverse line of action [m]; `harmonics` are amplitudes 2 |c_k| from order 1."""
+    """Transmission error along the transverse line of action [m].
+
+    `harmonics` are the amplitudes 2 |c_k| of the orders k = 1, 2, and so on.
+    """
 
     peak_to_peak: float = quantity("peak-to-peak transmission error", "PPTE", f"{XUE}, Fig. 12", unit="um")
     mean: float = quantity("mean transmission error", "TE_m", unit="um", text="mean over the base pitch")
@@ -366,7 +369,7 @@ class LoadDistribution:
     """Load distribution of a pair of gears; further checks use `path_of_contact` and `balance`.
 
     `feature` is the function that computes the curves along the feature line, and `maps` is the function that computes
-    the maps over the flank. Each function is called when the result is first used.
+    the maps over the flank. Each of the two functions is called when its result is first used.
     """
 
     path_of_contact: PathOfContact

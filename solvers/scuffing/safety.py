@@ -116,7 +116,7 @@ def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
     elif unknown:
         flash, film = without_thermal(flash, film)
     if given.friction_coefficient is None and np.isnan(flash_map.flash).any():
-        flash = Flash(None, None)  # a line without contact would give 0
+        flash = Flash(None, None)  # otherwise the flash temperature of a line without contact would be 0
     flash = replace(flash, friction_coefficient=inputs.distribution.friction_coefficient)
     micropitting = check_micropitting(inputs, distribution, flash_map, film.thermal_ehl_min)
     paths = [_with_film_ratio(micropitting, *both) for both in zip(paths, lines, strict=True)]
@@ -180,8 +180,8 @@ def _lines(
 
     The feature line is always checked. The profile line is checked if it is clearly hotter than the feature line
     (`AS_HOT`). The points of a line are equidistant. The hottest point of each line is added; on the feature line, the
-    point with the thinnest film of the formula is also added. Without these points, the largest values would depend on
-    the number of points. The profile line is None if `hottest` is None.
+    point with the thinnest film of the formula is also added. Without these points, the largest flash temperature and
+    the thinnest film would depend on the number of points. The profile line is None if `hottest` is None.
     """
     line_at = partial(_line_at, inputs.distribution, distribution, film_at)
     even = np.linspace(0.0, 1.0, inputs.path_points)
@@ -209,7 +209,7 @@ def _or_along(distribution: LoadDistribution, line: _Line, thinnest: Peak) -> Pe
     """Return `thinnest`, or the thinnest film of the formula on a profile line if this film is thinner.
 
     A spur pair and its mirror image have different feature lines, so that the profile line may be checked for only one
-    of the pairs. This function therefore always takes the points of the profile line into account. The pair and its
+    of the two pairs. This function therefore always takes the points of the profile line into account. The pair and its
     mirror image then have the same thinnest film.
     """
     if np.isnan(line.film).all():
@@ -244,7 +244,7 @@ def _contact_temperature(
 def _with_band(
     temperatures: Temperatures, heat: Heat, flash: Flash, safety: Safety | None
 ) -> tuple[Heat, Safety | None]:
-    """Add the range of the safety factor to the band of the heat balance; base the verdict on the smallest factor."""
+    """Add the range of the safety factor to the band of `heat`; base the verdict on the smallest safety factor."""
     if safety is None or safety.blok_factor is None or flash.blok_max is None or heat.band is None:
         return heat, safety
     contacts = [sum(flanks) / 2 + flash.blok_max for flanks in heat.flank_cases]
@@ -294,7 +294,10 @@ def safety_factor(scuffing: float, oil: float, contact: float) -> float | None:
 
 
 def _safety(temperatures: Temperatures, contact: ContactTemperature, flash: Flash) -> Safety | None:
-    """Return the safety factors of flank, feature line and thermal EHL; None without a scuffing temperature."""
+    """Return the safety factors by Blok and by thermal EHL; None without a scuffing temperature.
+
+    Blok's factor is computed for the whole flank and for the feature line alone.
+    """
     if temperatures.scuffing is None:
         return None
     limit, oil = temperatures.scuffing, temperatures.oil

@@ -21,10 +21,10 @@ PointStatus = Literal["ok", "ok_with_warnings", "no_solution", "refused", "unloa
 class Flash:
     """Largest flash temperatures [K] and their places.
 
-    The places are None without load. The values by thermal EHL are None in closed form, that is if only the formulas
-    are evaluated. `..._at_psi` is the place of the largest value on the feature line; `..._at_profile` and
-    `..._at_face` [m] are the place of the largest value on the flank. A value and the places of this value are None if
-    a loaded point without a value may be the hottest point.
+    The places are None without load. The values by thermal EHL are None if only the closed-form formulas are evaluated.
+    `..._at_psi` is the place of the largest value on the feature line; `..._at_profile` and `..._at_face` [m] are the
+    place of the largest value on the flank. A maximum and its places are None if the hottest point may be a loaded
+    point that has no flash temperature.
     """
 
     blok_max: float | None = quantity(
@@ -126,11 +126,12 @@ class ContactTemperature:
 class Film:
     """Thinnest film [m], its place and its ratio to the roughness.
 
-    The values are None if no point is loaded. If an unsolved point may have the thinnest film, only the film of the
-    formula is stated. By the formula, the thinnest film over the flank is stated. By thermal EHL, the thinnest film on
-    the solved lines is stated. Place, ratio and regime belong to the film by thermal EHL if this film is stated, even
-    if the film of the formula is thinner. `min_at_psi` is the place of the thinnest film on the feature line.
-    `min_at_profile` and `min_at_face` [m] are the place of the thinnest film on all lines or over the flank.
+    All values are None if no point is loaded. `dowson_higginson_min` is the thinnest film of the formula over the
+    flank. `thermal_ehl_min` is the thinnest film by thermal EHL on the solved lines. If an unsolved point may have the
+    thinnest film, only `dowson_higginson_min` is stated. If `thermal_ehl_min` is stated, place, ratio and regime belong
+    to this film, even if the film of the formula is thinner; otherwise they belong to the film of the formula.
+    `min_at_psi` is the place of the thinnest film on the feature line. `min_at_profile` and `min_at_face` [m] are the
+    place of `thermal_ehl_min` if this film is stated, otherwise the place of `dowson_higginson_min`.
     """
 
     dowson_higginson_min: float | None = quantity(
@@ -264,10 +265,10 @@ class ScuffingPath:
     points of a line are equidistant. Further points are added at the places where Blok's flash temperature is largest
     and where the film of the formula is thinnest. A point without load or motion has the status "unloaded"; its film
     and its ratio are NaN, and its flash temperature by Blok is 0. A loaded point at which the reduced radius vanishes
-    has the status "refused"; all its values are NaN. `thermal` is None in closed form. Otherwise, points that the
-    thermal EHL solver could not solve have the status "no_solution", and points that the solver does not accept have
-    the status "refused". The thickness ratio is computed from the film by thermal EHL, or from the film of the
-    formula if `thermal` is None.
+    has the status "refused"; all its values are NaN. `thermal` is None if only the closed-form formulas are evaluated.
+    Otherwise, points that the thermal EHL solver could not solve have the status "no_solution", and points that the
+    solver does not accept have the status "refused". The thickness ratio is computed from the film by thermal EHL, or
+    from the film of the formula if `thermal` is None.
     """
 
     psi: FloatArray = quantity(
@@ -321,7 +322,8 @@ class ScuffingPath:
 class HeatedFlank(Flank):
     """Maps [profile, face] of the load distribution, of Blok's flash temperature [K] and of the film ratio.
 
-    The flash temperature is NaN at points where it has no limit. The film ratio is NaN at points without contact.
+    The flash temperature is NaN at points where the reduced radius vanishes. The film ratio is NaN at points without
+    contact.
     """
 
     flash_temperature: FloatArray = quantity(

@@ -4,8 +4,9 @@ At a slice of a contact line, the flanks approach each other by delta along the 
 line load w. There are two contact models:
     linear contact      delta = C w
     half-space contact  delta = a w omega,  omega = A/a - ln w      (w in N/m)
-The half-space contact has the closed form w = delta / (a omega) with omega - ln omega = A/a + ln(a / delta), a branch
-of Lambert's function. `PairCompliance` contains a, and C or A at points of the path of contact.
+The half-space contact has the closed form w = delta / (a omega). Here omega is the solution of
+omega - ln omega = A/a + ln(a / delta), which is a branch of Lambert's function. `PairCompliance` contains a, and C or A
+at points of the path of contact.
 """
 
 from dataclasses import dataclass, replace
@@ -33,8 +34,8 @@ OMEGA_STEPS = 12  # largest number of iterations for the branch of Lambert's fun
 # Lower limit of a guess of omega. The true omega exceeds this limit unless the compliance is held constant. Values of
 # omega below 1 have no meaning.
 LEAST_OMEGA = 2.0
-# Relative step of omega. The error after a smaller step is below a tenth of the fourth power of this step, so that the
-# next step would only be rounding.
+# Relative step of omega at which the iteration ends. The error after a smaller step is below a tenth of the fourth
+# power of this step, so that the next step would change only rounding errors.
 LAST_STEP = 1e-3
 
 
@@ -103,7 +104,7 @@ def load_points(gear: Gear, radius: FloatArray) -> LoadPoints:
     """Return the load points at radii [m].
 
     The load angle is alpha_x - g_x, which is the pressure angle of the flank minus the half tooth angle. The paper
-    calls the load angle a pressure angle; but the arm of the bending moment follows from the load angle.
+    calls this angle a pressure angle; but the arm of the bending moment depends on the load angle.
     """
     pressure_angle = np.arccos(np.minimum(gear.base_radius / radius, 1.0))
     half_angle = gear.reference_half_angle + gear.reference_involute - np.tan(pressure_angle) + pressure_angle
@@ -131,7 +132,7 @@ def _chord_height(gear: Gear, root_width: float) -> float:
 
 
 def bending_rectangle(shape: ToothShape, points: LoadPoints, material: Solid) -> FloatArray:
-    """Compute the deflection by bending of the rectangle of a tooth.
+    """Compute the bending deflection of the rectangle of a tooth.
 
     Parameters
     ----------
@@ -149,7 +150,7 @@ def bending_rectangle(shape: ToothShape, points: LoadPoints, material: Solid) ->
 
     Notes
     -----
-    Eq. L4: delta_Br / w. The load acts above the rectangle or on the rectangle.
+    Eq. L4: delta_Br / w. The formula holds for loads above the rectangle and for loads on the rectangle.
     """
     h_x, s_f = points.height, shape.root_width
     h_r = np.minimum(shape.rectangle_height, h_x)
@@ -158,7 +159,7 @@ def bending_rectangle(shape: ToothShape, points: LoadPoints, material: Solid) ->
 
 
 def bending_trapezium(shape: ToothShape, points: LoadPoints, material: Solid) -> FloatArray:
-    """Compute the deflection by bending of the trapezium of a tooth.
+    """Compute the bending deflection of the trapezium of a tooth.
 
     Parameters
     ----------
@@ -176,9 +177,9 @@ def bending_trapezium(shape: ToothShape, points: LoadPoints, material: Solid) ->
 
     Notes
     -----
-    Eq. L5: delta_Bt / w = 6 cos^2 w / (E S_F^3) [q (4 - q) - 2 ln q - 3] (h_i - h_r)^3 with
-    q = (h_i - h_x)/(h_i - h_r). The sign of the logarithm is right as printed; with the other sign the compliance
-    would be negative. E is the modulus of the gear itself; the paper prints E_1.
+    Eq. L5: delta_Bt / w = 6 cos^2 omega_x / (E S_F^3) [q (4 - q) - 2 ln q - 3] (h_i - h_r)^3 with
+    q = (h_i - h_x)/(h_i - h_r) and the load angle omega_x. The sign of the logarithm is right as printed; with the
+    other sign the compliance would be negative. E is the modulus of the gear itself; the paper prints E_1.
     """
     if shape.tip_width == shape.root_width:
         return np.zeros_like(points.height)
@@ -188,7 +189,7 @@ def bending_trapezium(shape: ToothShape, points: LoadPoints, material: Solid) ->
 
 
 def shear(shape: ToothShape, points: LoadPoints, material: Solid) -> FloatArray:
-    """Compute the deflection by shear of a tooth.
+    """Compute the shear deflection of a tooth.
 
     Parameters
     ----------
@@ -206,7 +207,8 @@ def shear(shape: ToothShape, points: LoadPoints, material: Solid) -> FloatArray:
 
     Notes
     -----
-    Eq. L6: delta_S / w = 2 (1 + nu) cos^2 w / (E S_F) [h_r + (h_i - h_r) ln(1/q)], with a shear factor of 1.
+    Eq. L6: delta_S / w = 2 (1 + nu) cos^2 omega_x / (E S_F) [h_r + (h_i - h_r) ln(1/q)], with the load angle omega_x
+    and a shear factor of 1.
     """
     length = np.minimum(shape.rectangle_height, points.height)
     if shape.tip_width < shape.root_width:
@@ -217,7 +219,7 @@ def shear(shape: ToothShape, points: LoadPoints, material: Solid) -> FloatArray:
 
 
 def root_rotation(shape: ToothShape, points: LoadPoints, material: Solid) -> FloatArray:
-    """Compute the deflection of a tooth by the rotation of its root.
+    """Compute the deflection that the rotation of the root of a tooth causes.
 
     Parameters
     ----------
@@ -235,9 +237,9 @@ def root_rotation(shape: ToothShape, points: LoadPoints, material: Solid) -> Flo
 
     Notes
     -----
-    Eq. L7: delta_G / w = 24 h_x^2 cos^2 w / (pi E S_F^2). The paper prints h_x instead of h_x^2. The rotation is
-    proportional to M/(E S_F^2), and M contains the arm h_x. The rotation times the arm h_x therefore gives h_x^2, and
-    only h_x^2 gives the right unit.
+    Eq. L7: delta_G / w = 24 h_x^2 cos^2 omega_x / (pi E S_F^2), with the load angle omega_x. The paper
+    prints h_x instead of h_x^2. The rotation is proportional to M/(E S_F^2), and M contains the arm h_x. The rotation
+    times the arm h_x therefore gives h_x^2, and only h_x^2 gives the right unit.
     """
     arm = points.height * np.cos(points.angle)
     return np.asarray(24 * arm**2 / (pi * material.youngs_modulus * shape.root_width**2))
@@ -395,8 +397,7 @@ def linear_contact_compliance(pinion: Solid, wheel: Solid) -> float:
 def _member(gear: Gear, section: Gear, roll_length: FloatArray, material: Solid) -> Member:
     """Return a gear of the pair with the bending compliance of its section.
 
-    The load points of the section are as high above the reference circle of the section as the load points of the gear
-    are above the reference circle of the gear.
+    A load point has the same height above the reference circle in the section as in the gear itself.
     """
     radius = np.hypot(gear.base_radius, roll_length)
     points = load_points(section, section.reference_radius + radius - gear.reference_radius)
@@ -461,9 +462,9 @@ def line_load(
     load : float
         Line load w [N/m].
     stiffness : float
-        Derivative of the line load by the approach [Pa].
+        Derivative of the line load with respect to the approach [Pa].
     log_load : float
-        Logarithm ln w, a guess for a similar approach.
+        Logarithm ln w; serves as the guess at a similar approach.
 
     Notes
     -----
@@ -481,7 +482,7 @@ def line_load(
 def line_load_near(
     approach: float, constant: float, logarithmic: float, limit: float, log_load: float
 ) -> tuple[float, float, float, float]:
-    """Take one step of omega from the guess `log_load`; return what `line_load` returns, and the relative step.
+    """Take one step of omega from the guess `log_load`; return the values of `line_load` and the relative step.
 
     The equation omega - ln omega = A/a + ln(a / delta) is solved by the iteration of Fritsch, Shafer and Crowley (1973)
     for Lambert's function. This iteration takes one logarithm per step and converges from any guess. After a step, the
@@ -507,7 +508,7 @@ def line_load_near(
 
 @kernel
 def _secants(constant: FloatArray, limit: FloatArray, logarithmic: float, load: float) -> FloatArray:
-    """Return 1 / (a omega) at a line load [N/m]; if the load exceeds the load at the limit, use omega at the limit."""
+    """Return 1 / (a omega) at a line load [N/m]; above the load at the limit, omega keeps its value at the limit."""
     stiffness = np.empty(constant.size)
     for i in range(constant.size):
         _, _, log_limit = line_load(limit[i], constant[i], logarithmic, limit[i], np.log(load))

@@ -64,8 +64,8 @@ def check_micropitting(
     Returns
     -------
     CheckedFlank
-        The checked flank. All values are None if the check is not requested, or if the oil or the bulk temperature is
-        unknown.
+        Answer, film and warnings. If the check is not requested, or if the oil or the bulk temperature is unknown, all
+        values are None and there are no warnings.
     """
     check, oil = inputs.micropitting, inputs.known_oil
     if check is None or oil is None or inputs.temperatures.bulk is None:

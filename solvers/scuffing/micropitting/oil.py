@@ -15,16 +15,16 @@ from solvers.oils import SQUARE_MILLIMETRE, WALTHER_SHIFT, OilSheet
 
 Real = TypeVar("Real", float, FloatArray)
 
-ZERO = 273.0  # K, rounded zero of the Celsius scale in the report; the exact zero is 273.15 K
+ZERO = 273.0  # K, rounded zero of the Celsius scale in ISO/TR 15144-1; the exact zero is 273.15 K
 ROUNDED = 273.15 - ZERO  # K, difference between the exact and the rounded zero
 DENSITY_SLOPE = 0.7  # kg/(m^3 K)
-DENSITY_ZERO = 289.0  # K, reference temperature of the density on the scale of the report
+DENSITY_ZERO = 289.0  # K, reference temperature of the density, on the scale with the rounded zero
 REFERENCE = 38.0  # C, reference temperature of viscosity and pressure-viscosity coefficient
 REFERENCE_COEFFICIENT: dict[OilKind, tuple[float, float]] = {
     "mineral": (2.657e-8, 0.1348),
     "pao": (1.466e-8, 0.0507),
     "polyglycol": (1.392e-8, 0.1572),
-    "ester": (2.657e-8, 0.1348),  # no values for esters are known; these are the values of a mineral oil
+    "ester": (2.657e-8, 0.1348),  # no values are known for esters; the values of a mineral oil are used
 }
 """Scale [m^2/N at 1 Pa s] and exponent of the law that gives the pressure-viscosity coefficient at 38 C."""
 
@@ -73,12 +73,12 @@ def viscosity(oil: OilSheet | Lubricant, temperature: Real) -> Real:
     Raises
     ------
     InvalidInput
-        `viscosity_range` if the oil is given by its viscosity, and the law yields more than the viscosity of any oil.
+        `viscosity_range` if the oil is given by its viscosity and its law yields a viscosity that no oil has.
 
     Notes
     -----
-    Eq. M2 of the chapter on micropitting. The equation holds for an oil that is given by a data sheet. An oil that is
-    given by its viscosity follows its own law.
+    Eq. M2 of the chapter on micropitting. The equation holds for an oil that is given by a data sheet. For an oil that
+    is given by its viscosity, the temperature law of `Lubricant` is used instead.
     """
     if isinstance(oil, OilSheet):
         intercept, slope = oil.walther()

@@ -54,7 +54,7 @@ GEARS = GearPairInputs(
 
 @cache
 def film_of_test(oil: OilSheet | Lubricant, stage: int) -> FilmOfTest:
-    """Compute the film of the test gears in an oil.
+    """Compute the film of the test gears in an oil, at the load stage at which the oil fails.
 
     Parameters
     ----------

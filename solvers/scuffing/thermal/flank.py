@@ -1,10 +1,10 @@
-"""Blok's flash temperature and Dowson and Higginson's film over the flank, with the hottest point and thinnest film.
+"""Flash temperature (Blok) and film (Dowson and Higginson) over the flank, with the hottest point and thinnest film.
 
 The feature line of the paper is a diagonal of the flank. If the load is carried at one end of the face, the feature
 line misses the hot corner of the flank. If the flank is crowned, the feature line crosses the loaded middle of the face
 only near the pitch point, where the flanks do not slide. The search for the largest value therefore covers the whole
 flank. Contacts at one place along the path differ only in their load. The search takes the largest value over the face
-at every place along the path. It then searches on finer grids around the places with the highest of these values.
+at every place along the path, and then continues on finer grids around the places with the highest of these values.
 """
 
 from collections.abc import Callable
@@ -24,7 +24,7 @@ from solvers.scuffing.results import ContactPoints, LoadDistribution
 from solvers.scuffing.thermal.blok import blok_flash
 
 SURVEY_POINTS = 4001  # points of the feature line at which the formulas are evaluated to find extreme values
-REACHES = (2, 1, 1)  # extent of each zoom to both sides, in steps of the previous grid; divides the step by 2, 4 and 4
+REACHES = (2, 1, 1)  # steps of the previous grid that each zoom covers on both sides; the step is divided by 2, 4 and 4
 ZOOM_POINTS = 9  # number of points of a zoom, both along the path and across the face
 ZOOM_FRACTIONS = np.linspace(0.0, 1.0, ZOOM_POINTS)
 
@@ -44,8 +44,8 @@ class FlashMap:
 
     The grid has the coordinates x (n,) along the path and y (m,) along the face [m]. Values over the grid have the
     shape (n, m); a row contains the points with the same x. `load` is the line load [N/m]. `heaviest` contains, for
-    every row, the contact under the largest load of the row. `mapped` is True for the rows of the flank's maps. The
-    other rows are added where the load jumps along the path: one row on each side of a jump.
+    every row, the contact under the largest load of the row. `mapped` is True for the rows that the flank's maps
+    contain. The other rows are added where the load jumps along the path: one row on each side of a jump.
     """
 
     x: FloatArray
@@ -98,7 +98,7 @@ def map_flash(given: LoadDistributionInputs, distribution: LoadDistribution) -> 
 
 
 def _jumps(balance: LoadBalance) -> FloatArray:
-    """Return x [m] just before and just behind the places at which the load of a spur gear jumps, in ascending order.
+    """Return x [m] just before and just behind every load jump of a spur gear, in ascending order.
 
     At a jump another pair of teeth comes into contact or leaves contact, over the whole face at once.
     """
@@ -230,10 +230,9 @@ def on_diagonals(distribution: LoadDistribution, peak: Peak, function: FlankFunc
 def _or_beside(distribution: LoadDistribution, peak: Peak, function: FlankFunction) -> Peak:
     """Return the given peak, or a higher peak on the profile line through the given peak.
 
-    For spur pairs, the other diagonal of the flank is also searched for a higher peak. The largest value over the flank
-    must not be below a value on the feature line, which is one diagonal of the flank.
-    In the mirror image of a spur pair the other diagonal is the feature line. Both diagonals are therefore searched, so
-    that a pair and its mirror image have the same largest value.
+    The feature line is one diagonal of the flank, and the largest value over the flank must not be below a value on the
+    feature line. For spur pairs, the function also searches the other diagonal, because the other diagonal is the
+    feature line of the mirror image of the pair. A pair and its mirror image therefore have the same largest value.
     """
     peak = max(peak, _peak_at_kinks(distribution, function, peak), key=_height)
     if distribution.path_of_contact.plane.tan_base_helix > 0.0:
@@ -242,14 +241,14 @@ def _or_beside(distribution: LoadDistribution, peak: Peak, function: FlankFuncti
 
 
 def _peak_at_kinks(distribution: LoadDistribution, function: FlankFunction, peak: Peak) -> Peak:
-    """Find the largest value at the points where the contact lines of the roll positions cross a peak's profile line.
+    """Find the largest value at the points where contact lines of the roll positions cross the profile line of `peak`.
 
     Between roll positions, the approach is linear. The load has a maximum where another pair of teeth begins to carry
     load. This maximum therefore lies at a roll position. The search over the grid can miss this maximum, because roll
     positions may lie closer together than the points of the grid.
     """
     plane, rolls = distribution.path_of_contact.plane, distribution.balance.rolls
-    # At the other positions the load of a spur gear jumps; the map contains both sides of these jumps.
+    # At the other roll positions the load of a spur gear jumps; the map contains both sides of these jumps.
     phase = rolls.phase[rolls.side == 0.0]
     lines = np.add.outer(plane.base_pitch * np.arange(line_count(plane)), phase).ravel()
     x = np.unique(np.clip(lines - peak.y * plane.tan_base_helix, 0.0, plane.path_length))

@@ -41,7 +41,7 @@ def pair_heat(inputs: ScuffingInputs, distribution: LoadDistribution, estimate: 
     Returns
     -------
     Heat
-        Temperatures, losses, flows and band of the pair.
+        Temperatures, losses and oil flows of the pair, and the uncertainty band of the temperatures.
 
     Raises
     ------
@@ -72,7 +72,10 @@ def balance_inputs(
 
 
 def with_backlash_loss(heat: Heat, pair: GearPair) -> Heat:
-    """Add to the results of a heat balance how much backlash is lost because steel gears are hotter than the casing."""
+    """Add the loss of backlash to the results of a heat balance.
+
+    Backlash is lost because the gears are hotter than the casing; gears and casing expand like steel.
+    """
     radii = (pair.pinion_working_radius, pair.wheel_working_radius)
     return heat_balance.backlash_loss(heat, radii, pair.working_pressure_angle, STEEL_EXPANSION)
 
@@ -87,7 +90,7 @@ def with_flanks(inputs: ScuffingInputs, heat: Heat) -> ScuffingInputs:
 
 
 def gear_geometries(given: LoadDistributionInputs, path: PathOfContact) -> tuple[GearGeometry, GearGeometry]:
-    """Return the geometry of both gears for the heat balance; the gears have no shafts."""
+    """Return the geometry of both gears for the heat balance; the shafts of the gears are left out."""
     pair, speed = path.pair, abs(given.load.pinion_speed)
     speeds = (speed, speed * pair.pinion.teeth / pair.wheel.teeth)
     pinion, wheel = (

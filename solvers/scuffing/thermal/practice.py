@@ -152,7 +152,7 @@ def _rough(inputs: LoadDistributionInputs) -> float:
 
 
 def scuffing_temperature(stage: int, structure_factor: float, factor: float) -> float:
-    """Compute the scuffing temperature of an oil from the FZG test A/8.3/90 of the oil.
+    """Compute the scuffing temperature of an oil from the load stage at which the oil fails in the FZG test A/8.3/90.
 
     Parameters
     ----------

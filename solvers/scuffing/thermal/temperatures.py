@@ -2,8 +2,8 @@
 
 These values are the coefficient of friction, the bulk temperature, the properties of the oil at the bulk temperature,
 and the scuffing temperature. No iteration is needed, because friction uses the viscosity at the oil temperature, and
-only the film uses the viscosity at the bulk temperature. A bulk temperature by heat balance follows from the losses. In
-the heat balance, the coefficient of friction for the losses depends on the oil temperature.
+only the film uses the viscosity at the bulk temperature. The heat balance computes the bulk temperature from the
+losses. In the heat balance, the coefficient of friction for the losses depends on the oil temperature.
 """
 
 from collections.abc import Iterator
@@ -37,7 +37,7 @@ from solvers.scuffing.thermal.practice import (
 )
 
 COLDEST_OIL, HOTTEST_OIL = 223.15, 573.15  # K, range of the reference temperature of an oil
-STEEL_MODULI = (170e9, 240e9)  # Pa; cast iron and bronze are below this range, hard metal is above
+STEEL_MODULI = (170e9, 240e9)  # Pa; cast iron and bronze have a lower modulus than this range, hard metal a higher one
 MEAN_POINTS = 1001  # number of points for the mean flash temperature along the feature line
 
 
