@@ -35,7 +35,7 @@ NEAR = (0.12, 12.0)
 SECOND_ORDER = 1 / 3
 LEFT = {"friction": 1 / 2, "generated_heat": 1 / 2}  # results that depend on heat converge with an order below two
 LEFT_BY_FALL = 2.0  # share of the difference that counts as error, divided by the fall of pressure [p_H]
-AT_INLET = {"central_film", "centre_pressure"}  # the inlet decides these results, not pressure falls at the outlet
+AT_INLET = {"central_film", "centre_pressure"}  # the inlet decides these results; the outlet has no effect
 BEFORE_SPIKES = 0.5  # half widths downstream of the centre; pressure spikes lie further downstream
 SURFACES = {"surface_1_flash": 0, "surface_2_flash": -1}  # index of the surface among the nodes across the film
 LEAST = {
@@ -177,8 +177,8 @@ class Comparison:
             left = max(LEFT.get(name, SECOND_ORDER), 0.0 if name in AT_INLET else left_at_spike)
             missing = max(left * moved, kinks.get(name, 0.0))
             errors[name] = missing / max(abs(sum(parts)), LEAST.get(name, 0.0))
-        # The oil that passes the centre also passes the thinnest place. The minimum film therefore has at least the error
-        # of the central film.
+        # The oil that passes the centre also passes the thinnest place. The minimum film therefore has at least the
+        # error of the central film.
         errors["minimum_film"] = max(errors["minimum_film"], errors["central_film"])
         return MeshError(**errors)
 
