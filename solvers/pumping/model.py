@@ -167,7 +167,7 @@ def _rise(gas: Gas, temperature: FloatArray | None) -> FloatArray | None:
 
 
 def _hottest(position: FloatArray, rise: FloatArray | None) -> tuple[float | None, float | None]:
-    """Find position [m] and value [K] of the largest temperature rise by a parabola through three slices."""
+    """Find position [m] and value [K] of the largest temperature rise, using a parabola through three slices."""
     if rise is None:
         return None, None
     top = int(np.argmax(rise))

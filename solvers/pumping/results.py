@@ -142,7 +142,7 @@ class FaceProfile:
 class GasField:
     """Fields of the gas over angle [rad] and position [m], (angles, slices).
 
-    `temperature_rise` is the stagnation temperature above the ambient temperature [K].
+    `temperature_rise` is the rise of the stagnation temperature above the ambient temperature [K].
     """
 
     angle: FloatArray = quantity(

@@ -127,8 +127,8 @@ def solve_cold(problem: Problem, resolution: Resolution, budget: Budget) -> Atte
 def _distance(attempt: Attempt) -> tuple[int, float]:
     """Return a key that orders attempts by their distance from a solution.
 
-    An attempt on a finer mesh is nearer to a solution. On equal meshes, an attempt with a
-    smaller last change of pressure is nearer.
+    An attempt on a finer mesh is nearer to a solution. On equal meshes, an attempt with a smaller last change of
+    pressure is nearer.
     """
     change = float(attempt.state.history[0].pressure_change)
     return -attempt.grid.x.size, change if np.isfinite(change) else np.inf

@@ -245,8 +245,8 @@ def newton_step(
 
     The factored Jacobian leaves out the transport of heat between columns. GMRES is preconditioned with this Jacobian,
     and corrects the step that the Jacobian alone gives. The Jacobian contains the whole balance of load, so the load is
-    met after any number of corrections. If
-    the square of the first relative correction is within the tolerance, the first correction is enough.
+    met after any number of corrections. If the square of the first relative correction is within the tolerance, the
+    first correction is enough.
     """
     n, nodes = step_t.shape
     given, change = np.zeros((n, nodes)), np.zeros(n + 1)

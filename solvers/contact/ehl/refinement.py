@@ -153,8 +153,8 @@ def undercooling(inputs: LineContactInputs, curves: ContactCurves, t: FloatArray
 class Comparison:
     """The results of a contact (`fine`) and of the same contact on half the nodes (`coarse`).
 
-    Each result is a tuple of parts and has the name of its error in `MeshError`. `fall` is the steepest fall
-    of P from one node to the next, and `kinks` are the results of `_kink` for both surfaces [K].
+    Each result is a tuple of parts and has the name of its error in `MeshError`. `fall` is the steepest fall of P from
+    one node to the next, and `kinks` are the results of `_kink` for both surfaces [K].
     """
 
     fine: dict[str, tuple[float, ...]]

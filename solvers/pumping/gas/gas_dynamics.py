@@ -30,7 +30,7 @@ from solvers.pumping.gas.step import Cells, empty_cells, set_walls, step
 from solvers.pumping.space.face import Stretch
 
 LEAST_SLICES = 4  # chosen: limited slopes need three cells
-_HASTE = 2.5  # the record has room for this factor times the number of steps for sound in gas at rest
+_HASTE = 2.5  # the record has room for this factor times the number of steps that sound in gas at rest needs
 COURANT = 0.7  # Courant number; less than the limit of the scheme, 1, because waves may become faster within a step
 _ROUNDING = 1e-6  # share of a step; a step may be longer by this share, so that no smaller remainder is left
 _RETRIES = 12  # number of halvings of a failed step, chosen
