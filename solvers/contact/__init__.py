@@ -1,1 +1,1 @@
-"""Line contacts: dry contact, film thickness and flash temperature by formula, and the numerical solution (ehl)."""
+"""Line contacts: formulas for dry contact, film thickness and flash temperature; numerical solution in `ehl`."""

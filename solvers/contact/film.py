@@ -1,4 +1,4 @@
-"""Film thickness of a lubricated line contact by formula, and the ratio of film thickness to roughness."""
+"""Formulas for the film thickness of a lubricated line contact, and for the ratio of film thickness to roughness."""
 
 from math import hypot
 from typing import Literal, TypeVar, cast

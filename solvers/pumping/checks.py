@@ -16,8 +16,8 @@ NARROW = 0.5  # share of the widest slice; if a slice is narrower, the grooves a
 def check_setup(setup: PumpingSetup) -> None:
     """Raise InvalidInput for inputs outside the range of the models.
 
-    Raises InvalidInput: too_few_teeth, face_width, negative_backlash, isentropic_exponent, discharge_coefficient,
-    too_few_slices, helix_incompressible, grooves_incompressible, slices_incompressible.
+    The codes are too_few_teeth, face_width, negative_backlash, isentropic_exponent, discharge_coefficient,
+    too_few_slices, helix_incompressible, grooves_incompressible and slices_incompressible.
     """
     for gear, name in ((setup.gears.pinion, "pinion"), (setup.gears.wheel, "wheel")):
         if gear.teeth < LEAST_TEETH:
@@ -88,7 +88,7 @@ def check_speed(pinion_speed: float) -> None:
 def refuse_cost(pinion_speed: float, parts: list[Stretch], excess: float) -> NoReturn:
     """Refuse a march that needs `excess` times the permitted number of steps; the message says what would be permitted.
 
-    Raises InvalidInput: narrow_land (a stretch between grooves is so short that its slices are the reason) or
+    Raises InvalidInput: narrow_land if the reason is the thin slices of a short stretch between grooves, else
     too_many_steps.
     """
     narrowest, widest = min(part.width for part in parts), max(part.width for part in parts)

@@ -17,7 +17,7 @@ from solvers.pumping.results import ChokingCurves, ChokingSpeeds
 from solvers.pumping.spaces import CELL_STEP_LIMIT, Mesh, Space, derived, flow_at, prepare
 
 _COARSENING = 4  # the number of slices is divided by this factor while the speeds are bracketed
-_BRACKET = log(1.1)  # half width of the bracket around the coarse speed; all speeds here are logarithms
+_BRACKET = log(1.1)  # half width of the bracket around the speed from the coarse grid; speeds are logarithms here
 _ACCURACY = 1e-4  # accuracy of the logarithm of the speed, which means 0.01 % of the speed
 _STEP_DOWN, _STEPS_DOWN = log(sqrt(2.0)), 24  # size and number of the steps of a scan down to 1/4096 of the limit
 _SOLVES = 8  # number of solutions that together may cost as much as the most expensive single solution
@@ -41,15 +41,16 @@ def choking_speeds(inputs: ChokingInputs) -> ChokingSpeeds:
     Raises
     ------
     InvalidInput
-        With the codes of `solve`, choking_not_modelled (incompressible flow) and always_choked.
+        With the codes of `solve`; choking_not_modelled if the flow model is incompressible; always_choked if the
+        spaces choke even at the lowest speed of the scan.
     NoSolution
         With the codes of `solve`.
 
     Notes
     -----
     Eq. P11. A radial gap chokes if the largest pressure over the ambient pressure reaches the inverse of the critical
-    ratio. An exit chokes if the gas would reach Mach 1 by an expansion to ambient pressure. Speeds are bracketed on a
-    coarse grid and refined on the full grid.
+    ratio. An exit chokes if the gas would reach Mach 1 by an expansion to ambient pressure. Choking speeds are
+    bracketed on a coarse grid and refined on the full grid.
     """
     setup, top = inputs.setup, log(inputs.search_limit)
     if setup.model.flow is Flow.INCOMPRESSIBLE:
@@ -124,7 +125,10 @@ def _refuse_sealed(speed: float) -> NoReturn:
 
 
 def _find_lowest(demands: list[tuple[Excess, Excess]], scan: list[float]) -> float | None:
-    """Find the lowest speed at which a space chokes: bracket it on the coarse grid, then refine it on the fine grid."""
+    """Find the lowest speed at which a space chokes.
+
+    The speed is bracketed on the coarse grid, then refined on the fine grid.
+    """
     roots = [(root, fine) for rough, fine in demands if (root := _find_coarse_root(rough, scan)) is not None]
     if not roots:
         return None

@@ -42,7 +42,8 @@ class LeadCorrection:
     """Range of the thermal growth, and slope and crown of the correction [m].
 
     A parabola is fitted to the correction by least squares. The slope is the rise of the parabola from the end that
-    meshes first to the other end. The crown is the height of the parabola in the middle of the face above the ends.
+    meshes first to the other end. The crown is the height of the parabola in the middle of the face minus the
+    mean height at the ends.
     """
 
     range: float = quantity("range of the thermal growth", "C_r", unit="um")

@@ -49,9 +49,9 @@ def solve(inputs: PumpingInputs) -> PumpingResult:
     Raises
     ------
     InvalidInput
-        With the codes of `spaces.prepare` and of `spaces.flow_at`, and speed_not_positive or incompressible_vacuum.
+        With the codes of `spaces.prepare` and of `spaces.flow_at`, and speed_not_positive at standstill.
     NoSolution
-        unphysical_state (gas dynamics) or newton_not_converged (pocket chain).
+        unphysical_state if the gas dynamics fails, newton_not_converged if the pocket chain fails.
 
     Notes
     -----
@@ -114,13 +114,13 @@ def _geometry(mesh: Mesh) -> MeshGeometry:
 
 def _on_grids(mesh: Mesh, space: Space, speed: float, slices: int) -> Grids:
     """Compute one stroke at the given resolution, and at half and a quarter of this resolution to estimate errors."""
-    flow = flow_at(mesh, space, speed, slices)  # first, because this call refuses a march that would take too long
+    flow = flow_at(mesh, space, speed, slices)  # first, because this call refuses too long a march
     half, quarter = (coarser_flow_at(mesh, space, speed, slices, times) for times in (2, 4))
     return Grids(flow, half, quarter, _lead(mesh, space, speed))
 
 
 def _lead(mesh: Mesh, space: Space, speed: float) -> float:
-    """Compute `Grids.lead`; return infinity if the flow model has no waves, that is, unless it is gas dynamics."""
+    """Compute `Grids.lead`; return infinity if the flow model has no waves. Only gas dynamics has waves."""
     if mesh.setup.model.flow is not Flow.GAS_DYNAMICS:
         return inf
     return abs(mesh.gas.sound_speed * space.lag / (speed * space.speed_ratio) - 1.0)
@@ -167,7 +167,7 @@ def _rise(gas: Gas, temperature: FloatArray | None) -> FloatArray | None:
 
 
 def _hottest(position: FloatArray, rise: FloatArray | None) -> tuple[float | None, float | None]:
-    """Find position [m] and value [K] of the largest temperature rise by a parabola through three slices."""
+    """Find position [m] and value [K] of the largest temperature rise, using a parabola through three slices."""
     if rise is None:
         return None, None
     top = int(np.argmax(rise))
@@ -227,7 +227,10 @@ def _pinion_correction(mesh: Mesh, result: SpacesResult | None) -> LeadCorrectio
 
 
 def _pulsation(mesh: Mesh, flows: list[SpaceFlow], speed: float, frequency: float) -> Pulsation:
-    """Superpose the flows; the wheel's spaces reach the line of centres half a mesh period after the pinion's."""
+    """Superpose the flows of both gears.
+
+    The wheel's spaces reach the line of centres half a mesh period after the pinion's spaces.
+    """
     delays = [0.0 if space.of_pinion else 0.5 for space in mesh.spaces]
     speeds = [speed * space.speed_ratio for space in mesh.spaces]
     return pulsation(frequency, list(zip(flows, speeds, delays, strict=True)))

@@ -12,9 +12,9 @@ from solvers.pumping.results import MassFlow, Resolution
 from solvers.pumping.space.stroke import StrokeTable
 
 FEW_TEETH = 12  # chosen: the gears of the paper and of all comparisons have more teeth
-TIP_SPEED_SHARE = 0.8  # share of the ambient speed of sound at which published checks end
+TIP_SPEED_SHARE = 0.8  # share of the ambient speed of sound; published checks end at this tip speed
 PITCH_LINE_SPEED = 250.0  # m/s; published checks end at this speed
-FEW_SLICES = 20  # number of slices in the stroke at one time
+FEW_SLICES = 20  # least number of slices in the stroke at one time without a warning
 INCOMPRESSIBLE_MACH = 0.3  # usual limit, at which the density changes by 5 %
 RESOLVED = 0.06  # largest relative uncertainty of a result without a warning
 NET_UNCERTAINTY = 0.3  # largest uncertainty of a net flow without a warning, relative to the net flow
@@ -88,7 +88,7 @@ def flow_notices(flow: Flow, largest_mach: float, largest_gauge_pressure: float)
 
 
 def net_flow_notices(model: Flow, flows: list[MassFlow]) -> list[Notice]:
-    """Return a warning about the most uncertain net flow out of an end, if its uncertainty exceeds the limit.
+    """Return a warning about the most uncertain net flow out of an end, if the uncertainty exceeds the limit.
 
     The net flow is uncertain if it is a small difference between outflow and inflow.
     """
@@ -111,7 +111,7 @@ def net_flow_notices(model: Flow, flows: list[MassFlow]) -> list[Notice]:
 
 
 def resolution_notices(flow: Flow, uncertain: Resolution) -> list[Notice]:
-    """Return a warning that names the results of gas dynamics that are uncertain with these slices."""
+    """Return a warning that names the results of gas dynamics that are uncertain with this number of slices."""
     shares = ", ".join(
         f"{name} by {100 * share:.2g} %"
         for name, share in (
@@ -151,7 +151,7 @@ def speed_notices(pair: GearPair, gas: Gas, pinion_speed: float) -> list[Notice]
 
 
 def unusual_values(inputs: PumpingInputs | ChokingInputs, _result: object) -> Iterator[Notice]:
-    """Yield the warnings about unusual values of the ambient, the gears and the speed."""
+    """Yield the warnings about unusual values of the ambient pressure, the gears and the speed."""
     yield from thin_air(inputs.setup.ambient.pressure)
     speed = inputs.pinion_speed if isinstance(inputs, PumpingInputs) else None
     yield from unusual_gears(inputs.setup.gears, speed)

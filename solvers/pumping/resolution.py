@@ -4,7 +4,7 @@ The flow has kinks during a stroke, so errors are of first order in the width of
 order, Roache's grid convergence index takes three times the difference of the grids as the uncertainty of the finer
 grid (J. Fluids Eng. 116, 1994, 405).
 
-Extremes need more care. The place of an extreme moves between the slices, and two grids may agree on an extreme by
+Extremes need more care. An extreme may lie between two slices, and two grids may agree on an extreme by
 chance. Therefore the estimate does three more things. It also compares a third grid with a quarter of the resolution.
 It increases the uncertainty of an extreme by a fifth. It includes places at which the value is not the highest yet, but
 rises with the resolution. In a test, 800 random gear pairs were computed again with twice the number of slices. Only
@@ -67,7 +67,7 @@ def resolution(gas: Gas, spaces: list[Grids]) -> Resolution:
     Returns
     -------
     Resolution
-        Largest uncertainty of each result over the spaces, of pressures relative to the gauge pressure.
+        Largest uncertainty of each result over the spaces; uncertainties of pressures are relative to gauge pressures.
 
     Notes
     -----
@@ -120,9 +120,9 @@ def compressed(gas: Gas, jump: float) -> float:
 def net_uncertainty(grids: Grids, jumped: float) -> float:
     """Estimate the uncertainty of the net mass through an end in a stroke [kg] from the flow at half the resolution.
 
-    The uncertainty is at least the sum of the changes of outflow and inflow, because the net mass, their difference,
-    may change less by chance. If jumps of the area change the pressure by the share `jumped`, the uncertainty is also
-    at least this share of all mass that passes the ends.
+    The net mass is the difference between outflow and inflow, and may change little by chance. The uncertainty is
+    therefore at least the sum of the changes of outflow and inflow. If jumps of the area change the pressure by the
+    share `jumped`, the uncertainty is also at least this share of all mass that passes the ends.
     """
     here, there = grids.flow.ends, grids.halved.ends
     ends = ((here.front, there.front), (here.rear, there.rear))

@@ -44,9 +44,8 @@ class MassFlow:
     """Mass flow out of the spaces of one gear [kg/s].
 
     The first five values are the net flows through the different exits; they add up to 0, see `ExitMasses`. The next
-    four values are the outflow and the inflow at each end. The last two values are the uncertainties of net flows that
-    are due to the resolution. Such uncertainties can be large, because the net flow of an end is a small
-    difference between outflow and inflow.
+    four values are the outflow and the inflow at each end. The last two values are the uncertainties of net flows.
+    Such an uncertainty can be large, because the net flow of an end is a small difference between outflow and inflow.
     """
 
     front: float = quantity("net mass flow at the front", "m_f", unit="g_per_s", text="at the end that meshes first")
@@ -143,7 +142,7 @@ class FaceProfile:
 class GasField:
     """Fields of the gas over angle [rad] and position [m], (angles, slices).
 
-    `temperature_rise` is that of the stagnation temperature [K].
+    `temperature_rise` is the rise of the stagnation temperature above the ambient temperature [K].
     """
 
     angle: FloatArray = quantity(
@@ -219,7 +218,7 @@ class Totals:
 
 @record
 class Derived:
-    """Values derived from the inputs: centre distance [m], and number of slices over the whole face with its grooves.
+    """Values derived from the inputs: centre distance [m], and number of slices over the whole face with the grooves.
 
     `rack_tip_radius` is the tip radius of the rack in normal modules, limited to the largest radius for which both
     racks have room.

@@ -23,7 +23,7 @@ from solvers.pumping.space.face import Stretch, stretches
 from solvers.pumping.space.stroke import StrokeTable, stroke_table
 from solvers.pumping.space.tooth_space import tooth_space
 
-CELL_STEP_LIMIT = 5_000_000  # number of cells times number of steps, about ten seconds
+CELL_STEP_LIMIT = 5_000_000  # largest number of cells times number of steps; this takes about ten seconds
 _ANGLES = 201  # number of angles at which fields are recorded, enough for figures
 
 
@@ -59,7 +59,8 @@ class Mesh:
 def prepare(setup: PumpingSetup) -> Mesh:
     """Compute geometry and stroke tables, and warnings about both.
 
-    Raises InvalidInput with the codes of `check_setup`, `meshing_path`, `tooth_space`, `stroke_table` and `stretches`.
+    Raises InvalidInput if one of these functions refuses the setup: `check_setup`, `meshing_path`, `tooth_space` or
+    `stroke_table`.
     """
     check_setup(setup)
     path = meshing_path(setup.gears)
@@ -75,7 +76,7 @@ def prepare(setup: PumpingSetup) -> Mesh:
 
 
 def derived(mesh: Mesh) -> Derived:
-    """Return the values that are derived from the inputs or are defaults of inputs that are not given."""
+    """Return values that follow from the inputs, including the defaults of inputs that are not given."""
     gears = mesh.setup.gears
     room = min(rack_tip_radius(gears, teeth) for teeth in (gears.pinion, gears.wheel))
     return Derived(mesh.pair.centre_distance, mesh.setup.model.slice_count, room)
@@ -109,7 +110,9 @@ def flow_at(
 ) -> SpaceFlow:
     """Compute one stroke of the spaces of one gear at a pinion speed [rad/s].
 
-    Raises InvalidInput: too_many_steps, narrow_land; NoSolution: unphysical_state, newton_not_converged.
+    Raises InvalidInput: too_many_steps or narrow_land if gas dynamics would need too many steps; incompressible_vacuum
+    if the suction would exceed the ambient pressure; the codes of `stretches` if the grooves do not fit the face.
+    Raises NoSolution: unphysical_state if the gas dynamics fails; newton_not_converged if the pocket chain fails.
     """
     if mesh.setup.model.flow is Flow.INCOMPRESSIBLE:
         return _single_pocket(mesh, space, pinion_speed, space.table)
@@ -206,7 +209,7 @@ def space_duct(mesh: Mesh, space: Space, pinion_speed: float, part: Stretch, *, 
 
 
 def _angles(mesh: Mesh, space: Space) -> FloatArray:
-    """Return the recorded angles of the owner [rad].
+    """Return the angles of the owner [rad] at which fields are recorded.
 
     The first angle is the start of the stroke at the end of the face that meshes first. The last angle is the end of
     the stroke at the other end of the face.

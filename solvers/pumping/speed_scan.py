@@ -12,7 +12,9 @@ from solvers.pumping.inputs import Flow, PumpingSetup
 from solvers.pumping.results import ChokingCurves
 from solvers.pumping.spaces import CELL_STEP_LIMIT, Mesh, flow_at, prepare
 
-_COARSENINGS = {Flow.GAS_DYNAMICS: (1, 2, 4)}  # in the pocket chain the number of pockets is a constant of the model
+# Divisors of the number of slices, tried in turn until the permitted number of steps is enough. The pocket chain has no
+# divisors, because the number of pockets is a constant of the model.
+_COARSENINGS = {Flow.GAS_DYNAMICS: (1, 2, 4)}
 
 
 def speed_scan(setup: PumpingSetup, speeds: FloatArray) -> ChokingCurves:
@@ -20,7 +22,7 @@ def speed_scan(setup: PumpingSetup, speeds: FloatArray) -> ChokingCurves:
 
     Both are NaN at a speed without a solution.
 
-    Raises InvalidInput with the codes of `prepare`.
+    Raises InvalidInput, with the codes of `prepare`, if `prepare` refuses the setup.
     """
     mesh, limit = prepare(setup), CELL_STEP_LIMIT // speeds.size
     pressure, demand = np.array([_point(mesh, float(speed), limit) for speed in speeds]).T

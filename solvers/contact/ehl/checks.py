@@ -18,7 +18,7 @@ HIGHEST_PRESSURE = 4e9  # Pa
 THICKEST_FILM = 1e4  # in b^2/R, the scale of the deformation of the surfaces
 THINNEST_FILM = 1e-9  # m, the length of an oil molecule
 MIN_NODES = 41  # chosen: the coarsest mesh that is accepted
-MIN_FILM_NODES = 5  # three of them inside the film, which is the least number that shows a maximum of temperature
+MIN_FILM_NODES = 5  # three of them lie inside the film, the least number that shows a maximum of temperature
 
 
 def check(inputs: LineContactInputs) -> None:
@@ -32,8 +32,8 @@ def check(inputs: LineContactInputs) -> None:
     Raises
     ------
     InvalidInput
-        `no_load`, `no_entrainment`, `stationary_surface`, `viscosity_range`, `temperature_range`, `pressure_range`,
-        `load_range`, `film_range` or `resolution`.
+        With one of the codes `no_load`, `no_entrainment`, `stationary_surface`, `viscosity_range`,
+        `temperature_range`, `pressure_range`, `load_range`, `film_range` and `resolution`.
     """
     _check_motion(inputs)
     _check_resolution(inputs)
@@ -126,7 +126,7 @@ def _check_oil(inputs: LineContactInputs) -> None:
 def _check_load(inputs: LineContactInputs) -> None:
     """Check the pressure and the expected film.
 
-    If the film is thick compared with the deformation, the contact is not elastic any more.
+    If the film is thick compared with the deformation, the surfaces are practically rigid.
     """
     scales = groups(inputs)
     if scales.maximum_pressure > HIGHEST_PRESSURE:

@@ -1,4 +1,4 @@
-"""Solution of a single contact that starts from the dry contact: resolution, budget, nested meshes, other attempts."""
+"""Solution of a single contact, starting from the dry contact: resolution, budget, and attempts in several ways."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -17,14 +17,14 @@ from solvers.contact.ehl.state import State, Work, no_steps, work_arrays
 from solvers.contact.ehl.temperature import march_temperatures
 
 STEPS_A_SOLVE = 60  # limit of Newton steps on one mesh
-STEPS_IN_ALL = 500.0  # limit per contact, in Newton steps at 121 x 21 nodes; about a quarter of a second
-STEPS_ON_FINEST = 25  # least number of steps that a contact may take on its finest mesh, however fine this mesh is
+STEPS_IN_ALL = 500.0  # limit per contact, in Newton steps at 121 x 21 nodes; they take about a quarter of a second
+STEPS_ON_FINEST = 25  # the budget suffices for this number of steps on the finest mesh, however fine this mesh is
 STEPS_TO_REFINE = 100.0  # limit per contact for solutions on finer meshes, in Newton steps at 121 x 21 nodes
 Stage = Literal["isothermal", "coupling"]
 
-COARSEST = 61  # nodes of the first of the nested meshes, chosen for speed
+COARSEST = 61  # number of nodes of the first mesh, chosen for speed
 TIGHT = (1e-5, 0.01)  # tolerances of P and of temperature [K]
-LOOSE = (1e-3, 1.0)  # tolerances of P and of temperature [K] on meshes that only give the start on the next mesh
+LOOSE = (1e-3, 1.0)  # tolerances of P and of temperature [K] on meshes that only prepare the next mesh
 MARCH = 5  # largest cost of a march of temperatures, in Newton steps
 # Shares of the full speed, a factor of 3 apart. The contact is solved at these speeds first if the solution at the
 # full speed does not converge at once.
@@ -49,10 +49,10 @@ class Resolution:
 
 @dataclass(slots=True)
 class Budget:
-    """The cost of Newton steps that may still be taken, in units of a step at 121 x 21 nodes.
+    """Budget for Newton steps, in units of the cost of a step at 121 x 21 nodes.
 
-    `spent` is the number of steps taken so far. If this budget is a part of another budget, `of` is that other budget,
-    and every cost is deducted from both budgets.
+    `remaining` is the cost that is still allowed, and `spent` is the number of steps taken so far. If this budget is a
+    part of another budget, `of` is that other budget, and every cost is deducted from both budgets.
     """
 
     remaining: float
@@ -85,7 +85,7 @@ def budget_for(resolution: Resolution) -> Budget:
 
 
 def price(resolution: Resolution, nodes: int) -> float:
-    """Return the time of a Newton step relative to a step at 121 x 21 nodes, by a formula fitted to measured times."""
+    """Return the time of a Newton step over the time at 121 x 21 nodes, by a formula fitted to measured times."""
     relative = nodes / 121
     if resolution.thermal:
         return relative**2 * (0.4 + 0.4 * resolution.film_nodes / 21 + 0.2 * relative)
@@ -108,9 +108,9 @@ class Attempt:
 
 
 def solve_cold(problem: Problem, resolution: Resolution, budget: Budget) -> Attempt:
-    """Solve from the Hertzian pressure by several attempts in turn, until one attempt converges.
+    """Make one attempt after another from the Hertzian pressure, until an attempt converges or the budget is used up.
 
-    If no attempt converges, return the attempt that is nearest to a solution.
+    Return the converged attempt. If no attempt converges, return the attempt that is nearest to a solution.
     """
     nearest: Attempt | None = None
     for attempt in _attempts(problem, resolution, budget):
@@ -127,7 +127,8 @@ def solve_cold(problem: Problem, resolution: Resolution, budget: Budget) -> Atte
 def _distance(attempt: Attempt) -> tuple[int, float]:
     """Return a key that orders attempts by their distance from a solution.
 
-    An attempt on a finer mesh is nearer to a solution. On equal meshes the last change of pressure decides.
+    An attempt on a finer mesh is nearer to a solution. On equal meshes, an attempt with a smaller last change of
+    pressure is nearer.
     """
     change = float(attempt.state.history[0].pressure_change)
     return -attempt.grid.x.size, change if np.isfinite(change) else np.inf
@@ -157,7 +158,7 @@ def _levels(nodes: int, ratio: float) -> list[int]:
 
 
 def _start(problem: Problem, resolution: Resolution, budget: Budget) -> Attempt:
-    """Solve the isothermal contact on the coarsest mesh; for a thermal film, then march the temperatures once."""
+    """Solve the isothermal contact on the coarsest mesh; for a thermal film, also compute a first temperature guess."""
     grid = grid_for(resolution.gap, min(COARSEST, resolution.nodes))
     work = work_arrays(grid.x.size, resolution.film_nodes)
     state = _dry_state(grid, resolution)

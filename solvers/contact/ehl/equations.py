@@ -1,4 +1,4 @@
-"""The discrete line contact in plain NumPy, written equation by equation after the chapter of the manual.
+"""The discrete line contact in plain NumPy; the equations follow the chapter on the line contact in the manual.
 
 This module is the specification of the compiled kernels, which solve `residual` = 0. It has its own formulas and is not
 written for speed. The tests compare the kernels' residual with this module, and the kernels' derivatives with
@@ -363,7 +363,9 @@ def pressure_gradient(grid: Grid, pressure: Numbers, cavitated: BoolArray) -> Nu
 
 
 def balance_of_load(grid: Grid, pressure: Numbers) -> Any:
-    """Return the integral of P minus pi/2, the integral at which the pressure carries the load (Eq. 22).
+    """Return the difference between the integral of P and pi/2 (Eq. 22).
+
+    The pressure carries the load if this difference is zero.
 
     Parameters
     ----------

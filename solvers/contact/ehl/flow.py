@@ -1,6 +1,6 @@
-"""Flow through the columns of the film: its coefficients A and B, its stream functions and their derivatives.
+"""Flow through the columns of the film: flow coefficients A and B, their derivatives, and stream functions.
 
-Two passes run over the columns: `evaluate_columns` computes the values, and `linearise_columns` computes their
+Two passes run over the columns: `evaluate_columns` computes the values, and `linearise_columns` computes the
 derivatives.
 """
 
@@ -25,7 +25,7 @@ PLACE = floats("p", "g", "h")
 class FlowCoefficients(NamedTuple):
     """Coefficients ln A and B of the mass flux m = B h - A h^3 dp/dx: records (n,) of type COEFFICIENT at all nodes.
 
-    The derivatives are first those at fixed temperatures. In a thermal contact, `newton.include_temperature` adds the
+    At first, the derivatives hold for fixed temperatures. In a thermal contact, `newton.include_temperature` adds the
     response of the temperatures.
     """
 
@@ -48,7 +48,7 @@ def evaluate_columns(
     film: Film,
     coefficients: FlowCoefficients,
 ) -> None:
-    """Compute viscosity, shear and flow of columns start..stop from their nodal temperatures (n, k) [K].
+    """Compute viscosity, shear and flow of columns start..stop from the nodal temperatures (n, k) [K].
 
     `at` (n,), of type PLACE, holds p, G and h of all columns.
     """
@@ -103,7 +103,7 @@ def flow(problem: Problem, i: int, h: float, film: Film, coefficients: FlowCoeff
     -----
     Eqs. 17, E7.1, for a density that varies across the film: A = F1 N0/F0 - N1 and B = u1 R + du N0/F0, where R is the
     mean density. The stream functions are the integrals, from surface 1 to each node, of h rho (u1 + du J0/F0) and of
-    rho (F1 J0/F0 - J1)/A. In them, J0 and J1 are the integrals of phi and of phi zeta from surface 1.
+    rho (F1 J0/F0 - J1)/A. Here J0 and J1 are the integrals of phi and of phi zeta from surface 1.
     """
     rho, effective, moments, flows = film.shear.density, film.shear.effective, film.moments[i], film.flow
     m, u1, du = rho.shape[1], problem.speed_1, problem.speed_2 - problem.speed_1
@@ -142,8 +142,9 @@ def linearise_columns(
 def flow_slopes(problem: Problem, i: int, p: float, film: Film, coefficients: FlowCoefficients) -> None:
     """Compute the derivatives of ln A and B of column i by p, G, h (at fixed temperatures) and by nodal temperature.
 
-    An interval contributes by its density and by its phi, the shear rate divided by the stress. phi depends directly on
-    p and temperature. Through the stress, phi also depends on everything on which tau_m depends.
+    An interval contributes through its density and through phi, which is the shear rate divided by the stress. phi
+    depends directly on p and on the temperature. phi also depends on the stress, and thus on everything that changes
+    tau_m.
     """
     shear, moments, flows, mid = film.shear, film.moments[i], film.flow, film.mid
     m, u1, du = shear.density.shape[1], problem.speed_1, problem.speed_2 - problem.speed_1

@@ -41,8 +41,8 @@ def deflection_matrix(x: FloatArray) -> FloatArray:
 
     Notes
     -----
-    K P is the integral -(1/pi) int P ln|X - X'| dX' of Eq. 21. The E of the paper is the E' of Hertz. The ln|x - s| of
-    the paper leaves the unit of length open; here the unit is b. Another unit would change H0 only.
+    K P is the integral -(1/pi) int P ln|X - X'| dX' of Eq. 21. The E of the paper is the E' of `reduced_modulus`. The
+    ln|x - s| of the paper leaves the unit of length open; here the unit is b. Another unit would change H0 only.
     """
     n = x.size
     matrix = np.zeros((n, n))
@@ -96,7 +96,7 @@ class Grid(NamedTuple):
     """Nodes x (n,) in half widths, and matrices (n, n) and quadrature weights (n,) that depend on the nodes only.
 
     `deflection` is the matrix K of `deflection_matrix`, and `heat` is the matrix Wt of `heat_matrix`. `weights` are
-    those of the trapezoidal rule; they are also the widths of the cells around the nodes.
+    the weights of the trapezoidal rule, and also the widths of the cells around the nodes.
     """
 
     x: FloatArray
@@ -130,8 +130,8 @@ def _grid(half_octaves: int, nodes: int) -> Grid:
 def _graded(gap: float, nodes: int) -> FloatArray:
     """Return nodes (n,) from inlet to outlet; the distances between nodes are in proportion to a prescribed spacing.
 
-    If the film is much thicker than b^2/R, the pressure extends over the length (2 R h)^1/2 instead of b. Lengths of
-    the order of b then need no resolution.
+    If the film is much thicker than b^2/R, the pressure extends over the length (2 R h)^1/2 instead of b. The mesh
+    then need not resolve lengths of the order of b.
     """
     inlet = -inlet_length(gap)
     outlet = max(1.25, 1.0 + 1.2 * gap ** (2 / 3))

@@ -32,10 +32,10 @@ class Responses(NamedTuple):
 class ColumnSystem(NamedTuple):
     """The linear systems of all columns: tridiagonal part and residual (n, k), and rank-one part.
 
-    `lower`, `pivot` and `upper` are the tridiagonal part; `factor_columns` replaces them by factors, and `pivot` by the
-    inverse pivots. The rank-one part is the effect of the mid-film stress; `sherman` (n,) is the factor 1/(1 + v x) of
-    the Sherman-Morrison formula. `squeeze` (n, k) is the heat of compression per kelvin of temperature and per pascal
-    of h dp/dx [W/(m^2 K Pa)].
+    `lower`, `pivot` and `upper` are the tridiagonal part; `factor_columns` replaces `lower` and `upper` by factors, and
+    `pivot` by the inverse pivots. The rank-one part is the effect of the mid-film stress; `sherman` (n,) is the factor
+    1/(1 + v x) of the Sherman-Morrison formula. `squeeze` (n, k) is the heat of compression per kelvin of temperature
+    and per pascal of h dp/dx [W/(m^2 K Pa)].
     """
 
     lower: FloatArray
@@ -79,8 +79,8 @@ class Surfaces(NamedTuple):
 class Heat(NamedTuple):
     """The linearised heat balance of n columns with k nodes across.
 
-    One value for each column (n,): `fluid_fraction` [-], `generated` (heat of shear) [W/m^2] and `compression` (heat of
-    compression) [W/m^2].
+    Three arrays (n,) have one value for each column: `fluid_fraction` [-], `generated` (heat of shear) [W/m^2] and
+    `compression` (heat of compression) [W/m^2].
     """
 
     column: ColumnSystem

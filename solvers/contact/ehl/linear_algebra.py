@@ -1,7 +1,7 @@
 """Dense linear algebra for systems of about a hundred unknowns: LU decomposition, products, a few steps of GMRES.
 
-At this size a threaded BLAS can spend ten times as long on starting its threads as on the arithmetic. Functions take
-row indices instead of views of rows, because the reference counting of views also takes as long as the arithmetic.
+At this size a threaded BLAS can spend ten times as long on starting its threads as on the arithmetic. The functions
+take row indices instead of views of rows, because counting references to views would take as long as the arithmetic.
 """
 
 import numpy as np
@@ -30,9 +30,9 @@ def add_scaled(factor: float, x: FloatArray, y: FloatArray) -> None:
 
 @inlined_kernel
 def row_product(matrix: FloatArray, i: int, start: int, stop: int, vector: FloatArray) -> float:
-    """Return the scalar product of columns start..stop of row i with the same part of a vector (n,).
+    """Return the scalar product of elements start..stop of row i and elements start..stop of a vector (n,).
 
-    The product is computed as four partial sums, for speed.
+    The function computes four partial sums, for speed.
     """
     s0, s1, s2, s3 = 0.0, 0.0, 0.0, 0.0
     last = stop - (stop - start) % 4
@@ -48,7 +48,10 @@ def row_product(matrix: FloatArray, i: int, start: int, stop: int, vector: Float
 
 @inlined_kernel
 def _factor_panel(matrix: FloatArray, pivots: IntArray, start: int, stop: int) -> None:
-    """Eliminate within columns start..stop; pivoting exchanges whole rows."""
+    """Eliminate the elements below the diagonal in columns start..stop.
+
+    Pivoting exchanges whole rows; the columns from `stop` on do not change otherwise.
+    """
     n = pivots.size
     for k in range(start, stop):
         pivot = k
@@ -123,7 +126,8 @@ def multiply(matrix: FloatArray, vector: FloatArray, product: FloatArray) -> Non
 def solve_step(matrix: FloatArray, residual: FloatArray, step: FloatArray) -> bool:
     """Compute Newton's step (n,) for a residual (n,); return False if the system has no finite solution.
 
-    LAPACK is fastest for a single right-hand side. A Python caller limits LAPACK to one thread (`blas_threads`).
+    LAPACK solves the system, because LAPACK is fastest for a single right-hand side. The Python code that calls this
+    kernel limits LAPACK to one thread (`blas_threads`).
     """
     try:
         step[:] = np.linalg.solve(matrix, -residual)
@@ -134,7 +138,7 @@ def solve_step(matrix: FloatArray, residual: FloatArray, step: FloatArray) -> bo
 
 @kernel
 def extend_basis(basis: FloatArray, hessenberg: FloatArray, rotations: FloatArray, rhs: FloatArray, j: int) -> float:
-    """Orthogonalise basis[j + 1] to the vectors before it, and return the norm of the residual of GMRES.
+    """Orthogonalise basis[j + 1] to all earlier basis vectors, and return the norm of the residual of GMRES.
 
     Before the call, basis[j + 1] is the product of the operator and basis[j]. Modified Gram-Schmidt orthogonalises the
     vector, and Givens rotations update the least-squares problem (Saad and Schultz, 1986). Shapes: basis (m + 1, n);

@@ -15,7 +15,7 @@ from solvers.contact.ehl.results import (
     ContactTemperature,
 )
 
-PEAK_ZONE = 0.1  # half widths downstream of the centre; a pressure maximum before this place is the Hertzian maximum
+PEAK_ZONE = 0.1  # half widths downstream of the centre; a maximum upstream of this place is the Hertzian one
 
 
 def load_error(attempt: Attempt) -> float:
@@ -77,7 +77,7 @@ def temperature(problem: Problem, attempt: Attempt) -> ContactTemperature:
 
 
 def mid_film(t: FloatArray) -> FloatArray:
-    """Return the temperatures half way between the surfaces (n,) from those of the columns (n, k)."""
+    """Return the temperatures half way between the surfaces (n,) from the temperatures t of the columns (n, k)."""
     middle = (t.shape[1] - 1) // 2
     return np.asarray(0.5 * (t[:, middle] + t[:, t.shape[1] // 2]))
 

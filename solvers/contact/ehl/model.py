@@ -30,8 +30,8 @@ from solvers.contact.ehl.results import (
 )
 from solvers.lubricants import Lubricant, oil_in_use
 
-WORST_BALANCE = 1e-3  # relative error of the heat balance; ten times `notices.BALANCE_ERROR`, the limit of the warning
-WORST_LOAD = 1e-9  # relative error of the load; far above rounding errors, far below the displayed digits
+WORST_BALANCE = 1e-3  # largest accepted relative error of the heat balance; ten times `notices.BALANCE_ERROR`
+WORST_LOAD = 1e-9  # largest accepted relative error of the load; far above rounding errors, far below displayed digits
 WORST_DEPARTURE = 0.1  # K, largest accepted result of `refinement.departure`
 
 
@@ -51,7 +51,7 @@ def solve(inputs: LineContactInputs) -> LineContactResult:
     Raises
     ------
     InvalidInput
-        With the codes of `checks.check`.
+        If `checks.check` refuses the contact; the codes are those of `checks.check`.
     """
     check(inputs)
     constants = problem(inputs, groups(inputs))
@@ -62,7 +62,7 @@ def solve(inputs: LineContactInputs) -> LineContactResult:
 
 
 def resolution_for(inputs: LineContactInputs) -> Resolution:
-    """Return the numbers of nodes of the contact, and the expected film thickness for which the mesh is graded."""
+    """Return the numbers of nodes, the film thickness for which the mesh is graded, and the entry temperature."""
     model = inputs.model
     return Resolution(
         gap=expected_gap(inputs),
@@ -127,7 +127,7 @@ def conclude(
 def _read(
     inputs: LineContactInputs, constants: Problem, attempt: Attempt, unsolved: LineContactResult
 ) -> LineContactResult:
-    """Return `unsolved`, completed by the results of a converged state."""
+    """Return a copy of `unsolved` that also contains the results of a converged state."""
     thermal = inputs.model.thermal
     curves = measures.curves(constants, attempt, thermal)
     field = measures.field(constants, attempt) if thermal else None

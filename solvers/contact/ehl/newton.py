@@ -27,14 +27,14 @@ from solvers.contact.ehl.state import NEXT, State, Work, evaluate_state, fluid_f
 from solvers.contact.ehl.temperature import inlet_step, temperature_step
 from solvers.lubricants import density, log_viscosity, pressure_part
 
-EARLY = 5  # number of first iterations with a tighter limit of the pressure step
+EARLY = 5  # number of iterations, from the first, in which the pressure step has a tighter limit
 KRYLOV = 10  # largest number of steps of GMRES, chosen for speed
 KRYLOV_TOLERANCE = 0.01  # relative to the right-hand side; Newton's method corrects the remaining error
 LARGEST_PRESSURE_STEP = 0.3  # share of the Hertzian pressure; the viscosity depends on the pressure exponentially
 LARGEST_TEMPERATURE_STEP = 40.0  # K
 LOWEST_TEMPERATURE = 200.0  # K, lower limit of the temperatures during the iteration
 FIRST_DAMPING = 30.0  # first value of the damping of the temperatures, see `linearise_balances`
-FROZEN = 1e4  # more damping than this has no effect
+FROZEN = 1e4  # a damping above this value would have no further effect
 SHORT_STEP = 3e-3  # largest change of P after which the Jacobian can be reused
 SHRINKING = 0.1  # steps count as shrinking if the ratio of a step to the step before is below this value
 
@@ -244,8 +244,9 @@ def newton_step(
     """Compute the step (n + 1,) in (P, H0) and (n, k) in T from the linearised equations.
 
     The factored Jacobian leaves out the transport of heat between columns. GMRES is preconditioned with this Jacobian,
-    and corrects the step that the Jacobian alone gives. The load is therefore met after any number of corrections. If
-    the square of the first relative correction is within the tolerance, the first correction is enough.
+    and corrects the step that the Jacobian alone gives. The Jacobian contains the whole balance of load, so the load is
+    met after any number of corrections. If the square of the first relative correction is within the tolerance, the
+    first correction is enough.
     """
     n, nodes = step_t.shape
     given, change = np.zeros((n, nodes)), np.zeros(n + 1)

@@ -18,7 +18,7 @@ from solvers.lubricants import oil_temperature, thick_oil
 from solvers.notices import Notice
 
 LOWEST_PECLET = 5.0  # usual limit above which conduction along the surface is neglected
-NEWTONIAN_SLIDE_ROLL_RATIO = 0.3  # chosen; below it too little heat arises to limit the traction of a Newtonian oil
+NEWTONIAN_SLIDE_ROLL_RATIO = 0.3  # chosen; below 0.3 too little heat arises to limit the traction of a Newtonian oil
 TRACTION_RATIO = 0.1  # coefficients of friction of oils seldom exceed 0.1
 THIN_FILM = 0.05e-6  # m
 BALANCE_ERROR = 1e-4  # relative error of the heat balance, chosen

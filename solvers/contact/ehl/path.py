@@ -1,4 +1,4 @@
-"""A sequence of contacts, as along the flank of a tooth. Earlier solutions give the start for the next contact."""
+"""A sequence of contacts, such as those along a tooth flank. Earlier solutions give the start for the next contact."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
@@ -32,7 +32,7 @@ from solvers.errors import InvalidInput
 # which the fall can lie. A start that needs more steps often ends in the solution for a neighbouring pair of nodes.
 # Therefore the contact is then solved as if it were alone.
 STEPS_FROM_NEIGHBOURS = 5.0
-MOST_STATES = 5  # largest number of states that are extrapolated; further states only add their remaining errors
+MOST_STATES = 5  # largest number of states in an extrapolation; more states would only add their remaining errors
 HOPELESS = 12  # number of consecutive contacts without a solution, after which further contacts rarely converge
 SHARE_WITHOUT_HOPE = 0.1  # share of the usual number of steps that a contact gets after `HOPELESS` failures
 
@@ -73,13 +73,13 @@ def solve_path(contacts: Sequence[LineContactInputs]) -> list[LineContactResult]
     Raises
     ------
     InvalidInput
-        With the codes of `check`, and `mixed_models` if the contacts do not share one model.
+        If `check` refuses a contact, or with the code `mixed_models` if the contacts do not share one model.
 
     Notes
     -----
     Every contact except the first starts from pressures, temperatures and separation that are extrapolated from the
-    contacts before it. If the contact does not converge from there within a few steps, it is solved as if it were
-    alone. If this fails as well, the contact has no result, and the next contacts are still solved. After many
+    contacts before it. If the contact does not converge from this start within a few steps, it is solved as if it
+    were alone. If this fails as well, the contact has no result, and the next contacts are still solved. After many
     consecutive failures each contact is given fewer steps, until a contact converges again.
     """
     for inputs in contacts:
@@ -91,7 +91,10 @@ def solve_path(contacts: Sequence[LineContactInputs]) -> list[LineContactResult]
 
 
 def _solve_next(inputs: LineContactInputs, walk: _Walk) -> LineContactResult:
-    """Solve a contact from the solutions before it; if there are none, or if this fails, solve the contact alone."""
+    """Solve a contact, starting from earlier solutions.
+
+    If there are no earlier solutions, or if this start fails, solve the contact as if it were alone.
+    """
     constants = problem(inputs, groups(inputs))
     resolution = resolution_for(inputs)
     spent = Budget(inf)
@@ -136,8 +139,8 @@ def _guess(states: Sequence[State]) -> State:
 def _extrapolated(rows: FloatArray) -> FloatArray:
     """Extrapolate `rows` (m, ...) to the next row by Newton's backward differences.
 
-    The difference of an order is the error with which the lower orders extrapolate the last row. Therefore an order is
-    used only as long as the difference of the next order is smaller.
+    The difference of an order is the error that the lower orders make if they extrapolate to the last row. Therefore
+    orders are added only as long as the difference of the next order is smaller.
     """
     differences = [rows[-1]]
     while len(rows) > 1:

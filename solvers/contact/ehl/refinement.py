@@ -35,9 +35,9 @@ NEAR = (0.12, 12.0)
 SECOND_ORDER = 1 / 3
 LEFT = {"friction": 1 / 2, "generated_heat": 1 / 2}  # results that depend on heat converge with an order below two
 LEFT_BY_FALL = 2.0  # share of the difference that counts as error, divided by the fall of pressure [p_H]
-AT_INLET = {"central_film", "centre_pressure"}  # the inlet decides these results; falls at the outlet have no effect
+AT_INLET = {"central_film", "centre_pressure"}  # the inlet decides these results; the outlet has no effect
 BEFORE_SPIKES = 0.5  # half widths downstream of the centre; pressure spikes lie further downstream
-SURFACES = {"surface_1_flash": 0, "surface_2_flash": -1}  # numbers of the nodes across the film
+SURFACES = {"surface_1_flash": 0, "surface_2_flash": -1}  # index of the surface among the nodes across the film
 LEAST = {
     "friction": 1e-3,
     "surface_1_flash": 25.0,
@@ -130,11 +130,11 @@ def inlet_departure(inputs: LineContactInputs, t: FloatArray) -> float:
 
 
 def undercooling(inputs: LineContactInputs, curves: ContactCurves, t: FloatArray) -> float:
-    """Return the part of the cooling [K] at the coldest point of t (n, k) that decompression cannot explain.
+    """Return the part of the cooling [K] at the coldest point of the film that decompression cannot explain.
 
-    t are the temperatures. The cooling is the difference from the lowest bulk or inlet temperature. Decompression takes
-    up the heat q = 0.00065 T u |dp/dx| h per area. This heat cools the surfaces by `surface_heating` for the flux q,
-    and the film between the surfaces by q h/(8 lambda).
+    The cooling is the difference between the lowest bulk or inlet temperature and the lowest of the temperatures t
+    (n, k). Decompression takes up the heat q = 0.00065 T u |dp/dx| h per area. This heat cools the surfaces by the
+    amount that `surface_heating` gives for the flux q, and the film between the surfaces by q h/(8 lambda).
     """
     bulk, contact, oil = inputs.temperatures, inputs.contact, inputs.lubricant
     missing = min(bulk.surface_1, bulk.surface_2, bulk.inlet) - float(t.min())
@@ -153,8 +153,8 @@ def undercooling(inputs: LineContactInputs, curves: ContactCurves, t: FloatArray
 class Comparison:
     """The results of a contact (`fine`) and of the same contact on half the nodes (`coarse`).
 
-    The results are tuples of parts, with the names of `MeshError`. `fall` is the steepest fall of P from one node to
-    the next, and `kinks` are the results of `_kink` for both surfaces [K].
+    Each result is a tuple of parts and has the name of its error in `MeshError`. `fall` is the steepest fall of P from
+    one node to the next, and `kinks` are the results of `_kink` for both surfaces [K].
     """
 
     fine: dict[str, tuple[float, ...]]
@@ -177,7 +177,8 @@ class Comparison:
             left = max(LEFT.get(name, SECOND_ORDER), 0.0 if name in AT_INLET else left_at_spike)
             missing = max(left * moved, kinks.get(name, 0.0))
             errors[name] = missing / max(abs(sum(parts)), LEAST.get(name, 0.0))
-        # The oil that passes the centre also passes the thinnest place, so both film thicknesses share their error.
+        # The oil that passes the centre also passes the thinnest place. The minimum film therefore has at least the
+        # error of the central film.
         errors["minimum_film"] = max(errors["minimum_film"], errors["central_film"])
         return MeshError(**errors)
 
@@ -226,7 +227,7 @@ def compare(
     """Compare a contact with the same contact on half the nodes (Richardson); return None if that solution fails.
 
     The solution on half the nodes starts from the contact's own solution. Mostly one Newton step is enough. A spike or
-    a hot film needs more steps, because the coarser mesh at first keeps the peak with which it starts.
+    a hot film needs more steps, because the peak from the finer mesh at first remains on the coarser mesh.
     """
     grid = grid_for(resolution.gap, resolution.nodes // 2 + 1)
     state = interpolate(attempt.state, attempt.grid.x, grid.x)

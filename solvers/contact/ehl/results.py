@@ -67,7 +67,7 @@ class ContactPressure:
 class ContactTemperature:
     """Largest temperatures of the film, of its middle and of both surfaces [K], with their positions [m].
 
-    The flash temperature of a surface is its rise above the bulk temperature [K].
+    The flash temperature of a surface is the rise of its largest temperature above its bulk temperature [K].
     """
 
     film_max: float = quantity("largest film temperature", "θ_max", f"{XUE}, Eq. 23", unit="c")
@@ -196,7 +196,10 @@ class Convergence:
 
     @property
     def residuals(self) -> dict[str, float]:
-        """Remaining errors by name: changes of P and temperature [K], load error, departure [K]; None is left out."""
+        """Remaining errors by name: changes of P and temperature [K], load error, departure [K].
+
+        Errors that are None are left out.
+        """
         errors = {
             "pressure_change": self.pressure_change,
             "temperature_change": self.temperature_change,
@@ -208,7 +211,7 @@ class Convergence:
 
 @record
 class ContactCurves:
-    """Curves along the contact (n,); temperatures and heat fluxes are None if isothermal.
+    """Curves along the contact (n,); temperatures and heat fluxes are None if the contact is isothermal.
 
     The heat fluxes are those into the surfaces; they vary linearly between the nodes.
     """

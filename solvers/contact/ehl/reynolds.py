@@ -19,9 +19,9 @@ HALVINGS = 12  # largest number of halvings of a step; a step below 1/4096 of Ne
 class FaceFluxes(NamedTuple):
     """Mass flux (divided by flux_scale) through the face on the right of each node, and its derivatives.
 
-    `flux` (n,); `conductance` A H^3/dX (n,). Derivatives of the flux at the right of node i: `by_b` (n, 2) by B of node
-    i and of its upstream neighbour (at the first face, its downstream neighbour); `by_log_a` (n, 2) by ln A of nodes i
-    and i+1; `by_pressure` (n, 5) by P of nodes i-2..i+2; `by_film` (n, 3) by H of nodes i-1..i+1.
+    `flux` (n,); `conductance` A H^3/dX (n,). The derivatives are those of the flux through the face on the right of
+    node i: `by_b` (n, 2) by B of nodes i and i-1 (at the first face, of nodes 0 and 1); `by_log_a` (n, 2) by ln A of
+    nodes i and i+1; `by_pressure` (n, 5) by P of nodes i-2..i+2; `by_film` (n, 3) by H of nodes i-1..i+1.
     """
 
     flux: FloatArray
@@ -221,7 +221,8 @@ def _flux_scales(problem: Problem) -> tuple[float, float]:
 def _upstream(x: FloatArray, i: int) -> tuple[int, float]:
     """Return the node upstream of node i, and its weight in the extrapolation of B H to the face on the right of i.
 
-    The first face has only one node upstream. There the result is the node downstream and the weight of the mean, 0.5.
+    The first face has only one node upstream. At this face the result is the node downstream and the weight 0.5, with
+    which the extrapolation becomes the mean of both nodes.
     """
     if i == 0:
         return 1, 0.5
@@ -232,7 +233,7 @@ def _upstream(x: FloatArray, i: int) -> tuple[int, float]:
 def add_flux_changes(
     faces: FaceFluxes, cavitated: BoolArray, log_a: FloatArray, b: FloatArray, residual: FloatArray
 ) -> None:
-    """Add to `residual` (n + 1,) the effect on the balance of mass if ln A and B change at the nodes (n,)."""
+    """Add to `residual` (n + 1,) the change of the mass balances that changes of ln A and B at the nodes (n,) cause."""
     before = 0.0
     for i in range(cavitated.size - 1):
         other = i - 1 if i > 0 else 1
@@ -312,7 +313,7 @@ def release_cavitated(faces: FaceFluxes, cavitated: BoolArray, tolerance: float)
     """Move broken nodes with more inflow than outflow to the full film, and return whether any node was moved.
 
     `tolerance` is the imbalance, relative to the flux, that a broken node may keep. Without this tolerance, a node at
-    the rupture can change between full and broken film for ever.
+    the edge of the broken film can change between full and broken film for ever.
     """
     changed = False
     for i in range(1, cavitated.size - 1):

@@ -8,9 +8,9 @@ mid_film_stress   the stress half way across a column, as required for the slidi
 shear_rates       the shear rate of every interval at the given stress, and the derivative of the rate by the stress
 uniform_shear     flow and stress in a film at one temperature
 
-A further law needs a name in `inputs.Rheology`, a branch in these four functions, and a branch in `effective_fluidity`,
-`mid_film_stress` and `uniform_columns` of `equations`. The tests compare every law of `inputs.Rheology` with
-`equations`.
+A further law needs a name in `inputs.Rheology` and a branch in each of these four functions. In the module `equations`,
+the functions `effective_fluidity`, `mid_film_stress` and `uniform_columns` also need a branch. The tests compare every
+law of `inputs.Rheology` with `equations`.
 """
 
 from typing import get_args
@@ -27,7 +27,10 @@ STRESS_LIMIT = 300.0  # largest |h dp/dx|/(2 tau0); exp(300)^2 does not overflow
 
 
 def softened(problem: Problem, stress: float) -> Problem | None:
-    """Change the law of shear to Ree-Eyring with `stress` [Pa]; return None if the present stress is not higher."""
+    """Return the problem with the law of Ree and Eyring and the Eyring stress `stress` [Pa].
+
+    Return None if the problem already has this law and an Eyring stress that is not higher than `stress`.
+    """
     if problem.rheology == REE_EYRING and stress >= problem.eyring_stress:
         return None
     return problem._replace(rheology=REE_EYRING, eyring_stress=stress)

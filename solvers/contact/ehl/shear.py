@@ -14,9 +14,9 @@ class Shear(NamedTuple):
     """Shear and density of the oil in all intervals (n, m).
 
     `fluidity` is 1/eta [1/(Pa s)]; `by_temperature` [1/K] and `by_pressure` [1/Pa] are the derivatives of ln(1/eta).
-    `stress` [Pa]; `rate` [1/s]; `stiffness` is the derivative of the rate by the stress [1/(Pa s)]. `effective` is the
-    rate divided by the stress [1/(Pa s)]; `effective_slope` is the derivative of `effective` by the stress.
-    `density` [kg/m^3].
+    `stress` is the shear stress [Pa]; `rate` is the shear rate [1/s]; `stiffness` is the derivative of the rate by the
+    stress [1/(Pa s)]. `effective` is the rate divided by the stress [1/(Pa s)]; `effective_slope` is the derivative of
+    `effective` by the stress. `density` is in kg/m^3.
     """
 
     fluidity: FloatArray

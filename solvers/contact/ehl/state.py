@@ -166,7 +166,7 @@ def evaluate_state(problem: Problem, grid: Grid, state: State, work: Work) -> bo
 
 @kernel
 def linearise_state(problem: Problem, state: State, work: Work, damping: float) -> None:
-    """Compute the derivatives of the columns of an evaluated state.
+    """Compute the derivatives of stress, flow and heat balance of all columns of an evaluated state.
 
     Three quantities that carry heat are held fixed: the stream function, the fluid fraction, and the density in the
     heat of compression. `damping` is that of `linearise_balances`.

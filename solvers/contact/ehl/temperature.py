@@ -23,7 +23,7 @@ from solvers.contact.ehl.state import State, Work
 
 LARGEST_STEP = 40.0  # K, largest change of a temperature in one iteration of a column
 COLUMN_ITERATIONS = 60  # limit; a column that has not converged by then does not converge at all
-REVERSE_SWEEPS = 3  # number of sweeps if there is reverse flow, chosen; all sweeps but the last carry heat back
+REVERSE_SWEEPS = 3  # number of sweeps if there is reverse flow, chosen; all sweeps but the last also run backward
 
 
 @kernel
@@ -80,7 +80,7 @@ def last_reverse(convection: Convection) -> int:
 
 @inlined_kernel
 def _relax_column(i: int, film: Film, heat: Heat, given: FloatArray, weight: float, step: FloatArray) -> None:
-    """Compute the temperature step of column i from the steps of its neighbours and surfaces, and add `given`.
+    """Compute the temperature step of column i from the steps of both neighbours and both surfaces, and add `given`.
 
     `given` and `weight` are those of `temperature_step`.
     """
@@ -107,7 +107,7 @@ def temperature_step(
     The solution marches along the flow. If there is reverse flow, the columns up to the last one with reverse flow are
     first swept forward and backward; each column then uses the latest step of its right neighbour. `given` (n, k) is
     the temperature change that a change of pressure causes at fixed temperatures upstream. `weight` multiplies the
-    residual: it is 1 for a Newton step, and 0 for the effect of `given` alone.
+    residual. The weight is 1 for a Newton step, and 0 for the effect of `given` alone.
     """
     n, last = step.shape[0], step.shape[1] - 1
     surfaces, residual = heat.surfaces, heat.column.residual
@@ -147,7 +147,7 @@ def inlet_step(problem: Problem, work: Work, temperature: FloatArray, step: Floa
     -----
     Eq. E8.3. The walls have their bulk temperatures, oil that enters has the temperature of the inlet, and oil that
     leaves has the temperature of the next column. The heights at which oil enters follow from the mass flux and a
-    uniform viscosity, so they do not depend on the computed temperatures.
+    uniform viscosity, so these heights do not depend on the computed temperatures.
     """
     nodes = step.shape[1]
     u1, u2 = problem.speed_1, problem.speed_2

@@ -37,7 +37,7 @@ def pocket_chain(
 ) -> SpaceFlow:
     """March every stretch of a tooth space through its stroke in at least `steps` steps.
 
-    The gas is recorded at each `angle` [rad]. Raises NoSolution: newton_not_converged.
+    The gas is recorded at each `angle` [rad]. Raises NoSolution: newton_not_converged if a step does not converge.
     """
     substeps = ceil(steps / (angle.size - 1))
     marches = [_march(gas, stretch, duct, angle, closure, substeps) for stretch, duct in ducts]

@@ -5,7 +5,7 @@
  p = p_e (rho/rho_e)^gamma                                                isentropic closure (Eq. 1)
 
 The step is a backward Euler step, but the wall work is computed with the mean pressure of the step. Newton's method
-solves for pressure and mass of all pockets. Its Jacobian consists of blocks of two by two, which are eliminated along
+solves for pressure and mass of all pockets. The Jacobian consists of blocks of two by two, which are eliminated along
 the chain. All amounts are per metre of face.
 """
 
@@ -19,7 +19,7 @@ from solvers.pumping.flow.nozzle import Gas, mass_flux
 
 _NEWTON_LIMIT = 200  # number of iterations after which a step counts as not converged
 _TOLERANCE = 1e-10  # largest residual, relative to a pocket's content at ambient pressure
-_ROUNDING = 1e-7  # largest residual accepted if Newton's method cannot reduce it, because pressures differ by round-off
+_ROUNDING = 1e-7  # largest residual that is accepted if round-off keeps Newton's method from reducing the residual
 _HALVINGS = 12  # largest number of halvings of a Newton step; steps below 1/4096 of Newton's step do not help
 
 

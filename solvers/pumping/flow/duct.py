@@ -12,10 +12,10 @@ WALL = floats("area", "clearance", "carried")
 class Duct(NamedTuple):
     """A stretch of a tooth space cut into equal cells.
 
-    `start` is the distance from the end that meshes first [m]; `width` is the width of a cell [m], and `cells` the
-    number of cells. `lag` is the angle by which the stroke begins later per metre of face [rad/m]. `speed` is the speed
-    of the owner, the gear to which the space belongs [rad/s]. Row k of `table` (`wall_table`) holds the walls at the
-    angle `first_angle` + k `angle_step` [rad]. `discharge` is the discharge coefficient.
+    `start` is the distance from the end that meshes first [m]; `width` is the width of a cell [m], and `cells` is
+    the number of cells. `lag` is the angle by which the stroke begins later per metre of face [rad/m]. `speed` is the
+    speed of the owner, the gear to which the space belongs [rad/s]. Row k of `table` (`wall_table`) holds the walls at
+    the angle `first_angle` + k `angle_step` [rad]. `discharge` is the discharge coefficient.
     """
 
     start: float
@@ -32,7 +32,7 @@ class Duct(NamedTuple):
 class Wall(NamedTuple):
     """Walls of a tooth space: its area, both clearances, and the gas that its flanks have carried along.
 
-    `area` is the cross-section of the space [m^2], `clearance` the sum of both clearances [m], and `carried` the
+    `area` is the cross-section of the space [m^2], `clearance` is the sum of both clearances [m], and `carried` is the
     cross-section of the gas that the moving flanks have carried out of the space [m^2].
     """
 
@@ -95,7 +95,10 @@ def stroke_end(duct: Duct) -> float:
 
 @kernel
 def stroke_share(duct: Duct, z: float, angle: float, turn: float) -> float:
-    """Compute the share of a step of `turn` from `angle` [rad] in which the stroke is under way at z [m]."""
+    """Compute the share of a step in which the stroke is under way at z [m].
+
+    The step begins at `angle` [rad] and turns the owner by `turn` [rad].
+    """
     phase = angle - duct.lag * z
     inside = min(phase + turn, stroke_end(duct)) - max(phase, duct.first_angle)
     return min(max(inside / turn, 0.0), 1.0)

@@ -18,7 +18,7 @@ PROFILE = floats("static", "stagnation", "active", "highest", "lowest", "mach")
 
 `static` and `stagnation`: integrals of static and stagnation temperature over time [K s]; `active`: time in the stroke
 [s]; `highest` and `lowest`: pressures [Pa]; `mach`: largest axial Mach number. The Mach number is 0 in the pocket
-chain, because its gas moves between pockets only.
+chain, because there the gas moves only between pockets.
 """
 
 EXTREMES = floats("mach", "velocity", "demand")

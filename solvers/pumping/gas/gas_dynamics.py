@@ -30,7 +30,7 @@ from solvers.pumping.gas.step import Cells, empty_cells, set_walls, step
 from solvers.pumping.space.face import Stretch
 
 LEAST_SLICES = 4  # chosen: limited slopes need three cells
-_HASTE = 2.5  # the record has room for this factor times the number of steps for sound in gas at rest
+_HASTE = 2.5  # the record has room for this factor times the number of steps that sound in gas at rest needs
 COURANT = 0.7  # Courant number; less than the limit of the scheme, 1, because waves may become faster within a step
 _ROUNDING = 1e-6  # share of a step; a step may be longer by this share, so that no smaller remainder is left
 _RETRIES = 12  # number of halvings of a failed step, chosen
@@ -42,7 +42,7 @@ _UNSETTLED = 5.0  # number of steps after the start of a stroke until the leakag
 def gas_dynamics(gas: Gas, ducts: list[tuple[Stretch, Duct]], angle: FloatArray) -> SpaceFlow:
     """March every stretch of a tooth space through its stroke, and record the gas at each `angle` [rad].
 
-    Raises NoSolution: unphysical_state.
+    Raises NoSolution: unphysical_state if no step length gives a physical state, or if too many steps are needed.
     """
     room = ceil(_HASTE * max(_steps(gas, part, angle) for _, part in ducts)) + 8 * angle.size
     marches = []
@@ -145,7 +145,7 @@ def _taking_part(gas: Gas, duct: Duct, angle: float, turn: float) -> tuple[int, 
 
 @kernel
 def _longest_turn(gas: Gas, duct: Duct, cells: Cells, low: int, high: int) -> float:
-    """Compute the turn of the owner [rad] in which the fastest wave crosses a share of a cell, the Courant number."""
+    """Compute the turn of the owner [rad] in which the fastest wave crosses the fraction `COURANT` of a cell."""
     fastest = gas.sound_speed
     for i in range(low, high):
         rho, u, p = cells.state[i].density, cells.state[i].velocity, cells.state[i].pressure

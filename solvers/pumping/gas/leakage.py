@@ -21,9 +21,9 @@ _TOLERANCE = 1e-10  # largest relative error of the flux through the gaps
 class Walls(NamedTuple):
     """The walls of a cell at one instant.
 
-    `area` is the area of the cell's section [m^2], and `growth` the rate at which this area grows [m^2/s]. `gap` is the
-    clearance times the discharge coefficient [m]. `transport` is the area of gas that the flanks carry out per second
-    [m^2/s].
+    `area` is the area of the cell's section [m^2], and `growth` is the rate at which this area grows [m^2/s]. `gap` is
+    the clearance times the discharge coefficient [m]. `transport` is the area of gas that the flanks carry out of the
+    space per second [m^2/s].
     """
 
     area: float
@@ -81,8 +81,8 @@ def implicit_stage(
 
     Notes
     -----
-    Eq. P7. In the code, `stiffness` is the internal energy divided by the pressure [m^2] of a cell that does work on
-    its walls and loses gas with the flanks, but has no gaps.
+    Eq. P7. In the code, `stiffness` [m^2] is the internal energy divided by the pressure for a cell without gaps, which
+    does work on its walls and loses gas with the flanks.
     """
     g, area = gas.exponent, walls.area
     into, carried = max(-walls.transport, 0.0) * gas.density, max(walls.transport, 0.0) / area

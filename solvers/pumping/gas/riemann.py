@@ -49,8 +49,8 @@ def flux(g: float, area: float, state: State, ram: float) -> Conserved:
 
     Notes
     -----
-    Eq. P6 with rho E = p/(g - 1) + rho u^2/2. The caller computes the ram pressure, because the way in which it is
-    rounded matters: a march amplifies a difference in the last digit to 1e-7 of a result.
+    Eq. P6 with rho E = p/(g - 1) + rho u^2/2. The caller computes the ram pressure, because the rounding of the ram
+    pressure matters: a march amplifies a difference in the last digit to 1e-7 of a result.
     """
     rho, u, p = state
     return Conserved(area * rho * u, area * (ram + p), area * u * (g / (g - 1.0) * p + 0.5 * ram))

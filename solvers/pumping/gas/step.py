@@ -4,6 +4,8 @@
  d(A rho u)/dt     + d(A (rho u^2 + p))/dz     = p dA/dz - q u_q
  d(A rho E)/dt     + d(A u (rho E + p))/dz     = -p dA/dt - q h_q
 
+Here q is the leakage, u_q is the velocity of the leaking gas, and h_q is the stagnation enthalpy of this gas.
+
 The MUSCL-Hancock method is of second order in space and time. States at the faces come from a limited linear
 reconstruction and a half-step predictor. The exchange with the walls, leakage q and wall work, is integrated by an
 implicit Runge-Kutta method with two stages, L-stable and stiffly accurate; the fluxes through the faces are constant
@@ -254,7 +256,7 @@ def _edge(w: RecordArray, s: RecordArray, i: int, side: float) -> State:
 
 @kernel
 def _safe_edge(w: RecordArray, s: RecordArray, i: int, side: float) -> State:
-    """Extrapolate the state to an edge of cell i; return the state of the cell if density or pressure falls too far."""
+    """Extrapolate the state to an edge of cell i; return the cell state if density or pressure falls too far."""
     edge = _edge(w, s, i, side)
     if edge.density < 0.1 * w[i].density or edge.pressure < 0.1 * w[i].pressure:
         return State(w[i].density, w[i].velocity, w[i].pressure)

@@ -1,1 +1,4 @@
-"""The space between two teeth in mesh: tooth_space -> profile -> section -> stroke; `face` divides the face width."""
+"""The space between two teeth in mesh.
+
+Data pass through the modules tooth_space -> profile -> section -> stroke. `face` divides the face width.
+"""

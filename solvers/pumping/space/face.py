@@ -15,8 +15,8 @@ _SLIVER = 1e-9  # share of the face width; a shorter stretch between two grooves
 class Stretch:
     """Stretch of the face between grooves, cut into `cells` slices of equal `width` [m].
 
-    The stretch reaches from `start` to `start + cells * width` [m]. `opens_front` tells whether it begins at the front
-    end of the face, and `opens_rear` tells whether it ends at the rear end.
+    The stretch reaches from `start` to `start + cells * width` [m]. `opens_front` tells whether the stretch begins at
+    the front end of the face, and `opens_rear` tells whether the stretch ends at the rear end.
     """
 
     start: float
@@ -40,7 +40,8 @@ def stretches(face_width: float, grooves: tuple[Groove, ...], slices: int, least
     """Cut the face between its grooves into about `slices` slices of nearly equal width.
 
     Every stretch has at least `least` slices, and no slice overlaps a groove.
-    Raises InvalidInput: groove_outside, groove_overlap.
+    Raises InvalidInput: groove_outside if a groove reaches beyond the face or the grooves cover the whole face;
+    groove_overlap if two grooves overlap.
     """
     edges = [0.0]
     for k, groove in sorted(enumerate(grooves), key=lambda pair: pair[1].position):

@@ -107,7 +107,7 @@ def nearest_on_profile(space: ToothSpace, radius: float, angle: float) -> tuple[
         t, gap = _nearest_on_fillet(root.fillet, radius, angle)
         if gap < distance:
             r, psi = fillet_point(root.fillet, t)
-            # If the fillet protrudes beyond the involute, the mate's point may lie inside the fillet: profiles touch.
+            # If the fillet protrudes beyond the involute, the mate's point may lie inside; the distance is then 0.
             distance = gap if radius - r > r * (angle - psi) else 0.0
             area = 0.5 * root.root_half_angle * root.root_radius**2 + fillet_sector_area(root.fillet, t)
     return distance, r, psi, area

@@ -16,7 +16,7 @@ from solvers.pumping.space.tooth_space import ToothSpace
 
 
 class Section(NamedTuple):
-    """Free area [m^2], clearances of both sides [m], area of gas that the flanks have carried out so far [m^2]."""
+    """Free area [m^2], clearances of both sides [m], and area of gas carried out of the space by the flanks [m^2]."""
 
     area: float
     left: float

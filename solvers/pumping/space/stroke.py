@@ -72,7 +72,7 @@ def stroke_table(space: ToothSpace, *, minimum_gap: float = 0.0, positions: int 
     """Tabulate area and clearances of the space over its stroke.
 
     A clearance smaller than `minimum_gap` [m] is replaced by `minimum_gap`.
-    Raises InvalidInput: tooth_space_closed (no area left), tooth_space_minima (area with more than one minimum).
+    Raises InvalidInput: tooth_space_closed if no area is left; tooth_space_minima if the area has several minima.
     """
     limits = stroke_limits(space)
     angle = np.linspace(limits.start, limits.end, positions)

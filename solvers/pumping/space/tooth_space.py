@@ -101,7 +101,7 @@ def _thinning(pair: GearPair, normal_backlash: float) -> float:
 def tooth_space(pair: GearPair, extra_backlash: float, gap: Gap, *, of_pinion: bool) -> ToothSpace:
     """Describe the space of the pinion or of the wheel, and the mate's tooth thinned by the extra backlash [m].
 
-    Raises InvalidInput: pointed_tooth, and the codes of `path_of_contact`.
+    Raises InvalidInput: pointed_tooth if the thinned tooth of the mate is pointed; also the codes of `path_of_contact`.
     """
     path, whole = path_of_contact(pair), pair.line_of_action
     first, last = (path.start, path.end) if of_pinion else (whole - path.end, whole - path.start)
@@ -156,7 +156,7 @@ def stroke_limits(space: ToothSpace) -> StrokeLimits:
     -------
     StrokeLimits
         Angles of the owner [rad]. At `start` the first tip corner of the mate's tooth crosses the owner's tip circle;
-        at `end` the last tip corner crosses it.
+        at `end` the last tip corner crosses this circle.
 
     Notes
     -----
