@@ -147,7 +147,7 @@ def _along(inputs: ScuffingInputs, result: Scuffing, finding: str, panel: Callab
 
 
 def _common_limits(panels: Sequence[Panel]) -> tuple[float, float]:
-    """Return the ends of an ordinate that shows the lines of all panels, and the levels near these lines."""
+    """Return the ends of an ordinate that shows the lines of all panels and the levels near these lines."""
     axes = panels[0].y
     if axes.limits is not None:
         return axes.limits
