@@ -15,7 +15,7 @@ from app.schema.model import Response
 from app.spreadsheet import csv_of
 from app.studies.fields import value_at
 
-DIGITS = 6  # significant digits; the tolerances of the solvers leave fewer digits accurate
+DIGITS = 6  # significant digits; because of the tolerances of the solvers, fewer digits are accurate
 
 
 def values(case: Case, title: str) -> bytes:

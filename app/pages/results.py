@@ -17,14 +17,14 @@ NOT_RESULTS = frozenset(
 DIGITS = 3  # significant digits of a headline number
 SHAFTS = ("pinion shaft", "wheel shaft")
 """Titles of the shafts, in the order of the list of shafts."""
-NEAR = 0.8  # share of an upper limit above which a value is close to the limit
+NEAR = 0.8  # a value above this share of an upper limit is close to the limit
 LEVELS = ("plain", "good", "near", "bad")
 WELL_ABOVE = 2.0  # a value of at least this multiple of a lower limit is well above the limit
 UNCHANGED = 5e-6  # share of a value; a smaller change is not shown
 
 
 class Entry(NamedTuple):
-    """A value of an answer at its full path, under the title of its group."""
+    """A value of an answer, with its full path and the title of its group."""
 
     group: str
     leaf: Leaf
@@ -108,7 +108,7 @@ def groups(response: Documented, before: Documented | None = None) -> dict[str, 
 
 
 def differences(request: type[Documented], response: Response, before: Response) -> list[Row]:
-    """Return the inputs that differ from those of a variant.
+    """Return the inputs that differ between a case and its variant.
 
     If an input is empty, the value that was used for this input is shown.
     """
@@ -140,7 +140,7 @@ def _row(leaf: Leaf, path: str, now: Any, before: Any = None, *, label: str, dig
 
 
 def _named(leaf: Leaf, items: tuple[str, ...]) -> tuple[str, ...]:
-    """Add a name to each item, such as a component or an end of a band, if the declaration has such names."""
+    """Put a name before each item if the declaration has names of items, such as the names of components."""
     names = (leaf.declared.index or "").split(", ")
     return tuple(map(" ".join, zip(names, items, strict=True))) if len(names) == len(items) > 1 else items
 
@@ -153,7 +153,7 @@ def row_of(leaf: Leaf, path: str, value: Any = None, digits: int = DIGITS) -> Ro
 def texts_of(value: Any, digits: int, of_items: int = 4) -> tuple[str, ...]:
     """Return the text of a value, the texts of the items of a list, or the texts of the rows of a matrix.
 
-    A single value has `digits` digits, and items have `of_items` digits.
+    A single value has `digits` significant digits, and items have `of_items` significant digits.
     """
     if not isinstance(value, list):
         return (shown(value, digits),)

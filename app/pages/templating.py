@@ -59,7 +59,7 @@ def by_model() -> dict[str, list[Calculation]]:
 def _environment(root: str) -> Environment:
     """Return the environment of the templates.
 
-    Its filter `url` puts the prefix of the proxy before an address of the service.
+    The filter `url` puts the prefix of the proxy before an address of the service.
     """
 
     def url(address: str) -> str:

@@ -92,7 +92,7 @@ class Result:
 
 
 class StudyPage(ABC):
-    """The page of a study of a case: one class for each kind of study, one instance for each query.
+    """The page of a study of a case. Each kind of study has its own class, and each query has its own instance.
 
     Attributes
     ----------
@@ -220,7 +220,7 @@ class StudyPage(ABC):
         return self.field(control.name, control.label, control.default, control.unit, control.options)
 
     def control_at(self, path: str) -> str:
-        """Return the name of the control for a dotted path in the body; a field of the case is its own control."""
+        """Return the name of the control at a path in the body. For a field of the case, return the field's path."""
         head, *rest = path.split(".")
         if head == "request":
             return ".".join(rest)
@@ -318,7 +318,7 @@ def checked(kind: type[StudyPage], asked: Asked, most: int, deadline_s: float) -
 
 
 def output_choices(calculation: Calculation) -> list[Choice]:
-    """Return a choice for each of the single numbers of the answer, which a study can show; headlines come first."""
+    """Return a choice for each scalar number of the answer that a study can show; headline numbers come first."""
     response = calculation.response
     first = headlines(response)
     titles = {branch.path: branch.title for branch in tree(response).branches}
@@ -370,7 +370,7 @@ def file(page: StudyPage, lines: list[Line], name: str, image_format: Format) ->
 
 
 def report_head(page: StudyPage) -> bytes:
-    """Return the beginning of the document that shows the progress of the study, and after that the report."""
+    """Return the beginning of the document. This document shows first the progress of the study, then the report."""
     return rendered("report_progress.html", page.asked.root, page=page).encode()
 
 
