@@ -158,8 +158,8 @@ PLACES = {
 }
 """Places in the manual, by the solvers' dataclass that declares the results.
 
-A text lists targets, separated by semicolons. The first target is the place of all fields of the dataclass except those
-that a further target names. A further target begins with the names of the fields whose place it is.
+A text lists targets, separated by semicolons. A further target begins with names of fields and is the place of these
+fields. The first target is the place of all other fields of the dataclass.
 """
 
 

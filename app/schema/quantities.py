@@ -21,8 +21,9 @@ Bound = Literal["upper", "lower"]
 class _Declaration(Quantity):
     """A declaration that documents its field in the JSON schema.
 
-    `origin` is the solver's dataclass from which the declaration was taken, and the name of its field, or None.
-    `in_schema` lists the attributes that the JSON schema states, for example `default_text` as `x-default-text`.
+    `origin` holds the solver's dataclass from which the declaration was taken, and the name of the field there. It is
+    None if the declaration was not taken from a dataclass. `in_schema` lists the attributes that the JSON schema
+    states, for example `default_text` as `x-default-text`.
     """
 
     origin: tuple[type, str] | None = None
@@ -35,7 +36,7 @@ class _Declaration(Quantity):
 
     @property
     def description(self) -> str:
-        """The text, or the title if there is no text, followed by the meaning of null if it is declared."""
+        """The text, or the title if there is no text, followed by the meaning of null if a meaning is declared."""
         text = self.text or self.title
         return f"{text}; null: {self.default_text}" if self.default_text else text
 
@@ -76,7 +77,7 @@ class Input(_Declaration):
                 return core_schema.json_or_python_schema(core_schema.int_schema(strict=True, **bounds), whole)
             case "bool":
                 return core_schema.bool_schema(strict=True)
-            case "union":  # its choices are schemas, alone or paired with a name
+            case "union":  # the choices of a union are schemas, alone or paired with a name
                 kinds = (choice[0] if isinstance(choice, tuple) else choice for choice in schema["choices"])
                 return core_schema.union_schema([self._strict(kind) for kind in kinds])
             case "list" if self.length:
