@@ -257,7 +257,7 @@ class UnitCoupling(Section, of=si.UnitCoupling):
 
 
 class ToothHeat(Section, of=si.Heat):
-    """Temperatures of the teeth, and the ratio of their temperature rise to the temperature rise of the pumped gas."""
+    """Temperatures of the teeth, and the ratio of the rise in tooth temperature to the rise in gas temperature."""
 
 
 class TrainTemperatures(ContactTemperatures, of=si.DriveTrainInputs, only=("local_bulk",)):

@@ -69,8 +69,9 @@ class Input(_Declaration):
             case "float":  # strict: text and booleans are not numbers
                 return core_schema.float_schema(strict=True, allow_inf_nan=False, **bounds)
             case "int":
-                # A strict int would refuse 3.0. The value is therefore checked in three steps: it is a number; its
-                # magnitude is at most 2^53, up to which whole floats are exact; it is a whole number in its range.
+                # A strict int would refuse 3.0. Three checks follow one another instead. The first checks that the
+                # value is a number. The second checks that its magnitude is at most 2^53, because whole floats are
+                # exact up to this limit. The third checks that the number is whole and in range.
                 number = core_schema.custom_error_schema(core_schema.float_schema(strict=True), "int_type")
                 exact = core_schema.float_schema(allow_inf_nan=False, ge=-(2.0**53), le=2.0**53)
                 whole = core_schema.chain_schema([number, exact, core_schema.int_schema(**bounds)])

@@ -63,7 +63,7 @@ class GearPairRequest(Request):
 def distribution_inputs(request: Request, gears: GearPairInputs, load: si.Load) -> si.LoadDistributionInputs:
     """Return the solver's inputs for this pair and load.
 
-    The modifications, the materials and the coefficient of friction are those of the request.
+    The modifications, the materials and the coefficient of friction are taken from the request.
     """
     return request.si(
         si.LoadDistributionInputs,

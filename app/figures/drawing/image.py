@@ -23,7 +23,7 @@ from app.figures.wording import subscripts
 EDGE = 0.1  # inches; margin around the whole image
 TITLE_LENGTH, LENGTH, BESIDE_LENGTH = 58, 84, 30  # characters per line: titles, other texts, names of axes side by side
 HEIGHTS = {1: 2.6, 2: 1.6, 3: 1.25}  # inches; height of a panel, by the number of panels above one another
-PLANE, PLANE_BESIDE = 3.3, 1.8  # inches; height of a plane alone, and of planes side by side
+PLANE, PLANE_BESIDE = 3.3, 1.8  # inches; height of a panel with equal scales or areas: alone, and side by side
 TOUCH = 0.025  # inches by which the boxes of two texts may overlap, as boxes include space around letters
 NARROW_HEIGHT = 0.66  # height of axes in a narrow figure divided by their usual height
 ROW_HEIGHT = 0.3  # inches; height of a bar whose name has up to two lines

@@ -321,7 +321,7 @@ def oil_temperature(inputs: DriveTrainInputs) -> float:
 def curve_over_the_flow(_: DriveTrainInputs, result: DriveTrainResult) -> FlowCurve:
     """Solve the heat balance at oil flows from a quarter of the case's flow to four times this flow.
 
-    The losses and the loads are those of the case.
+    The losses and the loads are taken from the case.
     """
     heat = heat_balance.heat_of(result.heat)
     assert result.over_the_flow is not None

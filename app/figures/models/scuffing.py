@@ -321,12 +321,12 @@ def _warned(path: ScuffingPath) -> list[Span]:
 
 
 def _of_distribution(build: Build) -> Build:
-    """Adapt the builder of a load-distribution figure so that it accepts the inputs and results of this calculation."""
+    """Adapt the builder of a load-distribution figure so that it accepts inputs and results of the scuffing check."""
     return lambda inputs, result: build(inputs.distribution, result.distribution)
 
 
 def _balanced(build: Build) -> Build:
-    """Adapt the builder of a heat-balance figure so that it accepts the inputs and results of this calculation."""
+    """Adapt the builder of a heat-balance figure so that it accepts inputs and results of the scuffing check."""
     return lambda _, result: build(heat_balance.heat_of(result.heat))
 
 
