@@ -100,8 +100,8 @@ class Section:
 
     There are three kinds of sections. A `section` has blocks below each other. `rows` are the items of a list of
     sections; the last item is empty, so that the user can add an item. `twins` are sections of the same model side by
-    side, with one line per field; `columns` holds the titles of these sections by their paths. `switch` is the field by
-    which the user adds or removes an optional section.
+    side, with one line per field; `columns` holds the titles of these sections under their paths. `switch` is the field
+    by which the user adds or removes an optional section.
     """
 
     path: str
@@ -160,7 +160,7 @@ def form(request: type[Request], state: State) -> tuple[Section, ...]:
             loose.append(block)
         elif block.kind == "section":
             sections.append(block)
-        else:  # rows and twins get a section of their own
+        else:  # rows and twins become sections
             sections.append(replace(block, blocks=(block,), kind="section", id=f"{anchor(block.path)}-", fault=None))
     if loose:
         names = [leaf.path for leaf in root.leaves if leaf.path != DETAIL]

@@ -40,7 +40,7 @@ class Cell(NamedTuple):
 
 
 class Row(NamedTuple):
-    """An input of a section. `cells` holds its value for each item of the section, by the index of the item."""
+    """An input of a section. `cells` holds the value for each item of the section, under the index of the item."""
 
     leaf: Leaf
     cells: dict[int, Cell]
@@ -96,7 +96,7 @@ def _with_origin(sections: list[Section], origins: frozenset[str]) -> list[Secti
 
 
 def _left(sections: list[Section]) -> list[tuple[str, list[tuple[Leaf, str, bool]]]]:
-    """Return the inputs that have their defaults, by the title of their section.
+    """Return, for each section, the title of the section and the inputs that have their defaults.
 
     Each input comes with a text, and with a boolean that is True if this text is a value. If an input is empty and has
     no value, the text says what replaces the value, for example the quantity from which the value is estimated.
@@ -160,7 +160,7 @@ def _given(case: Case) -> dict[str, Any]:
 
 
 def _inputs(case: Case, pairs: Pairs) -> list[Section]:
-    """Return the inputs by section. Each input has the value that was used, and the origin of this value."""
+    """Return the inputs of all sections. Each input has the value that was used, and the origin of this value."""
     typed = {_element.sub("", name) for name, _ in pairs}
     assumed = {assumption.field: assumption.value for assumption in case.response.assumptions}
     used = resolved(case.response) | assumed

@@ -80,19 +80,19 @@ def _entries(member: Leaf | Branch, value: Any, path: str, around: str) -> Itera
 
 
 def _title_of_item(member: Branch, index: int) -> str:
-    """Return the title of a section in a list. The title of a shaft names its gear; other titles have a number."""
+    """Return the title of a section in a list. For a shaft, the title names the gear; any other title has a number."""
     if member.path.rpartition(".")[2] == "shafts" and index < len(SHAFTS):
         return SHAFTS[index]
     return f"{member.title} {index + 1}"
 
 
 def values_by_path(response: Documented | None) -> dict[str, Any]:
-    """Return all results by their paths; empty if there is no response."""
+    """Return all results, with their paths as keys; empty if there is no response."""
     return {entry.path: entry.value for entry in entries(response)} if response is not None else {}
 
 
 def groups(response: Documented, before: Documented | None = None) -> dict[str, list[Row]]:
-    """Return the scalars and short lists of the answer, by the title of their group.
+    """Return the scalars and short lists of the answer, grouped. The keys are the titles of the groups.
 
     If `before` is given, each line also has the value from this answer of the variant.
     """
@@ -178,7 +178,7 @@ def _change(now: Any, before: Any, unit: str) -> str:
 
 
 def flattened(content: Any, path: str = "") -> dict[str, Any]:
-    """Return the plain values, lists and matrices of numbers by their dotted paths."""
+    """Return the plain values, lists of numbers and matrices of numbers, with their dotted paths as keys."""
     inner: Iterable[tuple[Any, Any]]
     if isinstance(content, dict):
         inner = content.items()
@@ -245,7 +245,7 @@ def _verdict(response: Documented, leaf: Leaf, values: dict[str, Any]) -> tuple[
     """Return the level and the words of the verdict on a headline number.
 
     The words come from the answer if the answer judges the number. Otherwise they compare the number with its limit.
-    `values` holds inputs and results by their paths.
+    `values` holds inputs and results under their paths.
     """
     view, value = leaf.view, values.get(leaf.path)
     if value is None:

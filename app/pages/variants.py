@@ -18,7 +18,7 @@ KEPT = 64  # number of variants whose inputs and results a worker keeps
 
 
 class Column(NamedTuple):
-    """A variant: its name, its address, and its values by path.
+    """A variant: its name, its address, and its values under their paths.
 
     If the variant has no values, `trouble` says why.
     """

@@ -27,7 +27,7 @@ from app.schema.fields import headlines, leaf_at
 
 @dataclass(frozen=True, slots=True)
 class Shown:
-    """A view as bytes. `keep` holds the answers that are to be kept, by their keys."""
+    """A view as bytes. `keep` holds the answers that are to be kept, under their keys."""
 
     content: bytes
     status: int = 200

@@ -322,7 +322,7 @@ class Section(Documented):
         return kind(**self.filling(kind, *others, **values))
 
     def filling(self, kind: type[Any], /, *others: "Section", **values: Any) -> dict[str, Any]:
-        """Return the values that `si` gives to the dataclass, by the names of its fields."""
+        """Return the values that `si` gives to the dataclass. The keys are the names of the fields."""
         given: dict[str, Any] = {}
         record: Any = kind
         for section in reversed((self, *others)):
@@ -366,11 +366,11 @@ class Request(Section):
         """Return the solver's inputs in SI."""
 
     def options(self) -> dict[str, Any]:
-        """Return the options in force by their names in the interface."""
+        """Return the options in force. The keys are the names of the options in the interface."""
         return self.model.model_dump()  # type: ignore[no-any-return]
 
     def assumed_by_the_model(self) -> dict[str, str]:
-        """Return the assumptions that follow from the options in force: reasons by dotted names of options."""
+        """Return the reasons for assumptions that options in force imply. The keys are dotted names of the options."""
         return {}
 
 
@@ -463,7 +463,7 @@ class Response(Group):
         return self._result
 
     def remarks(self) -> dict[str, str]:
-        """Return remarks on the accuracy of results, which pages show beside the results: texts by path."""
+        """Return remarks on the accuracy of results, which pages show beside the results. The keys are paths."""
         return {}
 
     def read_from(self, result: Any) -> Self:

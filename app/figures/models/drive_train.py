@@ -165,7 +165,7 @@ def effects_apart(inputs: DriveTrainInputs, result: DriveTrainResult) -> dict[st
 def face_load(inputs: DriveTrainInputs, result: DriveTrainResult, others: dict[str, Values]) -> Figure:
     """Draw the load along the face with all effects of the case, and the loads of variants without some effects.
 
-    `others` holds the loads of the variants by their names.
+    `others` holds the loads of the variants under the names of the variants.
     """
     curves, load = result.misalignment.curves, result.load
     if load.face_load_factor is None or load.face_load_at is None:

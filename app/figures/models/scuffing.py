@@ -118,7 +118,7 @@ def _flashes(path: ScuffingPath) -> list[Line]:
 
 
 def _paths(result: Scuffing) -> dict[str, ScuffingPath]:
-    """Return the evaluated lines of the flank by name."""
+    """Return the evaluated lines of the flank. The keys are the names of the lines."""
     if result.hottest_path is None:
         return {"feature line": result.path}
     across = number(present(result.flash.blok_at_face), "mm")

@@ -74,7 +74,7 @@ class Table(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Result:
-    """The result of a study in the order of the page: the `first` tables, the figures by name, then the other tables.
+    """The result of a study in the order of the page: the `first` tables, the figures, then the other tables.
 
     `answer` is a sentence that answers the question of the study. `leads` are links above the result. `script` is JSON
     for the script of the page; the script opens the case of a point if the user clicks on this point in the first
@@ -97,7 +97,7 @@ class StudyPage(ABC):
     Attributes
     ----------
     link, question, about
-        Name of the page in addresses and its label, heading of the page, and sentence below the heading.
+        Link to the page, heading of the page, and sentence below the heading.
     names
         Names of all controls that the page may have, except the menu of outputs.
     figures, files
@@ -275,7 +275,7 @@ class Opened(NamedTuple):
 
 
 def opened(kind: type[StudyPage], asked: Asked, most: int, deadline_s: float) -> Opened:
-    """Return the page for a query, with the study that the query asks for, or with the errors of a rejected query."""
+    """Return the page for a query. It has the study that the query asks for, or the errors of a rejected query."""
     page, status = kind(asked), 200
     try:
         if asked.pairs and (not page.needs or any(asked.views.get(name) for name in page.needs)):
