@@ -35,9 +35,9 @@ def _key(panel: Panel) -> tuple[str, str | None]:
 
 
 def _overlaid(panel: Panel, other: Panel, name: str) -> Panel:
-    """Return the panel with additional parts: the parts of `other` that differ from the parts of the panel.
+    """Return the panel with those parts of `other` added that differ from the panel's own parts.
 
-    Parts are curves, edges of filled shapes, bars, rows and limits. Marks are added only to a panel with areas.
+    Parts are curves, edges of filled shapes, bars, rows and limits. Marks are added only if the panel has areas.
     """
     own = {(level.name, level.value) for level in panel.levels}
     levels = (level for level in other.levels if (level.name, level.value) not in own)
@@ -55,10 +55,10 @@ def _overlaid(panel: Panel, other: Panel, name: str) -> Panel:
 
 
 def _lines(panel: Panel, other: Panel, name: str) -> list[Line]:
-    """Return the curves and edges of the other panel that this panel lacks.
+    """Return the curves and edges that `other` has and `panel` lacks.
 
-    If this panel has a curve of the same title, the returned curve has the hue of that curve. Otherwise the title of
-    the returned curve names the other case.
+    If `panel` has a curve of the same title, the returned curve has the hue of that curve. Otherwise the title of the
+    returned curve names the other case.
     """
     own = [*panel.lines, *_edges(panel)]
     hues = {line.title: line.hue for line in own}
@@ -81,9 +81,9 @@ def _edges(panel: Panel) -> Iterator[Line]:
 
 
 def _bars(panel: Panel, other: Panel) -> list[Line]:
-    """Return all bars of the other panel if some of them differ from the bars of this panel.
+    """Return all bars of `other`, or no bars if the bars of both panels are equal.
 
-    Bars of the other panel that do not differ are needed too, because the width of a bar depends on the number of bars.
+    If some bars differ, the equal bars are returned too, because the width of a bar depends on the number of bars.
     """
     if [bars.y.tobytes() for bars in panel.bars] == [bars.y.tobytes() for bars in other.bars]:
         return []
@@ -92,9 +92,9 @@ def _bars(panel: Panel, other: Panel) -> list[Line]:
 
 
 def _rows(panel: Panel, other: Panel, name: str) -> list[Row]:
-    """Return the rows of the other panel that differ from the rows of this panel.
+    """Return the rows of `other` that differ from the rows of `panel`.
 
-    If this panel has a row of the same name, the returned row is drawn over that row. Otherwise it is a new row.
+    If `panel` has a row of the same name, the returned row is drawn over that row. Otherwise it is a new row.
     """
     own_rows, rows = {row.name: row for row in panel.rows}, []
     for row in other.rows:

@@ -21,9 +21,9 @@ ThemeName = Literal["light", "dark"]
 
 
 class Hue(StrEnum):
-    """The colours of Okabe and Ito, in the order in which the curves of a figure take the colours.
+    """The colours of Okabe and Ito. The curves of a figure take the colours in this order.
 
-    The values are matplotlib's names for the colours in the colour cycle of a style sheet.
+    A value such as `C0` is matplotlib's name for a colour in the colour cycle of the style sheet.
     """
 
     BLUE = "C0"
@@ -111,7 +111,7 @@ class Line:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Ribbon:
-    """A band between two curves over one abscissa."""
+    """A band between two curves that share one abscissa."""
 
     title: str
     x: Values
@@ -249,8 +249,8 @@ class Figure:
     """Panels below a title and a finding. The title names the figure; the finding states the result of the figure.
 
     If `beside` is set, the panels stand side by side. If the title is empty, the title of the declaration is used. The
-    source always comes from the declaration. `unsolved` is the number of points without a solution. A `narrow` figure
-    fits into a column of a report.
+    source is always the source in the declaration. `unsolved` is the number of points without a solution. A `narrow`
+    figure fits into a column of a report.
     """
 
     finding: str

@@ -23,9 +23,9 @@ class Declaration:
     `compute` as a third argument.
 
     If `shown_at` is the path of another calculation, the figure appears on the page of that calculation and not on the
-    page of its own calculation. `asked_by` is a section or value of the request. A page leaves out the figure if this
-    section or value is absent. If `asked_value` is given, a page also leaves out the figure if the value differs from
-    `asked_value`.
+    page of its own calculation. `asked_by` is the path of a section or value of the request. A page leaves out the
+    figure if this section or value is absent. If `asked_value` is given, a page also leaves out the figure if the value
+    differs from `asked_value`.
     """
 
     name: str

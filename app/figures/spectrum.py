@@ -1,4 +1,4 @@
-"""Figures of a load spectrum: the output of every case against its limit, probabilities, deciding cases, mean losses.
+"""Figures of a load spectrum: outputs of all cases, probabilities of violating a limit, deciding cases, mean losses.
 
 The study's result states a probability as a dictionary. The entry `bounds` holds a lower and an upper bound of the
 probability; both are equal if all draws are solved. The entry `interval` is the confidence interval.
@@ -113,7 +113,10 @@ def _densities(limit: dict[str, Any], axis: Axis) -> Panel:
 
 
 def chances(limited: Limited) -> Figure:
-    """Draw the probability of violating the limit, for each case as the only case and for the whole spectrum."""
+    """Draw the probability of violating the limit, for each case and for the whole spectrum.
+
+    The probability for a case assumes that this case is the only case of the spectrum.
+    """
     limit = limited.found
     if is_tiny(limit):
         raise NoFigure("tiny", f"the probability is {chance_text(limit)} in every case")

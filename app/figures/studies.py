@@ -146,9 +146,10 @@ def chart(grid: Grid, y: Coordinate) -> Figure:
 
 
 def worst(grid: Grid, y: Coordinate) -> Figure:
-    """Draw a curve over the second field that shows the worst of the outputs at all values of the first field.
+    """Draw the worst output over the second field.
 
-    The worst output is unknown if the output at one value of the first field is unknown.
+    The worst output at a value of the second field is the worst of the outputs at all values of the first field. The
+    worst output is unknown if one of these outputs is unknown.
     """
     x, finding = grid.x, ""
     reached = grid.values.min(axis=0) if grid.greatest else grid.values.max(axis=0)

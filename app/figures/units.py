@@ -16,9 +16,9 @@ MM, UM, RPM = (UNITS[name].scale for name in ("mm", "um", "rpm"))
 def shown(data: T) -> T:
     """Return a copy of a solver's dataclass with all quantities in the units in which they are shown.
 
-    Dataclasses inside the dataclass are copied in the same way. Declared computed values are converted as well. Other
-    methods of the copy must not be used, because they would compute from values that are not in SI. Undeclared values
-    and None are copied unchanged.
+    Dataclasses inside the dataclass are copied in the same way. Computed values that have a declaration are converted
+    as well. Other methods of the copy must not be used, because they would compute from values that are not in SI.
+    Undeclared values and None are copied unchanged.
     """
     copy: T = _converted(data, None)
     return copy

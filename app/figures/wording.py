@@ -8,9 +8,9 @@ NO_BREAK = "\u00a0"  # a space at which lines do not break
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 PLAIN = (1e-3, 1e6)  # range of the magnitudes that are written without a power of ten
 NOISE = 1e-9  # share of a whole; a smaller part is a rounding error
-UNCERTAIN = 0.2  # chosen; largest relative error, due to resolution, of a number whose verdict is not doubtful
+UNCERTAIN = 0.2  # chosen; if the relative error of a number due to resolution is larger, its verdict is doubtful
 DIFFERENCES = {"°C": "K", "K": "K", "°": "°", "%": "percentage points"}
-"""Units of quantities whose changes are stated as differences, not as ratios, each with the unit of the difference."""
+"""Units of quantities whose changes are stated as differences and not as ratios, with the units of the differences."""
 # One or two letters, an underscore, then letters and digits, which commas may separate into groups.
 _SUBSCRIPT = re.compile(r"(?<!\w)([^\W\d_²³]{1,2})_([^\W_²³]+(?:,[^\W_²³]+)*)")
 
@@ -26,7 +26,7 @@ def subscripts(text: str, typeset: Callable[[str, str], str]) -> str:
 def number(value: float, unit: str | None = None, digits: int = 3) -> str:
     """Return a value with its unit as text, with `digits` significant digits and a true minus sign.
 
-    Digits before the decimal point are never dropped.
+    If the value has more than `digits` digits before the decimal point, all of these digits are written.
     """
     value += 0.0  # no negative zero
     if value != 0.0 and not PLAIN[0] <= abs(value) < PLAIN[1]:

@@ -35,7 +35,7 @@ class Equation:
 
 @dataclass(frozen=True, slots=True)
 class Function:
-    """A function or class that implements equations, with its head and its docstring as in the source."""
+    """A function or class that implements equations, with its head and its docstring as they stand in the source."""
 
     name: str
     head: str

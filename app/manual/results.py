@@ -156,10 +156,10 @@ PLACES = {
     "heat_balance.warm_up.WarmUp": "H24",
     "drive_train.warm_up.UnitWarmUp": "D15; largest_face_load_factor: L17; least_backlash: H22",
 }
-"""Places in the manual, by the solvers' dataclass that declares the results.
+"""Places in the manual. The keys are the solvers' dataclasses that declare the results.
 
-A text lists targets, separated by semicolons. The first target is the place of all fields of the dataclass except those
-that a further target names. A further target begins with the names of the fields whose place it is.
+A text lists targets, separated by semicolons. Every target except the first begins with names of fields, and is the
+place of these fields. The first target is the place of all other fields of the dataclass.
 """
 
 

@@ -15,7 +15,7 @@ def asked_in(calculation: Calculation, text: str, root: str, answers: Mapping[st
     """Return the case that a text asks for, and True if the text is already the shortest link to this case.
 
     The text is a query or the content of a form. The shortest link has no empty fields. `root` is the prefix that a
-    proxy puts before the addresses of the service. `answers` holds recently calculated answers by their keys.
+    proxy puts before the addresses of the service. `answers` holds recently calculated answers under their keys.
     """
     fields = pairs_of_query(text)
     pressed = WRITTEN in dict(fields)

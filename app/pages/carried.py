@@ -1,7 +1,8 @@
 """Links to other calculations of the same gears or coupling.
 
-The view `pair` of a link holds the values for which the other page has no field. A link from that page to a third page,
-or back, therefore loses no value. If the case was read from a REXS file, the link also names this file.
+The view `pair` of a link holds the values for which the other page has no field. If that page links to a third page, or
+back to the first page, the link therefore contains all values. If the case was read from a REXS file, the link also
+names this file.
 """
 
 from collections.abc import Iterable, Iterator
@@ -16,7 +17,7 @@ from app.schema.fields import ITEM, Branch, Leaf, branches, leaf_at, tree
 from app.schema.model import Documented
 
 SUBJECTS = {"gears": "pair", "coupling": "coupling"}
-"""Sections that several calculations share, each with a word for the subject of these calculations."""
+"""Sections that several calculations share. The value of a section is the subject of these calculations."""
 LOAD, OPERATION = "load.", "operation."
 """Two names of one section: `load` in the request of scuffing and in `pair`, `operation` in the other requests."""
 
@@ -68,7 +69,7 @@ def _common(calculation: Calculation, name: str) -> str:
 
 
 def _there(calculation: Calculation, name: str) -> str:
-    """Return the name that the field with this shared name has in the request of a calculation."""
+    """Convert the shared name of a field into the name of the field in the request of a calculation."""
     if name.startswith(LOAD) and not _has(calculation.request, name):
         return f"{OPERATION}{name.removeprefix(LOAD)}"
     return name
@@ -82,7 +83,7 @@ def _has(model: type[Documented], name: str) -> bool:
 
 
 def _missing(branch: Branch, names: set[str]) -> Iterator[str]:
-    """Yield the titles of the fields that a request requires and that are missing from `names`."""
+    """Yield the titles of those required fields of a request that are missing from `names`."""
     for group in _choices(branch.model):
         paths = [f"{branch.path}.{name}" for name in group]
         if names.isdisjoint(paths):
@@ -113,5 +114,5 @@ def _leaf(branch: Branch, path: str) -> Leaf | None:
 
 
 def _is_given(path: str, names: set[str]) -> bool:
-    """Return whether the names contain the path or the path of a field below it."""
+    """Return whether the names contain this path, or the path of a field below this path."""
     return any(name == path or name.startswith(f"{path}.") for name in names)

@@ -41,10 +41,10 @@ REFUSED = (Unreadable, InvalidBody, Unprocessable)
 class Asked:
     """A requested case, and the addresses of its views.
 
-    Addresses that people may keep contain an identification of the solvers' sources. A page that is opened later can
-    therefore tell its reader whether the numbers may have changed. `kept` and `kept_ref` are the answers of the case
-    and of its variant, or None if they are not kept. `root` is the prefix that a proxy puts before the addresses of the
-    service. `pressed` is True if the form was sent, even if no field was filled in.
+    Addresses that people may keep contain a hash of the solvers' source code. If such an address is opened later, the
+    page can therefore tell its reader whether the numbers may have changed. `kept` and `kept_ref` are the answers of
+    the case and of its variant. If an answer is not kept, None stands for the answer. `root` is the prefix that a proxy
+    puts before the addresses of the service. `pressed` is True if the form was sent, even if no field was filled in.
 
     A case that is too long for a link is posted. The addresses of its figures then contain `answered`: the hashes of
     the case and of the variant, taken from their answers. These addresses work as long as both answers are kept.
@@ -71,7 +71,7 @@ class Asked:
 
     @property
     def case(self) -> dict[str, Any]:
-        """The request with its defaults; only the body if the request is refused; empty if the body is unreadable."""
+        """The request with its defaults; the body alone if the request is refused; empty if the body is unreadable."""
         try:
             return validated(self.calculation.request, self.body).model_dump()
         except InvalidBody:
@@ -91,12 +91,12 @@ class Asked:
 
     @property
     def ref(self) -> str:
-        """The query of the variant to compare with."""
+        """The query of the variant with which the case is compared."""
         return self.views.get("ref", "")
 
     @property
     def ref_pairs(self) -> Pairs:
-        """The fields of the variant to compare with."""
+        """The fields of the variant with which the case is compared."""
         return split_views(normalised(self.calculation.request, pairs_of_query(self.ref)))[0]
 
     @property
@@ -106,12 +106,12 @@ class Asked:
 
     @property
     def query(self) -> str:
-        """The query of the case without views."""
+        """The query of the case, without the fields that only affect the view."""
         return link("", self.pairs).removeprefix("?")
 
     @property
     def written(self) -> str:
-        """The texts that the service writes into the form, but would read differently if a person typed these texts."""
+        """The texts that the service writes into the form and would read differently if a person typed them."""
         return written_of(self.calculation.request, self.pairs)
 
     @property
@@ -125,7 +125,7 @@ class Asked:
         return self.beside(self.ref)
 
     def beside(self, ref: str) -> str:
-        """Return the address of the page that compares the case with the case of the query `ref`.
+        """Return the address of the page that compares the case with the case in the query `ref`.
 
         If `ref` is empty, the page shows no comparison.
         """
@@ -178,8 +178,8 @@ def opened(content: bytes, root: str) -> Asked:
 def key_of(path: str, pairs: Pairs) -> str:
     """Return the key of an answer: a hash of the page and the fields of the case.
 
-    The order of the fields does not matter. If the case is too long for a link, the only field is `case`, whose value
-    is the hash of the case in the answer.
+    The order of the fields does not matter. If the case is too long for a link, a single field `case` replaces all
+    fields. The value of this field is the hash of the case that the answer states.
     """
     return sha256(repr((path, sorted(pairs))).encode()).hexdigest()
 
@@ -204,8 +204,9 @@ class Case:
 def solved(calculation: Calculation, pairs: Pairs, kept: bytes | None, detail: Detail = "fields") -> Case:
     """Return the case with its answer. By default the answer has all fields that the figures of the case need.
 
-    If `kept` is given, request and result are taken from this kept answer, and `pairs` is ignored. Raises Unreadable,
-    InvalidBody and Unprocessable.
+    If `kept` is given, request and result are taken from this kept answer, and `pairs` is ignored. Raises Unreadable if
+    names of fields are malformed or contradict each other, InvalidBody if the request is invalid, and Unprocessable if
+    the solver refuses the inputs.
     """
     if kept is None:
         body = body_of(calculation.request, pairs)

@@ -18,7 +18,7 @@ from app.pages.cases import Asked, Case
 
 VARIANT = "variant A"
 MOST_LINES = 200  # lines of a table on a page; the file has all lines
-DIGITS = 6  # significant digits; the tolerances of the solvers leave fewer digits accurate
+DIGITS = 6  # significant digits; because of the tolerances of the solvers, fewer digits are accurate
 PIXELS = 100  # per inch
 
 
@@ -64,7 +64,7 @@ def figures_of(
 ) -> tuple[list[tuple[Declaration, Figure | None]], list[tuple[str, NoFigure]]]:
     """Return the figures that the page of a case shows, and the titles of missing figures with the reasons.
 
-    If a figure needs more data than the answer holds, None stands for the figure, unless `compute` is set.
+    If `compute` is not set, None stands for a figure that needs more data than the answer holds.
     """
     figures, missing = [], []
     for declaration in case.calculation.figures:
@@ -140,7 +140,7 @@ def in_columns(figures: Iterable[Figure]) -> list[Figure]:
 
 
 def values_of(figure: Figure) -> bytes:
-    """Return as JSON the places of the panels in the image, the curves of the panels, and the table of values."""
+    """Return the places of the panels in the image, the curves of the panels and the table of values, all as JSON."""
     return json.dumps({"panels": _panels(figure), **_table(figure)}).encode()
 
 

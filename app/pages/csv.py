@@ -1,4 +1,4 @@
-"""An answer as CSV for spreadsheets: either the case with its inputs and results in lines, or curves in columns.
+"""An answer as CSV for spreadsheets: either one line for each input and result, or one column for each curve.
 
 Results have six significant digits; the JSON answer has all digits.
 """
@@ -15,7 +15,7 @@ from app.schema.model import Response
 from app.spreadsheet import csv_of
 from app.studies.fields import value_at
 
-DIGITS = 6  # significant digits; the tolerances of the solvers leave fewer digits accurate
+DIGITS = 6  # significant digits; because of the tolerances of the solvers, fewer digits are accurate
 
 
 def values(case: Case, title: str) -> bytes:
@@ -53,7 +53,7 @@ def curves(response: Response) -> dict[str, str]:
 
 
 def curve(response: Response, path: str) -> bytes:
-    """Return a table of a curve, of a map, or of all curves of a group, each with its axes.
+    """Return a table of a curve, of a map, or of all curves of a group. The table includes the axes.
 
     Curves stand in columns. The table of a map has one line per point. Raises Unprocessable if there is no curve or map
     at this path.

@@ -25,7 +25,7 @@ DETAIL = "detail"
 
 @dataclass(frozen=True, slots=True)
 class State:
-    """The state of a form, by the names of its fields.
+    """The state of a form. The keys of all mappings are the names of fields.
 
     `texts` holds the texts of the fields, `faults` holds the messages about their faults, and `resolved` holds the
     values that an answer used for the fields. `assumed` are the fields whose default is our own assumption. `required`
@@ -45,7 +45,7 @@ class State:
 
 @dataclass(frozen=True, slots=True)
 class FieldView:
-    """What the template shows of a field; its `widget` is number, text, list, select or table.
+    """What the template shows of a field. `widget` is number, text, list, select or table.
 
     `empty` describes in one line the value that is used if the field is empty. `column` names the section of the field
     if several sections are shown side by side. `excludes` are the fields and sections that must be empty if this field
@@ -100,8 +100,8 @@ class Section:
 
     There are three kinds of sections. A `section` has blocks below each other. `rows` are the items of a list of
     sections; the last item is empty, so that the user can add an item. `twins` are sections of the same model side by
-    side, with one line per field; `columns` holds the titles of these sections by their paths. `switch` is the field by
-    which the user adds or removes an optional section.
+    side, with one line per field; `columns` holds the titles of these sections under their paths. `switch` is the field
+    by which the user adds or removes an optional section.
     """
 
     path: str
@@ -160,7 +160,7 @@ def form(request: type[Request], state: State) -> tuple[Section, ...]:
             loose.append(block)
         elif block.kind == "section":
             sections.append(block)
-        else:  # rows and twins get a section of their own
+        else:  # rows and twins become sections
             sections.append(replace(block, blocks=(block,), kind="section", id=f"{anchor(block.path)}-", fault=None))
     if loose:
         names = [leaf.path for leaf in root.leaves if leaf.path != DETAIL]
@@ -279,9 +279,9 @@ def _blocks(branch: Branch, prefix: str, state: State) -> Iterator[Block]:
 
 
 def _choices(branch: Branch) -> dict[str, tuple[Leaf, ...]]:
-    """Return, for the path of each field that has alternatives, the group of fields of which only one may be given.
+    """Return the groups of fields of which only one may be given.
 
-    If a field is in several groups, only the first group counts.
+    The keys are the paths of all fields in these groups. If a field is in several groups, only the first group counts.
     """
     fields = {_last(leaf.path): leaf for leaf in branch.leaves}
     choices: dict[str, tuple[Leaf, ...]] = {}
@@ -357,9 +357,10 @@ def _placeholder(leaf: Leaf, value: Any) -> str:
 
 
 def _options(leaf: Leaf, text: str) -> tuple[tuple[str, str], ...]:
-    """Return the values and labels of the options of a field, or nothing if the field has no options.
+    """Return the values and labels of the options of a field; empty if the field has no options.
 
-    The value of the default is empty. The text of the field is always an option, even if it is not permissible.
+    The option for the default has an empty value. The text in the field is always an option, even if this text is not
+    permissible.
     """
     named = {str(option): words(str(option)) for option in leaf.options}
     if leaf.kind == "boolean":

@@ -40,7 +40,7 @@ FIXED = {
     "html_block": "",  # comments that mark generated parts in the file
     "html_inline": "",  # anchors for links between the files; the pages have anchors of their own
 }
-"""The HTML of elements of Markdown whose HTML is always the same."""
+"""The HTML of those Markdown elements that always have the same HTML."""
 
 
 @lru_cache(maxsize=4)
@@ -126,7 +126,7 @@ def _is_of(leaf: Leaf, chapter: Chapter) -> bool:
 class ShownStudy:
     """A study of an example. A chapter of the manual shows one of the figures of this study.
 
-    `path` and `pairs` make the link of the case. `page` is the part of the address that names the kind of study, and
+    `path` and `pairs` form the link to the case. `page` is the part of the address that names the kind of study, and
     `controls` are the settings of the study.
     """
 

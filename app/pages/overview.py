@@ -18,7 +18,7 @@ from app.schema.fields import leaf_at
 ANSWERS = {"drive-train": "face-load", "coupling": "tooth-loads", "pumping": "mach-map", "scuffing": "flank-load"}
 """For each model, the name of the figure that the start page shows."""
 SCUFFING = "/v1/scuffing"
-SPECTRA = (SCUFFING, "/v1/drive-train")  # the endpoints to whose load spectra a stage has links
+SPECTRA = (SCUFFING, "/v1/drive-train")  # endpoints; every stage has links to the load spectra of these endpoints
 CASE_COLUMNS = ("load.pinion_torque_n_m", "load.pinion_speed_rpm", "temperatures.oil_c")
 
 
@@ -69,7 +69,7 @@ def unit_page(root: str, unit: dict[str, Any], name: str = "", sha256: str = "")
 
 
 def _titled(field: str, asked: Iterable[str]) -> str:
-    """Return the title of a field of a request, or of an endpoint.
+    """Return the title of an endpoint, or of a field of a request.
 
     The title of a field is first looked up in the requests of the endpoints `asked`, then in all other requests.
     """

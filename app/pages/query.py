@@ -41,7 +41,7 @@ REPORT_NAMES = {
     "rexs_sha256": 64,
     "notes": 2000,
 }
-"""The fields that identify a report, with the largest number of characters of each field."""
+"""The fields that identify a report, with the largest permissible number of characters of each field."""
 VIEW_NAMES = REPORT_NAMES.keys() | {
     *("paper", "ref", "also", "pair", "theme", "sources", "curve", "unlinked", "extent", "rexs_stage")
 }
@@ -61,7 +61,7 @@ MOST_FIELDS = 1000  # chosen: many more than the longest form has
 DEEPEST = 12  # largest number of parts of a name; the names of all fields have fewer parts
 LONGEST_QUERY = 6000  # characters; common proxies refuse a request line of more than 8 KiB
 LONGEST_NAME = 100  # characters of a name; the names of all fields are shorter
-MATRIX = 2  # dimensions
+MATRIX = 2  # number of dimensions
 SIDE = 2  # rows and columns of a matrix, one for each of the two directions across a shaft
 PRESENT = "on"
 
@@ -77,7 +77,7 @@ def pairs_of_query(query: str) -> Pairs:
 
 
 def split_views(pairs: Pairs) -> tuple[Pairs, dict[str, str]]:
-    """Return the fields of the case, and the fields that only affect its view."""
+    """Return the fields of the case, and the fields that only affect the view of the case."""
     views = VIEW_NAMES | control_names()
     return [pair for pair in pairs if pair[0] not in views], {name: text for name, text in pairs if name in views}
 

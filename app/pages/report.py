@@ -27,7 +27,7 @@ LABELS = {name: name for name in REPORT_NAMES} | {
     "rexs_sha256": "SHA-256 of the REXS file",
 }
 """Labels of the fields in the form of the report."""
-MOST_SHORT = 4  # largest number of figures in the short form, where two stand beside each other
+MOST_SHORT = 4  # largest number of figures in the short form, in which two figures stand beside each other
 LONGEST_LINK = 160  # characters of the printed text of a link; the address behind the text is complete
 _element = re.compile(r"(\.\d+){1,2}$")  # indices of an element of a list or a matrix of numbers
 
@@ -40,7 +40,7 @@ class Cell(NamedTuple):
 
 
 class Row(NamedTuple):
-    """An input of a section. `cells` holds its value for each item of the section, by the index of the item."""
+    """An input of a section. `cells` holds the value for each item of the section, under the index of the item."""
 
     leaf: Leaf
     cells: dict[int, Cell]
@@ -56,11 +56,11 @@ class Section(NamedTuple):
 
 GIVEN = frozenset({"given"})
 STATED = GIVEN | {"assumed", "derived"}
-"""Origins of the inputs that the tables show. Inputs of other origins follow the tables as text."""
+"""Origins of the inputs that the tables show. Below the tables, a text lists the inputs of other origins."""
 
 
 def context(asked: Asked, case: Case, host: str) -> dict[str, Any]:
-    """Return the variables that the template needs in addition to those of the result.
+    """Return the variables that the template needs in addition to the variables of the result.
 
     The link to the case is relative if `host` is empty. Raises Unprocessable if a name or note is too long.
     """
@@ -96,7 +96,7 @@ def _with_origin(sections: list[Section], origins: frozenset[str]) -> list[Secti
 
 
 def _left(sections: list[Section]) -> list[tuple[str, list[tuple[Leaf, str, bool]]]]:
-    """Return the inputs left to their defaults, by the title of their section.
+    """Return, for each section, the title of the section and the inputs that have their defaults.
 
     Each input comes with a text, and with a boolean that is True if this text is a value. If an input is empty and has
     no value, the text says what replaces the value, for example the quantity from which the value is estimated.
@@ -160,7 +160,7 @@ def _given(case: Case) -> dict[str, Any]:
 
 
 def _inputs(case: Case, pairs: Pairs) -> list[Section]:
-    """Return the inputs by section. Each input has the value that was used, and the origin of this value."""
+    """Return the inputs of all sections. Each input has the value that was used, and the origin of this value."""
     typed = {_element.sub("", name) for name, _ in pairs}
     assumed = {assumption.field: assumption.value for assumption in case.response.assumptions}
     used = resolved(case.response) | assumed

@@ -17,14 +17,14 @@ NOT_RESULTS = frozenset(
 DIGITS = 3  # significant digits of a headline number
 SHAFTS = ("pinion shaft", "wheel shaft")
 """Titles of the shafts, in the order of the list of shafts."""
-NEAR = 0.8  # share of an upper limit above which a value is close to the limit
+NEAR = 0.8  # a value above this share of an upper limit is close to the limit
 LEVELS = ("plain", "good", "near", "bad")
 WELL_ABOVE = 2.0  # a value of at least this multiple of a lower limit is well above the limit
 UNCHANGED = 5e-6  # share of a value; a smaller change is not shown
 
 
 class Entry(NamedTuple):
-    """A value of an answer at its full path, under the title of its group."""
+    """A value of an answer, with its full path and the title of its group."""
 
     group: str
     leaf: Leaf
@@ -80,19 +80,19 @@ def _entries(member: Leaf | Branch, value: Any, path: str, around: str) -> Itera
 
 
 def _title_of_item(member: Branch, index: int) -> str:
-    """Return the title of a section in a list. The title of a shaft names its gear; other titles have a number."""
+    """Return the title of a section in a list. For a shaft, the title names the gear; any other title has a number."""
     if member.path.rpartition(".")[2] == "shafts" and index < len(SHAFTS):
         return SHAFTS[index]
     return f"{member.title} {index + 1}"
 
 
 def values_by_path(response: Documented | None) -> dict[str, Any]:
-    """Return all results by their paths; empty if there is no response."""
+    """Return all results, with their paths as keys; empty if there is no response."""
     return {entry.path: entry.value for entry in entries(response)} if response is not None else {}
 
 
 def groups(response: Documented, before: Documented | None = None) -> dict[str, list[Row]]:
-    """Return the scalars and short lists of the answer, by the title of their group.
+    """Return the scalars and short lists of the answer, grouped. The keys are the titles of the groups.
 
     If `before` is given, each line also has the value from this answer of the variant.
     """
@@ -108,7 +108,7 @@ def groups(response: Documented, before: Documented | None = None) -> dict[str, 
 
 
 def differences(request: type[Documented], response: Response, before: Response) -> list[Row]:
-    """Return the inputs that differ from those of a variant.
+    """Return the inputs that differ between a case and its variant.
 
     If an input is empty, the value that was used for this input is shown.
     """
@@ -140,7 +140,7 @@ def _row(leaf: Leaf, path: str, now: Any, before: Any = None, *, label: str, dig
 
 
 def _named(leaf: Leaf, items: tuple[str, ...]) -> tuple[str, ...]:
-    """Add a name to each item, such as a component or an end of a band, if the declaration has such names."""
+    """Put a name before each item if the declaration has names of items, such as the names of components."""
     names = (leaf.declared.index or "").split(", ")
     return tuple(map(" ".join, zip(names, items, strict=True))) if len(names) == len(items) > 1 else items
 
@@ -153,7 +153,7 @@ def row_of(leaf: Leaf, path: str, value: Any = None, digits: int = DIGITS) -> Ro
 def texts_of(value: Any, digits: int, of_items: int = 4) -> tuple[str, ...]:
     """Return the text of a value, the texts of the items of a list, or the texts of the rows of a matrix.
 
-    A single value has `digits` digits, and items have `of_items` digits.
+    A single value has `digits` significant digits, and items have `of_items` significant digits.
     """
     if not isinstance(value, list):
         return (shown(value, digits),)
@@ -178,7 +178,7 @@ def _change(now: Any, before: Any, unit: str) -> str:
 
 
 def flattened(content: Any, path: str = "") -> dict[str, Any]:
-    """Return the plain values, lists and matrices of numbers by their dotted paths."""
+    """Return the plain values, lists of numbers and matrices of numbers, with their dotted paths as keys."""
     inner: Iterable[tuple[Any, Any]]
     if isinstance(content, dict):
         inner = content.items()
@@ -245,7 +245,7 @@ def _verdict(response: Documented, leaf: Leaf, values: dict[str, Any]) -> tuple[
     """Return the level and the words of the verdict on a headline number.
 
     The words come from the answer if the answer judges the number. Otherwise they compare the number with its limit.
-    `values` holds inputs and results by their paths.
+    `values` holds inputs and results under their paths.
     """
     view, value = leaf.view, values.get(leaf.path)
     if value is None:

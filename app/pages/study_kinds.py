@@ -1,4 +1,4 @@
-"""The kinds of study: each module of `app.studies.kinds` is one kind and has a `PAGE`.
+"""The kinds of study. Each module of `app.studies.kinds` describes one kind, and has a `PAGE`.
 
 The modules are imported at the first call. An import at the start would be circular: all pages have links to studies,
 and the pages of studies consist of parts of other pages.

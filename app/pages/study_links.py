@@ -77,9 +77,10 @@ def studies_of_case(
 ) -> list[Starter]:
     """Return links to the ready studies, applied to a case and with ranges around the values of this case.
 
-    `derived` holds, by path, values that the case does not state, such as the power that follows from a given torque.
-    `file` names the REXS file from which the case was read. A study is left out if it varies a number that the case
-    neither states nor implies. Options and values of zero are varied over the range of the example.
+    `derived` holds values that the case does not state, under the paths of these values. An example is the power that
+    follows from a given torque. `file` names the REXS file from which the case was read. A study is left out if it
+    varies a number that the case neither states nor implies. Options and values of zero are varied over the range of
+    the example.
     """
     address, starters = f"{page_path(calculation)}/{VARY}", []
     for example in studies_of(calculation):

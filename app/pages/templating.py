@@ -48,7 +48,7 @@ def example_link(calculation: Calculation, example: Example) -> str:
 
 @cache
 def by_model() -> dict[str, list[Calculation]]:
-    """Return the calculations by model; the drive train comes first because it chains the other models."""
+    """Return the calculations of each model. The drive train comes first, because it chains the other models."""
     models: dict[str, list[Calculation]] = {"drive-train": []}
     for calculation in CALCULATIONS:
         models.setdefault(model_of(calculation), []).append(calculation)
@@ -59,7 +59,7 @@ def by_model() -> dict[str, list[Calculation]]:
 def _environment(root: str) -> Environment:
     """Return the environment of the templates.
 
-    Its filter `url` puts the prefix of the proxy before an address of the service.
+    The filter `url` puts the prefix of the proxy before an address of the service.
     """
 
     def url(address: str) -> str:

@@ -1,9 +1,9 @@
 """Numbers as people type them into a form, and the texts that stand for these numbers in links.
 
-A typed number may have thousands in groups, a decimal point or comma, a power of ten, the minus sign that pages print,
-and the unit of its field with any prefix. A text that can be read in two ways is not read as a number. In a link, such
-a text ends with a question mark so that it is not a number, and `question` returns the question that asks the user
-which reading is meant.
+A typed number may have digits in groups of three, a decimal point or comma, a power of ten, the minus sign that pages
+print, and the unit of its field with any prefix. A text that can be read in two ways is not read as a number. In a
+link, a question mark is added to the end of such a text, so that the text is not a number. `question` returns the
+question that asks the user which reading is meant.
 """
 
 import re
@@ -217,7 +217,7 @@ def _items(text: str, unit: str | None) -> list[str] | None:
 def _has_several(item: str) -> bool:
     """Return whether the commas separate numbers and are not decimal commas.
 
-    They do if the numbers have decimal points, or if there are more than two numbers.
+    The commas separate numbers if the numbers have decimal points, or if there are more than two numbers.
     """
     grouped = _ENGLISH.fullmatch(item) or _GERMAN.fullmatch(item)
     return not grouped and (item.count(",") > 1 or ("," in item and "." in item))

@@ -18,7 +18,7 @@ KEPT = 64  # number of variants whose inputs and results a worker keeps
 
 
 class Column(NamedTuple):
-    """A variant: its name, its address, and its values by path.
+    """A variant: its name, its address, and its values under their paths.
 
     If the variant has no values, `trouble` says why.
     """
@@ -46,14 +46,14 @@ class Variants(NamedTuple):
 
 
 def queries_of(asked: Asked) -> list[str]:
-    """Return the queries of the variants after the first one."""
+    """Return the queries of all variants except the first variant."""
     return [query for query in asked.views.get("also", "").split(SEPARATOR) if query][:MOST]
 
 
 def with_this(asked: Asked) -> str:
-    """Return the view `also` with the case as a further variant.
+    """Return the value of the view `also`, extended by the case as a further variant.
 
-    The view is empty if there is no room for a further variant, or if the case is already one of the variants.
+    The value is empty if there is no room for a further variant, or if the case is already one of the variants.
     """
     queries = queries_of(asked)
     return SEPARATOR.join([*queries, asked.query]) if len(queries) < MOST and asked.query not in queries else ""

@@ -8,7 +8,7 @@ from app.schema.coupling import CouplingResponse
 from app.schema.model import Response
 from app.schema.pumping import ChokingSpeedResponse, PumpingResponse
 
-NEAR_LIMIT = 0.8  # share of an upper limit above which a value is close to the limit
+NEAR_LIMIT = 0.8  # a value above this share of an upper limit is close to the limit
 
 
 class Verdict(NamedTuple):
@@ -19,7 +19,7 @@ class Verdict(NamedTuple):
 
 
 def verdicts(response: Response) -> dict[str, Verdict]:
-    """Return the verdicts that need more than a single limit, by the path of the headline number."""
+    """Return the verdicts that need more than a single limit. The keys are the paths of the headline numbers."""
     if response.status == "no_solution":
         return {}
     if isinstance(response, CouplingResponse):

@@ -27,7 +27,7 @@ from app.schema.fields import headlines, leaf_at
 
 @dataclass(frozen=True, slots=True)
 class Shown:
-    """A view as bytes. `keep` holds the answers that are to be kept, by their keys."""
+    """A view as bytes. `keep` holds the answers that are to be kept, under their keys."""
 
     content: bytes
     status: int = 200
@@ -76,7 +76,7 @@ def _deciding(calculation: Calculation) -> frozenset[str]:
 
 
 def result(asked: Asked, media: Literal["json", "csv"]) -> Shown:
-    """Return the answer as JSON, as the API gives it, or a CSV table of all its values or of one of its curves."""
+    """Return the answer as JSON, as the API gives it, or as a CSV table of all values or of one curve."""
     case = solved(asked.calculation, asked.pairs, asked.kept, "curves" if media == "json" else "fields")
     if media == "json":
         content = json_written(case.response)
@@ -127,9 +127,10 @@ def _asked_back(pairs: Pairs, faults: list[Fault]) -> list[Fault]:
 
 
 def _keep(asked: Asked, case: Case, variant: Case | None = None) -> dict[str, bytes]:
-    """Return the answers of case and variant that are not kept yet. The keys are made by `key_of` from their fields.
+    """Return the answers of the case and the variant that are not kept yet.
 
-    If the case is too long for a link, both answers are also returned under keys that are made from their hashes.
+    The function `key_of` makes the keys from the fields of the case and from the fields of the variant.
+    If the case is too long for a link, both answers are also returned under keys made from the hashes of the cases.
     """
     keep = {}
     for pairs, kept, answered in (asked.pairs, asked.kept, case), (asked.ref_pairs, asked.kept_ref, variant):
@@ -161,7 +162,7 @@ def _page(asked: Asked, state: State, status: int = 200, keep: dict[str, bytes] 
 
 
 def _answered(asked: Asked, case: Case, variant: Case | None, trouble: str, *, compute: bool = False) -> dict[str, Any]:
-    """Return the variables for the part of page and report that shows the answer and compares it with the variant.
+    """Return the variables for the part of a page or report that shows the answer, compared with the variant.
 
     `trouble` says why the variant cannot be computed.
     """

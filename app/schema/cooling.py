@@ -1,4 +1,4 @@
-"""How a gear pair or unit is cooled, and what the heat balance answers."""
+"""The cooling of a gear pair or a gear unit, and the results of the heat balance."""
 
 from typing import ClassVar
 
@@ -34,7 +34,7 @@ class GearCooling(Section, of=si.Cooling):
     """The supply of oil to the teeth, further losses that heat the oil, and measured temperatures."""
 
     def unused(self) -> dict[str, bool]:
-        """Mark the fields as unused whose values a measured temperature or a given oil flow replaces."""
+        """Mark fields as unused if a measured temperature or a given oil flow replaces the values of these fields."""
         measured = self.measured
         return {
             "flow_rise_k": self.gear_flow_l_per_min is not None,
@@ -65,7 +65,7 @@ class HeatLosses(Group, of=results.HeatLosses):
 
 
 class HeatSuppliedRemoved(Group, of=results.Balance):
-    """The heat that is supplied, the heat that is removed, and the relative difference between both."""
+    """The heat that is supplied, the heat that is removed, and the relative difference between the two."""
 
 
 class BulkByStandards(Group, of=results.BulkEstimates):

@@ -23,7 +23,7 @@ class CouplingDesign(Section, of=si.Coupling, without=("crowning_ratio",)):
     tooth_stiffness_n_per_um: float | None
 
     def stands_for_null(self, name: str) -> Any:
-        """Return the stiffness of teeth of this material; not every answer contains this stiffness."""
+        """Return the tooth stiffness that follows from the material; not every answer contains this stiffness."""
         return self.si(si.Coupling).tooth_stiffness * 1e-6 if name == STIFFNESS else None
 
 
@@ -58,7 +58,7 @@ class CouplingOperation(CouplingLoad):
     ] = None
 
     def operation(self, hub_distance: float) -> si.Operation:
-        """Return the operating point of the solver; `hub_distance` [m] is the distance of the tooth planes."""
+        """Return the operating point of the solver; `hub_distance` [m] is the distance between the tooth planes."""
         if self.parallel_offset_mm is None:
             return self.si(si.Operation)
         offset = UNITS["mm"].to_si(self.parallel_offset_mm)
@@ -126,7 +126,7 @@ class _CouplingRequest(Request):
     )
 
     def unused(self) -> dict[str, bool]:
-        """Mark the inputs as unused that are replaced by other given values or do not apply to the arrangement."""
+        """Mark inputs as unused if other given values replace them, or if they do not apply to the arrangement."""
         arrangement, offset = self.operation.arrangement, getattr(self.operation, "parallel_offset_mm", None)
         return {
             "model.inlet": self.model.inlet_length_mm is not None,
@@ -176,7 +176,7 @@ class RecommendationRequest(_CouplingRequest):
     operation: Annotated[CouplingOperationRange, Input("operating point", text="with a range of misalignment")]
 
     def unused(self) -> dict[str, bool]:
-        """Also mark the inputs as unused that only affect results at a single operating point.
+        """Also mark inputs as unused if they only affect results at a single operating point.
 
         These results are the thrust with one pair of teeth, and the friction at rest.
         """

@@ -1,4 +1,4 @@
-"""A gear unit whole: request and answer of /v1/drive-train."""
+"""A complete gear unit: request and answer of /v1/drive-train."""
 
 from collections.abc import Iterator
 from functools import partial
@@ -202,8 +202,8 @@ class UnitShaft(Section, of=si.Shaft, without=("ultimate_thrust",)):
     def shaft(self, name: str, scuffing: mesh.ScuffingInputs, face_start: float) -> si.Shaft:
         """Return the solver's shaft.
 
-        `name` is "pinion_shaft" or "wheel_shaft", and `face_start` [m] is the position at which the face starts. Raises
-        InvalidInput with the full name of the wrong field.
+        `name` is "pinion_shaft" or "wheel_shaft", and `face_start` [m] is the position at which the face starts. If a
+        section or a bearing is invalid, raises InvalidInput with the full name of the wrong field.
         """
         sections = tuple(self._sections(name, scuffing.distribution.gears, face_start))
         bearings = []
@@ -215,9 +215,10 @@ class UnitShaft(Section, of=si.Shaft, without=("ultimate_thrust",)):
         return self.si(si.Shaft, self.thrust_bearing, bearings=tuple(bearings), sections=sections)
 
     def _sections(self, name: str, gears: GearPairInputs, face_start: float) -> Iterator[si.ShaftSection]:
-        """Yield the solver's sections. If a section under the teeth has no diameter, use the diameter for torsion.
+        """Yield the solver's sections.
 
-        Raises InvalidInput `section_diameter` if a section that is not under the teeth has no diameter.
+        If a section under the teeth has no diameter, the section has the diameter that carries the torsion. Raises
+        InvalidInput `section_diameter` if a section that is not under the teeth has no diameter.
         """
         teeth = gears.pinion if name == "pinion_shaft" else gears.wheel
         position = UNITS["mm"].to_si(self.start_mm)
@@ -256,7 +257,7 @@ class UnitCoupling(Section, of=si.UnitCoupling):
 
 
 class ToothHeat(Section, of=si.Heat):
-    """Temperatures of the teeth, and the ratio of their temperature rise to the temperature rise of the pumped gas."""
+    """Temperatures of the teeth, and the ratio of the rise in tooth temperature to the rise in gas temperature."""
 
 
 class TrainTemperatures(ContactTemperatures, of=si.DriveTrainInputs, only=("local_bulk",)):
@@ -323,7 +324,7 @@ class DriveTrainRequest(MeshInOil):
 
     @model_validator(mode="after")
     def bodies_hold_the_pumped_heat(self) -> Self:
-        """Include the pumped heat in the tooth temperatures if they come from the heat balance.
+        """Include the pumped heat in the tooth temperatures if these temperatures come from the heat balance.
 
         The heat balance computes the temperatures of the gear bodies, which take up the pumped heat.
         """
@@ -379,7 +380,7 @@ class DriveTrainRequest(MeshInOil):
         return super().options() | {"slices": self.model.si(pumping.PumpingModel).slice_count}
 
     def unused(self) -> dict[str, bool]:
-        """Also mark the inputs of switched-off effects as unused, and the inputs that a heat balance replaces."""
+        """Also mark as unused the inputs of switched-off effects, and the inputs that a heat balance replaces."""
         coupled = self.couplings and self.effects.shafts and self.effects.coupling
         return (
             super().unused()
@@ -495,7 +496,7 @@ class TrainBalance(Group, of=results.ForceBalance):
 
 
 class TrainConvergence(Group, of=results.Convergence):
-    """The iteration by which shafts and mesh agree on one gap: number of steps and last residual."""
+    """Number of steps and last residual of the iteration between the calculations of shafts and mesh."""
 
 
 class TrainMaps(Group, of=results.FlankMaps):
@@ -533,7 +534,7 @@ class DriveTrainDerived(MeshDerived, of=derived.Derived):
 class MisalignmentParts(Group, of=results.Parts):
     """Slope of the shafts' gap over the face, split by cause.
 
-    The parts are computed for the load distribution on which the calculations of shafts and mesh agreed.
+    The parts are computed for the load distribution at the end of the iteration between shafts and mesh.
     """
 
     member_unit: ClassVar = "um"

@@ -1,6 +1,6 @@
 """The fields of a request or response in their sections, for forms, tables, files, studies and tests.
 
-If a solver names one of its own inputs, `field_path` returns the field of the request that the solver means.
+If an error of a solver names an input of the solver, `field_path` returns the corresponding field of the request.
 """
 
 from collections import defaultdict
@@ -93,8 +93,9 @@ class Branch:
 def tree(model: type[Documented]) -> Branch:
     """Return the whole request or response as one section without a name.
 
-    If several leaves have the same title, the name of a section is added to the title of each. The section is the
-    nearest one around the leaf that contains no other leaf with this title.
+    If several leaves have the same title, the title of a section is added to the title of every one of these leaves.
+    For each leaf, this section is the nearest section around the leaf with a title that no section around the other
+    leaves has.
     """
     namesakes: dict[str, dict[str, list[str]]] = defaultdict(dict)
     for way in _ways(model):
@@ -132,7 +133,8 @@ def leaf_at(model: type[Documented], path: str) -> Leaf | None:
 def headlines(response: type[Documented]) -> tuple[Leaf, ...]:
     """Return the headline numbers of an answer, the most important first.
 
-    If the class of the answer extends another one, only headline numbers among the added fields are returned.
+    If the class of the answer extends another class of answers, only headline numbers among the added fields are
+    returned.
     """
     added = response.__annotations__
     own = [leaf for leaf in leaves(response) if leaf.view.headline and leaf.path.split(".")[0] in added]
@@ -201,8 +203,8 @@ def _below(model: type[Documented], above: _Way, titles: dict[str, str]) -> tupl
 def _leaf(model: type[Documented], way: _Way, titles: dict[str, str]) -> Leaf:
     """Return the leaf at the end of a way.
 
-    If the field itself declares no level of detail other than `summary`, the leaf has the level of the nearest section
-    that declares another level.
+    If the field declares a level of detail other than `summary`, the leaf has this level. Otherwise the leaf has the
+    level of the nearest section that declares a level other than `summary`.
     """
     member, path = way[-1], _path(way)
     info, meaning, prefix = member.info, member.meaning, path.rpartition(".")[0]
@@ -247,9 +249,9 @@ def _options(allowed: tuple[Any, ...]) -> tuple[Any, ...]:
 def field_path(request: Documented, name: str) -> str | None:
     """Return the dotted path of the request field that a solver means by the dotted `name`, or None.
 
-    The end of the solver's dotted name suffices. If several fields match, return the outermost field. If fields exclude
-    one another, return the field that was sent. If a list item lacks the field that the solver names, return the list
-    item.
+    The outer sections may be missing from `name`. If several fields match, return the outermost field. If fields
+    exclude one another, return the field that was sent. If a list item lacks the field that the solver names, return
+    the list item.
     """
     indices = [part for part in name.split(".") if part.isdecimal()]
     wanted = tuple(ITEM if part.isdecimal() else part for part in name.split("."))
@@ -278,7 +280,7 @@ def _meant(model: type[Documented], wanted: _Names) -> _Names | None:
             if (
                 theirs[-1] == wanted[-1]
                 and theirs.count(ITEM) == wanted.count(ITEM)
-                and all(name in rest for name in wanted[start:])  # and in the order of `wanted`
+                and all(name in rest for name in wanted[start:])  # occur in the order of `wanted`
                 and (start == 0 or theirs[0] == wanted[start])
             ):
                 return request_names[theirs]

@@ -24,7 +24,7 @@ class FilmModel(Section, of=ehl.Model, without=("thermal",)):
     """Physical model and numerical resolution of the film."""
 
     def unused(self) -> dict[str, bool]:
-        """Mark the Eyring stress as unused in a Newtonian film."""
+        """Mark the Eyring stress as unused if the film is Newtonian."""
         return super().unused() | {"eyring_stress_mpa": self.rheology == "newtonian"}
 
 
@@ -52,7 +52,7 @@ class LineContactRequest(Request):
         return super().options() | laws
 
     def unused(self) -> dict[str, bool]:
-        """Mark the temperatures of the surfaces as unused in an isothermal film.
+        """Mark the temperatures of the surfaces as unused if the film is isothermal.
 
         Mark the kind of oil as unused if the oil is given by its viscosity.
         """
@@ -60,9 +60,10 @@ class LineContactRequest(Request):
         return isothermal | {"lubricant.kind": not self.lubricant.by_sheet}
 
     def inputs(self) -> ehl.LineContactInputs:
-        """Return the solver's inputs; the properties of an oil by its data sheet are those at the inlet temperature.
+        """Return the solver's inputs.
 
-        Raises InvalidInput `no_oil` if no oil is given.
+        If the oil is given by its data sheet, the properties of the oil are taken at the inlet temperature. Raises
+        InvalidInput `no_oil` if no oil is given.
         """
         oil = self.lubricant.resolve()
         if oil is None:
@@ -117,7 +118,7 @@ class ContactConvergence(Group, of=results.Convergence):
 
 
 class MeshErrors(Group, of=results.MeshError):
-    """Estimated relative errors that the numerical mesh causes.
+    """Estimated relative errors that the numerical grid causes.
 
     The error of a coefficient of friction below 0.001 is relative to 0.001. The error of a flash temperature below 25 K
     is relative to 25 K.

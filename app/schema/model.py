@@ -7,8 +7,8 @@ has a field for each declaration of `si.ModelOptions`. If the quantity has a uni
 unit. A trailing underscore, which keeps a solver's name from being a word of Python (`from_`), is dropped.
 
 The class body may declare ordinary fields of pydantic. A field that has the name of a filled field changes the type or
-the default of the filled field. If the new type is annotated with an `Input` or `Output`, this replaces the declaration
-of the solver; `Input.of(Record, "field", text=...)` replaces only a part of the declaration.
+the default of the filled field. If the new type is annotated with an `Input` or `Output`, this annotation replaces the
+declaration of the solver; `Input.of(Record, "field", text=...)` replaces only a part of the declaration.
 
 `Section.si` converts a request into the solver's dataclasses in SI, and `from_si` reads a response from the solver's
 result. Both use the names and units of `members`, which are looked up once per model.
@@ -54,8 +54,8 @@ class Documented(BaseModel):
     """A model with fields for the declarations of dataclasses.
 
     `exclusive` lists groups of fields; at most one field of each group may be given. `member_unit` is the unit of all
-    fields whose own names do not state a unit: the group `mass_flow_g_per_s` states the unit of its members. `views`
-    maps the solver's names of outputs to the ways in which the outputs are judged.
+    fields whose own names do not state a unit. For example, the group `mass_flow_g_per_s` states the unit of its
+    members. `views` maps the solver's names of outputs to the ways in which the outputs are judged.
     """
 
     exclusive: ClassVar[tuple[tuple[str, ...], ...]] = ()
@@ -63,7 +63,7 @@ class Documented(BaseModel):
     views: ClassVar[dict[str, View]] = {}
     _declares: ClassVar[type[Input] | type[Output]] = Input
     _stands: ClassVar[bool] = True  # whether the model is used for its dataclass inside other models
-    _optional: ClassVar[bool] = False  # whether filled fields may be missing, as they are without a solution
+    _optional: ClassVar[bool] = False  # whether filled fields may be missing; they are missing if there is no solution
 
     if TYPE_CHECKING:
 
@@ -119,7 +119,7 @@ class Documented(BaseModel):
     @classmethod
     @abstractmethod
     def _filled(cls, kind: Any, record: Any, name: str, names: dict[str, str], *, nullable: bool) -> tuple[Any, Any]:
-        """Return the type and the default of a field; `names` maps the solver's names to those of the interface."""
+        """Return the type and the default of a field; `names` maps the solver's names to names in the interface."""
 
 
 _MODELS: dict[tuple[type, type], type[Documented]] = {}
@@ -282,7 +282,7 @@ class Section(Documented):
     """A part of a request; it refuses unknown fields, and numbers that are texts, infinite or out of range.
 
     `choice_code` is the code of the error if two fields that exclude each other are given. `choice_missing` is the code
-    of the error if no field of such a group is given; if it is None, no field of the group is required.
+    of the error if no field of such a group is given. If `choice_missing` is None, no field of the group is required.
     """
 
     model_config = ConfigDict(extra="forbid", frozen=True, json_schema_extra=_with_choices)
@@ -301,7 +301,7 @@ class Section(Documented):
 
     @model_validator(mode="after")
     def one_of_each_choice(self) -> Self:
-        """Refuse two fields that exclude each other, and a group without any field if one of its fields is required."""
+        """Refuse two given fields that exclude each other, and a group with no given field if one field is required."""
         for group in self.exclusive:
             given = [name for name in group if getattr(self, name) is not None]
             if len(given) > 1:
@@ -315,14 +315,14 @@ class Section(Documented):
     def si(self, kind: type[T], /, *others: "Section", **values: Any) -> T:
         """Return the solver's dataclass `kind` in SI, filled from this section and from other sections.
 
-        If several sections have a field of the dataclass, the value of the first section is taken. Sections inside the
-        sections fill the dataclasses inside the dataclass. `values` are values in SI that are taken unchanged; they
+        If several sections have a field of the dataclass, the value of the first section is taken. A section inside a
+        section fills the dataclass in the corresponding field. `values` are values in SI that are taken unchanged; they
         take precedence over the sections.
         """
         return kind(**self.filling(kind, *others, **values))
 
     def filling(self, kind: type[Any], /, *others: "Section", **values: Any) -> dict[str, Any]:
-        """Return the values that `si` gives to the dataclass, by the names of its fields."""
+        """Return the values that `si` gives to the dataclass. The keys are the names of the fields."""
         given: dict[str, Any] = {}
         record: Any = kind
         for section in reversed((self, *others)):
@@ -366,11 +366,11 @@ class Request(Section):
         """Return the solver's inputs in SI."""
 
     def options(self) -> dict[str, Any]:
-        """Return the options in force by their names in the interface."""
+        """Return the options in force. The keys are the names of the options in the interface."""
         return self.model.model_dump()  # type: ignore[no-any-return]
 
     def assumed_by_the_model(self) -> dict[str, str]:
-        """Return the assumptions that follow from the options in force: reasons by dotted names of options."""
+        """Return the reasons for assumptions that options in force imply. The keys are dotted names of the options."""
         return {}
 
 
@@ -459,11 +459,11 @@ class Response(Group):
 
     @property
     def result(self) -> Any:
-        """The solver's result in SI from which the response was read; None without a solution."""
+        """The solver's result in SI from which the response was read; None if there is no solution."""
         return self._result
 
     def remarks(self) -> dict[str, str]:
-        """Return remarks on the accuracy of results, which pages show beside the results: texts by path."""
+        """Return remarks on the accuracy of results, which pages show beside the results. The keys are paths."""
         return {}
 
     def read_from(self, result: Any) -> Self:

@@ -1,4 +1,4 @@
-"""Oils: by grade, by data sheet, or by the viscosity where they enter."""
+"""Oils, described by grade, by data sheet, or by the viscosity at the place where the oil enters the contact."""
 
 from dataclasses import fields, replace
 from typing import Annotated, Any, ClassVar, Self
@@ -37,7 +37,7 @@ def _of_a_sheet(name: str, ge: float, le: float, text: str, assumed: str | None 
 
 
 class SheetOil(Section):
-    """An oil described by its ISO grade or its viscosity at 40 °C, and by how its viscosity falls with temperature."""
+    """An oil described by its ISO grade or viscosity at 40 °C, and by how its viscosity changes with temperature."""
 
     exclusive: ClassVar[tuple[tuple[str, ...], ...]] = (
         ("iso_vg", "viscosity_pa_s", "kinematic_viscosity_40_mm2_per_s"),
@@ -79,7 +79,7 @@ class SheetOil(Section):
 
     @model_validator(mode="after")
     def one_way(self) -> Self:
-        """Refuse incomplete data and two data for one property.
+        """Refuse incomplete data, and data that determine one property twice.
 
         A viscosity at 100 °C requires the viscosity at 40 °C and excludes the grade. A viscosity index requires the
         viscosity at 40 °C or the grade.
@@ -101,7 +101,7 @@ class SheetOil(Section):
     def sheet(self) -> OilSheet | None:
         """Return the solver's oil by grade or data sheet, or None if neither is given.
 
-        Raises InvalidInput (`viscosity_order`, `viscosity_index`) if no oil can have the viscosities.
+        Raises InvalidInput (`viscosity_order`, `viscosity_index`) if no oil can have these viscosities.
         """
         index, kind, density = self.viscosity_index, self.kind, self.density_15_kg_per_m3
         if self.iso_vg is not None:
@@ -113,7 +113,7 @@ class SheetOil(Section):
         return self.si(OilSheet)
 
     def stands_for_null(self, name: str) -> Any:
-        """Return the viscosity at 100 °C from the viscosity index or the kind of oil, or the density from the kind."""
+        """Return the viscosity at 100 °C or the density at 15 °C that the grade or data sheet implies."""
         sheet = self.sheet()
         if sheet and name == "kinematic_viscosity_100_mm2_per_s":
             return sheet.kinematic_viscosity_100 / SQUARE_MILLIMETRE
@@ -192,7 +192,7 @@ class Oil(SheetOil, of=Lubricant):
 
     @model_validator(mode="after")
     def one_reference(self) -> Self:
-        """Refuse a density beside a grade or data sheet, and a property that is null beside a viscosity."""
+        """Refuse a density if a grade or data sheet is given, and a null property if a viscosity is given."""
         if self.by_sheet and self.density_kg_per_m3 is not None:
             raise PydanticCustomError(
                 "exclusive", "density_kg_per_m3 and a grade or data sheet are both given; keep one"
@@ -255,7 +255,7 @@ class CouplingLubricant(SheetOil):
 
     @model_validator(mode="after")
     def some_viscosity(self) -> Self:
-        """Refuse an oil without a viscosity, a grade and a data sheet."""
+        """Refuse an oil for which neither a viscosity nor a grade nor a data sheet is given."""
         if not self.by_sheet and self.viscosity_pa_s is None:
             raise PydanticCustomError(
                 "missing_property", "give viscosity_pa_s, or describe the oil by its grade or data sheet"
@@ -271,7 +271,7 @@ class CouplingLubricant(SheetOil):
         return self.si(OilAtTeeth, viscosity=viscosity, viscosity_index=sheet.viscosity_index)
 
     def unused(self) -> dict[str, bool]:
-        """Mark the viscosity as unused if a grade or data sheet is given, else the fields of data sheets."""
+        """Mark the viscosity as unused if a grade or data sheet is given; otherwise, mark the fields of data sheets."""
         of_a_sheet = () if self.by_sheet else (*SheetOil.model_fields, "temperature_c")
         return super().unused() | dict.fromkeys(of_a_sheet, True) | {"viscosity_pa_s": self.by_sheet}
 

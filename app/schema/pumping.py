@@ -31,10 +31,10 @@ class PumpingOptions(Section, of=si.PumpingModel):
     """Options of the model at points that the paper leaves open."""
 
     def unused(self) -> dict[str, bool]:
-        """Mark options as unused that the flow model does not have.
+        """Mark options as unused if the chosen flow model does not have them.
 
-        The pocket chain uses the closure, gas dynamics with contact gaps uses the wall transport, and both flow models
-        use slices.
+        Only the pocket chain has the closure. Only gas dynamics with contact gaps has the wall transport. The pocket
+        chain and gas dynamics have slices.
         """
         return super().unused() | {
             "closure": self.flow != "pocket_chain",
@@ -140,7 +140,8 @@ class PumpingPulsation(Group, of=pulsation.Pulsation):
 class PumpingResolution(Group, of=results.Resolution):
     """Relative uncertainties of the results that the resolution causes.
 
-    They follow from the changes of the results with half and with a quarter of the slices, steps or positions.
+    The uncertainties follow from the changes of the results with half and with a quarter of the slices, steps or
+    positions.
     """
 
 

@@ -21,8 +21,9 @@ Bound = Literal["upper", "lower"]
 class _Declaration(Quantity):
     """A declaration that documents its field in the JSON schema.
 
-    `origin` is the solver's dataclass from which the declaration was taken, and the name of its field, or None.
-    `in_schema` lists the attributes that the JSON schema states, for example `default_text` as `x-default-text`.
+    `origin` holds the solver's dataclass from which the declaration was taken, and the name of the field there. It is
+    None if the declaration was not taken from a dataclass. `in_schema` lists the attributes that the JSON schema
+    states, for example `default_text` as `x-default-text`.
     """
 
     origin: tuple[type, str] | None = None
@@ -35,7 +36,7 @@ class _Declaration(Quantity):
 
     @property
     def description(self) -> str:
-        """The text, or the title if there is no text, followed by the meaning of null if it is declared."""
+        """The text, or the title if there is no text, followed by the meaning of null if a meaning is declared."""
         text = self.text or self.title
         return f"{text}; null: {self.default_text}" if self.default_text else text
 
@@ -68,15 +69,16 @@ class Input(_Declaration):
             case "float":  # strict: text and booleans are not numbers
                 return core_schema.float_schema(strict=True, allow_inf_nan=False, **bounds)
             case "int":
-                # A strict int would refuse 3.0. The value is therefore checked in three steps: it is a number; its
-                # magnitude is at most 2^53, up to which whole floats are exact; it is a whole number in its range.
+                # A strict int would refuse 3.0. Three checks follow one another instead. The first checks that the
+                # value is a number. The second checks that its magnitude is at most 2^53, because whole floats are
+                # exact up to this limit. The third checks that the number is whole and in range.
                 number = core_schema.custom_error_schema(core_schema.float_schema(strict=True), "int_type")
                 exact = core_schema.float_schema(allow_inf_nan=False, ge=-(2.0**53), le=2.0**53)
                 whole = core_schema.chain_schema([number, exact, core_schema.int_schema(**bounds)])
                 return core_schema.json_or_python_schema(core_schema.int_schema(strict=True, **bounds), whole)
             case "bool":
                 return core_schema.bool_schema(strict=True)
-            case "union":  # its choices are schemas, alone or paired with a name
+            case "union":  # the choices of a union are schemas, alone or paired with a name
                 kinds = (choice[0] if isinstance(choice, tuple) else choice for choice in schema["choices"])
                 return core_schema.union_schema([self._strict(kind) for kind in kinds])
             case "list" if self.length:

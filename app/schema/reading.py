@@ -117,7 +117,7 @@ def _no_number(value: Any) -> str:
         return "give a number, or leave the field out instead of null"
     if isinstance(value, bool):
         return "give a number, not true or false"
-    if isinstance(value, int):  # larger than any float
+    if isinstance(value, int):  # the whole number is larger than any float
         return f"the number is {_figure(value)}"
     if isinstance(value, str) and _NUMBER.fullmatch(value):
         return f'give a number, not text: {value.replace(",", ".")} instead of "{value}"'

@@ -63,7 +63,7 @@ class GearPairRequest(Request):
 def distribution_inputs(request: Request, gears: GearPairInputs, load: si.Load) -> si.LoadDistributionInputs:
     """Return the solver's inputs for this pair and load.
 
-    The modifications, the materials and the coefficient of friction are those of the request.
+    The modifications, the materials and the coefficient of friction are taken from the request.
     """
     return request.si(
         si.LoadDistributionInputs,
@@ -137,8 +137,8 @@ class ScuffingGeometry(Group, of=results.Geometry):
 class ContactLengthCurves(Group, of=results.LengthCurves):
     """Total length of the contact lines over one base pitch.
 
-    If the length of a spur gear jumps at a roll position, this position occurs twice: with the length before and after
-    the jump.
+    If the length of a spur gear jumps at a roll position, this position occurs twice: first with the length before the
+    jump, and then with the length after the jump.
     """
 
 
@@ -157,8 +157,8 @@ class ToothStiffness(Group, of=results.Stiffness):
 class TransmissionErrorCurves(Group, of=results.ErrorCurves):
     """Transmission error over one base pitch.
 
-    If the error of a spur gear jumps at a roll position, this position occurs twice: with the error before and after
-    the jump.
+    If the error of a spur gear jumps at a roll position, this position occurs twice: first with the error before the
+    jump, and then with the error after the jump.
     """
 
 
@@ -245,11 +245,11 @@ class ScuffingPathCurves(Group, of=(safety_results.ScuffingPath, safety_results.
 
 
 class MeshDerived(Derived, of=results.Derived, without=("rack_tip_radius",)):
-    """Load and lengths as used, including those that the request left open."""
+    """Load and lengths as used, including the values that the request left open."""
 
 
 class ScuffingDerived(MeshDerived, of=results.Derived):
-    """Load, lengths and tip radius of the rack as used, including those that the request left open."""
+    """Load, lengths and tip radius of the rack as used, including the values that the request left open."""
 
 
 class FlankLoad(Group, of=results.LoadOnFlank):
@@ -270,21 +270,21 @@ class LoadDistributionResponse(Response, of=results.LoadDistribution):
 class ScuffingTest(Section, of=si.ScuffingTest):
     """A scuffing test of the oil.
 
-    Only the test A/8.3/90 is accepted: in other tests the same load stage means other temperatures.
+    Only the test A/8.3/90 is accepted. In other tests, the same load stage corresponds to a different temperature.
     """
 
 
 class ContactTemperatures(Section, of=si.Temperatures):
     """Temperatures of the teeth and the oil.
 
-    They are given as numbers, or follow from the scuffing test and the oil supply by rules of practice.
+    The temperatures are given as numbers, or follow from the scuffing test and the oil supply by rules of practice.
     """
 
     exclusive: ClassVar = (("scuffing_c", "scuffing_test"),)
 
     @model_validator(mode="after")
     def one_bulk(self) -> Self:
-        """Refuse a bulk temperature with any other method than `given`, and a heat balance without jets of oil."""
+        """Refuse a bulk temperature if the method is not `given`, and a heat balance if no jets supply the oil."""
         if self.bulk_method != "given" and self.bulk_c is not None:
             method = (
                 "an estimated bulk temperature"
@@ -310,7 +310,7 @@ class ScuffingTemperatures(ContactTemperatures):
 
     @model_validator(mode="after")
     def known_bulk(self) -> Self:
-        """Refuse the method `given` without a bulk temperature."""
+        """Refuse the method `given` if no bulk temperature is given."""
         if self.bulk_method == "given" and self.bulk_c is None:
             raise PydanticCustomError("missing_bulk", "give bulk_c, or set bulk_method to estimated or heat_balance")
         return self
@@ -409,7 +409,7 @@ class MeshInOil(Request):
 
     @model_validator(mode="after")
     def known_friction(self) -> Self:
-        """Refuse the method `given` of friction without a coefficient of friction."""
+        """Refuse the method `given` of friction if no coefficient of friction is given."""
         if self.model.friction == "given" and self.friction_coefficient is None:
             raise PydanticCustomError(
                 "missing_friction", "give friction_coefficient, or set model.friction to iso_tr_13989"
@@ -474,14 +474,15 @@ class MeshInOil(Request):
 
     @property
     def _standard_film_asked(self) -> bool:
-        """Whether micropitting is checked by the film of the standard, which holds for spur gears without relief."""
+        """Whether micropitting is checked by the standard's film, which is valid for spur gears without relief."""
         relief = self.modifications.tip_relief_um or self.modifications.root_relief_um
         return self.micropitting is not None and not relief and self.gears.helix_angle_deg == 0.0
 
     def unused(self) -> dict[str, bool]:
-        """Mark the inputs as unused that have no effect in this case.
+        """Mark inputs as unused if they have no effect in this case.
 
-        Some inputs have no effect without an oil, some in closed form, and some if the standard's film is not computed.
+        Some inputs have no effect if there is no oil, some if the film is computed in closed form, and some if the
+        standard's film is not computed.
         """
         dry, standard = not self.lubricant.known, self._standard_film_asked
         no_film = dry or self.model.lubrication == "closed_form"
@@ -498,7 +499,7 @@ class MeshInOil(Request):
         }
 
     def assumed_by_the_model(self) -> dict[str, str]:
-        """Return the assumptions about friction, oil, bulk temperature and film; without an oil there are none."""
+        """Return the assumptions about friction, oil, bulk temperature and film; empty if no oil is given."""
         reasons: dict[str, str] = {}
         if not self.lubricant.known:
             return reasons
@@ -546,7 +547,7 @@ class ScuffingOilDerived(ScuffingDerived, of=(safety_results.ScuffingDerived, Oi
 
 
 def how_well_known(response: Response, *paths: str) -> dict[str, str]:
-    """Return the uncertainty of temperatures of a heat balance, if no measured temperature reduces the uncertainty."""
+    """Return the uncertainty of the temperatures of a heat balance; empty if a temperature was measured."""
     return dict.fromkeys(paths, KNOWN) if NOT_VALIDATED in {notice.code for notice in response.warnings} else {}
 
 

@@ -23,14 +23,14 @@ from app.figures.wording import subscripts
 EDGE = 0.1  # inches; margin around the whole image
 TITLE_LENGTH, LENGTH, BESIDE_LENGTH = 58, 84, 30  # characters per line: titles, other texts, names of axes side by side
 HEIGHTS = {1: 2.6, 2: 1.6, 3: 1.25}  # inches; height of a panel, by the number of panels above one another
-PLANE, PLANE_BESIDE = 3.3, 1.8  # inches; height of a plane alone, and of planes side by side
+PLANE, PLANE_BESIDE = 3.3, 1.8  # inches; height of a panel with equal scales or areas: alone, and side by side
 TOUCH = 0.025  # inches by which the boxes of two texts may overlap, as boxes include space around letters
 NARROW_HEIGHT = 0.66  # height of axes in a narrow figure divided by their usual height
 ROW_HEIGHT = 0.3  # inches; height of a bar whose name has up to two lines
-APART, FEWEST_TICKS = 0.05, 3  # inches; least distance of neighbouring tick labels; number of ticks that are kept
+APART, FEWEST_TICKS = 0.05, 3  # inches, least distance between neighbouring tick labels; number of ticks that are kept
 ABSCISSA = 0.45  # inches; height of the tick labels and the name below axes
 TICKS = 0.35  # inches; least width of the tick labels to the left of axes
-LEGEND, BAR, END = 1.5, 1.1, 0.15  # inches to the right of axes with a legend, with a colour bar, with neither
+LEGEND, BAR, END = 1.5, 1.1, 0.15  # inches of room to the right of axes that have a legend, a colour bar, or neither
 CANVASES = {"svg": FigureCanvasSVG, "png": FigureCanvasAgg, "pdf": FigureCanvasPdf}
 # The metadata contain neither date nor version, so that equal figures give equal bytes.
 METADATA: dict[str, dict[str, str | None]] = {
@@ -54,8 +54,8 @@ def draw(figure: Figure, image_format: str, theme: ThemeName = "light") -> bytes
 class Place(NamedTuple):
     """Position of the axes of a panel in the image.
 
-    `box` is left, top, width and height as fractions of the image. `x` describes the abscissa and `y` the ordinate: the
-    two ends of the axis, and True if the axis is logarithmic.
+    `box` holds left, top, width and height as fractions of the image. `x` describes the abscissa, and `y` describes the
+    ordinate. Both hold the two ends of their axis, and True if this axis is logarithmic.
     """
 
     panel: Panel
@@ -96,7 +96,8 @@ def _letters(figure: Figure, length: int) -> int:
 def _head(figure: Figure) -> tuple[str, str, float, float]:
     """Return the title and the finding of a figure, both broken into lines, and two distances [in].
 
-    The distances are measured from the top of the image, to the finding and to the space for the panels.
+    The first distance is from the top of the image to the finding. The second distance is from the top of the image to
+    the space for the panels.
     """
     title, finding = fill(figure.title, _letters(figure, TITLE_LENGTH)), fill(figure.subtitle, _letters(figure, LENGTH))
     below = EDGE + LINE * TITLE * (1 + title.count("\n"))
@@ -245,7 +246,7 @@ def _thin_ticks(axes: Axes) -> None:
 def _overhang(axes: Axes) -> float:
     """Return the length [in] by which texts extend beyond the right end of axes.
 
-    Only the values of rows and half of the last tick label extend beyond this end.
+    Only the texts at rows and half of the last tick label can extend beyond this end.
     """
     rows = dict[float, float]()
     for text in (text for text in axes.texts if text.get_gid() is None):

@@ -29,14 +29,15 @@ NAME_BELOW = 36  # characters per line of the name below narrow axes
 ROW = 0.52  # height of a row's bar divided by the distance between rows
 LEAST_REACH = 7  # typographic points between a text and its point or line
 AWAY = 3  # heights by which the name of a horizontal line may be farther from the line if nearer places are taken
-# Number of steps in which the name of a line can be moved along the line; length of a downward step in name heights.
+# Number of steps in which the name of a line can be moved along the line; length of a downward step, as a multiple of
+# the height of the name.
 ALONG, DOWN = 8, 0.6
 RING = 5  # pixels, half the side of the box around a mark
 SIDES = {"above": 1, "below": -1}  # side of a point on which the text of the point is tried first
 MOVED = {*SIDES, "row", "column"}  # texts of points, of horizontal and of vertical lines; other texts are not moved
 # Ticks per decade of ratios. If the greatest ratio of a map is at most LINEAR_RATIO, ticks are evenly spaced instead.
 RATIO_TICKS, LINEAR_RATIO = (1.0, 1.5, 2.0, 3.0, 5.0, 7.0), 1.5
-FEW_DECADES = 100.0  # a logarithmic axis whose ends have a smaller ratio has ticks between powers of ten
+FEW_DECADES = 100.0  # if the ratio of the ends of a logarithmic axis is smaller, there are ticks between powers of ten
 CROWDED = 0.08  # share of the colour bar; a tick closer than this to a critical value is left out
 BESIDE_ROWS = 0.4  # share of the range of rows; room for the texts at the ends of rows
 WIDE = 0.15  # share of the longest bar; if bounds are farther apart than this, their values are written
@@ -64,7 +65,7 @@ def draw_panel(axes: Axes, panel: Panel, length: int, *, narrow: bool = False) -
         if quantity.ticks is not None:
             axis.set_ticks(quantity.ticks)
         axis.set_major_formatter(NUMBERS)
-    # The name of the abscissa may be wider than axes with rows; both then have the same right end.
+    # The name of the abscissa may be wider than axes with rows. The name therefore ends where such axes end.
     axes.set_xlabel(fill(panel.x.label, NAME_BELOW if narrow else length), loc="right" if panel.rows else "center")
     _draw_rows(axes, panel)
     _draw_fills(axes, panel)
@@ -392,7 +393,8 @@ def place_texts(axes: Axes, panel: Panel) -> None:
             continue
         text.set(ha="center", va="center")
         size, room = text.get_window_extent(), axes.bbox
-        # The cost of a position counts overlapped texts, hidden curves, room outside the axes, and distance.
+        # The cost of a position is a sum. It counts the overlapped texts, the hidden parts of curves, the length of the
+        # text outside the axes, and the distance from the point.
         costs = {}
         for place, distance in _places(str(text.get_gid()), size, room, point):
             box = size.translated(*place)

@@ -28,7 +28,7 @@ from solvers.scuffing.safety_results import Scuffing
 OWN = "own derivation"
 ROUND = np.linspace(0.0, 2.0 * pi, 181)  # a circle in steps of 2°
 WALLS = -1.05, 1.05  # ends of the axes in units of the clearance; this leaves some room around the circle
-NEWTONS = 1e3  # per kilonewton
+NEWTONS = 1e3  # newtons per kilonewton
 HUES = {
     "without coupling": Hue.ORANGE,
     "without heat": Hue.VERMILLION,
@@ -143,7 +143,8 @@ def slope_parts(_: DriveTrainInputs, result: DriveTrainResult) -> Figure:
 def effects_apart(inputs: DriveTrainInputs, result: DriveTrainResult) -> dict[str, Values]:
     """Compute the transverse force per face width [N/mm] along the face for variants of the unit without some effects.
 
-    A variant lacks a single effect; the variant `mesh alone` lacks all effects. The keys are the names of the variants.
+    The variant `mesh alone` lacks all effects. Each of the other variants lacks a single effect. The keys are the names
+    of the variants.
     """
     own, variants = inputs.effects, dict[str, Effects]()
     if own.shafts and inputs.acting_couplings:
@@ -164,7 +165,7 @@ def effects_apart(inputs: DriveTrainInputs, result: DriveTrainResult) -> dict[st
 def face_load(inputs: DriveTrainInputs, result: DriveTrainResult, others: dict[str, Values]) -> Figure:
     """Draw the load along the face with all effects of the case, and the loads of variants without some effects.
 
-    `others` holds the loads of the variants by their names.
+    `others` holds the loads of the variants under the names of the variants.
     """
     curves, load = result.misalignment.curves, result.load
     if load.face_load_factor is None or load.face_load_at is None:
@@ -179,7 +180,7 @@ def face_load(inputs: DriveTrainInputs, result: DriveTrainResult, others: dict[s
 def journals(_: DriveTrainInputs, result: DriveTrainResult) -> Figure:
     """Draw the position of each journal in its clearance.
 
-    Also draw, by Ocvirk's theory, the path that the journal takes as the load changes.
+    Also draw the path that the journal takes as the load changes. This path is computed by Ocvirk's theory.
     """
     wall = Line("clearance", np.cos(ROUND), np.sin(ROUND), Hue.GREY, named=False)
     across, up = (
@@ -320,7 +321,7 @@ def oil_temperature(inputs: DriveTrainInputs) -> float:
 def curve_over_the_flow(_: DriveTrainInputs, result: DriveTrainResult) -> FlowCurve:
     """Solve the heat balance at oil flows from a quarter of the case's flow to four times this flow.
 
-    The losses and the loads are those of the case.
+    The losses and the loads are taken from the case.
     """
     heat = heat_balance.heat_of(result.heat)
     assert result.over_the_flow is not None

@@ -201,7 +201,7 @@ def _factors(scuffing: float, oil: float, contact: Values) -> Values:
 
 
 def _verdicts(factors: Values) -> list[Level]:
-    """Return the limit of high risk. Add the limit of low risk if a safety factor comes near this second limit."""
+    """Return the limit of high risk, and the limit of low risk if a safety factor comes near the limit of low risk."""
     levels = [Level(HIGH_RISK_BELOW, "high risk below 1", limit=True)]
     if float(np.nanmax(factors)) > (HIGH_RISK_BELOW + LOW_RISK_ABOVE) / 2:
         levels.append(Level(LOW_RISK_ABOVE, "low risk above 2"))

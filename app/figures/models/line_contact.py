@@ -10,7 +10,7 @@ from app.figures.wording import number, percent
 from solvers.contact.ehl import LineContactInputs, LineContactResult
 
 ACROSS = "position across the contact, along the flow"
-THICK = 3.0  # upper end of the axis over the central film thickness; thicker films belong to inlet and outlet
+THICK = 3.0  # upper end of the film axis divided by the central film thickness; thicker films are in inlet and outlet
 
 
 def contact(_: LineContactInputs, result: LineContactResult) -> Figure:

@@ -141,7 +141,7 @@ def contact_line_load(inputs: LoadDistributionInputs, result: LoadDistribution) 
         raise NoFigure("no_load", "Without load there is no line load to draw", "load")
     y, start = flank.face_fraction * width / MM, load.max_at.face_fraction * width / MM
     profile = load.max_at.profile_fraction
-    if not geometry.base_helix_angle:  # rows of the map are lines of contact; the load may jump between rows
+    if not geometry.base_helix_angle:  # rows of the map are lines of contact; the load may jump from row to row
         profile = flank.profile_fraction[int(np.argmax(flank.line_load.max(axis=1)))]
     line_load = RegularGridInterpolator((flank.profile_fraction, y), flank.line_load, bounds_error=False)
     lines = []

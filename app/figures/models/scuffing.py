@@ -118,7 +118,7 @@ def _flashes(path: ScuffingPath) -> list[Line]:
 
 
 def _paths(result: Scuffing) -> dict[str, ScuffingPath]:
-    """Return the evaluated lines of the flank by name."""
+    """Return the evaluated lines of the flank. The keys are the names of the lines."""
     if result.hottest_path is None:
         return {"feature line": result.path}
     across = number(present(result.flash.blok_at_face), "mm")
@@ -147,7 +147,7 @@ def _along(inputs: ScuffingInputs, result: Scuffing, finding: str, panel: Callab
 
 
 def _common_limits(panels: Sequence[Panel]) -> tuple[float, float]:
-    """Return the ends of an ordinate that shows the lines of all panels, and the levels near these lines."""
+    """Return the ends of an ordinate that shows the lines of all panels and the levels near these lines."""
     axes = panels[0].y
     if axes.limits is not None:
         return axes.limits
@@ -321,12 +321,12 @@ def _warned(path: ScuffingPath) -> list[Span]:
 
 
 def _of_distribution(build: Build) -> Build:
-    """Adapt the builder of a load-distribution figure so that it accepts the inputs and results of this calculation."""
+    """Adapt the builder of a load-distribution figure so that it accepts inputs and results of the scuffing check."""
     return lambda inputs, result: build(inputs.distribution, result.distribution)
 
 
 def _balanced(build: Build) -> Build:
-    """Adapt the builder of a heat-balance figure so that it accepts the inputs and results of this calculation."""
+    """Adapt the builder of a heat-balance figure so that it accepts inputs and results of the scuffing check."""
     return lambda _, result: build(heat_balance.heat_of(result.heat))
 
 

@@ -1,4 +1,5 @@
-// What pages with figures share: the link and code to copy, and values under pointer and arrow keys.
+// Functions that all pages with figures share: they copy the link and the code, and show the values of a figure at the
+// pointer or at a place chosen with the arrow keys.
 "use strict";
 
 function prepareCopy(say) {
@@ -15,7 +16,7 @@ function prepareCopy(say) {
   });
 }
 
-// Code names this service by the address under which the reader sees it, and can be copied.
+// Put the address at which the reader sees this service into the code, and add a button that copies the code.
 function prepareCode(say) {
   for (const code of document.querySelectorAll("pre.code")) {
     code.textContent = code.textContent.replace("http://localhost:8000", location.origin);
@@ -28,7 +29,8 @@ function prepareCode(say) {
   }
 }
 
-// Values of a figure under pointer and arrow keys, and as a table. They are part of the page, or asked for when needed.
+// Show the values of a figure at the pointer, at a place chosen with the arrow keys, and in a table. The values are part
+// of the page, or are requested when they are needed.
 function prepareChart(plot) {
   let asked = null;
   const values = () => { asked ??= valuesOf(plot); return asked; };

@@ -1,5 +1,5 @@
-// The OpenAPI document as Swagger shows it, below our own heading, dark where the system is. Links to single operations
-// are left out: Swagger puts them inside buttons.
+// The OpenAPI document, shown by Swagger below our own heading. The page is dark if the system is dark. Links to single
+// operations are left out, because Swagger puts these links inside buttons.
 "use strict";
 
 const LABELS = { ".examples-select-element": "Example", ".body-param__text": "Request body", ".highlight-code pre": "Code" };
@@ -7,7 +7,7 @@ const operations = document.getElementById("swagger-ui");
 const dark = matchMedia("(prefers-color-scheme: dark)");
 const follow = () => document.documentElement.classList.toggle("dark-mode", dark.matches);
 
-// What Swagger leaves without a name or out of reach of the keyboard.
+// Name the parts that Swagger leaves without a name, and make them accessible with the keyboard.
 function name() {
   for (const [selector, label] of Object.entries(LABELS)) {
     for (const part of operations.querySelectorAll(`${selector}:not([aria-label])`)) {
@@ -17,7 +17,7 @@ function name() {
   }
 }
 
-// Sources that were not read are secondary sources here, as on every page.
+// As on every page, a source that we know only at second hand is called "secondary source".
 function cited(answer) {
   if (answer.url.endsWith(operations.dataset.document)) {
     answer.text = answer.text.replace(/as read in a public implementation/g, "secondary source");

@@ -1,4 +1,4 @@
-// The table of all fields, cut down to the rows that have every word of the search.
+// The search in the table of all fields. Only the rows that contain every word of the search are shown.
 "use strict";
 
 const search = document.getElementById("search");

@@ -1,13 +1,14 @@
-// Live results over pages that work without: the page is asked for again and its result and the fields' states are taken over.
+// Results that follow the form while a user types. The page also works without this script. After each change, the script
+// requests the page again, and copies the result and the states of the fields from the new page.
 "use strict";
 
 const WAIT_MS = 350;
 const form = document.getElementById("form");
-const written = form.elements.written; // what the server wrote into the form, with which it tells what was typed
+const written = form.elements.written; // lists texts that the server wrote into the form, so that the server can tell them from typed texts
 const long = Number(document.querySelector(".work").dataset.long);
 let timer = 0;
 let running = null;
-let pressed = false; // Calculate, while a request ran
+let pressed = false; // whether the button Calculate was pressed while a request was running
 let shown = caseOf(form);
 
 function pairsOf(element) {
@@ -41,7 +42,8 @@ async function update(force = false) {
   say("calculating …");
   try {
     const page = await ask(wanted, force);
-    // Before the first result only Calculate tells what is wrong: a field not reached yet is no fault.
+    // Before the first result, faults are shown only after Calculate was pressed, because a user may not have reached all
+    // fields yet.
     if (!page.ok && !force && result.querySelector(":scope > .empty")) leave(result);
     else if (caseOf(form) === wanted || page.ok) take(page.document, page.ok);
     if (force && !page.ok) form.querySelector(".wrong :is(input:not([type=radio]), select, textarea)")?.focus();
@@ -57,8 +59,8 @@ async function update(force = false) {
   else if (caseOf(form) !== wanted) schedule();
 }
 
-// The server reads what was typed and redirects to the link of the case; a case too long for a link, or an empty form
-// whose faults are asked for, is posted.
+// The server reads the typed texts and redirects to the link of the case. The form is posted if the case is too long for
+// a link, or if the form is empty and its faults are to be shown.
 async function ask(wanted, force) {
   const sent = `${wanted}&${new URLSearchParams({ written: written.value })}`;
   const post = sent.length > long || (!wanted && force);
@@ -94,7 +96,7 @@ function take(page, ok) {
   prepareResult();
 }
 
-// After an error the last good result stays, dimmed, below what is wrong.
+// After an error, the last good result stays below the error messages, and is dimmed.
 function keepResult(here, fresh, page) {
   here.querySelector(":scope > .problem")?.remove();
   document.getElementById("state").after(document.adoptNode(fresh.querySelector(".problem")));
@@ -140,7 +142,7 @@ function takeField(here, fresh) {
   if (mark) (here.querySelector(":scope > label") ?? here).append(" ", document.adoptNode(mark));
 }
 
-// Of fields that exclude each other the one that is typed into counts.
+// If the user types into a field, clear the fields that this field excludes.
 function clearFellows(control) {
   const names = control.closest("[data-excludes]")?.dataset.excludes.split(" ") ?? [];
   if (!control.value.trim()) return;
@@ -154,7 +156,7 @@ function count(area) {
   document.getElementById(area.dataset.count).textContent = items ? `${items} values` : "";
 }
 
-// A field is shown in the middle, a part of the page from its beginning.
+// Scroll a field to the middle of the window, or the beginning of any other part of the page to the top of the window.
 function goTo(address) {
   const target = document.getElementById(decodeURIComponent(address.slice(1)));
   if (!target) return;
@@ -163,7 +165,8 @@ function goTo(address) {
   target.scrollIntoView({ block: target.closest(".fields") ? "center" : "start" });
 }
 
-// Cards that stay at the top hide nothing: what is scrolled to keeps clear of them, and tall ones do not stay.
+// The cards that stay at the top of the window must not hide anything. If the page scrolls to a part, this part
+// therefore begins below the cards. Tall cards do not stay at the top.
 function keepClear() {
   const cards = document.querySelector(".result > .cards");
   cards?.classList.toggle("tall", cards.offsetHeight > 0.35 * window.innerHeight);
@@ -187,10 +190,11 @@ form.addEventListener("submit", (event) => {
   clearTimeout(timer);
   update(true);
 });
-// Escape puts a field's help away until the field is entered again.
+// The key Escape hides the help of a field until the field gets the focus again.
 form.addEventListener("keydown", (event) => { if (event.key === "Escape") event.target.closest(".field")?.classList.add("quiet"); });
 form.addEventListener("focusin", () => form.querySelectorAll(".quiet").forEach((field) => field.classList.remove("quiet")));
-// Help between the fields stays until the button is up: what is clicked below it does not move away from the pointer.
+// The help between the fields stays until the mouse button is released, so that a control below the help does not move
+// away from the pointer during a click.
 document.addEventListener("mousedown", () => {
   const field = document.activeElement?.closest("#form .field");
   field?.classList.add("held");

@@ -1,5 +1,5 @@
-// A study's page is drawn while it is calculated, also without script; with it the study can be stopped, and points
-// are opened from the figure.
+// The page of a study is drawn while the study is calculated, even without this script. With this script, the user can
+// stop the study, and open the case of a point from the figure.
 "use strict";
 
 const stop = () => document.getElementById("stop");
@@ -34,7 +34,8 @@ function finish() {
   document.querySelectorAll(".plot").forEach((plot) => (plot.dataset.study ? prepareStudy(plot) : plot.dataset.content && prepareChart(plot)));
 }
 
-// The report of one case comes when that is calculated; the report of the study itself counts its points.
+// The report of a single case appears only after the case is calculated, so a text says that the report is calculated.
+// The report of the study needs no such text, because it shows the number of solved points.
 document.addEventListener("click", (event) => {
   const link = event.target.closest("a[href*='/report?']");
   if (!link || link.pathname.startsWith(location.pathname) || event.ctrlKey || event.metaKey || event.shiftKey) return;
@@ -42,7 +43,8 @@ document.addEventListener("click", (event) => {
   window.addEventListener("pageshow", () => { document.getElementById("state").textContent = ""; }, { once: true });
 });
 
-// The point under the pointer or the arrow keys; a click or the Enter key opens its case.
+// Show the point at the pointer, or the point chosen with the arrow keys. A click or the key Enter opens the case of the
+// point.
 function prepareStudy(plot) {
   const study = JSON.parse(plot.dataset.study);
   const [xs, ys] = [study.axes[0].at, study.axes[1]?.at ?? [null]];

@@ -74,7 +74,7 @@ def _put(place: Any, parts: list[str], value: Any) -> None:
 
 
 def texts_of(controls: Iterable[Control], body: Any) -> dict[str, str]:
-    """Return the texts from which `body_of` makes the parts of this body, without the texts of defaults."""
+    """Return the texts from which `body_of` makes the parts of this body; omit the texts of default values."""
     values = ((control, value_at(body, control.path)) for control in controls if control.sets)
     return {control.name: text_of(value) for control, value in values if value is not None and value != control.default}
 
@@ -102,7 +102,8 @@ class Menu(NamedTuple):
     """A menu with grouped entries.
 
     `chosen` is the path of the chosen entry, or an empty text if nothing is chosen. `empty` is the label of the entry
-    for no choice. `shown` is the label of the chosen entry, printed below the menu because a narrow menu cuts it off.
+    that stands for no choice. `shown` is the label of the chosen entry, printed below the menu because a narrow menu
+    cuts it off.
     """
 
     name: str
@@ -124,9 +125,9 @@ def menu(name: str, label: str, empty: str, choices: list[Choice], chosen: str, 
 
 
 def field_choices(calculation: Calculation, case: dict[str, Any], *, texts: bool) -> list[Choice]:
-    """Return a choice for every single field that takes numbers, labelled with its value in this case.
+    """Return a choice for every field that takes a single number. The label states the value of the field in the case.
 
-    If `texts` is true, fields that take one of several texts are also included.
+    If `texts` is true, fields that take one of several fixed texts are also included.
     """
     titles = {branch.path: branch.title for branch in tree(calculation.request).branches}
     choices = []

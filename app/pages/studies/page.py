@@ -74,7 +74,7 @@ class Table(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Result:
-    """The result of a study in the order of the page: the `first` tables, the figures by name, then the other tables.
+    """The result of a study in the order of the page: the `first` tables, the figures, then the other tables.
 
     `answer` is a sentence that answers the question of the study. `leads` are links above the result. `script` is JSON
     for the script of the page; the script opens the case of a point if the user clicks on this point in the first
@@ -92,12 +92,12 @@ class Result:
 
 
 class StudyPage(ABC):
-    """The page of a study of a case: one class for each kind of study, one instance for each query.
+    """The page of a study of a case. Each kind of study has its own class, and each query has its own instance.
 
     Attributes
     ----------
     link, question, about
-        Name of the page in addresses and its label, heading of the page, and sentence below the heading.
+        Link to the page, heading of the page, and sentence below the heading.
     names
         Names of all controls that the page may have, except the menu of outputs.
     figures, files
@@ -220,7 +220,7 @@ class StudyPage(ABC):
         return self.field(control.name, control.label, control.default, control.unit, control.options)
 
     def control_at(self, path: str) -> str:
-        """Return the name of the control for a dotted path in the body; a field of the case is its own control."""
+        """Return the name of the control at a path in the body. For a field of the case, return the field's path."""
         head, *rest = path.split(".")
         if head == "request":
             return ".".join(rest)
@@ -275,7 +275,7 @@ class Opened(NamedTuple):
 
 
 def opened(kind: type[StudyPage], asked: Asked, most: int, deadline_s: float) -> Opened:
-    """Return the page for a query, with the study that the query asks for, or with the errors of a rejected query."""
+    """Return the page for a query. It has the study that the query asks for, or the errors of a rejected query."""
     page, status = kind(asked), 200
     try:
         if asked.pairs and (not page.needs or any(asked.views.get(name) for name in page.needs)):
@@ -318,7 +318,7 @@ def checked(kind: type[StudyPage], asked: Asked, most: int, deadline_s: float) -
 
 
 def output_choices(calculation: Calculation) -> list[Choice]:
-    """Return a choice for each of the single numbers of the answer, which a study can show; headlines come first."""
+    """Return a choice for each scalar number of the answer that a study can show; headline numbers come first."""
     response = calculation.response
     first = headlines(response)
     titles = {branch.path: branch.title for branch in tree(response).branches}
@@ -370,7 +370,7 @@ def file(page: StudyPage, lines: list[Line], name: str, image_format: Format) ->
 
 
 def report_head(page: StudyPage) -> bytes:
-    """Return the beginning of the document that shows the progress of the study, and after that the report."""
+    """Return the beginning of the document. This document shows first the progress of the study, then the report."""
     return rendered("report_progress.html", page.asked.root, page=page).encode()
 
 
