@@ -9,7 +9,7 @@ from solvers.gears.pair import PathOfContact
 NAMES = ("pinion_shaft", "wheel_shaft")
 COLLAR_BEYOND_TEETH = 3.0  # normal modules; largest distance of the collar radius from the pitch circle
 LEAST_BEARING_DISTANCE = 0.5  # in face widths; least distance between the two bearings of a shaft
-LEAST_STIFFNESS = 1e6  # N/m; of the symmetric part of the stiffness matrix in the weakest direction
+LEAST_STIFFNESS = 1e6  # N/m; limit for the stiffness in the weakest direction, by the symmetric part of the matrix
 ROUNDING = 1e-9  # relative rounding error of numbers that were converted from other units
 
 

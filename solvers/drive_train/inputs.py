@@ -217,7 +217,7 @@ class Shaft:
 
 @record
 class Alignment:
-    """Heights above the feet for the shafts of unit and machine, and temperature rises of the supports of both."""
+    """Heights of the shafts of unit and machine above their feet, and temperature rises of the supports of both."""
 
     unit_height: float | None = quantity(
         "height of the unit's shaft",

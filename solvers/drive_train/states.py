@@ -1,4 +1,4 @@
-"""Calculation of the hot unit as the inputs describe it, and of the cold unit on request."""
+"""Calculation of the hot unit that the inputs describe, and of the cold unit on request."""
 
 from dataclasses import replace
 
