@@ -46,10 +46,10 @@ class Modifications:
         return [item for item in modifications if item.type in table.MODIFICATIONS]
 
     def _working_side(self, place: int) -> str | None:
-        """Return the loaded flank as stated in the file, or else from the sense of rotation and the driving gear.
+        """Return the loaded flank that the file states, or else that follows from sense of rotation and driving gear.
 
         Seen from the end of the shaft at which u is least (the datum face), a gear with positive speed turns clockwise.
-        At this sense of rotation, the right flank of a driving gear and the left flank of a driven gear are loaded.
+        With this sense of rotation, the right flank of a driving gear and the left flank of a driven gear are loaded.
         """
         stage = self._stage
         for data in stage.gear_data(place):
