@@ -19,7 +19,7 @@ from solvers.drive_train.uncertainty import uncertain_inputs
 from solvers.quantity import allowed
 
 CUT = 4.0  # in standard deviations; distance from the mean beyond which a distribution is cut off
-LEAST_SHARE = 1e-9  # least share of a distribution inside the range of its field; leaves the six digits of tables
+LEAST_SHARE = 1e-9  # least share of a distribution inside its field's range; values then have at least six true digits
 
 
 def common_unit(leaves: Sequence[Leaf]) -> str | None:
@@ -151,7 +151,7 @@ def _spread(axis: Axis, leaves: tuple[Leaf, ...], place: str) -> list[Any]:
 def scattering(scatters: Sequence[Range | Scatter], base: BaseRequest, place: str) -> tuple[Leaf, ...]:
     """Return the fields that the distributions vary; `place` is the path of the distributions in the study.
 
-    Raises Unprocessable if a field cannot vary, or a value is outside its range.
+    Raises Unprocessable if a field cannot vary, or if a value is outside the range of its field.
     """
     check_distinct([scatter.path for scatter in scatters], place)
     leaves = []
@@ -232,7 +232,7 @@ def cut(scatter: Range | Scatter, leaf: Leaf) -> Cut:
             low, high = scatter.median / scatter.factor**CUT, scatter.median * scatter.factor**CUT
         case _:
             low, high = scatter.min, scatter.max
-            width = high - low or 1.0  # if the ends are equal, `Cut` clips all values to them
+            width = high - low or 1.0  # if the ends are equal, `Cut` sets all values to the ends
             law = stats.uniform(low, width)
             if isinstance(scatter, Triangular) and high > low:
                 law = stats.triang((scatter.mode - low) / width, low, width)

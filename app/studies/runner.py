@@ -105,8 +105,8 @@ async def in_order(
 
     `overrides` returns, for the index of a point, the values that the point changes in the request of the question. If
     the process of a chunk is lost, the points of the chunk are solved again one by one. If the caller leaves the
-    iteration, chunks that have not begun are cancelled, and chunks that have begun run on without anyone waiting for
-    them.
+    iteration, chunks that have not begun are cancelled. Chunks that have begun run to their end, but nobody waits for
+    their results.
     """
 
     def submit(some: range) -> tuple[range, asyncio.Future[Chunk]]:
@@ -171,7 +171,7 @@ class Study(ABC):
     answer: ClassVar[str]  # the lines that the answer has
     model: ClassVar[type[Any]]  # of the body
     most: ClassVar[str] = "most_study_points"  # the setting that limits the number of points
-    is_reduced: ClassVar[bool] = True  # True if the film is left out when no output needs the film
+    is_reduced: ClassVar[bool] = True  # True if the film is not calculated unless an output needs it
 
     def __init__(self, content: Any, most: int, deadline_s: float) -> None:
         self.body = validated(self.model, content)
@@ -189,7 +189,7 @@ class Study(ABC):
             raise Unprocessable("not_json", message, "request") from None
 
     def _outputs(self, base: BaseRequest) -> tuple[Leaf, ...]:
-        """Return the requested outputs, or the headline numbers if the request names none."""
+        """Return the requested outputs, or the headline numbers if the request names no outputs."""
         return base.outputs(self.body.outputs)
 
     @abstractmethod

@@ -100,7 +100,7 @@ def of_spectrum(outputs: FloatArray, limit: Limit) -> Estimate:
 
 
 def of_case(outputs: FloatArray, limit: Limit) -> Estimate:
-    """Return the probability for one case as if there were no other cases. `outputs` are `[replicate, draw]`."""
+    """Return the probability that one case is beyond the limit. `outputs` of the case are `[replicate, draw]`."""
     return of_spectrum(outputs[..., np.newaxis], limit)
 
 
