@@ -74,7 +74,10 @@ def _values_of_fields(value: Scalar | list[Scalar], leaves: tuple[Leaf, ...]) ->
 
 
 def listed(cases: list[Overrides], base: BaseRequest, most: int, place: str) -> PointSet:
-    """Return the points of the listed cases at `place` of a study. Raises Unprocessable if `most` is exceeded."""
+    """Return the points of the cases listed at `place` of a study.
+
+    Raises Unprocessable if a case is wrong, or if there are more than `most` cases.
+    """
     check_count(len(cases), most, place)
     return PointSet([], tuple(fields_set(cases, base, place + ".{}").values()), cases)
 
@@ -95,7 +98,7 @@ def fields_set(cases: Sequence[Overrides], base: BaseRequest, place: str) -> dic
 
 
 def grid(axes: list[Axis], base: BaseRequest, most: int, place: str) -> PointSet:
-    """Return all combinations of the values of the axes at `place` of a study. The first axis varies slowest.
+    """Return all combinations of the values of the axes that are at `place` of a study. The first axis varies slowest.
 
     Raises Unprocessable if an axis is wrong, or if there are more than `most` points.
     """

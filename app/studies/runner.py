@@ -201,7 +201,7 @@ class Study(ABC):
         """Yield all lines of the study in groups, as soon as they are known. `guarded` adds lines of progress."""
 
     def encoder(self, _: str) -> Callable[[Line], bytes]:
-        """Return the function that writes a line in a format. By default, all formats are JSON."""
+        """Return the function that writes a line in a format. By default, it writes JSON in all formats."""
         return json_line
 
     def header(self, **content: Any) -> Line:

@@ -41,7 +41,7 @@ class Limit(NamedTuple):
         return np.where(np.isnan(beyond), np.nan, beyond > 0.0)
 
     def worst(self, outputs: FloatArray) -> FloatArray:
-        """Return the worst value of the solved cases; the cases are the last axis. Return NaN if no case is solved."""
+        """Return the worst value of the solved cases along the last axis, or NaN if no case is solved."""
         return np.asarray((np.fmax if self.side == "above" else np.fmin).reduce(outputs, axis=-1))
 
 

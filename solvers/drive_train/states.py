@@ -25,8 +25,8 @@ def solve(inputs: DriveTrainInputs, start: FloatArray | None = None) -> DriveTra
     -------
     DriveTrainResult
         Results of the hot unit, and of the cold unit if requested. Warnings that only the cold unit has are added to
-        the warnings of the hot unit. A warning also reports a cold unit without a solution, and an oil that is out of
-        range at the reference temperature.
+        the warnings of the hot unit. Further warnings state that the cold unit has no solution, or that the oil is out
+        of range at the reference temperature.
 
     Raises
     ------

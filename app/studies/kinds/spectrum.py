@@ -621,7 +621,7 @@ def _typed(scatter: dict[str, Any]) -> dict[str, Any]:
 def address_of(
     endpoint: Calculation, request: Pairs, body: dict[str, Any], file: Mapping[str, str] = MappingProxyType({})
 ) -> str:
-    """Return the address of the page for the body of a study. Of the limits, only the first is part of the address.
+    """Return the address of the page for the body of a study. Only the first of the limits is part of the address.
 
     `file` names the file from which the study was read.
     """
@@ -664,7 +664,7 @@ class SpectrumPage(StudyPage):
     study: Spectrum
 
     def body(self) -> dict[str, Any]:
-        """Return the body with the typed cases, tolerances and limit. Outputs are the shown output and the losses."""
+        """Return the body with the typed cases, tolerances and limit, and with the shown output and the losses."""
         calculation, output, given = self.calculation, self.output.path, self.given()
         tolerances = given["tolerances"]
         typed = tolerances.get("inputs", [])
