@@ -364,7 +364,7 @@ class Tribodrive(_Endpoints[Json, Study]):
         self._http.close()
 
     def solve(self, endpoint: str, request: Json) -> Json:
-        """Post a request to an endpoint and return the answer. Raises `ProblemError` for a problem as answer."""
+        """Post a request to an endpoint and return the answer. Raises `ProblemError` if the answer is a problem."""
         give_up = time.monotonic() + self._patience_s
         while True:
             response = self._http.post(endpoint, json=request)
@@ -410,7 +410,7 @@ class AsyncTribodrive(_Endpoints[Awaitable[Json], AsyncStudy]):
         await self._http.aclose()
 
     async def solve(self, endpoint: str, request: Json) -> Json:
-        """Post a request to an endpoint and return the answer. Raises `ProblemError` for a problem as answer."""
+        """Post a request to an endpoint and return the answer. Raises `ProblemError` if the answer is a problem."""
         give_up = time.monotonic() + self._patience_s
         while True:
             response = await self._http.post(endpoint, json=request)

@@ -135,7 +135,7 @@ class Train:
                 self._spread(other, -speed * pair.teeth[place] / pair.teeth[1 - place], speeds)
 
     def _forces(self, speeds: dict[int, float], reading: Reading) -> dict[int, float]:
-        """Return the mesh torque per tooth [N m] of each stage for which it follows from the torques in the file."""
+        """Return the mesh torque per tooth [N m] of each stage in which the file's torques determine this torque."""
         torques, opened = self._loads(speeds, reading)
         forces: dict[int, float] = {}
         waiting = list(self._at) if torques else []

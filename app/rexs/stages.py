@@ -81,8 +81,8 @@ class StageDraft(Draft):
     """The draft of one mesh. The pinion is the driving gear, or the smaller gear if the driving gear is not known.
 
     `order` holds the positions of pinion and wheel in the pair of the file, 0 or 1. `driver` is the position of the
-    driving gear in this pair, or None if the driving gear is not known. Elsewhere the place of a gear is 0 for the
-    pinion and 1 for the wheel.
+    driving gear in this pair, or None if the driving gear is not known. The argument `place` of the methods is 0
+    for the pinion and 1 for the wheel.
     """
 
     def __init__(self, pair: Pair, flow: Flow, pinion: int | None = None) -> None:
@@ -120,7 +120,7 @@ class StageDraft(Draft):
                 self.take(row, self.material(place), f"materials.{role}.")
 
     def _driver(self) -> int | None:
-        """Return the position of the driving gear in the pair, from torque and speed, or else as the file states it."""
+        """Return the driving gear's position in the pair: from torque and speed if known, else as stated in the file."""
         by_power, pair = self.flow.driver(self.pair), self.pair
         stated = [place for place in (0, 1) for data in _gear_data(self.reading, pair, pair.gears[place])
                   if self.reading.flag(data, "is_driving_gear")]  # fmt: skip
@@ -178,7 +178,7 @@ class StageDraft(Draft):
         return fields if speed is None else fields | {SPEED: abs(speed)}
 
     def face_interval(self, place: int) -> tuple[float, float] | None:
-        """Return the ends of a gear's face along the axis of the pinion's shaft [mm]; None if they are not known."""
+        """Return both ends of a gear's face along the axis of the pinion's shaft [mm]; None if not known."""
         width = self.reading.number(self.gears[place], table.FACE_WIDTH)
         middle = self.position(self.gears[place], self.shafts[place])
         if width is None or middle is None:

@@ -82,7 +82,7 @@ class DaskCluster:
         self.slots = sum(threads.values())
 
     def _call_on(self, function: Callable[[], Any], workers: set[str]) -> dict[str, Any]:
-        """Call a function on each of the workers, wait for the results, and return them by worker."""
+        """Call a function on each of the workers, wait for the results, and return the results by worker."""
         assert self._client is not None
         calls = {name: self._client.submit(function, workers=[name], pure=False, retries=0) for name in workers}
         return {name: call.result(timeout=WARM_S) for name, call in calls.items()}

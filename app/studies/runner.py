@@ -49,7 +49,7 @@ class Pool(Protocol):
     def submit(self, function: Callable[..., Any], *arguments: Any) -> asyncio.Future[Any]:
         """Call the function in a process as soon as a process is free, and return the future of the result.
 
-        Cancelling the future cancels the call if it has not begun; a call that has begun runs to its end. The future
+        Cancelling the future cancels a call that has not begun; a call that has begun runs to its end. The future
         raises WorkerLost, DeadlineExceeded, PoolLost, and the exceptions of the function.
         """
 
@@ -201,7 +201,7 @@ class Study(ABC):
         """Yield all lines of the study in groups, as soon as they are known. `guarded` adds lines of progress."""
 
     def encoder(self, _: str) -> Callable[[Line], bytes]:
-        """Return the function that writes a line in a format. By default, it writes JSON in all formats."""
+        """Return the function that writes a line in a format. By default, this function writes JSON."""
         return json_line
 
     def header(self, **content: Any) -> Line:

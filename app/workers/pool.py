@@ -95,7 +95,10 @@ class Pool:
         refused.outcome.set_exception(QueueFull())
 
     def _let_go(self, job: Job) -> None:
-        """Remove a call whose future is done from the queue, or limit the further time of the call if it is running."""
+        """Remove a call from the queue, or limit the further time of the call if the call is running.
+
+        This function runs as soon as the future of the call is done.
+        """
         if job in self._waiting:
             self._waiting.remove(job)
         elif job in self._running and job.timeout is not None and not job.timeout.expired():

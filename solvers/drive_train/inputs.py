@@ -377,9 +377,9 @@ class Heat:
 
     If `wall_response` is None, a response of 0.5 is assumed and a warning states this. If `wall_response_wheel` is
     None, the response of the wheel is the response of the pinion times z1/z2, because a wheel tooth meets the hot gas
-    once per turn of the wheel. Normally the tooth temperatures do not include the pumping heat. If they already include
-    the pumping heat, only the difference between the temperature rise of the gas and the mean of this rise over the
-    face counts.
+    once per turn of the wheel. Normally the tooth temperatures do not include the pumping heat. If the temperatures
+    already include the pumping heat, only the difference between the temperature rise of the gas and the mean of this
+    rise over the face counts.
     """
 
     wall_response: float | None = quantity(

@@ -12,7 +12,7 @@ from solvers.notices import Notice
 
 
 def solve(inputs: DriveTrainInputs, start: FloatArray | None = None) -> DriveTrainResult:
-    """Compute the hot unit, and the cold unit if `inputs.states` asks for it.
+    """Compute the hot unit and, if `inputs.states` contains "cold", the cold unit.
 
     Parameters
     ----------

@@ -2,7 +2,7 @@
 
 A count is moved by 1, and any other input by its tolerance. An input without a tolerance is moved by 1 K if it is a
 temperature, or else by 1 %. The slope over a tolerance is compared with the slope over half the tolerance. The page
-shows a figure and a table of the inputs, sorted by the change of the output that they cause.
+shows a figure and a table of the inputs, sorted by the change of the output that the inputs cause.
 """
 
 from collections import Counter

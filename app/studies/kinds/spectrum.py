@@ -372,8 +372,8 @@ def _limits(study: Spectrum, columns: dict[str, FloatArray]) -> tuple[list[Limit
 def _of_limit(study: Spectrum, limit: Limit, outputs: FloatArray) -> Line:
     """Return the content of the last line for a limit.
 
-    The content is the probability over the spectrum, for each case the share of machines for which the case is the
-    worst, and the rank correlation with each field that scatters.
+    The content has three parts: the probability over the spectrum; for each case, the share of machines for which this
+    case is the worst case; and for each field that scatters, the rank correlation with the output in the worst case.
     """
     worst = limit.worst(outputs)
     edges, density = statistics.histogram(worst)

@@ -57,7 +57,7 @@ COUNTS = {"x": 21, "y": 5}  # default numbers of points: 21 make a smooth curve,
 MOST_WHOLE = 10_000  # largest number of whole numbers on an axis
 FIRST = "vary.0"  # the axis along which a curve runs
 MOST_ROWS = 200  # largest number of rows of a table on a page; the file has all rows
-MOST_REASONS = 6  # largest number of remarks on points that a page shows; it shows the most frequent remarks
+MOST_REASONS = 6  # largest number of remarks on points, so that a user can read them; the most frequent are shown
 
 
 class Sample(Part):
