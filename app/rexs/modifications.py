@@ -1,4 +1,4 @@
-"""Modifications of the mesh. Each of these modifications is the sum of the modifications of both gears on the loaded flanks.
+"""Modifications of the mesh. Each modification is the sum of the modifications of both gears on the loaded flanks.
 
 Tip relief of the pinion and root relief of the wheel act at E, the end of contact. Root relief of the pinion and tip
 relief of the wheel act at A, the start of contact. The sign of a slope depends on the end of the face that meshes

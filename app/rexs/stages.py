@@ -120,7 +120,7 @@ class StageDraft(Draft):
                 self.take(row, self.material(place), f"materials.{role}.")
 
     def _driver(self) -> int | None:
-        """Return the driving gear's position in the pair: from torque and speed if known, else as stated in the file."""
+        """Return the driving gear's position in the pair: from torque and speed if known, else from the file."""
         by_power, pair = self.flow.driver(self.pair), self.pair
         stated = [place for place in (0, 1) for data in _gear_data(self.reading, pair, pair.gears[place])
                   if self.reading.flag(data, "is_driving_gear")]  # fmt: skip

@@ -171,7 +171,7 @@ class Study(ABC):
     answer: ClassVar[str]  # the lines that the answer has
     model: ClassVar[type[Any]]  # of the body
     most: ClassVar[str] = "most_study_points"  # the setting that limits the number of points
-    is_reduced: ClassVar[bool] = True  # True if the film is not calculated unless an output needs it
+    is_reduced: ClassVar[bool] = True  # True if the film is calculated only if an output needs it
 
     def __init__(self, content: Any, most: int, deadline_s: float) -> None:
         self.body = validated(self.model, content)

@@ -217,7 +217,7 @@ class Shaft:
 
 @record
 class Alignment:
-    """Heights of the shafts of unit and machine above their feet, and temperature rises of the supports of both."""
+    """Shaft heights of unit and machine above the feet, and temperature rises of the supports of unit and machine."""
 
     unit_height: float | None = quantity(
         "height of the unit's shaft",

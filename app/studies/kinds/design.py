@@ -52,7 +52,7 @@ FIRST_STEP = 0.15  # as a share of the range of a variable
 LAST_STEP = 2e-3  # as a share of the range of a variable, chosen
 LEAST_GAIN = 1e-3  # as a share of the objective at the start; the search ends if a restart gains less than this
 VALUE_SCALE = 0.2  # objectives are divided by this share of the objective at the start, variables by their ranges
-PENALTY = 5.0  # in scaled objectives; a point without solution is worse by this amount than the worst solved point
+PENALTY = 5.0  # in scaled objectives; excess of a point without solution over the worst point so far
 MOST_STEPS = 100  # largest number of COBYQA steps per evaluation; steps that change only the level need no evaluation
 
 EVALUATIONS = 40  # default number of evaluations on the page, chosen

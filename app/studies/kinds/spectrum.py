@@ -205,7 +205,7 @@ class Spectrum(Study):
     def _outputs(self, base: BaseRequest) -> tuple[Leaf, ...]:
         """Return the requested outputs, or the headline numbers if the request names no outputs.
 
-        Outputs that have a limit are returned in any case.
+        Also return the outputs that have a limit.
         """
         body = self.body
         outputs = {f"outputs.{place}": leaf for place, leaf in enumerate(base.outputs(body.outputs))}

@@ -55,8 +55,9 @@ class Yielding:
 def free_hubs(unit: Unit, force: FloatArray) -> HubLoads:
     """Return tilts and loads of the hubs, if the shafts carry a force over the face [N] but no loads of the couplings.
 
-    The iteration does not start from the tilts of hubs on straight shafts, because such a hub may have no tilt, and the
-    friction of a hub is stiffest at zero tilt. Raises InvalidInput if a tilt is out of the range of the coupling model.
+    The iteration for the balance starts from these tilts. It does not start from the tilts of hubs on straight shafts,
+    because a hub on a straight shaft may have no tilt, and the friction of a hub is stiffest at zero tilt. Raises
+    InvalidInput if a tilt is out of the range of the coupling model.
     """
     ports = unit.couplings
     if not ports:

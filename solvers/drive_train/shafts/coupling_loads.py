@@ -308,7 +308,7 @@ def coupling_loads(port: CouplingPort, tilts: FloatArray) -> tuple[FloatArray, F
 
 
 def _polar(tilt: FloatArray, moments: FloatArray, slopes: FloatArray, torque: float) -> tuple[FloatArray, FloatArray]:
-    """Return the vector -a e + (b + torque delta) Z x e at a tilt delta e, and its derivative with respect to the tilt.
+    """Return the vector v = -a e + (b + torque delta) Z x e at a tilt delta e, and the derivative of v by the tilt.
 
     `moments` begins with a and b; `slopes` begins with the derivatives of a and b with respect to delta. Below
     `LEAST_TILT`, a and b are proportional to delta.
