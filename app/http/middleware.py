@@ -63,7 +63,7 @@ class Protection:
             message = await receive()
             received += len(message.get("body", b""))
             if received > most_bytes:
-                while message.get("more_body", False):  # closing now could lose the answer
+                while message.get("more_body", False):  # closing the connection early could lose the answer
                     message = await receive()
                 raise ContentTooLarge(f"The request body is larger than {most_bytes} bytes")
             return message

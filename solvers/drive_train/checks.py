@@ -26,9 +26,9 @@ def check_inputs(inputs: DriveTrainInputs, path: PathOfContact) -> None:
     Raises
     ------
     InvalidInput
-        `bearing_count`, `bearing_outside`, `bearing_order`, `bearing_distance`, `face_outside`, `torque_position`,
-        `position_outside`, `section_diameter`, `stiffness_matrix`, `thrust_collar_radius`, `machine_side` or
-        `couplings_on_shaft`.
+        If a part does not fit. The code names the reason: `bearing_count`, `bearing_outside`, `bearing_order`,
+        `bearing_distance`, `face_outside`, `torque_position`, `position_outside`, `section_diameter`,
+        `stiffness_matrix`, `thrust_collar_radius`, `machine_side` or `couplings_on_shaft`.
     """
     for index, (shaft, name) in enumerate(zip(inputs.shafts, NAMES, strict=True)):
         _check_sections(inputs, path, index, name)
