@@ -15,7 +15,7 @@ def main() -> None:
 
     While uvicorn serves, uvicorn handles Ctrl-C. After uvicorn has stopped serving, it sends the signal again.
     """
-    # Ctrl-C must not raise an exception: extension modules that are being imported could lose it or change its type.
+    # Ctrl-C must not raise an exception: a module that is being imported could lose the exception or change its type.
     signal.signal(signal.SIGINT, lambda *_: os._exit(INTERRUPTED))
     gc.disable()  # imports leave no garbage, and the search for garbage takes a third of the time of the imports
     from app.command import main as run_command  # noqa: PLC0415

@@ -203,7 +203,7 @@ class _Study(Generic[Http]):
         return time.monotonic() + self._patience_s
 
     def _results(self, text: str) -> Iterator[Json]:
-        """Yield the line if it is a result. Raises `StudyError` if it is an error or not a line of a study."""
+        """Yield the line if it is a result. Raises `StudyError` if the line is an error or not a line of a study."""
         try:
             yield from self._process(json.loads(text))
         except (ValueError, LookupError, TypeError) as error:
@@ -253,7 +253,7 @@ class _Study(Generic[Http]):
 class Study(_Study[httpx.Client]):
     """A study. Iterate over its results, or call `frame` for a table of all results.
 
-    `header` and `end` are the first and the last line of the study; each is empty until its line has been read.
+    `header` and `end` are the first and the last line of the study. Both are empty until these lines have been read.
     """
 
     def __iter__(self) -> Iterator[Json]:
@@ -364,7 +364,7 @@ class Tribodrive(_Endpoints[Json, Study]):
         self._http.close()
 
     def solve(self, endpoint: str, request: Json) -> Json:
-        """Post a request to an endpoint and return the answer. Raises `ProblemError`."""
+        """Post a request to an endpoint and return the answer. Raises `ProblemError` if the answer is a problem."""
         give_up = time.monotonic() + self._patience_s
         while True:
             response = self._http.post(endpoint, json=request)
@@ -410,7 +410,7 @@ class AsyncTribodrive(_Endpoints[Awaitable[Json], AsyncStudy]):
         await self._http.aclose()
 
     async def solve(self, endpoint: str, request: Json) -> Json:
-        """Post a request to an endpoint and return the answer. Raises `ProblemError`."""
+        """Post a request to an endpoint and return the answer. Raises `ProblemError` if the answer is a problem."""
         give_up = time.monotonic() + self._patience_s
         while True:
             response = await self._http.post(endpoint, json=request)
@@ -468,7 +468,10 @@ def _request_of(example: httpx.Response) -> Json:
 
 
 def _wait_s(response: httpx.Response, give_up: float) -> float:
-    """Return the time [s] to wait before a busy service is asked again. Raises `ProblemError` for other answers."""
+    """Return the time [s] to wait before a busy service is asked again.
+
+    Raises `ProblemError` if the answer has no `Retry-After`, or if the wait would end after the time `give_up` [s].
+    """
     stated = response.headers.get("Retry-After", "")
     seconds = max(float(stated), LEAST_WAIT_S) if stated.isdecimal() else inf
     if time.monotonic() + seconds > give_up:

@@ -13,7 +13,7 @@ from typing import Any
 from app.settings import MEBIBYTE, Settings, settings
 
 PROGRESS_S = 1.0  # time between two lines of progress
-EXIT_STATUS = {"ok": 0, "ok_with_warnings": 3, "no_solution": 4}  # 1: rejected or not written, 2: wrong arguments
+EXIT_STATUS = {"ok": 0, "ok_with_warnings": 3, "no_solution": 4}  # 1: no answer, 2: wrong arguments
 
 
 def main() -> None:
@@ -137,7 +137,7 @@ def _print_json(content: dict[str, Any]) -> None:
         print(text, flush=True)  # noqa: T201  a command's output
     except OSError as error:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # the flush at the end must not fail
-        if not isinstance(error, BrokenPipeError):  # the reader of a pipe has closed it
+        if not isinstance(error, BrokenPipeError):  # the reader of a pipe has closed the pipe
             sys.exit(f"tribodrive: cannot write the answer: {error.strerror}")
 
 

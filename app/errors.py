@@ -6,7 +6,7 @@ The table `PROBLEMS` gives status, code and title of each exception.
 from collections.abc import Iterable
 from typing import NamedTuple
 
-LONGEST_POINTER_PART = 100  # characters; all fields are shorter
+LONGEST_POINTER_PART = 100  # characters; the names of all fields are shorter
 
 
 class Fault(NamedTuple):
@@ -140,5 +140,8 @@ PROBLEMS: dict[type[Exception], Kind] = {
 
 
 def kind_of(error: Exception) -> Kind:
-    """Return the kind of problem of an exception. The table contains the class of the exception or a base class."""
+    """Return the kind of problem that belongs to an exception.
+
+    The table `PROBLEMS` contains the class of the exception or one of its base classes.
+    """
     return next(PROBLEMS[base] for base in type(error).__mro__ if base in PROBLEMS)

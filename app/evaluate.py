@@ -1,4 +1,4 @@
-"""Functions that read requests, solve them and write answers. JSON, pages, figures and studies use these functions."""
+"""Functions that read and solve requests and write answers. JSON, pages, figures and studies use these functions."""
 
 import json
 from collections import Counter
@@ -138,7 +138,10 @@ def draw_figure(
     image_format: figures.Format,
     theme: ThemeName,
 ) -> bytes:
-    """Solve a request and return a figure. Raises the errors of `evaluate`, and NoFigure if there is no figure."""
+    """Solve a request and return a figure.
+
+    Raises the errors of `evaluate`, and NoFigure if this figure cannot be drawn from the result.
+    """
     summary = request.model_copy(update={"detail": "summary"})
     figure = declaration.figure(summary, evaluate(calculation, summary))
     return figures.written(figure, image_format, theme)
@@ -153,7 +156,10 @@ def evaluate(calculation: Calculation, request: Request) -> Response:
 
 
 def solve(calculation: Calculation, request: Request) -> Any:
-    """Return the solver's result, or the NoSolution that the solver raised. Raises Unprocessable as `evaluate` does."""
+    """Return the solver's result, or the NoSolution that the solver raised.
+
+    Raises Unprocessable if the solver rejects the input.
+    """
     try:
         return calculation.solve(request.inputs())
     except InvalidInput as error:
@@ -196,7 +202,7 @@ def response_to(calculation: Calculation, request: Request, result: Any) -> Resp
 
 
 def case_of(endpoint: str, inputs: dict[str, Any], sources: str) -> str:
-    """Return the SHA-256 of a case in hex.
+    """Return the SHA-256 of a case as hexadecimal digits.
 
     The hashed text is the case as JSON in UTF-8, with sorted keys, without blanks, and with floats in their shortest
     form.
@@ -210,8 +216,8 @@ def _assumptions(
 ) -> Iterator[dict[str, Any]]:
     """Yield the fields for which the result depends on an assumed default, with the values used.
 
-    `derived` holds these values by the names of the fields, in groups and lists that have the names of the sections.
-    `unused` holds the dotted names of fields that the outer sections do not use.
+    `derived` holds these values under the names of the fields, nested in groups and lists named like the sections.
+    `unused` holds the dotted names of fields that are unused according to the sections around this section.
     """
     unused |= {prefix + name for name, left_out in section.unused().items() if left_out}
     for member in members(type(section)):

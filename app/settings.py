@@ -21,7 +21,8 @@ CLUSTER_POINTS = 100_000  # chosen; largest number of points of a study that a c
 def _share_of_cores() -> int:
     """Return the number of cores that each process of the server may use.
 
-    uvicorn and gunicorn take the number of processes from the same command-line argument or environment variable.
+    The number of processes is read from the command-line argument or the environment variable from which uvicorn and
+    gunicorn read it.
     """
     number = ArgumentParser(add_help=False, allow_abbrev=False)
     number.add_argument("-w", "--workers", type=int, default=os.environ.get("WEB_CONCURRENCY", "1"))

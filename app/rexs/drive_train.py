@@ -17,7 +17,7 @@ from app.rexs.stages import StageDraft
 MOST_PIECES = 10  # largest number of pieces per cone; a request allows 40 sections per shaft
 LONGEST_PIECE = 10.0  # mm; length of a cylinder that replaces a part of a cone
 SHORTEST_SECTION = 0.1  # mm
-RIGID_FROM_N_PER_UM = 1e5  # chosen: about a hundred times the stiffness of a plain bearing
+RIGID_FROM_N_PER_UM = 1e5  # stiffer bearings count as rigid; chosen: a hundred times the stiffness of a plain bearing
 STANDARD_GRAVITY = 9.80665  # m/s^2
 NAMES = ("pinion_shaft", "wheel_shaft")
 
@@ -243,7 +243,7 @@ class _DriveTrain:
             for row in table.JOURNAL:
                 if (value := reading.number(bearing, row)) is not None:
                     fields[row.field] = value / 2.0 if row.field == "radial_clearance_um" else value
-            if fields.get("oil_flow_l_per_min", 1.0) <= 0.0:  # unknown flow; the heat balance uses the side leakage
+            if fields.get("oil_flow_l_per_min", 1.0) <= 0.0:  # not known; the heat balance uses the side leakage
                 del fields["oil_flow_l_per_min"]
             relative = reading.number(bearing, "relative_clearance_plain_bearing")
             bore = reading.number(bearing, table.BEARING_BORE)

@@ -71,8 +71,8 @@ class Lubrication:
     def _temperatures(self) -> None:
         """Fill in the temperature and the supply of the oil, and the bulk temperature.
 
-        The bulk temperature is the mean of the bulk temperatures of both gears. If the file states none for the gears,
-        the bulk temperature of the stage is used.
+        The bulk temperature is the mean of the bulk temperatures of both gears. If the file states no bulk temperature
+        for the gears, the bulk temperature of the stage is used.
         """
         for origin in self._stage.oil_origins:
             if self._stage.take(table.OIL_TEMPERATURE, origin) is not None:
@@ -107,7 +107,7 @@ class Lubrication:
             self._reading.find("oil_supply", self._stage.stage, table.SUPPLY_FACTOR, message)
 
     def _friction(self) -> None:
-        """Fill in the coefficient of friction, unless the file says that it was calculated."""
+        """Fill in the coefficient of friction, unless the file says that this coefficient was calculated."""
         methods = [self._reading.text(self._stage.stage, name) for name in table.FRICTION_METHODS]
         if set(methods) <= {"", "is_given"}:
             self._stage.take(table.FRICTION, self._stage.stage)

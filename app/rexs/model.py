@@ -45,7 +45,7 @@ class Relation:
     parts: tuple[tuple[str, int], ...]
 
     def part(self, role: str) -> int | None:
-        """Return the id of the component in a role."""
+        """Return the id of the component that has a role in this relation, or None if no component has the role."""
         return next((id_ for name, id_ in self.parts if name == role), None)
 
 
@@ -88,7 +88,7 @@ class Model:
         return next(iter(self.by_type[type_]), None)
 
     def part(self, relation: Relation, role: str) -> Component | None:
-        """Return the component in a role of a relation."""
+        """Return the component that has a role in a relation."""
         id_ = relation.part(role)
         return None if id_ is None else self.components.get(id_)
 
@@ -111,7 +111,7 @@ class Model:
         return list({part.id: part for part in parts}.values())
 
     def whole_of(self, part: int, type_: str) -> Component | None:
-        """Return the assembly of a type that the component is a part of."""
+        """Return the assembly of type `type_` that contains the component `part`."""
         wholes = (whole for kind in ASSEMBLIES for whole in self.related(kind, "part", part, "assembly"))
         return next((whole for whole in wholes if whole.type == type_), None)
 

@@ -1,4 +1,4 @@
-"""Modifications of the mesh, which are the sums of the modifications of both gears on the loaded flanks.
+"""Modifications of the mesh. Each modification is the sum of the modifications of both gears on the loaded flanks.
 
 Tip relief of the pinion and root relief of the wheel act at E, the end of contact. Root relief of the pinion and tip
 relief of the wheel act at A, the start of contact. The sign of a slope depends on the end of the face that meshes
@@ -46,10 +46,10 @@ class Modifications:
         return [item for item in modifications if item.type in table.MODIFICATIONS]
 
     def _working_side(self, place: int) -> str | None:
-        """Return the loaded flank as stated in the file, or else from the sense of rotation and the driving gear.
+        """Return the loaded flank, as stated in the file, or else from the sense of rotation and the driving gear.
 
         Seen from the end of the shaft at which u is least (the datum face), a gear with positive speed turns clockwise.
-        At this sense of rotation, the right flank of a driving gear and the left flank of a driven gear are loaded.
+        With this sense of rotation, the right flank of a driving gear and the left flank of a driven gear are loaded.
         """
         stage = self._stage
         for data in stage.gear_data(place):

@@ -15,7 +15,7 @@ from app.rexs.model import Component, LoadCase
 from app.rexs.reading import Reading
 from app.rexs.table import REVOLUTION_PER_MINUTE
 
-MOST_SHAFTS = 200  # chosen: far beyond any gear unit
+MOST_SHAFTS = 200  # chosen: far more than any gear unit has
 BALANCE = 0.02  # tolerated relative unbalance of torques, because the torques in some files include efficiencies
 
 
@@ -135,7 +135,7 @@ class Train:
                 self._spread(other, -speed * pair.teeth[place] / pair.teeth[1 - place], speeds)
 
     def _forces(self, speeds: dict[int, float], reading: Reading) -> dict[int, float]:
-        """Return the mesh torque per tooth [N m] of each stage in which the torques in the file determine it."""
+        """Return the mesh torque per tooth [N m] of each stage in which the file's torques determine this torque."""
         torques, opened = self._loads(speeds, reading)
         forces: dict[int, float] = {}
         waiting = list(self._at) if torques else []

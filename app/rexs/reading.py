@@ -1,6 +1,6 @@
-"""Attributes of a file as numbers in the units of the requests, and the draft of a request that these numbers fill.
+"""Attributes of a file as numbers in the units of the requests, and the draft of a request that holds these numbers.
 
-`Reading` and `Draft` record for the answer the faults of the file, and the values that are missing, assumed or unused.
+For the answer, `Reading` and `Draft` record the faults of the file, and the missing, assumed and unused values.
 """
 
 import re
@@ -140,7 +140,7 @@ class Reading:
         return None if first is None else first.value
 
     def first_of(self, component: Component | None, names: Iterable[str], unit: str) -> "Number | None":
-        """Return value and name of the first of these attributes that is a number with the quantity of `unit`."""
+        """Return value and name of the first of these attributes that is a number and can be converted to `unit`."""
         if component is None:
             return None
         for name in names:
@@ -291,9 +291,9 @@ class Draft:
     def request(self, endpoint: str, paths: Iterable[str]) -> dict[str, Any]:
         """Return the request of an endpoint from these fields.
 
-        Fields that the endpoint does not have, and fields whose values it rejects, are left out. If the rejected value
-        comes from the file, the value is recorded as a finding with the permitted range. If a field that the endpoint
-        requires has no value, the field is recorded as missing.
+        Fields that the endpoint does not have, and fields whose values the endpoint rejects, are left out. If a
+        rejected value comes from the file, the value is recorded as a finding with the permitted range. If a field that
+        the endpoint requires has no value, the field is recorded as missing.
         """
         replaced = endpoint == SCUFFING and SCUFFING_FACTOR in self.fields
         places = {

@@ -11,8 +11,8 @@ from solvers.gears.gear import involute
 from solvers.gears.pair import inverse_involute
 
 ISO_53_A = {"addendum": 1.0, "dedendum": 1.25, "gears.rack_tip_radius": 0.38}  # in modules
-SAME = 1e-6  # chosen: two stated numbers count as equal if their difference is smaller
-OFF_CENTRE = 1e-3  # chosen: tolerated share of the centre distance; positions in files are often rounded
+SAME = 1e-6  # chosen: two stated numbers count as equal if their difference is smaller than this
+OFF_CENTRE = 1e-3  # chosen: tolerated error, as a share of the centre distance; positions in files are often rounded
 MOST_INVOLUTE = 1e8  # only absurd profile shifts give larger values; the inverse function works up to 1e9
 NORMAL_ANGLE = 20.0  # deg, ISO 53
 ROLES = ("pinion", "wheel")
@@ -80,12 +80,13 @@ def _gear_data(reading: Reading, pair: Pair, gear: Component) -> Iterator[Compon
 class StageDraft(Draft):
     """The draft of one mesh. The pinion is the driving gear, or the smaller gear if the driving gear is not known.
 
-    The place of a gear is its position in the pair of the file, 0 or 1. `order` holds the places of pinion and wheel.
-    `driver` is the place of the driving gear, or None if the driving gear is not known.
+    `order` holds the positions of pinion and wheel in the pair of the file, 0 or 1. `driver` is the position of the
+    driving gear in this pair, or None if the driving gear is not known. The argument `place` of the methods is 0
+    for the pinion and 1 for the wheel.
     """
 
     def __init__(self, pair: Pair, flow: Flow, pinion: int | None = None) -> None:
-        """Begin the draft of a stage. `pinion` is the place of the pinion if another draft has chosen the pinion."""
+        """Begin the draft. `pinion` is the pinion's position in the pair if another draft has chosen the pinion."""
         super().__init__(flow.reading)
         self.flow, self.pair = flow, pair
         self.driver = self._driver()
@@ -119,7 +120,7 @@ class StageDraft(Draft):
                 self.take(row, self.material(place), f"materials.{role}.")
 
     def _driver(self) -> int | None:
-        """Return the place of the driving gear as follows from torque and speed, or else as the file states."""
+        """Return the driving gear's position in the pair: from torque and speed if known, else from the file."""
         by_power, pair = self.flow.driver(self.pair), self.pair
         stated = [place for place in (0, 1) for data in _gear_data(self.reading, pair, pair.gears[place])
                   if self.reading.flag(data, "is_driving_gear")]  # fmt: skip
@@ -131,7 +132,7 @@ class StageDraft(Draft):
         return by_power
 
     def flanks(self, place: int) -> dict[str, Component]:
-        """Return the left and the right flank of pinion (0) or wheel (1) by side, if the file has them."""
+        """Map each side, left and right, to the flank of pinion (0) or wheel (1). Absent flanks are left out."""
         relation = "flank", "gear", self.gears[place].id
         flanks = {side: next(self.reading.model.related(*relation, side), None) for side in ("left", "right")}
         return {side: flank for side, flank in flanks.items() if flank is not None}
@@ -177,7 +178,7 @@ class StageDraft(Draft):
         return fields if speed is None else fields | {SPEED: abs(speed)}
 
     def face_interval(self, place: int) -> tuple[float, float] | None:
-        """Return the ends of a gear's face along the axis of the pinion's shaft [mm]; None without positions."""
+        """Return both ends of a gear's face along the axis of the pinion's shaft [mm]; None if not known."""
         width = self.reading.number(self.gears[place], table.FACE_WIDTH)
         middle = self.position(self.gears[place], self.shafts[place])
         if width is None or middle is None:
@@ -187,8 +188,9 @@ class StageDraft(Draft):
     def position(self, part: Component, shaft: Component) -> float | None:
         """Return the position of a part's middle along the axis of the pinion's shaft [mm]; None if this is not known.
 
-        The origin of a part is the middle of the part's width. If the file gives both an origin and a coordinate, and
-        if both differ by half the width, the coordinate is that of an end of the part.
+        The origin of a part is the middle of the part's width. If the file gives both an origin and a coordinate, the
+        origin is used. If the two positions differ by half the width, the coordinate is taken as the position of an end
+        of the part, and no fault is recorded.
         """
         reading = self.reading
         stated = reading.number(part, table.POSITION)
@@ -499,7 +501,7 @@ class StageDraft(Draft):
         return base / cos(inverse_involute(free)) if 0.0 <= free <= MOST_INVOLUTE else None
 
     def _free_involute(self, pinion: "Involute", wheel: "Involute") -> float:
-        """Return the involute function of the working pressure angle without backlash."""
+        """Return the involute function of the working pressure angle at which the teeth mesh without backlash."""
         shifts = 2.0 * tan(pinion.normal_angle) * (pinion.shift + wheel.shift)
         return involute(pinion.transverse_angle) + shifts / sum(self.teeth)
 
@@ -507,7 +509,7 @@ class StageDraft(Draft):
         """Return the normal backlash of unthinned teeth at the centre distance [mm].
 
         This backlash is 2 a cos alpha_wt (inv alpha_wt - inv alpha_0) cos beta_b, where alpha_0 is the working pressure
-        angle without backlash.
+        angle at which the teeth mesh without backlash.
         """
         pinion, wheel = self.involute(0), self.involute(1)
         distance = self.fields.get("gears.centre_distance_mm")

@@ -62,7 +62,7 @@ class Row(NamedTuple):
 
 
 APPLICATION_FACTOR, SCUFFING_FACTOR = "load.application_factor", "scuffing.application_factor"
-"""In the request of /v1/scuffing the second factor replaces the first."""
+"""If a draft has both fields, a request of /v1/scuffing gets the value of the second field as application factor."""
 STAGE = (
     Row("gears.centre_distance_mm", ("center_distance",), "mm"),
     Row(
@@ -343,7 +343,7 @@ IGNORED = (
 
 CUSTOM = "custom_tribodrive_"
 STANDARD_FROM = {"face_load_factor_contact_stress": 2}
-"""Attributes of the standard for results. Each has the major version of REXS that introduced the attribute."""
+"""Attributes of the standard for results, with the major version of REXS that introduced the attribute."""
 LOAD_RESULTS = (
     ("load.face_load_factor", "face_load_factor_contact_stress", "none"),
     ("load.max_line_load_n_per_mm", "maximum_line_load", "N / mm"),

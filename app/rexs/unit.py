@@ -16,7 +16,7 @@ from app.rexs.reading import MESH, SCUFFING, SECTIONS, Reading, path_in, rounded
 from app.rexs.stages import SPEED, TORQUE, StageDraft, pairs
 
 MOST_FINDINGS = 1000  # largest number in an answer; more findings would not help the author of the file
-MOST_STAGES = 50  # chosen: far beyond any unit
+MOST_STAGES = 50  # chosen: far more than any gear unit has
 MOST_CASES = 200  # largest number of load cases; further load cases of a file are not read
 MOST_DRAFTS = 2000  # largest number of stages times load cases; a draft takes 2 ms
 LONGEST_NAME, MOST_SPECTRUM_CASES = 100, 100  # limits of /v1/spectrum

@@ -66,7 +66,7 @@ class StudyAdmission:
         return StudyPool(self._workers)
 
     async def pool(self) -> Pool:
-        """Return the pool that solves the points of a study. Raises SchedulerUnavailable."""
+        """Return the pool that solves the points of a study. Raises SchedulerUnavailable if a cluster fails."""
         if self._cluster is None:
             return self.own()
         return await self._cluster.ready()

@@ -39,8 +39,9 @@ class DaskCluster:
     async def ready(self) -> "DaskCluster":
         """Wait until the cluster is connected and every worker is prepared, and return the cluster.
 
-        Only one preparation runs at a time. The preparation continues even if a study that waits for it is refused,
-        because a call to a scheduler that does not answer cannot be cancelled. Raises SchedulerUnavailable.
+        Only one preparation runs at a time. The preparation continues even if the waiting study is refused, because a
+        call to a scheduler that does not answer cannot be cancelled. Raises SchedulerUnavailable if the scheduler does
+        not answer in time or cannot be used, or if the workers are still being prepared.
         """
         if self._preparation is None or self._preparation.done():
             self._answered = False
@@ -81,7 +82,7 @@ class DaskCluster:
         self.slots = sum(threads.values())
 
     def _call_on(self, function: Callable[[], Any], workers: set[str]) -> dict[str, Any]:
-        """Call a function on each of the workers, wait for the results, and return them by worker."""
+        """Call a function on each of the workers, wait for the results, and return the results by worker."""
         assert self._client is not None
         calls = {name: self._client.submit(function, workers=[name], pure=False, retries=0) for name in workers}
         return {name: call.result(timeout=WARM_S) for name, call in calls.items()}
@@ -121,7 +122,7 @@ def prepare() -> None:
 
 
 def solved_with(sources: str, function: Callable[..., Any], *arguments: Any) -> Any:
-    """Return the result of a call. This function runs in a worker, which may have joined the cluster during the study.
+    """Return the result of a call. This function runs in a worker that may have joined the cluster during the study.
 
     `sources` is the hash of the service's solvers; the answers contain this hash. Raises OtherSources if the solvers of
     the worker are not the same.

@@ -57,7 +57,7 @@ def did_you_mean(path: str, known: Iterable[str]) -> str:
 
 
 def fault(leaf: Leaf, value: Scalar) -> tuple[str, str] | None:
-    """Return code and message of the reason why a field does not accept a value; None if the field accepts it."""
+    """Return code and message of the reason why a field rejects a value; None if the field accepts the value."""
     code = "out_of_range"
     if value is None:
         wrong, message = not leaf.nullable, "null is not accepted here"

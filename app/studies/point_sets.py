@@ -19,7 +19,7 @@ from solvers.drive_train.uncertainty import uncertain_inputs
 from solvers.quantity import allowed
 
 CUT = 4.0  # in standard deviations; distance from the mean beyond which a distribution is cut off
-LEAST_SHARE = 1e-9  # least share of a distribution inside the range of its field; leaves the six digits of tables
+LEAST_SHARE = 1e-9  # least share of a distribution inside its field's range; values then have at least six true digits
 
 
 def common_unit(leaves: Sequence[Leaf]) -> str | None:
@@ -74,7 +74,10 @@ def _values_of_fields(value: Scalar | list[Scalar], leaves: tuple[Leaf, ...]) ->
 
 
 def listed(cases: list[Overrides], base: BaseRequest, most: int, place: str) -> PointSet:
-    """Return the points of the listed cases at `place` of a study. Raises Unprocessable if `most` is exceeded."""
+    """Return the points of the cases listed at `place` of a study.
+
+    Raises Unprocessable if a case is wrong, or if there are more than `most` cases.
+    """
     check_count(len(cases), most, place)
     return PointSet([], tuple(fields_set(cases, base, place + ".{}").values()), cases)
 
@@ -95,7 +98,7 @@ def fields_set(cases: Sequence[Overrides], base: BaseRequest, place: str) -> dic
 
 
 def grid(axes: list[Axis], base: BaseRequest, most: int, place: str) -> PointSet:
-    """Return all combinations of the values of the axes at `place` of a study. The first axis varies slowest.
+    """Return all combinations of the values of the axes that are at `place` of a study. The first axis varies slowest.
 
     Raises Unprocessable if an axis is wrong, or if there are more than `most` points.
     """
@@ -151,7 +154,7 @@ def _spread(axis: Axis, leaves: tuple[Leaf, ...], place: str) -> list[Any]:
 def scattering(scatters: Sequence[Range | Scatter], base: BaseRequest, place: str) -> tuple[Leaf, ...]:
     """Return the fields that the distributions vary; `place` is the path of the distributions in the study.
 
-    Raises Unprocessable if a field cannot vary, or a value is outside its range.
+    Raises Unprocessable if a field cannot vary, or if a value is outside the range of its field.
     """
     check_distinct([scatter.path for scatter in scatters], place)
     leaves = []
@@ -232,7 +235,7 @@ def cut(scatter: Range | Scatter, leaf: Leaf) -> Cut:
             low, high = scatter.median / scatter.factor**CUT, scatter.median * scatter.factor**CUT
         case _:
             low, high = scatter.min, scatter.max
-            width = high - low or 1.0  # if the ends are equal, `Cut` clips all values to them
+            width = high - low or 1.0  # if the ends are equal, `Cut` sets all values to the ends
             law = stats.uniform(low, width)
             if isinstance(scatter, Triangular) and high > low:
                 law = stats.triang((scatter.mode - low) / width, low, width)

@@ -161,7 +161,7 @@ def with_overrides(calculation: Calculation, base: dict[str, Any], overrides: Ov
 
 
 class Chunk(NamedTuple):
-    """The answers at the first few of the requested points, and the time that computing them took [s]."""
+    """The answers at the first few of the requested points, and the time in which these answers were computed [s]."""
 
     points: list[Point]
     seconds: float

@@ -49,7 +49,7 @@ class Pool(Protocol):
     def submit(self, function: Callable[..., Any], *arguments: Any) -> asyncio.Future[Any]:
         """Call the function in a process as soon as a process is free, and return the future of the result.
 
-        Cancelling the future cancels the call if it has not begun; a call that has begun runs to its end. The future
+        Cancelling the future cancels a call that has not begun; a call that has begun runs to its end. The future
         raises WorkerLost, DeadlineExceeded, PoolLost, and the exceptions of the function.
         """
 
@@ -105,8 +105,8 @@ async def in_order(
 
     `overrides` returns, for the index of a point, the values that the point changes in the request of the question. If
     the process of a chunk is lost, the points of the chunk are solved again one by one. If the caller leaves the
-    iteration, chunks that have not begun are cancelled, and chunks that have begun run on without anyone waiting for
-    them.
+    iteration, chunks that have not begun are cancelled. Chunks that have begun run to their end, but nobody waits for
+    their results.
     """
 
     def submit(some: range) -> tuple[range, asyncio.Future[Chunk]]:
@@ -171,7 +171,7 @@ class Study(ABC):
     answer: ClassVar[str]  # the lines that the answer has
     model: ClassVar[type[Any]]  # of the body
     most: ClassVar[str] = "most_study_points"  # the setting that limits the number of points
-    is_reduced: ClassVar[bool] = True  # True if the film is left out when no output needs the film
+    is_reduced: ClassVar[bool] = True  # True if the film is calculated only if an output needs it
 
     def __init__(self, content: Any, most: int, deadline_s: float) -> None:
         self.body = validated(self.model, content)
@@ -189,7 +189,7 @@ class Study(ABC):
             raise Unprocessable("not_json", message, "request") from None
 
     def _outputs(self, base: BaseRequest) -> tuple[Leaf, ...]:
-        """Return the requested outputs, or the headline numbers if the request names none."""
+        """Return the requested outputs, or the headline numbers if the request names no outputs."""
         return base.outputs(self.body.outputs)
 
     @abstractmethod
@@ -201,7 +201,7 @@ class Study(ABC):
         """Yield all lines of the study in groups, as soon as they are known. `guarded` adds lines of progress."""
 
     def encoder(self, _: str) -> Callable[[Line], bytes]:
-        """Return the function that writes a line in a format. By default, all formats are JSON."""
+        """Return the function that writes a line in a format. By default, this function writes JSON."""
         return json_line
 
     def header(self, **content: Any) -> Line:

@@ -41,7 +41,7 @@ class Limit(NamedTuple):
         return np.where(np.isnan(beyond), np.nan, beyond > 0.0)
 
     def worst(self, outputs: FloatArray) -> FloatArray:
-        """Return the worst value of the solved cases; the cases are the last axis. Return NaN if no case is solved."""
+        """Return the worst value of the solved cases along the last axis, or NaN if no case is solved."""
         return np.asarray((np.fmax if self.side == "above" else np.fmin).reduce(outputs, axis=-1))
 
 
@@ -100,7 +100,7 @@ def of_spectrum(outputs: FloatArray, limit: Limit) -> Estimate:
 
 
 def of_case(outputs: FloatArray, limit: Limit) -> Estimate:
-    """Return the probability for one case as if there were no other cases. `outputs` are `[replicate, draw]`."""
+    """Return the probability that one case is beyond the limit. `outputs` of the case are `[replicate, draw]`."""
     return of_spectrum(outputs[..., np.newaxis], limit)
 
 

@@ -57,7 +57,7 @@ class Pool:
         self._running: list[Job] = []
         self._waiting: list[Job] = []
         self._arrival, self._trouble = asyncio.Event(), asyncio.Event()
-        self._begun: LRUCache[Hashable, float] = LRUCache(1000)  # start of the last call by owner [s]
+        self._begun: LRUCache[Hashable, float] = LRUCache(1000)  # time [s] when the last call of each owner began
         WAITING.set_function(lambda: sum(job.is_single for job in self._waiting))
         CALCULATIONS.set_function(lambda: sum(job.is_single for job in (*self._running, *self._waiting)))
 
@@ -95,7 +95,10 @@ class Pool:
         refused.outcome.set_exception(QueueFull())
 
     def _let_go(self, job: Job) -> None:
-        """Remove a call from the queue, or limit the time of the call if it runs. The future of the call is done."""
+        """Remove a call from the queue, or limit the further time of the call if the call is running.
+
+        This function runs as soon as the future of the call is done.
+        """
         if job in self._waiting:
             self._waiting.remove(job)
         elif job in self._running and job.timeout is not None and not job.timeout.expired():

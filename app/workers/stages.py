@@ -6,9 +6,9 @@ from app.examples import examples
 
 STAGES = (COUPLING, SLEEVE, LOADS, PUMPING, DRIVE_TRAIN, LINE_CONTACT)
 BESIDE = LINE_CONTACT
-"""This stage takes as long as all other stages together.
+"""The stage that is compiled beside the other stages, because it takes as long as all other stages together.
 
-Of the other stages this stage needs only the load distribution, and only near its end.
+Of the kernels of the other stages, this stage needs only the kernels of the load distribution, and only near its end.
 """
 
 

@@ -46,8 +46,8 @@ class StartUp:
     async def run(self) -> None:
         """Compile all stages, then open all endpoints.
 
-        If the first attempt fails, a second attempt begins with an empty folder. All endpoints open even if the second
-        attempt fails.
+        If the first attempt fails, a second attempt begins with an empty folder for kernels. All endpoints open even if
+        the second attempt fails.
         """
         began = time.monotonic()
         if FOLDER is not None and not await self._compile(STAGES):

@@ -9,7 +9,7 @@ from solvers.gears.pair import PathOfContact
 NAMES = ("pinion_shaft", "wheel_shaft")
 COLLAR_BEYOND_TEETH = 3.0  # normal modules; largest distance of the collar radius from the pitch circle
 LEAST_BEARING_DISTANCE = 0.5  # in face widths; least distance between the two bearings of a shaft
-LEAST_STIFFNESS = 1e6  # N/m; of the symmetric part of the stiffness matrix in the weakest direction
+LEAST_STIFFNESS = 1e6  # N/m; limit for the stiffness in the weakest direction, by the symmetric part of the matrix
 ROUNDING = 1e-9  # relative rounding error of numbers that were converted from other units
 
 
@@ -26,9 +26,9 @@ def check_inputs(inputs: DriveTrainInputs, path: PathOfContact) -> None:
     Raises
     ------
     InvalidInput
-        `bearing_count`, `bearing_outside`, `bearing_order`, `bearing_distance`, `face_outside`, `torque_position`,
-        `position_outside`, `section_diameter`, `stiffness_matrix`, `thrust_collar_radius`, `machine_side` or
-        `couplings_on_shaft`.
+        If a part does not fit. The code names the reason: `bearing_count`, `bearing_outside`, `bearing_order`,
+        `bearing_distance`, `face_outside`, `torque_position`, `position_outside`, `section_diameter`,
+        `stiffness_matrix`, `thrust_collar_radius`, `machine_side` or `couplings_on_shaft`.
     """
     for index, (shaft, name) in enumerate(zip(inputs.shafts, NAMES, strict=True)):
         _check_sections(inputs, path, index, name)

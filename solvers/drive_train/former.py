@@ -1,4 +1,4 @@
-"""The former class of bearings of any type, whose fields are those of a request.
+"""The former class for bearings of any type. This class has the fields that a bearing has in a request.
 
 The next minor version removes this class.
 """
@@ -21,7 +21,7 @@ from solvers.quantity import described, record
 
 @record
 class ShaftBearing:
-    """Former class of bearings of any type, replaced by `JournalBearing`, `LinearBearing` and `RigidBearing`."""
+    """Former class for bearings of any type, replaced by `JournalBearing`, `LinearBearing` and `RigidBearing`."""
 
     position: float = described("Position along the Z of the unit [m].")
     type: Literal["journal", "linear", "rigid"] = described("Type of the bearing.", default="journal")

@@ -217,7 +217,7 @@ class Shaft:
 
 @record
 class Alignment:
-    """Heights above the feet for the shafts of unit and machine, and temperature rises of the supports of both."""
+    """Shaft heights of unit and machine above the feet, and temperature rises of the supports of unit and machine."""
 
     unit_height: float | None = quantity(
         "height of the unit's shaft",
@@ -345,7 +345,7 @@ class UnitCoupling:
 
 @record
 class Arrangement:
-    """Position and rotation of the unit; angles are counter-clockwise from X for a viewer who looks against Z."""
+    """Position and rotation of the unit; angles are counter-clockwise from X if one looks in the direction -Z."""
 
     hand: Literal["right", "left"] = quantity(
         "hand of the pinion's helix", default="right", text="without meaning for spur gears"
@@ -373,12 +373,13 @@ class Arrangement:
 
 @record
 class Heat:
-    """Tooth temperatures without the pumping heat, and the shares of the gas's temperature rise that reach the metal.
+    """Tooth temperatures, and the shares of the gas's temperature rise that reach the metal.
 
     If `wall_response` is None, a response of 0.5 is assumed and a warning states this. If `wall_response_wheel` is
     None, the response of the wheel is the response of the pinion times z1/z2, because a wheel tooth meets the hot gas
-    once per turn of the wheel. If the tooth temperatures already include the pumping heat, only the difference between
-    the temperature rise of the gas and the mean of this rise over the face counts.
+    once per turn of the wheel. Normally the tooth temperatures do not include the pumping heat. If the temperatures
+    already include the pumping heat, only the difference between the temperature rise of the gas and the mean of this
+    rise over the face counts.
     """
 
     wall_response: float | None = quantity(

@@ -44,7 +44,8 @@ def solve(inputs: DriveTrainInputs, start: FloatArray | None = None) -> DriveTra
     InvalidInput
         The errors of `check_inputs`, of the models of mesh, pumping and couplings, and of the heat balance.
     NoSolution
-        `drive_train`, `load_balance`, `journal`, `heat_balance` or `thermal_runaway`.
+        If a part of the calculation has no solution. The code names this part: `drive_train`, `load_balance`,
+        `journal`, `heat_balance` or `thermal_runaway`.
     """
     warm = None
     if asks_for_balance(inputs):

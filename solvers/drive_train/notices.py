@@ -28,7 +28,7 @@ LIFTED = 0.9  # contact fraction below which flanks count as lifted off
 
 
 def shaft_notices(inputs: DriveTrainInputs, shafts: tuple[ShaftResult, ShaftResult]) -> Iterator[Notice]:
-    """Warn of thin films, omitted bearing losses, thrust that may reverse or is too high, and long overhangs."""
+    """Warn of thin films, omitted bearing losses, long overhangs, and a thrust that may reverse or is too high."""
     for shaft, result, name in zip(inputs.shafts, shafts, NAMES, strict=True):
         for k, (bearing, state) in enumerate(zip(shaft.bearings, result.bearings, strict=True)):
             field = f"{name}.bearings.{k}"

@@ -60,8 +60,9 @@ def prepare(inputs: DriveTrainInputs) -> Prepared:
 def settle(inputs: DriveTrainInputs, prepared: Prepared, start: FloatArray | None = None) -> Equilibrium:
     """Find the gap at which mesh, shafts and couplings are in equilibrium.
 
-    If the effect of the shafts is switched off, the gap due to the shafts is zero. Raises NoSolution `drive_train`,
-    `load_balance` or `journal`.
+    If the effect of the shafts is switched off, the gap due to the shafts is zero. Raises NoSolution `drive_train` if
+    the iteration does not converge, `load_balance` if the mesh has no solution, and `journal` if the film of a bearing
+    would be too thin.
     """
     if inputs.effects.shafts:
         return equilibrium(prepared.unit, prepared.mesh, start)

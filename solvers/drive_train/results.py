@@ -1,6 +1,6 @@
 """Results of a drive train in SI units, with read-only arrays.
 
-Vectors are (X, Y). A gap is positive where it moves the flanks apart.
+Vectors are (X, Y). A positive gap separates the flanks.
 """
 
 from collections.abc import Callable

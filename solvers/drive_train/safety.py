@@ -74,7 +74,8 @@ def flank_heat(inputs: DriveTrainInputs, mesh: LoadDistribution, flash: FlashMap
     -------
     FlankHeat
         Contact temperatures [K], safety factors and the check against micropitting. Points near a base circle have no
-        temperature, because Blok's formula has no limit there. Without an oil there is no contact temperature.
+        temperature, because the flash temperature by Blok's formula has no upper limit there. Without an oil there is
+        no contact temperature.
 
     Notes
     -----
@@ -136,7 +137,7 @@ def _feature_points(inputs: DriveTrainInputs, mesh: LoadDistribution, bulk: Face
 
 
 def _with_line(peak: Peak | None, along: FloatArray, across: FloatArray, on_line: FloatArray) -> Peak | None:
-    """Return the higher of two peaks: over the flank, and on the feature line. Return None if either is unknown."""
+    """Return the higher of the peak over the flank and the peak on the feature line; None if a peak is not known."""
     if peak is None or np.isnan(on_line).any():
         return None
     top = int(np.argmax(on_line))

@@ -1,4 +1,4 @@
-"""Calculation of the hot unit as the inputs describe it, and of the cold unit on request."""
+"""Calculation of the hot unit that the inputs describe, and of the cold unit on request."""
 
 from dataclasses import replace
 
@@ -12,7 +12,7 @@ from solvers.notices import Notice
 
 
 def solve(inputs: DriveTrainInputs, start: FloatArray | None = None) -> DriveTrainResult:
-    """Compute the hot unit, and the cold unit if `inputs.states` asks for it.
+    """Compute the hot unit and, if `inputs.states` contains "cold", the cold unit.
 
     Parameters
     ----------
@@ -25,8 +25,8 @@ def solve(inputs: DriveTrainInputs, start: FloatArray | None = None) -> DriveTra
     -------
     DriveTrainResult
         Results of the hot unit, and of the cold unit if requested. Warnings that only the cold unit has are added to
-        the warnings of the hot unit. A warning also reports a cold unit without a solution, and an oil that is out of
-        range at the reference temperature.
+        the warnings of the hot unit. Further warnings state that the cold unit has no solution, or that the oil is out
+        of range at the reference temperature.
 
     Raises
     ------

@@ -10,7 +10,7 @@ from solvers.drive_train.inputs import DriveTrainInputs, JournalBearing, Shaft
 from solvers.notices import Notice
 
 MOST_CORNERS = 256  # number of combinations of eight uncertain inputs with two values per input
-FRICTION = (0.05, 0.25)  # coefficient with the best mixed lubrication, and coefficient of the customary thrust 0.25 T/D
+FRICTION = (0.05, 0.25)  # coefficient of the best mixed lubrication, and coefficient that gives the thrust 0.25 T/D
 THRUST = (0.0, 1.0)  # thrust as a share of the friction limit of the coupling
 RESPONSE = (0.3, 1.0)  # wall response; chosen for a wall cooled by oil, and for a wall as warm as the gas
 CLEARANCE = 0.1  # relative change of the clearance, up and down

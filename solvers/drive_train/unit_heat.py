@@ -2,7 +2,8 @@
 
 The temperatures of the gear bodies deform the flanks. The temperature of the flanks is the bulk temperature of the
 contact. The films of plain bearings that run in the gears' oil have the temperatures of the balance. The losses and
-loads of the bearings follow from these temperatures and enter the next balance.
+loads of the bearings follow from these temperatures and enter the next balance. One solution of the loads, followed by
+one solution of the balance, is called a pass.
 """
 
 from collections.abc import Iterator
@@ -35,7 +36,7 @@ CLOSE = 0.05  # K; the passes end if no temperature changes by more than this va
 MOST_PASSES = 10
 FIRST_RISE = 25.0  # K; rise of flanks, bodies and films above the oil in the first pass
 SHAFT_CONDUCTIVITY = 46.0  # W/(m K), of steel
-SHORTEST_ROD = 1e-3  # m; least length of the shaft between gear and bearing
+SHORTEST_ROD = 1e-3  # m; least length of the shaft, as a conductor of heat, between gear and bearing
 
 
 @dataclass(frozen=True, slots=True)
@@ -278,9 +279,9 @@ def _temperatures(heat: Heat) -> FloatArray:
 
 
 def with_safety_band(inputs: DriveTrainInputs, heat: Heat, safety: TrainSafety | None) -> Heat:
-    """Return the heat balance with the safety factors at both ends of its uncertainty band.
+    """Return the heat balance with the safety factors at both ends of the uncertainty band of the bulk temperature.
 
-    Only the bulk temperature varies within the band; the flash temperature stays the same.
+    The flash temperature is the same at both ends.
     """
     temperatures = inputs.mesh.temperatures
     if heat.band is None or safety is None or not safety.minimum or temperatures.scuffing is None:

@@ -147,7 +147,7 @@ def _add(calculation: Calculation) -> None:
 async def _answer(
     http: Request, calculation: Calculation, media: str, view: Callable[..., views.Shown], *arguments: Any
 ) -> Response:
-    """Send a view of the case in the query or form.
+    """Send a view of the case that the query or the form contains.
 
     If the query has empty fields, redirect to a query without these fields.
     """
@@ -178,7 +178,7 @@ async def asked_of(http: Request, calculation: Calculation) -> tuple[Asked, bool
 
 
 def _kept(http: Request, path: str) -> Asked:
-    """Return the case and the variant with the hashes in the query. Raise 410 if an answer is no longer kept."""
+    """Return the case and the variant that have the hashes in the query. Answer 410 if an answer is no longer kept."""
     query, answers = http.query_params, http.app.state.answers
     kept, kept_ref = (answers.get(key_of(path, [("case", query.get(name, ""))])) for name in ("case", "ref_case"))
     if kept is None or (query.get("ref_case") and kept_ref is None):

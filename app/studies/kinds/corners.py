@@ -120,7 +120,7 @@ class UnitPage(StudyPage):
 
     @cached_property
     def uncertain(self) -> dict[str, Axis]:
-        """The uncertain inputs with their usual values, by quantity. There are none if the case is rejected."""
+        """The uncertain inputs with their usual values, by quantity; empty if the case is rejected."""
         try:
             return usual_corners(BaseRequest(self.calculation, self.asked.body).checked({}))
         except REFUSED:

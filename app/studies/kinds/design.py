@@ -50,10 +50,10 @@ from solvers.errors import NoSolution
 
 FIRST_STEP = 0.15  # as a share of the range of a variable
 LAST_STEP = 2e-3  # as a share of the range of a variable, chosen
-LEAST_GAIN = 1e-3  # as a share of the objective at the start; the search ends if a restart gains less
-VALUE_SCALE = 0.2  # as a share of the objective at the start; this change counts as much as a variable's range
-PENALTY = 5.0  # in scaled objectives; amount by which a point without solution counts as worse than the worst
-MOST_STEPS = 100  # most COBYQA steps per evaluation; a step that changes only the level needs no evaluation
+LEAST_GAIN = 1e-3  # as a share of the objective at the start; the search ends if a restart gains less than this
+VALUE_SCALE = 0.2  # objectives are divided by this share of the objective at the start, variables by their ranges
+PENALTY = 5.0  # in scaled objectives; excess of a point without solution over the worst point so far
+MOST_STEPS = 100  # largest number of COBYQA steps per evaluation; steps that change only the level need no evaluation
 
 EVALUATIONS = 40  # default number of evaluations on the page, chosen
 STEP_UM = 0.5  # a correction is rounded to multiples of this step
@@ -186,8 +186,8 @@ class Design(Study):
     async def _trial(self, pool: Pool, clock: Clock, values: list[float]) -> tuple[Line, list[float] | None]:
         """Return the content of a trial's line, and the objectives of all cases.
 
-        The line has the values of the variables, the objective in the worst case, and the worst case itself. The
-        objectives of all cases have the sign with which the search minimises them. The trial ends at the first case
+        The line has the values of the variables, the objective in the worst case, and the worst case itself. The signs
+        of the objectives of all cases are such that smaller objectives are better. The trial ends at the first case
         without solution. Then the objective in the line is None, and None is returned for the objectives of all cases.
         """
         pairs = zip(self.body.variables, values, strict=True)
@@ -484,7 +484,7 @@ class DesignPage(UnitPage):
         return Table("What it brings", (output.title, Number("as described"), Number("ground so"), "unit"), rows, note)
 
     def _lead_chart(self, case: Case, at: Overrides) -> Figure:
-        """Return the figure of the lead from helix slope and crowning, with tolerances. The case is dashed."""
+        """Return the figure of the lead from helix slope and crowning, with tolerances. Dashed lines show the case."""
         curves, inputs = case.response.misalignment.curves, case.response.inputs
         position = values(curves.position_mm)
         wanted = Lead(*(float(at[path] or 0.0) for path in (SLOPE, CROWNING)))

@@ -2,7 +2,7 @@
 
 A count is moved by 1, and any other input by its tolerance. An input without a tolerance is moved by 1 K if it is a
 temperature, or else by 1 %. The slope over a tolerance is compared with the slope over half the tolerance. The page
-shows a figure and a table of the inputs, sorted by the change of the output that they cause.
+shows a figure and a table of the inputs, sorted by the change of the output that the inputs cause.
 """
 
 from collections import Counter
@@ -31,7 +31,7 @@ from app.studies.points import BaseRequest, Point, check_count, check_distinct
 from app.studies.requests import FieldPath, Overrides, StudyRequest
 from app.studies.runner import Clock, Line, Lines, Pool, Study, output_header
 
-RELATIVE_STEP = 0.01  # of the value; small against the range of the input, large against the solver's tolerance
+RELATIVE_STEP = 0.01  # as a share of the value; small against the input's range, large against the solver's tolerance
 KELVIN_STEP = 1.0  # for temperatures, because zero degrees Celsius has no physical meaning
 DISAGREEMENT = 0.1  # relative difference above which two slopes count as different
 NOISE = 1e-7  # relative change of an output that the tolerance of an iteration can cause

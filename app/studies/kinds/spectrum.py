@@ -58,7 +58,7 @@ from solvers.arrays import FloatArray
 PROGRESS_S = 0.5  # time between two lines of progress
 KILOWATTS = {"W": 1e-3, "kW": 1.0}  # per unit
 RELATIVE_DEVIATION = 0.15  # AGMA 925-A03; taken from a secondary source and not compared with the standard
-LIMIT_VARIES = 1e-9  # relative range of the scuffing temperature above which a note says that it varies
+LIMIT_VARIES = 1e-9  # relative range of the scuffing temperature above which a note says that the temperature varies
 SHARES_OFF = 0.01  # largest permissible difference between the sum of the shares and 1
 ASSUMED_DEVIATION = (
     "the scuffing temperature is normally distributed with 0.15 of itself as deviation (AGMA 925-A03, secondary source)"
@@ -69,7 +69,7 @@ RARE_NOTE = (
     "a probability is below 0.5 %. The means of the replicates are then skewed, and a 90 % interval covers less than "
     "90 %, for example about 80 % at a probability of 0.1 % with 8 replicates of 128 machines; draw more machines"
 )
-NOT_USED = "not used"  # beginning of the reason of an assumption whose value changes nothing
+NOT_USED = "not used"  # first words of the reason for an assumed value that has no effect on the results
 
 NAME, SHARE = "name", "share"
 REPLICATES = 8  # number of independent samples on the page; the scatter of the samples gives the error of a mean
@@ -203,7 +203,10 @@ class Spectrum(Study):
     body: SpectrumRequest
 
     def _outputs(self, base: BaseRequest) -> tuple[Leaf, ...]:
-        """Return the requested outputs, by default the headline numbers, and the outputs that have a limit."""
+        """Return the requested outputs, or the headline numbers if the request names no outputs.
+
+        Also return the outputs that have a limit.
+        """
         body = self.body
         outputs = {f"outputs.{place}": leaf for place, leaf in enumerate(base.outputs(body.outputs))}
         if body.outputs is None:
@@ -295,7 +298,7 @@ class Spectrum(Study):
         ]
 
     def _tolerances_header(self) -> Line | None:
-        """Return the tolerances for the first line of the study, and the share cut off from each distribution."""
+        """Return the tolerances for the first line of the study, and the share of each distribution that is cut off."""
         if self.body.tolerances is None:
             return None
         inputs = [
@@ -369,8 +372,8 @@ def _limits(study: Spectrum, columns: dict[str, FloatArray]) -> tuple[list[Limit
 def _of_limit(study: Spectrum, limit: Limit, outputs: FloatArray) -> Line:
     """Return the content of the last line for a limit.
 
-    The content is the probability over the spectrum, for each case the share of machines for which the case is the
-    worst, and the rank correlation with each field that scatters.
+    The content has three parts: the probability over the spectrum; for each case, the share of machines for which this
+    case is the worst case; and for each field that scatters, the rank correlation with the output in the worst case.
     """
     worst = limit.worst(outputs)
     edges, density = statistics.histogram(worst)
@@ -417,7 +420,10 @@ def _limit(given: SpectrumLimit) -> Limit:
 
 
 def _with_shares(cases: Sequence[LoadCase]) -> list[LoadCase]:
-    """Return the cases with names, and with shares of the operating time that add up to 1. Raises Unprocessable."""
+    """Return the cases with names, and with shares of the operating time that add up to 1.
+
+    Raises Unprocessable if only some cases have a share, or if the given shares do not add up to 1.
+    """
     given = [case.share for case in cases if case.share is not None]
     if given and len(given) < len(cases):
         raise Unprocessable("shares", "give a share for every case, or for none of the cases", "cases")
@@ -465,7 +471,7 @@ class Column(NamedTuple):
 
 
 def cases_of(calculation: Calculation, text: str) -> list[dict[str, Any]]:
-    """Return the cases in a table. Raises Unprocessable.
+    """Return the cases in a table. Raises Unprocessable if the table is not valid.
 
     The first line of the table names the columns: name, share, and fields by their labels or paths. The columns are
     separated by tabs, as in a table copied from a spreadsheet, or by semicolons. If a cell is empty, the case keeps the
@@ -509,7 +515,7 @@ def _column(calculation: Calculation, heading: str) -> Column:
 
 
 def _case(calculation: Calculation, columns: list[Column], row: list[str], line: int) -> dict[str, Any]:
-    """Return the case in a row of the table. Raises Unprocessable.
+    """Return the case in a row of the table. Raises Unprocessable if the row is not valid.
 
     A cell whose content the field does not accept is kept as text, so that the study reports this content.
     """
@@ -615,7 +621,7 @@ def _typed(scatter: dict[str, Any]) -> dict[str, Any]:
 def address_of(
     endpoint: Calculation, request: Pairs, body: dict[str, Any], file: Mapping[str, str] = MappingProxyType({})
 ) -> str:
-    """Return the address of the page for the body of a study. Of the limits, only the first is part of the address.
+    """Return the address of the page for the body of a study. Only the first of the limits is part of the address.
 
     `file` names the file from which the study was read.
     """
@@ -658,7 +664,7 @@ class SpectrumPage(StudyPage):
     study: Spectrum
 
     def body(self) -> dict[str, Any]:
-        """Return the body with the typed cases, tolerances and limit. Outputs are the shown output and the losses."""
+        """Return the body with the typed cases, tolerances and limit, and with the shown output and the losses."""
         calculation, output, given = self.calculation, self.output.path, self.given()
         tolerances = given["tolerances"]
         typed = tolerances.get("inputs", [])
@@ -678,7 +684,7 @@ class SpectrumPage(StudyPage):
         }
 
     def _given(self) -> list[str]:
-        """Return the names of the tolerances that are filled in. Empty tolerances may lie between filled ones."""
+        """Return the names of the tolerances that are filled in. There may be empty tolerances between these names."""
         return [name for name in TOLERANCES if self.views.get(name)]
 
     def declared(self) -> tuple[Control, ...]:
@@ -821,7 +827,10 @@ class SpectrumPage(StudyPage):
         return Result(progress, figures | self._losses(end), tables, remarks, leads)
 
     def _limited(self, end: Line, limit: Line) -> Limited:
-        """Return the data for the figures of a limit. Of many cases, show only those most often beyond the limit."""
+        """Return the data for the figures of a limit.
+
+        If there are more than `MOST_BARS` cases, the data contain only the cases that are most often beyond the limit.
+        """
         place = end["limits"].index(limit)
         decides = limit["decides"] or [None] * len(end["cases"])
         cases = [
@@ -897,13 +906,13 @@ class SpectrumPage(StudyPage):
 
 
 def _deviation(value: float | None, unit: str | None, digits: int) -> str:
-    """Return a difference of two values as text. The unit of the difference follows if it is not `unit`."""
+    """Return a difference of two values as text. The text states the unit of the difference if this is not `unit`."""
     own = difference_unit(unit)
     return shown(value, digits) if own == unit or value is None else number(value, own, digits)
 
 
 def _suggested(calculation: Calculation, case: dict[str, Any]) -> str:
-    """Return a first table for the user to change: mostly the case itself, and for the other time half its load."""
+    """Return a first table for the user to change, with the case itself and with half the load of the case."""
     full = {path: value for path in USUAL if isinstance(value := value_at(case, path), int | float)}
     half = {path: value / 2 if "power" in path or "torque" in path else value for path, value in full.items()}
     return table_of(
@@ -914,7 +923,8 @@ def _suggested(calculation: Calculation, case: dict[str, Any]) -> str:
 def _tolerances_table(header: Line, limit: Line | None) -> Table:
     """Return a table of the fields that scatter.
 
-    It has the correlation of each field with the worst case, and the share that is cut off from each distribution.
+    The table states the correlation of each field with the worst case, and the share of each distribution that is cut
+    off.
     """
     numbers = ("mean", "deviation", "median", "factor", "min", "mode", "max")
     ranks = (limit and limit["rank_correlation"]) or {}

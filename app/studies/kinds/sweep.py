@@ -53,11 +53,11 @@ from app.studies.statistics import of_sample
 AROUND = 0.5  # half the usual range of a field, as a share of the field's value in the case
 TOLERANCES = 4.0  # half the usual range of a field whose value is zero, in tolerances
 INSIDE = 1e-3  # as a share of the range; distance from an end of the range if the end itself is not allowed
-COUNTS = {"x": 21, "y": 5}  # default numbers of points: enough for a smooth curve, and only a few curves
+COUNTS = {"x": 21, "y": 5}  # default numbers of points: 21 make a smooth curve, and 5 curves are easy to tell apart
 MOST_WHOLE = 10_000  # largest number of whole numbers on an axis
 FIRST = "vary.0"  # the axis along which a curve runs
 MOST_ROWS = 200  # largest number of rows of a table on a page; the file has all rows
-MOST_REASONS = 6  # number of remarks on points; the most frequent remarks are shown
+MOST_REASONS = 6  # largest number of remarks on points, so that a user can read them; the most frequent are shown
 
 
 class Sample(Part):
@@ -184,7 +184,7 @@ class Sweep(Study):
         return self.points.total - first
 
     def _points(self, base: BaseRequest, most: int) -> PointSet:
-        """Return the points that the body requests. Raises Unprocessable."""
+        """Return the points that the body requests. Raises Unprocessable if the points are not valid."""
         body: SweepRequest = self.body
         if body.best is not None:
             _check_best(body.best, self.outputs)
@@ -232,7 +232,7 @@ class Sweep(Study):
         yield self._closing(summary, end)
 
     def _closing(self, _: Summary, end: Line) -> list[Line]:
-        """Return the lines after the points; `end` is the last of them."""
+        """Return the lines after the points; `end` is the last of these lines."""
         return [end]
 
     def encoder(self, written_as: str) -> Callable[[Line], bytes]:
@@ -300,7 +300,7 @@ AXIS = (
     Control(".count", "count", label="points"),
     Control(".scale", "scale", "linear", str, label="steps", options=(("", "even steps"), ("log", "even ratios"))),
 )
-"""The controls of an axis. A name here is appended to the name of the axis; a path here is a part of the axis."""
+"""The controls of an axis. The name of the axis is put before each name, and the path of the axis before each path."""
 
 
 class SweepPage(StudyPage):
@@ -401,7 +401,10 @@ class SweepPage(StudyPage):
 
     @property
     def is_greatest_best(self) -> bool:
-        """True if the greatest value of the output is the best value. Raises Unprocessable."""
+        """True if the greatest value of the output is the best value.
+
+        Raises Unprocessable if the query states neither the least nor the greatest value as the best.
+        """
         best = self.views.get("best", "greatest" if self.output.view.greatest_is_best else "least")
         if best not in {"least", "greatest"}:
             raise Unprocessable("literal_error", "best: must be one of least, greatest", "best")
@@ -446,7 +449,7 @@ class SweepPage(StudyPage):
         return (self.field("best", "the best is", options=ends),)
 
     def starters(self) -> Sequence[Starter | StudyExample]:
-        """Return links to ready studies. They vary the examples, or the case if the query has a case."""
+        """Return links to ready studies. The studies vary the examples, or the case if the query has a case."""
         if not self.asked.pairs:
             return studies_of(self.calculation)
         return studies_of_case(self.calculation, self.asked.pairs, self.case)

@@ -31,7 +31,7 @@ ITERATIONS = 40  # chosen: an iteration that needs more does not converge
 COARSER = 4  # divisor of the numbers of roll positions and slices; the coarse mesh changes the gap by a nanometre
 ROUGH_TOLERANCE = 1e-9  # m
 ROUGH_ITERATIONS = 10  # the rough gap need not be exact, because the iteration only starts from it
-LEAST_STEP = 1 / 64  # chosen: a step shortened below this share is accepted
+LEAST_STEP = 1 / 64  # chosen: a step that was shortened to a smaller share is accepted even if the residual grows
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,7 +70,10 @@ class LoadedMesh:
         return replace(self, prepared=replace(given, rolls=rolls), slices=self.slices // COARSER)
 
     def respond(self, gap: FloatArray, start: FaceResponse | None = None) -> FaceResponse:
-        """Compute the force of the contacts at the stations. The iteration starts from `start`, a similar response."""
+        """Compute the force of the contacts at the stations.
+
+        The iteration starts from `start`, the response to a similar gap.
+        """
         count, slices = self.stations.size, self.slices
         # Contact lines of a spur pair run along the face. Therefore all intervals between stations get the same number
         # of slices.
@@ -79,7 +82,10 @@ class LoadedMesh:
         return face_response(self.under(gap), self.prepared.rolls, self.force, slices, count, start)
 
     def balance(self, gap: FloatArray, near: FaceResponse | None = None) -> LoadBalance:
-        """Solve the load balance with the shafts' gap [m]. The iteration starts from `near`, a similar response."""
+        """Solve the load balance with the shafts' gap [m].
+
+        The iteration starts from `near`, the response to a similar gap.
+        """
         start = None if near is None else (near.error, near.log_load)
         return balance_load(self.under(gap), self.prepared.rolls, self.force, self.slices, start)
 

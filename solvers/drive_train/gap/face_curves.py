@@ -14,7 +14,7 @@ def face_mean(values: FloatArray) -> float:
 
 
 def face_slope(values: FloatArray) -> float:
-    """Compute the slope of a curve: the rise, over the face, of the straight line with the best least-squares fit.
+    """Compute the slope of a curve: how far the straight line with the best least-squares fit rises over the face.
 
     Parameters
     ----------
@@ -24,7 +24,7 @@ def face_slope(values: FloatArray) -> float:
     Returns
     -------
     float
-        Rise from y = 0 to y = b, 12 int (eta - 1/2) v d eta of the values v, in the unit of v.
+        Rise from y = 0 to y = b, which is 12 int (eta - 1/2) v d eta for the values v at eta = y/b, in the unit of v.
 
     Notes
     -----
@@ -45,7 +45,8 @@ def face_crown(values: FloatArray) -> float:
     Returns
     -------
     float
-        Height (15/2) int P2(2 eta - 1) v d eta of the values v, with P2(t) = (3 t^2 - 1) / 2, in the unit of v.
+        Height (15/2) int P2(2 eta - 1) v d eta for the values v at eta = y/b, in the unit of v. Here P2(t) is
+        (3 t^2 - 1) / 2.
 
     Notes
     -----

@@ -15,13 +15,13 @@ from solvers.drive_train.shafts.influence import Unit
 from solvers.errors import InvalidInput, NoSolution
 
 TILT_TOLERANCE = 1e-13  # rad
-TILT_ITERATIONS = 30  # chosen: after these iterations the solution path is followed
-LEAST_STEP = 1 / 64  # chosen: a step shortened below this share is accepted
+TILT_ITERATIONS = 30  # chosen: if this number of iterations is not enough, the solution path is followed
+LEAST_STEP = 1 / 64  # chosen: a step that was shortened to a smaller share is accepted even if the residual grows
 LEAST_SIZE = 1e-9  # rad; least scale of the tilts along the path
-LONGEST, SHORTEST, LONGER = 0.3, 1e-6, 1.5  # steps along the path, in scales of the tilts; growth factor of a step
+LONGEST, SHORTEST, LONGER = 0.3, 1e-6, 1.5  # longest and shortest step, in scales of the tilts; growth factor of a step
 FARTHEST = 2.0  # in step lengths; largest distance between the end of a step and the solution found from there
-PATH_POINTS = 500  # chosen: after these points the search ends without a balance
-PATH_ITERATIONS = 6  # chosen: after these iterations a shorter step is tried
+PATH_POINTS = 500  # chosen: after this number of points the search ends without a balance
+PATH_ITERATIONS = 6  # chosen: after this number of iterations a shorter step is tried
 PATH_TOLERANCE = 1e-6  # in scales of the tilts
 
 
@@ -53,11 +53,11 @@ class Yielding:
 
 
 def free_hubs(unit: Unit, force: FloatArray) -> HubLoads:
-    """Return the hubs on shafts that carry a force over the face [N], but no loads of the couplings.
+    """Return tilts and loads of the hubs, if the shafts carry a force over the face [N] but no loads of the couplings.
 
-    The iteration starts from these hubs and not from the hubs of straight shafts: a hub on a straight shaft may have no
-    tilt, and the friction of a hub is stiffest at zero tilt. Raises InvalidInput if a tilt is out of the range of the
-    coupling model.
+    The iteration for the balance starts from these tilts. It does not start from the tilts of hubs on straight shafts,
+    because a hub on a straight shaft may have no tilt, and the friction of a hub is stiffest at zero tilt. Raises
+    InvalidInput if a tilt is out of the range of the coupling model.
     """
     ports = unit.couplings
     if not ports:
@@ -112,7 +112,7 @@ class _State:
     """Hubs at assumed tilts, the motion of the ports, and the residual.
 
     The residual is the assumed tilts minus the tilts that follow from the motion. `by_tilts` and `by_share` are the
-    derivatives of the residual with respect to the tilts and to the acting share of the coupling loads.
+    derivatives of the residual with respect to the tilts and with respect to the share of the coupling loads that acts.
     """
 
     hubs: HubLoads
@@ -234,7 +234,7 @@ def _sizes(tilts: FloatArray) -> FloatArray:
 def _path_direction(state: _State, scale: FloatArray, direction: FloatArray) -> FloatArray:
     """Return the unit vector along the path, with tilts divided by their scales.
 
-    The vector points forward with respect to the last direction, `direction`.
+    The vector continues the last direction, `direction`, and does not reverse it.
     """
     tangent = solve_linear(_path_matrix(state, scale, direction), np.append(np.zeros(scale.size), 1.0))
     return np.asarray(tangent / np.linalg.norm(tangent))

@@ -20,7 +20,7 @@ from solvers.scuffing.modification import gaps_at
 def misalignment(
     inputs: DriveTrainInputs, unit: Unit, mesh: LoadedMesh, thermal: ThermalLead, equilibrium: Equilibrium
 ) -> Misalignment:
-    """Return the gap due to shafts and heat, the part of each cause, and the modifications that compensate the gap."""
+    """Return the gap due to shafts and heat, its parts by cause, and the modifications that compensate the gap."""
     even = _even_gap(inputs, unit, mesh, equilibrium) + _at_stations(thermal.lead, unit.stations.size)
     return Misalignment(
         shaft_slope=face_slope(equilibrium.gap),

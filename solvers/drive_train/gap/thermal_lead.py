@@ -29,7 +29,7 @@ EXPANSION = 12e-6  # 1/K; coefficient of thermal expansion of steel
 
 @dataclass(frozen=True, slots=True)
 class GasHeat:
-    """Temperature rise of the gas above the ambient in the tooth spaces [K], at positions on the face [m].
+    """Temperature rise [K] of the gas in the tooth spaces above the ambient temperature, at positions on the face [m].
 
     `power` [W] is the total pumping power; `powers` [W] are the pumping powers of pinion and wheel.
     """
@@ -61,9 +61,9 @@ class ThermalLead:
 
 @lru_cache(maxsize=64)
 def gas_heat(setup: PumpingSetup, pinion_speed: float) -> GasHeat:
-    """Compute the temperature rise of the pumped gas. The results are cached, because most studies vary other inputs.
+    """Compute the temperature rise of the pumped gas. Raises the errors of `pumping.solve`.
 
-    Raises the errors of `pumping.solve`.
+    The results are cached, because most studies vary inputs that have no effect on the pumping.
     """
     pumped = pumping.solve(PumpingInputs(setup, pinion_speed))
     (at_pinion, pinion), (at_wheel, wheel) = _profile(pumped.pinion_spaces), _profile(pumped.wheel_spaces)

@@ -170,7 +170,7 @@ def _friction(bearing: JournalBearing, speed: float, eccentricity: float) -> flo
 def friction_and_eccentricity(bearing: JournalBearing, load: float, speed: float) -> tuple[float, float]:
     """Compute friction power [W] and eccentricity ratio of a plain bearing under a load [N] at a speed [rad/s].
 
-    Raises NoSolution `journal` as `bearing_state` does.
+    Raises NoSolution `journal` if the film would be thinner than a thousandth of the clearance.
     """
     eccentricity = _eccentricity(load / film_force(bearing, speed))
     return _friction(bearing, speed, eccentricity), eccentricity

@@ -95,7 +95,7 @@ def coupling_port(
     down: FloatArray,
     gravity: float,
 ) -> CouplingPort:
-    """Return the coupling at its shaft.
+    """Return the coupling together with the state of its shaft.
 
     `down` (X, Y) is the unit vector in the direction of gravity, `gravity` is the acceleration [m/s^2]. Warm supports
     raise the shaft of the machine against `down`.
@@ -308,9 +308,7 @@ def coupling_loads(port: CouplingPort, tilts: FloatArray) -> tuple[FloatArray, F
 
 
 def _polar(tilt: FloatArray, moments: FloatArray, slopes: FloatArray, torque: float) -> tuple[FloatArray, FloatArray]:
-    """Return the vector -a e + (b + torque delta) Z x e at a tilt delta e, and the derivative of the vector.
-
-    The derivative is with respect to the tilt.
+    """Return the vector v = -a e + (b + torque delta) Z x e at a tilt delta e, and the derivative of v by the tilt.
 
     `moments` begins with a and b; `slopes` begins with the derivatives of a and b with respect to delta. Below
     `LEAST_TILT`, a and b are proportional to delta.

@@ -4,8 +4,8 @@ The ports of the system are the stations of the face and the hubs of the couplin
 loads both shafts with a force, a tilting moment and a torque. The matrix A holds the coefficients of these loads, and
 the transpose of A converts the motion of the shafts into the gap. If C is the flexibility of the shafts, the elastic
 gap is A^T C A Q. The matrix A^T C A is symmetric and positive semidefinite, and Q^T A^T C A Q is twice the strain
-energy. If the ports carry loads q, the bearings carry the loads L q; if the shaft moves by u in the bearings, the ports
-move by L^T u.
+energy. If the ports carry loads q, the bearings carry the loads L q. If displacements u of the bearings move the shaft,
+the ports move by L^T u.
 """
 
 from dataclasses import dataclass

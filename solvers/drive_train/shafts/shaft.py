@@ -24,7 +24,7 @@ class ShaftModel:
     A motion in one plane is a vector (2N,) of the deflections [m] and the slopes [rad] of all nodes. The conjugate
     loads are forces [N] and moments [N m]. `flexibility` (2N, 2N) gives this motion under these loads if both bearings
     are at rest. `bearing_share` (2, 2N) gives the loads on the bearings under nodal loads; the transpose gives the
-    motion of the nodes under displacements of the bearings. `torsion` (N, N) gives the twist under nodal torques
+    motion of the nodes that displacements of the bearings cause. `torsion` (N, N) gives the twist under nodal torques
     [rad/(N m)]. `weight` (2N,) holds the nodal loads of the weight.
     """
 
