@@ -44,7 +44,7 @@ def where_it_starts(inputs: ScuffingInputs, result: Scuffing, plain: Scuffing | 
 def answered(answer: Micropitting | None) -> Micropitting:
     """Return the answer. Raise NoFigure if the answer is None or has no least film ratio."""
     if answer is None:
-        message = "Without an oil and the bulk temperature at which it enters there is no film"
+        message = "The film needs an oil, and the bulk temperature at which the oil enters the contact"
         raise NoFigure("no_oil", message, "lubricant")
     if answer.local.least_ratio is None:
         message = "The minimum film thickness is unknown: no point is loaded, or the loaded path reaches a base circle"

@@ -165,7 +165,7 @@ def _with_oil(result: Scuffing) -> None:
     """Raise NoFigure if the case lacks an oil or the temperature of the oil."""
     if result.path is not None and result.contact_temperature is None:
         message = (
-            "Without an oil and the bulk temperature at which it enters there is neither film nor contact temperature"
+            "Film and contact temperature need an oil, and the bulk temperature at which the oil enters the contact"
         )
         raise NoFigure("no_oil", message, "lubricant")
 

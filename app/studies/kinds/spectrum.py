@@ -510,7 +510,7 @@ def _column(calculation: Calculation, heading: str) -> Column:
                 alike.setdefault((len(label), shown), {})[leaf.title] = Column(leaf.path, power)
     meant = alike[max(alike)] if alike else {heading: Column(heading)}
     if len(meant) > 1:
-        raise Unprocessable("table", f"the column {heading} may be {' or '.join(meant)}; write one of these", "cases")
+        raise Unprocessable("table", f"the heading {heading} can mean {' or '.join(meant)}; write one of these", "cases")
     return next(iter(meant.values()))
 
 
