@@ -510,7 +510,8 @@ def _column(calculation: Calculation, heading: str) -> Column:
                 alike.setdefault((len(label), shown), {})[leaf.title] = Column(leaf.path, power)
     meant = alike[max(alike)] if alike else {heading: Column(heading)}
     if len(meant) > 1:
-        raise Unprocessable("table", f"the heading {heading} can mean {' or '.join(meant)}; write one of these", "cases")
+        message = f"the heading {heading} can mean {' or '.join(meant)}; write one of these"
+        raise Unprocessable("table", message, "cases")
     return next(iter(meant.values()))
 
 
