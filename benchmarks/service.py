@@ -54,7 +54,7 @@ def bare() -> FastAPI:
 
 
 def __getattr__(name: str) -> FastAPI:
-    """Return one of the two applications, created at uvicorn's request."""
+    """Create one of the two applications; uvicorn calls this function."""
     match name:
         case "bare_app":
             return bare()

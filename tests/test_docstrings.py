@@ -48,7 +48,7 @@ def test_docstring_has_the_form(name: str) -> None:
 
 
 def fields_in_help(kind: type) -> dict[str, str]:
-    """Return what `help` says of each field and computed value of a dataclass."""
+    """Return the text that `help` shows for each field and computed value of a dataclass."""
     document = NumpyDocString(inspect.getdoc(kind))
     return {entry.name: " ".join(entry.desc) for entry in document["Parameters"] + document["Attributes"]}
 

@@ -1,4 +1,4 @@
-"""Warnings of a coupling calculation about values outside their ranges and values without meaning."""
+"""Warnings of a coupling calculation: inputs outside the range of validity, and results without a meaning."""
 
 from collections.abc import Iterator
 from math import degrees

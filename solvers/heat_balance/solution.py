@@ -102,7 +102,7 @@ def _residual_where_defined(network: Network, rises: FloatArray) -> FloatArray |
 
 
 def _check_stability(network: Network, slopes: FloatArray) -> None:
-    """Raise NoSolution (`thermal_runaway`) if some node does not become warmer when every node gains one watt more."""
+    """Raise NoSolution (`thermal_runaway`) if an additional watt at every node would not make every node warmer."""
     response = np.linalg.solve(-slopes, np.ones(network.size))
     if float(response.min()) <= 0.0:
         node = network.nodes[int(np.argmin(response))]
