@@ -21,7 +21,7 @@ ThemeName = Literal["light", "dark"]
 
 
 class Hue(StrEnum):
-    """The colours of Okabe and Ito. The curves of a figure take the colours in this order.
+    """The colours of Okabe and Ito. The curves of a panel take the colours in the order of `ORDER`.
 
     A value such as `C0` is matplotlib's name for a colour in the colour cycle of the style sheet.
     """
@@ -269,7 +269,7 @@ class Figure:
 
 
 class NoFigure(Unprocessable):
-    """The case has no data for the figure.
+    """Error that says why a case has no data for a figure.
 
     `path` is the dotted path of the request field that decides whether these data are present.
     """

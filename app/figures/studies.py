@@ -94,7 +94,10 @@ def figures_of(grid: Grid) -> dict[str, Figure]:
 
 
 def curve(grid: Grid) -> Figure:
-    """Draw the output over the field. Ranges without a valid output are shaded, and doubtful points have rings."""
+    """Draw the output over the varied field.
+
+    Ranges without a valid output are shaded, and doubtful points have rings.
+    """
     x, own = grid.x, grid.x.own
     line = Line(grid.output.title, x.values, grid.values, named=False)
     levels, spans, start = _limit(grid), list[Span](), 0
@@ -119,7 +122,7 @@ def curve(grid: Grid) -> Figure:
 
 
 def family(grid: Grid, y: Coordinate) -> Figure:
-    """Draw a curve for each value of the second field."""
+    """Draw the output over the first field, with a curve for each value of the second field."""
     lines = [
         Line(y.named(index), grid.x.values, grid.values[:, index], ORDER[index % len(ORDER)])
         for index in range(y.values.size)
@@ -300,7 +303,7 @@ def corners(output: Axis, rows: list[Row], nominal: float | None) -> Figure:
     """Draw a row for each uncertain input, with a dot for each value of the input.
 
     The dot of a value lies at the worst output that is possible with this value. The `value` of a row is the output at
-    the worst corner, where the dot is red. `nominal` is the output of the case as described.
+    the worst corner. The dot at this output is red. `nominal` is the output of the case as described.
     """
     levels = []
     if nominal is not None:
@@ -313,10 +316,10 @@ def corners(output: Axis, rows: list[Row], nominal: float | None) -> Figure:
 def lead_chart(
     position: Values, face_fraction: Values, wanted: Lead, before: Lead, tolerance: Lead, ends: tuple[str, str]
 ) -> Figure:
-    """Draw a lead chart of the helix trace to grind, and of its tolerances. Removed material is drawn downwards.
+    """Draw the lead chart of the helix to grind, with its tolerances. Removed material is drawn downwards.
 
-    `position` is the position on the axis of the unit [mm]. `before` is the lead that the case describes. `ends` holds
-    the names of the two ends of the face.
+    `position` is the position on the axis of the unit [mm]. `wanted` is the lead to grind, and `before` is the lead
+    that the case describes. `ends` holds the names of the two ends of the face.
     """
     eta = face_fraction - 0.5
 

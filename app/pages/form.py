@@ -145,7 +145,7 @@ def link_to(request: type[Request], path: str) -> str:
 
 
 def title_of(request: type[Request], path: str) -> str:
-    """Return the title of a field. For a section, return its title after the titles of the sections around it."""
+    """Return the title of a field. For a section, return the titles of all sections on its path, outermost first."""
     leaf = leaf_at(request, path)
     if leaf is not None:
         return leaf.title

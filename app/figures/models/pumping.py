@@ -68,9 +68,9 @@ def temperature_map(inputs: PumpingInputs, result: PumpingResult) -> Figure:
 
 
 def _maps(inputs: PumpingInputs, result: PumpingResult, name: str, scale: Scale, *critical: Level) -> list[Panel]:
-    """Return maps of a quantity of the field for the tooth spaces of both gears, with marks at the extremes.
+    """Return maps of a quantity over face and angle, one for the tooth spaces of each gear, with marks at the extremes.
 
-    The maps have the same scale of colours.
+    `name` is the name of the quantity. The maps have the same scale of colours.
     """
     fields = {gear: space.field for gear, space in spaces(result)}
     grids: list[Values] = [getattr(field, name) for field in fields.values()]
@@ -142,9 +142,9 @@ CHOKING_FIGURES = (
 
 
 def stroke(_: PumpingInputs, result: PumpingResult) -> Figure:
-    """Draw the area of a tooth space that the mating tooth leaves free, and the radial clearances, over one stroke.
+    """Draw, over one stroke, the free area of a tooth space and the radial clearances.
 
-    The range in which the flanks are in contact is shaded.
+    The free area is the area that the mating tooth leaves free. The range in which the flanks are in contact is shaded.
     """
     gear, first = spaces(result)[0]
     course, curves = first.stroke, first.stroke.curves
@@ -183,7 +183,7 @@ def heating(inputs: PumpingInputs, result: PumpingResult) -> Figure:
 
 
 def peak_pressure(inputs: PumpingInputs, result: PumpingResult) -> Figure:
-    """Draw the largest pressure of the stroke along the face, and the pressure at which clearances become sonic.
+    """Draw the largest pressure of the stroke along the face, and the pressure of sonic flow in clearances.
 
     Both pressures are divided by the ambient pressure.
     """
@@ -272,7 +272,7 @@ def _grooves(inputs: PumpingInputs) -> list[Span]:
 
 
 def _along(inputs: PumpingInputs, title: str, position: Values, items: Values, hue: Hue) -> Line:
-    """Return a line along the face with gaps at the grooves."""
+    """Return a line along the face. The line has gaps at the grooves."""
     middles = sorted(groove.position / MM for groove in inputs.setup.grooves)
     at = np.searchsorted(position, middles)
     return Line(title, np.insert(position, at, middles), np.insert(items, at, np.nan), hue)

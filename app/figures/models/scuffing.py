@@ -1,4 +1,7 @@
-"""Figures of the check against scuffing, over the flank and along the evaluated lines."""
+"""Figures of the check against scuffing, over the flank and along the evaluated lines.
+
+The evaluated lines are the feature line and, if calculated, the profile through the highest flash temperature.
+"""
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
@@ -104,7 +107,7 @@ def _bulk_of(result: Scuffing, surface: str) -> float:
 
 
 def _flashes(path: ScuffingPath) -> list[Line]:
-    """Return the flash temperatures along a path as lines.
+    """Return lines that show the flash temperatures along a path.
 
     If thermal EHL was solved, the first two lines show the flash temperatures of both flanks by thermal EHL. The last
     line shows the flash temperature by Blok's formula.
@@ -118,7 +121,10 @@ def _flashes(path: ScuffingPath) -> list[Line]:
 
 
 def _paths(result: Scuffing) -> dict[str, ScuffingPath]:
-    """Return the evaluated lines of the flank. The keys are the names of the lines."""
+    """Return the evaluated lines of the flank. The keys are the names of the lines.
+
+    These lines are the feature line and, if calculated, the profile through the highest flash temperature.
+    """
     if result.hottest_path is None:
         return {"feature line": result.path}
     across = number(present(result.flash.blok_at_face), "mm")
@@ -128,7 +134,8 @@ def _paths(result: Scuffing) -> dict[str, ScuffingPath]:
 def _along(inputs: ScuffingInputs, result: Scuffing, finding: str, panel: Callable[[ScuffingPath], Panel]) -> Figure:
     """Return a figure with a panel for each evaluated line. All panels have the same scale.
 
-    `panel` makes the panel of a path. The points of the path and the ranges with warnings are added to this panel.
+    `panel` makes the panel of a line. The points A to E of the path of contact, and the ranges with warnings, are added
+    to the panel.
     """
     points, panels = _points(inputs, result), list[Panel]()
     for path in _paths(result).values():
@@ -216,7 +223,7 @@ def _safeties(result: Scuffing, path: ScuffingPath, oil: float, reserve: float) 
 
 
 def film(inputs: ScuffingInputs, result: Scuffing) -> Figure:
-    """Draw the film thickness along the evaluated lines, and a level at the film thickness that equals the roughness.
+    """Draw the film thickness along the evaluated lines. A line shows where the film is as thick as the roughness.
 
     If thermal EHL was solved, two curves show the minimum and the central film of this solution. A further curve shows
     the film by the formula of Dowson and Higginson.
@@ -331,7 +338,7 @@ def _balanced(build: Build) -> Build:
 
 
 def node_temperatures(inputs: ScuffingInputs, result: Scuffing) -> Figure:
-    """Draw the temperatures of flanks, bodies and mist."""
+    """Draw the temperatures of the flanks, of the gear bodies and of the oil mist."""
     return heat_balance.temperatures(heat_balance.heat_of(result.heat), inputs.temperatures.oil - UNITS["c"].offset)
 
 
