@@ -167,8 +167,8 @@ class Level:
 class Map:
     """Values over two coordinates, indexed `[y][x]`, with contours at the `critical` values.
 
-    Maps of a comparison have the same `range` of colours, and only the last of these maps shows the colour `bar`. If
-    `range` is None, the range follows from the values.
+    Maps of a comparison have the same `range` of colours. Only the last of these maps has `bar` set and shows the
+    colour bar. If `range` is None, the range follows from the values.
     """
 
     title: str

@@ -23,9 +23,9 @@ LEAST = 1e-5  # smaller probabilities are not stated, because the tails of the d
 class SpectrumCase(NamedTuple):
     """A case of the spectrum.
 
-    `quantiles` holds the quantiles of the limited output at 5, 50 and 95 %, or is None if no draw is solved. `chance`
-    is the probability of violating the limit if this case were the only one. `decides` is the share of machines for
-    which this case is the worst case.
+    `quantiles` holds the quantiles of the limited output at 5, 50 and 95 %. `quantiles` is None if no draw is solved.
+    `chance` is the probability of violating the limit if this case were the only case of the spectrum. `decides` is the
+    share of machines for which this case is the worst case.
     """
 
     name: str
@@ -57,7 +57,7 @@ def is_tiny(chance: dict[str, Any]) -> bool:
 
 
 def chance_text(chance: dict[str, Any]) -> str:
-    """Return a probability in per cent as text, or its two bounds if they differ."""
+    """Return a probability in per cent as text. If the bounds of the probability differ, return both bounds."""
     if is_tiny(chance):
         return f"below {percent(LEAST)}"
     low, high = chance["bounds"]

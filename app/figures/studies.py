@@ -59,9 +59,9 @@ class Grid:
     """Values of an output over one field, `[x]`, or over two fields, `[x][y]`.
 
     NaN stands for a point that has no value, or that is not calculated yet. If `greatest` is set, greater values are
-    better. `limit` is the limit of the output. `invalid` and `doubtful` have an item for each value of a single field.
-    An item of `invalid` is the reason why the output is not valid at this value, or None if it is valid. An item of
-    `doubtful` is True if the point is outside a limit of validity.
+    better. `limit` is the limit of the output. If there is a single field, `invalid` and `doubtful` have an item for
+    each value of this field. An item of `invalid` is the reason why the output is not valid at this value, or None if
+    the output is valid. An item of `doubtful` is True if the point is outside a limit of validity.
     """
 
     x: Coordinate
@@ -271,7 +271,7 @@ class Lead(NamedTuple):
 class Influence(NamedTuple):
     """The change of an output if an input is changed by one step.
 
-    `kink` is True if the slopes of the output below and above the value of the input differ.
+    `kink` is True if the output has different slopes below and above the value of the input.
     """
 
     name: str
@@ -344,7 +344,7 @@ def lead_chart(
 
 
 def search(output: Axis, objectives: Sequence[float | None], *, greatest: bool) -> Figure:
-    """Draw the objective at the worst corner for every correction tried.
+    """Draw the objective at the worst corner for each of the tried corrections.
 
     None stands for a correction without a solution.
     """

@@ -8,7 +8,7 @@ form         the fields of a form with the typed text, the meaning and the fault
 asked        the case that a query or a form asks for
 cases        a requested case, the addresses of its views, and its answer, which is kept for other views
 results      headline numbers with verdicts, and tables of results
-verdicts     verdicts that compare several numbers, and the conclusion of a calculation in one sentence
+verdicts     verdicts that depend on several numbers, and the conclusion of a calculation in words
 csv          an answer as a table for spreadsheets
 carried      links that carry the gears or the coupling of a case to other calculations
 charts       figures as images with their own addresses, and the values of the figures

@@ -68,8 +68,8 @@ def _use(asked: Asked, other: Calculation) -> Use:
 def _common(calculation: Calculation, name: str) -> str:
     """Return the shared name of a field.
 
-    For calculations of gears, the shared name is the name of the field in requests of scuffing. A field that these
-    requests lack keeps its own name.
+    For calculations of gears, the shared name is the name of the field in requests of scuffing. If these requests do
+    not have the field, its name stays the same.
     """
     if subject_of(calculation) != "pair" or not name.startswith(OPERATION):
         return name

@@ -89,7 +89,7 @@ class Asked:
 
     @property
     def theme(self) -> ThemeName | None:
-        """The requested theme. A page without a theme follows the reader's system."""
+        """The requested theme. A page without a requested theme follows the settings of the reader's system."""
         return next((theme for theme in get_args(ThemeName) if theme == self.views.get("theme")), None)
 
     @property
@@ -167,7 +167,7 @@ class Asked:
         return self.view(name, theme=self.theme, title=self.title, **self.file)
 
     def image(self, figure: str, image_format: str, theme: ThemeName | None = None) -> str:
-        """Return the address of the file of a figure."""
+        """Return the address of a figure's file."""
         name, theme = f"figures/{figure}.{image_format}", theme or self.theme
         if self.too_long:
             case, ref_case = self.answered

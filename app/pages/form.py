@@ -163,7 +163,7 @@ def form(request: type[Request], state: State) -> tuple[Section, ...]:
             loose.append(block)
         elif block.kind == "section":
             sections.append(block)
-        else:  # rows and twins become sections
+        else:  # rows and twins get a section around them
             sections.append(replace(block, blocks=(block,), kind="section", id=f"{anchor(block.path)}-", fault=None))
     if loose:
         names = [leaf.path for leaf in root.leaves if leaf.path != DETAIL]
@@ -310,7 +310,10 @@ def _choice(group: tuple[Leaf, ...], prefix: str, state: State, required: str) -
 
 
 def _own(leaf: Leaf, name: str, state: State) -> FieldView:
-    """Return the view of a field that is not part of a choice; a matrix has a field for each element."""
+    """Return the view of a field that is not part of a choice.
+
+    The view of a matrix has an inner view for each element.
+    """
     whole, resolved = field_view(leaf, name, state), state.resolved.get(name)
     if leaf.dimensions < MATRIX:
         return whole
@@ -331,7 +334,7 @@ def _own(leaf: Leaf, name: str, state: State) -> FieldView:
 
 
 def field_view(leaf: Leaf, name: str, state: State) -> FieldView:
-    """Return the view of a field; `name` is its path with the indices of lists."""
+    """Return the view of a field; `name` is the path of the field with the indices of lists."""
     text, value = state.texts.get(name, ""), state.resolved.get(name, leaf.default)
     options = _options(leaf, text)
     widget = "text" if leaf.kind in {"text", "other"} else "number"

@@ -40,7 +40,7 @@ FIXED = {
     "html_block": "",  # comments that mark generated parts in the file
     "html_inline": "",  # anchors for links between the files; the pages have anchors of their own
 }
-"""The HTML of those Markdown elements that always have the same HTML."""
+"""The Markdown elements that always become the same HTML, and this HTML."""
 
 
 @lru_cache(maxsize=4)

@@ -57,7 +57,7 @@ The text of this query field is the name of the chosen field.
 WRITTEN = "written"
 """The name of a hidden field that only forms send.
 
-The field contains, as a query, some of the texts that the server wrote into the form. These are the texts that would be
+The content of this field is a query string. The string holds those texts that the server wrote into the form and would
 read differently if a user typed them.
 """
 MOST_FIELDS = 1000  # chosen: many more than the longest form has

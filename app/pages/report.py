@@ -105,7 +105,7 @@ def _with_origin(sections: list[Section], origins: frozenset[str]) -> list[Secti
 
 
 def _left(sections: list[Section]) -> list[tuple[str, list[tuple[Leaf, str, bool]]]]:
-    """Return the title of each section, together with the inputs of the section that have their defaults.
+    """Return the title of each section, and those inputs of the section for which defaults are used.
 
     Every input comes with a text and a boolean. If the boolean is True, the text is the default value. Otherwise the
     input is empty and has no default value. The text then says what replaces the value, for example the quantity from
@@ -146,7 +146,7 @@ def _said(name: str, text: str, longest: int) -> str:
 
 
 def for_shell(address: str, case: Case) -> str:
-    """Return a command for curl that repeats a case; `address` is the address of the service."""
+    """Return a curl command that asks for a case again; `address` is the address of the service."""
     sent = shlex.quote(json.dumps(_given(case)))
     return f"curl -s {address}{case.calculation.path} -H 'Content-Type: application/json' -d {sent}"
 

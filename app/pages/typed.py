@@ -49,9 +49,10 @@ def text_of(value: Any) -> str:
 
 
 def number_of(text: str) -> Any:
-    """Read the number in a single field of a link, with a decimal point or comma. Return other text unchanged.
+    """Read the number in a single field of a link. Return other text unchanged.
 
-    Digits may stand in groups of three if it is clear which mark is the decimal mark.
+    The number may have a decimal point or a decimal comma. Digits may stand in groups of three if it is clear which
+    mark is the decimal mark.
     """
     plain = _ungrouped(text)
     number = text if _AMBIGUOUS.fullmatch(plain) else plain_number_of(plain.replace(",", ".", 1))

@@ -55,7 +55,7 @@ class Place(NamedTuple):
     """Position of the axes of a panel in the image.
 
     `box` holds left, top, width and height as fractions of the image. `x` describes the abscissa, and `y` describes the
-    ordinate. Both hold the two ends of their axis, and True if this axis is logarithmic.
+    ordinate. Either of them holds the two ends of the axis, and True if the axis is logarithmic.
     """
 
     panel: Panel

@@ -48,9 +48,10 @@ def friction_map(_: CouplingInputs, result: CouplingResult) -> Figure:
 
 
 def _around(which: str, value: float) -> tuple[float, float]:
-    """Return the ends of an axis of the map. The ends are moved outwards if the value would lie outside them.
+    """Return the ends of an axis of the map.
 
-    A value that is infinite or zero does not move the ends.
+    If the value would lie outside the usual ends, the ends are moved outwards. A value that is infinite or zero does
+    not move the ends.
     """
     low, high = MAP_ENDS[which]
     if not 0.0 < value < inf:

@@ -141,11 +141,11 @@ def slope_parts(_: DriveTrainInputs, result: DriveTrainResult) -> Figure:
 
 
 def effects_apart(inputs: DriveTrainInputs, result: DriveTrainResult) -> dict[str, Values]:
-    """Compute the load along the face for variants of the unit that lack some of its effects.
+    """Compute the load along the face for variants of the unit in which some effects are left out.
 
-    The effects come from shafts, couplings and heat. The variant `mesh alone` lacks all effects. Every other variant
-    lacks a single effect. The keys are the names of the variants, and the values are transverse forces per face width
-    [N/mm].
+    The effects come from shafts, couplings and heat. The variant `mesh alone` leaves out all effects. Every other
+    variant leaves out a single effect. The keys are the names of the variants, and the values are transverse forces per
+    face width [N/mm].
     """
     own, variants = inputs.effects, dict[str, Effects]()
     if own.shafts and inputs.acting_couplings:
@@ -164,7 +164,7 @@ def effects_apart(inputs: DriveTrainInputs, result: DriveTrainResult) -> dict[st
 
 
 def face_load(inputs: DriveTrainInputs, result: DriveTrainResult, others: dict[str, Values]) -> Figure:
-    """Draw the load along the face with all effects of the case, and the loads of variants that lack some effects.
+    """Draw the load along the face with all effects of the case, and for variants in which some effects are left out.
 
     `others` holds the loads of the variants under the names of the variants.
     """

@@ -42,7 +42,7 @@ BY_GEAR = {
 
 
 def heat_of(heat: Heat | None) -> Heat:
-    """Return the heat balance; raise NoFigure if it is None."""
+    """Return the heat balance; raise NoFigure if there is no heat balance."""
     if heat is None:
         raise NoFigure("no_oil", "Without an oil there is no heat balance", "lubricant")
     return heat

@@ -107,7 +107,7 @@ def scan(inputs: ChokingInputs, result: ChokingSpeeds) -> ChokingCurves:
 def choking(inputs: ChokingInputs, result: ChokingSpeeds, curves: ChokingCurves) -> Figure:
     """Draw peak pressure and exit Mach number over the speed, with the limits of sonic flow and the choking speeds.
 
-    The exit Mach number is the number after an expansion to ambient pressure. If the gas in the outermost slice is
+    The exit Mach number is the Mach number after an expansion to ambient pressure. If the gas in the outermost slice is
     itself supersonic (possible in gas dynamics only), the smaller Mach number of this slice is drawn instead. The curve
     bends at the speed at which the gas in this slice becomes supersonic.
     """
@@ -167,7 +167,7 @@ def stroke(_: PumpingInputs, result: PumpingResult) -> Figure:
 
 
 def heating(inputs: PumpingInputs, result: PumpingResult) -> Figure:
-    """Draw the temperature rise along the face, averaged over the stroke, with marks at the hottest places."""
+    """Draw, along the face, the temperature rise averaged over the stroke, with marks at the hottest places."""
     lines, marks, texts = [], [], []
     for gear, space in spaces(result):
         profile, most = space.profile, space.max_temperature_rise
@@ -183,9 +183,10 @@ def heating(inputs: PumpingInputs, result: PumpingResult) -> Figure:
 
 
 def peak_pressure(inputs: PumpingInputs, result: PumpingResult) -> Figure:
-    """Draw the largest pressure of the stroke along the face, and the pressure of sonic flow in clearances.
+    """Draw, along the face, the largest pressure of the stroke.
 
-    Both pressures are divided by the ambient pressure.
+    A line shows the pressure at which the flow in clearances becomes sonic. Both pressures are divided by the ambient
+    pressure.
     """
     lines, marks = [], []
     for gear, space in spaces(result):
@@ -237,7 +238,7 @@ def pulsation(_: PumpingInputs, result: PumpingResult) -> Figure:
 
 
 def mass_flow(_: PumpingInputs, result: PumpingResult) -> Figure:
-    """Draw the mass flows out of and into the tooth spaces at the ends, and the net outward flow through each exit."""
+    """Draw the mass flows out of and into the tooth spaces at both ends, and the net outward flow through each exit."""
     exits = {gear: _exits(space) for gear, space in spaces(result)}
     still = all(abs(row.value) < NO_FLOW for rows in exits.values() for row in rows)
     x = Axis("mass flow (net: out; negative: in)", "g/s", limits=(0.0, 1.0) if still else None, symbol="m")

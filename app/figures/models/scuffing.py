@@ -209,7 +209,7 @@ def safety_along(inputs: ScuffingInputs, result: Scuffing) -> Figure:
 
 
 def _safeties(result: Scuffing, path: ScuffingPath, oil: float, reserve: float) -> list[Line]:
-    """Return the safety factors along a path, by thermal EHL and by Blok's formula, as lines.
+    """Return lines that show the safety factors along a path, by thermal EHL and by Blok's formula.
 
     The safety factor is NaN at points where the contact is not hotter than the oil.
     """
@@ -223,7 +223,7 @@ def _safeties(result: Scuffing, path: ScuffingPath, oil: float, reserve: float) 
 
 
 def film(inputs: ScuffingInputs, result: Scuffing) -> Figure:
-    """Draw the film thickness along the evaluated lines. A line shows where the film is as thick as the roughness.
+    """Draw the film thickness along the evaluated lines. A level marks the film thickness that equals the roughness.
 
     If thermal EHL was solved, two curves show the minimum and the central film of this solution. A further curve shows
     the film by the formula of Dowson and Higginson.

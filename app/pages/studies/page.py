@@ -1,4 +1,7 @@
-"""The page of a study before, during and after the calculation, and its figures as files; runs in workers."""
+"""The page of a study before, during and after the calculation, and the figures of the study as files.
+
+The functions of this module run in workers.
+"""
 
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
@@ -44,7 +47,7 @@ class Controls(NamedTuple):
 
 
 class Number(str):
-    """The heading of a column of numbers, which are aligned to the right."""
+    """The heading of a column of numbers. The column is aligned to the right."""
 
     __slots__ = ()
 
@@ -184,7 +187,7 @@ class StudyPage(ABC):
 
     @property
     def usual_output(self) -> Leaf:
-        """The output that is shown if the user chooses none."""
+        """The output that is shown if the user chooses no output."""
         response = self.calculation.response
         preferred = (leaf for path in self.outputs if (leaf := leaf_at(response, path)))
         return next(preferred, headlines(response)[0])
@@ -242,7 +245,7 @@ class StudyPage(ABC):
         return len(self.view("").partition("?")[2]) > LONGEST_QUERY
 
     def image(self, figure: str, image_format: str) -> str:
-        """Return the address of a figure as a file."""
+        """Return the address of a figure's file."""
         return self.view(f"/figures/{figure}.{image_format}")
 
     def field_at(self, path: str) -> Leaf | None:
