@@ -177,7 +177,11 @@ def transmission_error(_: LoadDistributionInputs, result: LoadDistribution) -> F
 
 
 def path_of_contact(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figure:
-    """Draw line load, pressure and sliding along the feature line."""
+    """Draw line load, pressure and sliding along the feature line.
+
+    The feature line is the diagonal of the flank from the corner where the mesh begins to the corner where the mesh
+    ends.
+    """
     curves, psi, pressure = result.feature_line, result.feature_line.psi, result.pressure.max
     points = path_points(inputs.gears)
     plain = parts.unnamed(points)

@@ -1,6 +1,7 @@
 """Figures of the check against scuffing, over the flank and along the evaluated lines.
 
-The evaluated lines are the feature line and, if calculated, the profile through the highest flash temperature.
+The evaluated lines are the feature line and, if calculated, the profile through the highest flash temperature. The
+feature line is the diagonal of the flank from the corner where the mesh begins to the corner where the mesh ends.
 """
 
 from collections.abc import Callable, Sequence
