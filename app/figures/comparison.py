@@ -35,7 +35,7 @@ def _key(panel: Panel) -> tuple[str, str | None]:
 
 
 def _overlaid(panel: Panel, other: Panel, name: str) -> Panel:
-    """Return the panel with those parts of `other` added that differ from the panel's own parts.
+    """Add those parts of `other` to the panel that differ from the panel's own parts.
 
     Parts are curves, edges of filled shapes, bars, rows and limits. Marks are added only if the panel has areas.
     """

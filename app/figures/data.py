@@ -21,7 +21,7 @@ ThemeName = Literal["light", "dark"]
 
 
 class Hue(StrEnum):
-    """The colours of Okabe and Ito. The curves of a figure take the colours in this order.
+    """The colours of Okabe and Ito. The curves of a panel take the colours in the order of `ORDER`.
 
     A value such as `C0` is matplotlib's name for a colour in the colour cycle of the style sheet.
     """
@@ -167,8 +167,8 @@ class Level:
 class Map:
     """Values over two coordinates, indexed `[y][x]`, with contours at the `critical` values.
 
-    Maps of a comparison have the same `range` of colours, and only the last of these maps shows the colour `bar`. If
-    `range` is None, the range follows from the values.
+    Maps of a comparison have the same `range` of colours. Only the last of these maps has `bar` set and shows the
+    colour bar. If `range` is None, the range follows from the values.
     """
 
     title: str
@@ -269,7 +269,7 @@ class Figure:
 
 
 class NoFigure(Unprocessable):
-    """The case has no data for the figure.
+    """Error that says why a case has no data for a figure.
 
     `path` is the dotted path of the request field that decides whether these data are present.
     """

@@ -1,4 +1,4 @@
-"""Declarations of figures. A declaration names a figure and holds the function that makes its data for a case."""
+"""Declarations of figures. A declaration names a figure and holds the function that makes the figure's data."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace

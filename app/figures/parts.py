@@ -25,7 +25,7 @@ def curve(
 
 
 def lines(along: Values, series: Mapping[str, Sequence[float] | Values]) -> list[Line]:
-    """Return a line for each title and its data. The lines share one abscissa and take the hues from `ORDER`."""
+    """Return a line for each title in `series`. The lines share one abscissa and take the hues from `ORDER`."""
     return [Line(title, along, values(data), hue) for (title, data), hue in zip(series.items(), ORDER, strict=False)]
 
 

@@ -1,7 +1,7 @@
 """Figures of a load spectrum: outputs of all cases, probabilities of violating a limit, deciding cases, mean losses.
 
 The study's result states a probability as a dictionary. The entry `bounds` holds a lower and an upper bound of the
-probability; both are equal if all draws are solved. The entry `interval` is the confidence interval.
+probability. Both bounds are equal if all random draws are solved. The entry `interval` is the confidence interval.
 """
 
 from dataclasses import replace
@@ -23,9 +23,9 @@ LEAST = 1e-5  # smaller probabilities are not stated, because the tails of the d
 class SpectrumCase(NamedTuple):
     """A case of the spectrum.
 
-    `quantiles` holds the quantiles of the limited output at 5, 50 and 95 %, or is None if no draw is solved. `chance`
-    is the probability of violating the limit if this case were the only one. `decides` is the share of machines for
-    which this case is the worst case.
+    `quantiles` holds the quantiles of the limited output at 5, 50 and 95 %. `quantiles` is None if no draw is solved.
+    `chance` is the probability of violating the limit if this case were the only case of the spectrum. `decides` is the
+    share of machines for which this case is the worst case.
     """
 
     name: str
@@ -37,10 +37,11 @@ class SpectrumCase(NamedTuple):
 class Limited(NamedTuple):
     """A limited output over the spectrum.
 
-    `found` is the study's result for the limit. It holds the side, the mean and the deviation of the limit, the
-    probability of violating the limit, and the histogram of the output in the worst case. The histogram is empty if
-    this output does not vary. `influences` holds the rank correlation of every scattering field with the output in the
-    worst case; its keys are the titles of the fields.
+    `found` is the study's result for the limit. Its entries are the side of the limit that counts as a violation
+    ("above" or "below"), the mean and the standard deviation of the limit, the probability of violating the limit, and
+    the histogram of the output in the worst case. The histogram is empty if this output does not vary. `influences`
+    holds the rank correlation of every scattering field with the output in the worst case. The keys of `influences` are
+    the titles of the fields.
     """
 
     output: Axis
@@ -56,7 +57,7 @@ def is_tiny(chance: dict[str, Any]) -> bool:
 
 
 def chance_text(chance: dict[str, Any]) -> str:
-    """Return a probability in per cent as text, or its two bounds if they differ."""
+    """Return a probability in per cent as text. If the bounds of the probability differ, return both bounds."""
     if is_tiny(chance):
         return f"below {percent(LEAST)}"
     low, high = chance["bounds"]
@@ -71,7 +72,10 @@ def sentence(limit: dict[str, Any]) -> str:
 
 
 def overlap(limited: Limited) -> Figure:
-    """Draw the probability densities of the worst case and of the limit. A panel below shows the range of each case."""
+    """Draw the probability densities of the limit and of the output in the worst case.
+
+    A panel below shows the range of the output in each case.
+    """
     limit, axis, rows = limited.found, replace(limited.output, magnitude=False), []
     for case in limited.cases:
         if case.quantiles is not None:
@@ -89,9 +93,9 @@ def overlap(limited: Limited) -> Figure:
 
 
 def _densities(limit: dict[str, Any], axis: Axis) -> Panel:
-    """Return a panel with the probability densities of the worst case and of the limit, scaled to the same height.
+    """Return a panel with the probability densities of the limit and of the output in the worst case.
 
-    If the limit does not scatter, a straight line shows the limit.
+    Both densities are scaled to the same height. If the limit does not scatter, a straight line shows the limit.
     """
     curves, levels = list[tuple[str, Values, Values, Hue]](), list[Level]()
     mean, deviation, histogram = limit["mean"], limit["deviation"], limit["histogram"]

@@ -59,9 +59,9 @@ class Grid:
     """Values of an output over one field, `[x]`, or over two fields, `[x][y]`.
 
     NaN stands for a point that has no value, or that is not calculated yet. If `greatest` is set, greater values are
-    better. `limit` is the limit of the output. `invalid` and `doubtful` have an item for each value of a single field.
-    An item of `invalid` is the reason why the output is not valid at this value, or None if it is valid. An item of
-    `doubtful` is True if the point is outside a limit of validity.
+    better. `limit` is the limit of the output. If there is a single field, `invalid` and `doubtful` have an item for
+    each value of this field. An item of `invalid` is the reason why the output is not valid at this value, or None if
+    the output is valid. An item of `doubtful` is True if the point is outside a limit of validity.
     """
 
     x: Coordinate
@@ -94,7 +94,10 @@ def figures_of(grid: Grid) -> dict[str, Figure]:
 
 
 def curve(grid: Grid) -> Figure:
-    """Draw the output over the field. Ranges without a valid output are shaded, and doubtful points have rings."""
+    """Draw the output over the varied field.
+
+    Ranges without a valid output are shaded, and doubtful points have rings.
+    """
     x, own = grid.x, grid.x.own
     line = Line(grid.output.title, x.values, grid.values, named=False)
     levels, spans, start = _limit(grid), list[Span](), 0
@@ -119,7 +122,7 @@ def curve(grid: Grid) -> Figure:
 
 
 def family(grid: Grid, y: Coordinate) -> Figure:
-    """Draw a curve for each value of the second field."""
+    """Draw the output over the first field, with a curve for each value of the second field."""
     lines = [
         Line(y.named(index), grid.x.values, grid.values[:, index], ORDER[index % len(ORDER)])
         for index in range(y.values.size)
@@ -268,7 +271,7 @@ class Lead(NamedTuple):
 class Influence(NamedTuple):
     """The change of an output if an input is changed by one step.
 
-    `kink` is True if the slopes of the output below and above the value of the input differ.
+    `kink` is True if the output has different slopes below and above the value of the input.
     """
 
     name: str
@@ -300,7 +303,7 @@ def corners(output: Axis, rows: list[Row], nominal: float | None) -> Figure:
     """Draw a row for each uncertain input, with a dot for each value of the input.
 
     The dot of a value lies at the worst output that is possible with this value. The `value` of a row is the output at
-    the worst corner, where the dot is red. `nominal` is the output of the case as described.
+    the worst corner. The dot at this output is red. `nominal` is the output of the case as described.
     """
     levels = []
     if nominal is not None:
@@ -313,10 +316,10 @@ def corners(output: Axis, rows: list[Row], nominal: float | None) -> Figure:
 def lead_chart(
     position: Values, face_fraction: Values, wanted: Lead, before: Lead, tolerance: Lead, ends: tuple[str, str]
 ) -> Figure:
-    """Draw a lead chart of the helix trace to grind, and of its tolerances. Removed material is drawn downwards.
+    """Draw the lead chart of the helix to grind, with its tolerances. Removed material is drawn downwards.
 
-    `position` is the position on the axis of the unit [mm]. `before` is the lead that the case describes. `ends` holds
-    the names of the two ends of the face.
+    `position` is the position on the axis of the unit [mm]. `wanted` is the lead to grind, and `before` is the lead
+    that the case describes. `ends` holds the names of the two ends of the face.
     """
     eta = face_fraction - 0.5
 
@@ -341,7 +344,7 @@ def lead_chart(
 
 
 def search(output: Axis, objectives: Sequence[float | None], *, greatest: bool) -> Figure:
-    """Draw the objective at the worst corner for every correction tried.
+    """Draw the objective at the worst corner for each of the tried corrections.
 
     None stands for a correction without a solution.
     """

@@ -8,7 +8,7 @@ NO_BREAK = "\u00a0"  # a space at which lines do not break
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 PLAIN = (1e-3, 1e6)  # range of the magnitudes that are written without a power of ten
 NOISE = 1e-9  # share of a whole; a smaller part is a rounding error
-UNCERTAIN = 0.2  # chosen; if the relative error of a number due to resolution is larger, its verdict is doubtful
+UNCERTAIN = 0.2  # chosen; a verdict is doubtful if the resolution causes a larger relative error of its number
 DIFFERENCES = {"°C": "K", "K": "K", "°": "°", "%": "percentage points"}
 """Units of quantities whose changes are stated as differences and not as ratios, with the units of the differences."""
 # One or two letters, an underscore, then letters and digits, which commas may separate into groups.

@@ -1,4 +1,6 @@
-"""The pages of the service. Most pages are views of a case and are generated from the schema.
+"""The pages of the service. Most pages show a case, that is, a calculation with its inputs.
+
+Pages that show a case are generated from the schema of the requests and answers.
 
 typed        numbers as people type them, and their texts in links
 query        the query string that holds a case
@@ -6,14 +8,14 @@ form         the fields of a form with the typed text, the meaning and the fault
 asked        the case that a query or a form asks for
 cases        a requested case, the addresses of its views, and its answer, which is kept for other views
 results      headline numbers with verdicts, and tables of results
-verdicts     verdicts that compare several numbers, and the conclusion of a calculation in one sentence
+verdicts     verdicts that depend on several numbers, and the conclusion of a calculation in words
 csv          an answer as a table for spreadsheets
 carried      links that carry the gears or the coupling of a case to other calculations
-charts       figures as images at addresses of their own, and their values
+charts       figures as images with their own addresses, and the values of the figures
 manual       chapters of the manual as pages, and the parts of chapters that reports show
 report       the parts of a report other than the result, and the case as program code
 variants     three or more variants of a case in a small table
-views        one view of a case, made in a worker
+views        one view of a case (page, report, figure or file), made in a worker process
 overview     pages that belong to no case
 studies      pages of studies, drawn while the study is calculated
 study_links  links to the pages of studies

@@ -12,10 +12,11 @@ from app.pages.templating import example_link, page_path
 
 
 def asked_in(calculation: Calculation, text: str, root: str, answers: Mapping[str, bytes]) -> tuple[Asked, bool]:
-    """Return the case that a text asks for, and True if the text is already the shortest link to this case.
+    """Return the case that `text` asks for, and whether `text` is already the shortest link to this case.
 
-    The text is a query or the content of a form. The shortest link has no empty fields. `root` is the prefix that a
-    proxy puts before the addresses of the service. `answers` holds recently calculated answers under their keys.
+    `text` is a query string or the content of a form. The shortest link has no empty fields. `root` is the prefix that
+    a proxy puts before the addresses of the service. `answers` holds recently calculated answers under the keys that
+    `key_of` makes.
     """
     fields = pairs_of_query(text)
     pressed = WRITTEN in dict(fields)

@@ -1,8 +1,9 @@
-"""Links to other calculations of the same gears or coupling.
+"""Links that carry the gears or the coupling of a case to other calculations.
 
-The view `pair` of a link holds the values for which the other page has no field. If that page links to a third page, or
-back to the first page, the link therefore contains all values. If the case was read from a REXS file, the link also
-names this file.
+A link fills in the fields that the other calculation has. The query field `pair` of the link keeps the values of the
+remaining fields. A later link to a third calculation, or back to the first calculation, can therefore contain all
+values. The query field `pair` is left out if the link would be too long. If the case was read from a REXS file, the
+link also names this file.
 """
 
 from collections.abc import Iterable, Iterator
@@ -17,15 +18,19 @@ from app.schema.fields import ITEM, Branch, Leaf, branches, leaf_at, tree
 from app.schema.model import Documented
 
 SUBJECTS = {"gears": "pair", "coupling": "coupling"}
-"""Sections that several calculations share. The value of a section is the subject of these calculations."""
+"""The sections that several calculations share. A section describes a subject: a gear pair or a coupling."""
 LOAD, OPERATION = "load.", "operation."
-"""Two names of one section: `load` in the request of scuffing and in `pair`, `operation` in the other requests."""
+"""Two prefixes of the names of fields in one section.
+
+The section is called `load` in requests of scuffing and in the query field `pair`. The section is called `operation` in
+the other requests.
+"""
 
 
 class Use(NamedTuple):
-    """A link to the same gears or coupling on the page of another calculation.
+    """A link that opens the same gears or the same coupling on the page of another calculation.
 
-    `missing` holds the titles of the fields that the other calculation requires and the link does not fill.
+    `missing` holds the titles of the fields that the other calculation requires and that the link does not fill in.
     """
 
     title: str
@@ -39,7 +44,7 @@ def subject_of(calculation: Calculation) -> str:
 
 
 def uses(asked: Asked) -> list[Use]:
-    """Return the other calculations of the same gears or the same coupling, with a link to each."""
+    """Return the links that carry the gears or the coupling of a case to other calculations."""
     subject = subject_of(asked.calculation)
     others = (other for other in CALCULATIONS if other is not asked.calculation and subject_of(other) == subject)
     return [_use(asked, other) for other in others] if subject else []
@@ -61,7 +66,11 @@ def _use(asked: Asked, other: Calculation) -> Use:
 
 
 def _common(calculation: Calculation, name: str) -> str:
-    """Return the shared name of a field. For calculations of gears this is the name in the request of scuffing."""
+    """Return the shared name of a field.
+
+    For calculations of gears, the shared name is the name of the field in requests of scuffing. If these requests do
+    not have the field, its name stays the same.
+    """
     if subject_of(calculation) != "pair" or not name.startswith(OPERATION):
         return name
     renamed = f"{LOAD}{name.removeprefix(OPERATION)}"
@@ -83,7 +92,7 @@ def _has(model: type[Documented], name: str) -> bool:
 
 
 def _missing(branch: Branch, names: set[str]) -> Iterator[str]:
-    """Yield the titles of those required fields of a request that are missing from `names`."""
+    """Yield the titles of the required fields of a request that are missing from `names`."""
     for group in _choices(branch.model):
         paths = [f"{branch.path}.{name}" for name in group]
         if names.isdisjoint(paths):
@@ -104,7 +113,7 @@ def _missing(branch: Branch, names: set[str]) -> Iterator[str]:
 
 
 def _choices(model: type[Documented]) -> Iterable[tuple[str, ...]]:
-    """Return the groups of fields of which one field must be given."""
+    """Return the groups of alternative fields. A request must give one field of each group."""
     groups: Any = model.exclusive if getattr(model, "choice_missing", None) else ()
     return [group for group in groups[:1] if all(model.model_fields[name].default is None for name in group)]
 

@@ -1,6 +1,7 @@
-"""A case from its query to its answer.
+"""A case: its query, the addresses of its views, and its answer.
 
-The answer is kept, so that the figures, the report and the downloads of the case need not solve the case again.
+The service keeps the answer. It can therefore make the figures, the report and the downloads of the case without
+solving the case again.
 """
 
 import pickle
@@ -32,22 +33,26 @@ from app.sources import SHORT_SOURCES, changes_since
 from solvers.quantity import Detail
 
 NAME = r"[a-z]\w*(?:[._]\w+)+"  # name of a field: words joined by points and underscores
-FILE_NAMES = ("rexs_file", "rexs_sha256", "rexs_stage")  # these views name the file from which a case was read
+FILE_NAMES = ("rexs_file", "rexs_sha256", "rexs_stage")  # query fields that name the REXS file of a case
 COMPRESSION = 1  # the fastest level of zlib
 REFUSED = (Unreadable, InvalidBody, Unprocessable)
 
 
 @dataclass(frozen=True, slots=True)
 class Asked:
-    """A requested case, and the addresses of its views.
+    """A requested case, and the addresses of the pages and files that show the case.
 
-    Addresses that people may keep contain a hash of the solvers' source code. If such an address is opened later, the
-    page can therefore tell its reader whether the numbers may have changed. `kept` and `kept_ref` are the answers of
-    the case and of its variant. If an answer is not kept, None stands for the answer. `root` is the prefix that a proxy
-    puts before the addresses of the service. `pressed` is True if the form was sent, even if no field was filled in.
+    The case may be compared with a variant, that is, with another case of the same calculation. `kept` and `kept_ref`
+    are the kept answers of the case and of the variant. None stands for an answer that is not kept. `root` is the
+    prefix that a proxy puts before the addresses of the service. `pressed` is True if the user sent the form, even if
+    no field was filled in.
 
-    A case that is too long for a link is posted. The addresses of its figures then contain `answered`: the hashes of
-    the case and of the variant, taken from their answers. These addresses work as long as both answers are kept.
+    Addresses that people may store contain a hash of the solvers' source code. If such an address is opened later, the
+    page can therefore tell the reader whether the numbers may have changed.
+
+    A case that is too long for a link is sent by POST. The addresses of its figures then contain `answered`. These are
+    the hashes of the case and of the variant, as the answers state them. Such an address works as long as both answers
+    are kept.
     """
 
     path: str
@@ -71,7 +76,10 @@ class Asked:
 
     @property
     def case(self) -> dict[str, Any]:
-        """The request with its defaults; the body alone if the request is refused; empty if the body is unreadable."""
+        """The request with its defaults, or a substitute if the request is not valid.
+
+        The substitute is the body that was made from the fields. If this body is unreadable, the substitute is empty.
+        """
         try:
             return validated(self.calculation.request, self.body).model_dump()
         except InvalidBody:
@@ -81,7 +89,7 @@ class Asked:
 
     @property
     def theme(self) -> ThemeName | None:
-        """The requested theme. A page without a theme follows the reader's system."""
+        """The requested theme. A page without a requested theme follows the settings of the reader's system."""
         return next((theme for theme in get_args(ThemeName) if theme == self.views.get("theme")), None)
 
     @property
@@ -91,7 +99,7 @@ class Asked:
 
     @property
     def ref(self) -> str:
-        """The query of the variant with which the case is compared."""
+        """The query string of the variant with which the case is compared; empty if there is no variant."""
         return self.views.get("ref", "")
 
     @property
@@ -101,17 +109,24 @@ class Asked:
 
     @property
     def outdated(self) -> list[str]:
-        """The changes to the solvers since the link was made; empty if the link does not name the solvers' sources."""
+        """The changes to the solvers since the link was made.
+
+        The list is empty if the link does not contain a hash of the solvers' source code.
+        """
         return changes_since(self.views.get("sources", ""))
 
     @property
     def query(self) -> str:
-        """The query of the case, without the fields that only affect the view."""
+        """The query string of the case, without the fields that only affect how the case is shown."""
         return link("", self.pairs).removeprefix("?")
 
     @property
     def written(self) -> str:
-        """The texts that the service writes into the form and would read differently if a person typed them."""
+        """The value of the form's hidden field `written`.
+
+        This value holds the texts that the service writes into the form, but would read differently if a user typed
+        them.
+        """
         return written_of(self.calculation.request, self.pairs)
 
     @property
@@ -121,7 +136,7 @@ class Asked:
 
     @property
     def page(self) -> str:
-        """The address of the page of the case. The page also shows the variant to compare with, if there is one."""
+        """The address of the page of the case. The page also shows the variant, if there is one."""
         return self.beside(self.ref)
 
     def beside(self, ref: str) -> str:
@@ -134,12 +149,12 @@ class Asked:
         return link(self.path, self.pairs, **views, **self.file, sources=SHORT_SOURCES)
 
     def view(self, name: str, **views: str | None) -> str:
-        """Return the address of a view of the case."""
+        """Return the address of a page or a file of the case; `name` is the end of the path."""
         return link(f"{self.path}/{name}", self.pairs, **views)
 
     @property
     def file(self) -> dict[str, str | None]:
-        """The REXS file that the case was read from: its name and SHA-256, and the stage."""
+        """The name and the SHA-256 of the REXS file from which the case was read, and the stage in this file."""
         return {name: self.views.get(name) for name in FILE_NAMES}
 
     @property
@@ -152,7 +167,7 @@ class Asked:
         return self.view(name, theme=self.theme, title=self.title, **self.file)
 
     def image(self, figure: str, image_format: str, theme: ThemeName | None = None) -> str:
-        """Return the address of the file of a figure."""
+        """Return the address of a figure's file."""
         name, theme = f"figures/{figure}.{image_format}", theme or self.theme
         if self.too_long:
             case, ref_case = self.answered
@@ -176,16 +191,16 @@ def opened(content: bytes, root: str) -> Asked:
 
 
 def key_of(path: str, pairs: Pairs) -> str:
-    """Return the key of an answer: a hash of the page and the fields of the case.
+    """Return the key under which the answer of a case is kept: a hash of `path` and of the fields of the case.
 
     The order of the fields does not matter. If the case is too long for a link, a single field `case` replaces all
-    fields. The value of this field is the hash of the case that the answer states.
+    fields. The value of this field is the hash of the case. The answer states this hash.
     """
     return sha256(repr((path, sorted(pairs))).encode()).hexdigest()
 
 
 class Fault(NamedTuple):
-    """A fault of the field at a dotted path."""
+    """A fault in a request: the dotted path of the field, and the message about the fault."""
 
     path: str
     message: str
@@ -253,7 +268,7 @@ def _titled(message: str, path: str, calculation: Calculation) -> str:
 def _fill(branch: Branch, body: dict[str, Any]) -> None:
     """Add the required sections that are missing from the body, as empty sections.
 
-    The validator then names the missing fields, which people see on the page, instead of the missing section.
+    The validator then reports the missing fields instead of the missing section. Users see these fields on the page.
     """
     for inner in branch.branches:
         name = inner.path.rpartition(".")[2]

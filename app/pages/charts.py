@@ -1,4 +1,4 @@
-"""The figures of a case on a page: the addresses of their images, and their values for the script and the table."""
+"""The figures on a page: the addresses of their images, their values for the page's script, and their tables."""
 
 import base64
 import json
@@ -17,7 +17,7 @@ from app.figures.tables import Item, columns_of
 from app.pages.cases import Asked, Case
 
 VARIANT = "variant A"
-MOST_LINES = 200  # lines of a table on a page; the file has all lines
+MOST_LINES = 200  # largest number of lines of a table on a page; the CSV file of the figure has all lines
 DIGITS = 6  # significant digits; because of the tolerances of the solvers, fewer digits are accurate
 PIXELS = 100  # per inch
 
@@ -26,10 +26,10 @@ PIXELS = 100  # per inch
 class Chart:
     """A figure on a page.
 
-    `image` is the address of the image. `dark` is the address of a second image for dark pages, or empty. The values of
-    the figure are either at the address `values`, or in `content` (as JSON) and `table`. `study` holds the points of a
-    sweep and the links to their cases, also as JSON. `size` is width and height in pixels, or None if the data of the
-    figure are still to be computed.
+    `image` is the address of the image. `dark` is the address of a second image for dark pages, or an empty text. The
+    values of the figure are either at the address `values`, or in `content` and `table`; `content` is JSON. `study` is
+    JSON too; the field holds the points of a sweep and the links to the cases at these points. `size` is width and
+    height in pixels. `size` is None if the data of the figure are still to be computed.
     """
 
     name: str
@@ -47,7 +47,7 @@ class Chart:
 def figure_of(declaration: Declaration, case: Case, variant: Case | None) -> Figure:
     """Return a figure of the case; raise NoFigure if the case does not have this figure.
 
-    If the variant has the figure too, its curves are added for comparison.
+    If the variant has the figure too, the curves of the variant are added for comparison.
     """
     figure = declaration.figure(case.request, case.response)
     if variant is None:
@@ -64,7 +64,7 @@ def figures_of(
 ) -> tuple[list[tuple[Declaration, Figure | None]], list[tuple[str, NoFigure]]]:
     """Return the figures that the page of a case shows, and the titles of missing figures with the reasons.
 
-    If `compute` is not set, None stands for a figure that needs more data than the answer holds.
+    If `compute` is False, None replaces each figure that needs more data than the answer holds.
     """
     figures, missing = [], []
     for declaration in case.calculation.figures:
@@ -123,10 +123,11 @@ def data_address(figure: Figure, theme: ThemeName = "light") -> str:
 
 
 def in_columns(figures: Iterable[Figure]) -> list[Figure]:
-    """Return the figures in the order in which they stand in a report with two columns.
+    """Narrow the figures to the columns of a report, and return them in the order of the report.
 
-    Figures that fit into a column come in pairs: the first remaining figure, and the figure whose height is nearest to
-    the height of the first. Figures that need the whole width come last and keep their shape.
+    The report has two columns. Figures that fit into a column come in pairs: the first remaining figure, and the figure
+    whose height is nearest to the height of this first figure. Figures that need the whole width are not narrowed and
+    come last.
     """
     from app.figures.drawing.image import narrowed, size  # noqa: PLC0415  only workers draw
 

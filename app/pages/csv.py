@@ -19,7 +19,11 @@ DIGITS = 6  # significant digits; because of the tolerances of the solvers, fewe
 
 
 def values(case: Case, title: str) -> bytes:
-    """Return a table with the identity of the case, all inputs with their defaults, and all scalar results."""
+    """Return the CSV table of a case: identifying lines, all inputs with their defaults, and all scalar results.
+
+    The identifying lines state the title, the endpoint, the version of the models, and the hashes of the sources and of
+    the case.
+    """
     response = case.response
     identity = {
         "title": title,
@@ -43,7 +47,10 @@ def values(case: Case, title: str) -> bytes:
 
 
 def curves(response: Response) -> dict[str, str]:
-    """Return the titles of groups that hold curves, and the titles of curves outside groups. The keys are paths."""
+    """Return the titles of groups that hold curves, and the titles of curves outside groups.
+
+    The keys are the paths of these groups and curves.
+    """
     listed = (
         entry
         for entry in entries(response)
@@ -53,10 +60,10 @@ def curves(response: Response) -> dict[str, str]:
 
 
 def curve(response: Response, path: str) -> bytes:
-    """Return a table of a curve, of a map, or of all curves of a group. The table includes the axes.
+    """Return the CSV table of a curve, of a map, or of all curves of a group. The table includes the axes.
 
-    Curves stand in columns. The table of a map has one line per point. Raises Unprocessable if there is no curve or map
-    at this path.
+    `path` leads to the curve, the map or the group. Every curve is a column. The table of a map has one line per point.
+    Raises Unprocessable if there is no curve and no map at this path.
     """
     model = type(response)
     wanted = [leaf for leaf in leaves(model) if leaf.dimensions and f"{leaf.path}.".startswith(f"{path}.")]

@@ -17,10 +17,13 @@ from app.schema.model import Section as Fields
 from app.schema.quantities import split_unit
 
 REQUIRED, IF_USED = "required", "required if used"
-BESIDE = 10  # letters of the longest option that fits beside the label
+BESIDE = 10  # largest number of letters of an option that still fits beside the label of its field
 ENDPOINTS = {calculation.request: calculation.path for calculation in CALCULATIONS}
 DETAIL = "detail"
-"""The level of detail, which is not in the form, because each view sets the level that it needs."""
+"""Name of the request field that sets the level of detail of the answer.
+
+The form does not show this field, because every page sets the level that it needs.
+"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,9 +32,9 @@ class State:
 
     `texts` holds the texts of the fields, `faults` holds the messages about their faults, and `resolved` holds the
     values that an answer used for the fields. `assumed` are the fields whose default is our own assumption. `required`
-    is the remark beside a field that must be given. The remark says whether the field must always be given, or only if
-    the optional section of the field is used. `deciding` are the fields on which a verdict depends; the sections of
-    these fields are open. `endpoint` is the endpoint of the form.
+    is the remark beside every field that must be given. The remark says whether the field must always be given, or only
+    if the optional section of the field is used. `deciding` are the fields on which a verdict depends; the sections of
+    these fields are open. `endpoint` is the endpoint to which the form belongs.
     """
 
     texts: Mapping[str, str] = field(default_factory=dict)
@@ -79,7 +82,7 @@ class FieldView:
 
     @property
     def wide(self) -> bool:
-        """Whether an option is too long for a control beside its label."""
+        """Whether one of the options is too long for a control that stands beside the label of the field."""
         return any(len(label) > BESIDE for _, label in self.options)
 
 
@@ -98,10 +101,10 @@ class Choice:
 class Section:
     """A part of the form.
 
-    There are three kinds of sections. A `section` has blocks below each other. `rows` are the items of a list of
-    sections; the last item is empty, so that the user can add an item. `twins` are sections of the same model side by
-    side, with one line per field; `columns` holds the titles of these sections under their paths. `switch` is the field
-    by which the user adds or removes an optional section.
+    There are three kinds of sections. In a `section`, fields, choices and inner sections stand below each other. `rows`
+    are the items of a list of sections; the last item is empty, so that the user can add an item. `twins` are sections
+    of the same model that stand side by side, with one line per field; `columns` holds the titles of these sections
+    under their paths. `switch` is the field by which the user adds or removes an optional section.
     """
 
     path: str
@@ -142,7 +145,7 @@ def link_to(request: type[Request], path: str) -> str:
 
 
 def title_of(request: type[Request], path: str) -> str:
-    """Return the title of a field, or the titles of a section and of the sections around it."""
+    """Return the title of a field. For a section, return the titles of all sections on its path, outermost first."""
     leaf = leaf_at(request, path)
     if leaf is not None:
         return leaf.title
@@ -160,7 +163,7 @@ def form(request: type[Request], state: State) -> tuple[Section, ...]:
             loose.append(block)
         elif block.kind == "section":
             sections.append(block)
-        else:  # rows and twins become sections
+        else:  # rows and twins get a section around them
             sections.append(replace(block, blocks=(block,), kind="section", id=f"{anchor(block.path)}-", fault=None))
     if loose:
         names = [leaf.path for leaf in root.leaves if leaf.path != DETAIL]
@@ -171,9 +174,10 @@ def form(request: type[Request], state: State) -> tuple[Section, ...]:
 
 
 def _section(title: str, blocks: Iterable[Block], state: State, paths: list[str], **settled: Any) -> Section:
-    """Return the section with the fields at or below some paths; `settled` holds further attributes of the section.
+    """Return the form's section with the fields at or below `paths`; `settled` holds further attributes of the section.
 
-    The section is open if it is needed, or if one of its fields is given, has a fault or decides about a verdict.
+    The section is open if `settled` marks it as needed. It is also open if one of its fields is given, has a fault or
+    affects a verdict.
     """
     groups = (state.texts, state.faults, state.assumed, state.deciding)
     given, faulty, assumed, deciding = (sum(_count(names, path) for path in paths) for names in groups)
@@ -195,7 +199,10 @@ def _count(names: Iterable[str], path: str) -> int:
 
 
 def _branch(branch: Branch, path: str, state: State, item: int | None = None) -> Section:
-    """Return a section of the request; if the section is an item of a list, `item` is its index in the list."""
+    """Return the form's section for a section of the request.
+
+    If the section is an item of a list, `item` is the index of the section in the list.
+    """
     given = _count(state.texts, path) > 0
     switch = None
     if branch.optional and not branch.required:  # the switch adds the section even if all its fields are empty
@@ -279,9 +286,10 @@ def _blocks(branch: Branch, prefix: str, state: State) -> Iterator[Block]:
 
 
 def _choices(branch: Branch) -> dict[str, tuple[Leaf, ...]]:
-    """Return the groups of fields of which only one may be given.
+    """Return the groups of alternative fields. Only one field of each group may be given.
 
-    The keys are the paths of all fields in these groups. If a field is in several groups, only the first group counts.
+    The keys are the paths of all fields in these groups, and the value of a key is the group of this field. If a field
+    is in several groups, only the first of these groups counts.
     """
     fields = {_last(leaf.path): leaf for leaf in branch.leaves}
     choices: dict[str, tuple[Leaf, ...]] = {}
@@ -302,7 +310,10 @@ def _choice(group: tuple[Leaf, ...], prefix: str, state: State, required: str) -
 
 
 def _own(leaf: Leaf, name: str, state: State) -> FieldView:
-    """Return the view of a field that is not part of a choice; a matrix has a field for each element."""
+    """Return the view of a field that is not part of a choice.
+
+    The view of a matrix has an inner view for each element.
+    """
     whole, resolved = field_view(leaf, name, state), state.resolved.get(name)
     if leaf.dimensions < MATRIX:
         return whole
@@ -323,7 +334,7 @@ def _own(leaf: Leaf, name: str, state: State) -> FieldView:
 
 
 def field_view(leaf: Leaf, name: str, state: State) -> FieldView:
-    """Return the view of a field; `name` is its path with the indices of lists."""
+    """Return the view of a field; `name` is the path of the field with the indices of lists."""
     text, value = state.texts.get(name, ""), state.resolved.get(name, leaf.default)
     options = _options(leaf, text)
     widget = "text" if leaf.kind in {"text", "other"} else "number"

@@ -40,7 +40,7 @@ FIXED = {
     "html_block": "",  # comments that mark generated parts in the file
     "html_inline": "",  # anchors for links between the files; the pages have anchors of their own
 }
-"""The HTML of those Markdown elements that always have the same HTML."""
+"""The Markdown elements that always become the same HTML, and this HTML."""
 
 
 @lru_cache(maxsize=4)
@@ -65,12 +65,15 @@ def chapter_page(root: str, name: str) -> str:
 
 @lru_cache(maxsize=4)
 def functions_page(root: str) -> str:
-    """Return the page of the functions that implement the equations."""
+    """Return the page that lists the functions that implement the equations of the manual."""
     return rendered("manual_functions.html", root, functions=functions())
 
 
 def chapter_of(calculation: Calculation) -> Chapter:
-    """Return the chapter about a calculation. Without such a chapter, return the chapter about the model."""
+    """Return the chapter about a calculation.
+
+    If the calculation has no chapter of its own, return the chapter about the model to which the calculation belongs.
+    """
     own = calculation.path.rpartition("/")[2]
     return chapters()[own if own in chapters() else model_of(calculation)]
 
@@ -177,7 +180,10 @@ def headings(chapter: Chapter) -> dict[str, str]:
 
 @cache
 def _markdown() -> MarkdownIt:
-    """Return the converter for CommonMark with tables, equations between dollar signs, and anchors of headings."""
+    """Return the converter for Markdown with tables, equations and anchors.
+
+    Dollar signs enclose the equations, and headings have anchors.
+    """
     markdown = MarkdownIt("commonmark", {"html": True}).enable("table")
     markdown.use(anchors_plugin, max_level=3)
     markdown.use(dollarmath_plugin, allow_labels=False, renderer=lambda text, _: _mathml(text, "inline"))
@@ -201,7 +207,7 @@ def _mathml(text: str, display: str) -> str:
 
 
 def _figures_stand_alone(state: Any) -> None:
-    """Remove the paragraph around a single picture, and around the anchor of an equation."""
+    """Remove the tags of a paragraph that contains only a picture, or only the anchor of an equation."""
     for before, inline, after in zip(state.tokens, state.tokens[1:], state.tokens[2:], strict=False):
         if inline.type == "inline" and {child.type for child in inline.children} in ({"image"}, {"html_inline"}):
             before.hidden = after.hidden = True

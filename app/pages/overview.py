@@ -18,7 +18,7 @@ from app.schema.fields import leaf_at
 ANSWERS = {"drive-train": "face-load", "coupling": "tooth-loads", "pumping": "mach-map", "scuffing": "flank-load"}
 """For each model, the name of the figure that the start page shows."""
 SCUFFING = "/v1/scuffing"
-SPECTRA = (SCUFFING, "/v1/drive-train")  # endpoints; every stage has links to the load spectra of these endpoints
+SPECTRA = (SCUFFING, "/v1/drive-train")  # endpoints whose load-spectrum studies have links at the stages of a unit
 CASE_COLUMNS = ("load.pinion_torque_n_m", "load.pinion_speed_rpm", "temperatures.oil_c")
 
 
@@ -30,9 +30,9 @@ def start_page(root: str) -> str:
 
 
 def _entry(calculations: list[Calculation]) -> dict[str, Any]:
-    """Return what the start page shows of a model.
+    """Return what the start page shows of a model: a question, a figure and the calculations of the model.
 
-    The question is the title of an example of the first calculation of the model. All calculations of the model follow.
+    The question is the title of an example of the model's first calculation.
     """
     first = calculations[0]
     of_first = examples_of(first)
@@ -59,9 +59,10 @@ def _entry(calculations: list[Calculation]) -> dict[str, Any]:
 
 
 def unit_page(root: str, unit: dict[str, Any], name: str = "", sha256: str = "") -> str:
-    """Return the page of an answer of /v1/rexs: the stages of a gear unit, with links to calculations of each stage.
+    """Return the page of a gear unit: its stages, with links to the calculations of each stage.
 
-    Reports take the name of the file and its SHA-256 from these links.
+    `unit` is the answer of /v1/rexs. The links contain the name of the file and its SHA-256, so that reports can state
+    both.
     """
     file = {"rexs_file": name, "rexs_sha256": sha256}
     stages = [_stage(stage, file | {"rexs_stage": str(stage["id"])}) for stage in unit["stages"]]

@@ -45,16 +45,19 @@ REPORT_NAMES = {
 VIEW_NAMES = REPORT_NAMES.keys() | {
     *("paper", "ref", "also", "pair", "theme", "sources", "curve", "unlinked", "extent", "rexs_stage")
 }
-"""Names of fields that only affect the view of a case; `split_views` adds the names of the controls of studies."""
-PICK = "pick:"
-"""The start of the name of a choice between fields that exclude each other.
+"""Names of query fields that affect only how a case is shown.
 
-The value of the choice is the name of the field that is used.
+`split_views` adds the names of the controls of studies.
+"""
+PICK = "pick:"
+"""The beginning of the name of a query field that chooses among fields that exclude each other.
+
+The text of this query field is the name of the chosen field.
 """
 WRITTEN = "written"
 """The name of a hidden field that only forms send.
 
-The field contains, as a query, some of the texts that the server wrote into the form. These are the texts that would be
+The content of this field is a query string. The string holds those texts that the server wrote into the form and would
 read differently if a user typed them.
 """
 MOST_FIELDS = 1000  # chosen: many more than the longest form has
@@ -77,15 +80,16 @@ def pairs_of_query(query: str) -> Pairs:
 
 
 def split_views(pairs: Pairs) -> tuple[Pairs, dict[str, str]]:
-    """Return the fields of the case, and the fields that only affect the view of the case."""
+    """Return the fields of the case, and the fields that affect only how the case is shown."""
     views = VIEW_NAMES | control_names()
     return [pair for pair in pairs if pair[0] not in views], {name: text for name, text in pairs if name in views}
 
 
 def from_form(model: type[Documented], pairs: Pairs) -> Pairs:
-    """Return the fields as they stand in a link.
+    """Return the fields with the texts that they have in a link.
 
-    If a form sent the fields, texts that a user typed are converted, and texts that the server wrote are unchanged.
+    If a form sent the fields, texts that a user typed are converted, and texts that the server wrote are unchanged. If
+    the fields come from a link, all texts are unchanged.
     """
     written = next((text for name, text in pairs if name == WRITTEN), None)
     if written is None:
@@ -102,14 +106,14 @@ def _plain(pairs: Iterable[tuple[str, str]]) -> Pairs:
 
 
 def written_of(model: type[Documented], pairs: Pairs) -> str:
-    """Return the value of the field `WRITTEN` in a form that is filled with these texts of a link."""
+    """Return the value of the hidden field `WRITTEN` for a form that is filled in with the texts of a link."""
     all_of = dict(pairs)
     kept = [(name, text) for name, text in pairs if as_typed(text) == text != _in_link(model, name, text, all_of)]
     return urlencode(kept, safe=",:", errors="replace")
 
 
 def _in_link(model: type[Documented], name: str, text: str, others: dict[str, str]) -> str:
-    """Convert a typed text to the text of a link; `others` are all fields of the form.
+    """Convert a typed text into the text for a link; `others` holds the texts of all fields of the form.
 
     The text was typed in a field of the case or in a control of a study.
     """
@@ -131,7 +135,10 @@ def _in_link(model: type[Documented], name: str, text: str, others: dict[str, st
 
 
 def normalised(model: type[Documented], pairs: Pairs) -> Pairs:
-    """Return the fields in the link of a case: without empty fields, and without fields that a choice excludes."""
+    """Return the fields as the link of a case contains them.
+
+    Empty fields, and fields that a choice excludes, are left out. The items of lists of sections are renumbered.
+    """
     picked = {text for name, text in pairs if name.startswith(PICK)}
     kept: Pairs = []
     for name, spaced in pairs:
@@ -147,9 +154,9 @@ def normalised(model: type[Documented], pairs: Pairs) -> Pairs:
 
 
 def _renumbered(path: str, pairs: Pairs) -> Pairs:
-    """Return the fields with the items of a list of sections numbered from 0.
+    """Renumber the items of the list of sections at `path` from 0, without gaps.
 
-    If a row of the form is empty, the items after this row get smaller numbers, so that no number is left out.
+    An empty row of the form leaves a gap. The items after this row then get smaller numbers.
     """
     items = [re.fullmatch(rf"{re.escape(path)}\.([0-9]{{1,9}})(|\..*)", name, re.DOTALL) for name, _ in pairs]
     indices = sorted({int(item[1]) for item in items if item})
@@ -243,7 +250,7 @@ def _listed(leaf: Leaf, text: str) -> list[Any]:
 
 
 def _with_lists(model: type[Documented], content: Any, path: str = "") -> Any:
-    """Convert objects whose names are indices to lists and matrices."""
+    """Return the content with lists and matrices instead of objects whose names are indices."""
     if not isinstance(content, dict):
         return content
     inner = {name: _with_lists(model, value, f"{path}.{name}".lstrip(".")) for name, value in content.items()}
@@ -255,11 +262,11 @@ def _with_lists(model: type[Documented], content: Any, path: str = "") -> Any:
 
 
 def _matrix(elements: dict[str, Any]) -> Any:
-    """Return the matrix with these elements, which are given by row and column.
+    """Return the matrix whose elements are given by row and column.
 
     If only the first element is given, return this element; it stands for a multiple of the unit matrix. Missing
-    elements are None, so that the validator reports them. If a name is not an index of the matrix, return the elements
-    unchanged.
+    elements become None, so that the validator reports them. If a name is not an index of the matrix, return the
+    elements unchanged.
     """
     places = [str(place) for place in range(SIDE)]
     rows = [elements.get(place, {}) for place in places]

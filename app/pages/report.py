@@ -1,4 +1,7 @@
-"""The parts of a report other than the result: names, date, inputs with their origins, and code to repeat the case."""
+"""The parts of a report that do not show results: names, date, inputs with their origins, and code for the case.
+
+The code sends the request of the case to the service again.
+"""
 
 import json
 import re
@@ -27,7 +30,7 @@ LABELS = {name: name for name in REPORT_NAMES} | {
     "rexs_sha256": "SHA-256 of the REXS file",
 }
 """Labels of the fields in the form of the report."""
-MOST_SHORT = 4  # largest number of figures in the short form, in which two figures stand beside each other
+MOST_SHORT = 4  # largest number of figures in a short report, where two figures stand side by side
 LONGEST_LINK = 160  # characters of the printed text of a link; the address behind the text is complete
 _element = re.compile(r"(\.\d+){1,2}$")  # indices of an element of a list or a matrix of numbers
 
@@ -40,14 +43,20 @@ class Cell(NamedTuple):
 
 
 class Row(NamedTuple):
-    """An input of a section. `cells` holds the value for each item of the section, under the index of the item."""
+    """A line in the table of a section's inputs: one input, with a cell for each item of the section.
+
+    `cells` holds the cells under the indices of the items. A section that is not a list has a single item with index 0.
+    """
 
     leaf: Leaf
     cells: dict[int, Cell]
 
 
 class Section(NamedTuple):
-    """A section of the request: its title, the indices of its items, and its inputs."""
+    """A section of the request: its title, the indices of its items, and the lines of its inputs.
+
+    A section that is not a list has a single item with index 0.
+    """
 
     title: str
     items: list[int]
@@ -96,10 +105,11 @@ def _with_origin(sections: list[Section], origins: frozenset[str]) -> list[Secti
 
 
 def _left(sections: list[Section]) -> list[tuple[str, list[tuple[Leaf, str, bool]]]]:
-    """Return, for each section, the title of the section and the inputs that have their defaults.
+    """Return the title of each section, and those inputs of the section for which defaults are used.
 
-    Each input comes with a text, and with a boolean that is True if this text is a value. If an input is empty and has
-    no value, the text says what replaces the value, for example the quantity from which the value is estimated.
+    Every input comes with a text and a boolean. If the boolean is True, the text is the default value. Otherwise the
+    input is empty and has no default value. The text then says what replaces the value, for example the quantity from
+    which the value is estimated.
     """
     left = []
     for title, _, rows in sections:
@@ -124,7 +134,10 @@ def _chapters_behind(case: Case) -> list[Chapter]:
 
 
 def _said(name: str, text: str, longest: int) -> str:
-    """Return a name or note without invisible characters. Some of these would reverse the direction of the text."""
+    """Return a name or note without invisible characters; raise Unprocessable if the text is too long.
+
+    Some invisible characters would reverse the direction of the text.
+    """
     if len(text) > longest:
         message = f"{name}: {len(text)} characters; at most {longest} have room on the report"
         raise Unprocessable("too_long", message, None)
@@ -133,7 +146,7 @@ def _said(name: str, text: str, longest: int) -> str:
 
 
 def for_shell(address: str, case: Case) -> str:
-    """Return a command for curl that repeats a case; `address` is the address of the service."""
+    """Return a curl command that asks for a case again; `address` is the address of the service."""
     sent = shlex.quote(json.dumps(_given(case)))
     return f"curl -s {address}{case.calculation.path} -H 'Content-Type: application/json' -d {sent}"
 

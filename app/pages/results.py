@@ -20,7 +20,7 @@ SHAFTS = ("pinion shaft", "wheel shaft")
 NEAR = 0.8  # a value above this share of an upper limit is close to the limit
 LEVELS = ("plain", "good", "near", "bad")
 WELL_ABOVE = 2.0  # a value of at least this multiple of a lower limit is well above the limit
-UNCHANGED = 5e-6  # share of a value; a smaller change is not shown
+UNCHANGED = 5e-6  # relative change; a smaller change counts as no change
 
 
 class Entry(NamedTuple):
@@ -34,9 +34,9 @@ class Entry(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """A line of a table: a single value, or the items of a list.
+    """A row of a table: a single value, or the items of a list.
 
-    `before` holds the items of the variant, and `change` the change from the variant to the case. `remark` is the
+    `before` holds the items of the variant, and `change` is the change from the variant to the case. `remark` is the
     reason for an assumption, the uncertainty of a result, or the verdict on a headline number. `level` is the level of
     this verdict: good, near, bad or plain.
     """
@@ -80,7 +80,10 @@ def _entries(member: Leaf | Branch, value: Any, path: str, around: str) -> Itera
 
 
 def _title_of_item(member: Branch, index: int) -> str:
-    """Return the title of a section in a list. For a shaft, the title names the gear; any other title has a number."""
+    """Return the title of an item in a list of sections.
+
+    The title of a shaft names the gear on this shaft. Any other title has a number.
+    """
     if member.path.rpartition(".")[2] == "shafts" and index < len(SHAFTS):
         return SHAFTS[index]
     return f"{member.title} {index + 1}"
@@ -92,9 +95,9 @@ def values_by_path(response: Documented | None) -> dict[str, Any]:
 
 
 def groups(response: Documented, before: Documented | None = None) -> dict[str, list[Row]]:
-    """Return the scalars and short lists of the answer, grouped. The keys are the titles of the groups.
+    """Return tables of the scalars and short lists of an answer. The keys are the titles of the groups.
 
-    If `before` is given, each line also has the value from this answer of the variant.
+    `before` is the answer of the variant. If `before` is given, each row also has the value of the variant.
     """
     old, remarks = values_by_path(before), response.remarks() if isinstance(response, Response) else {}
     tables: dict[str, list[Row]] = {}
@@ -146,7 +149,7 @@ def _named(leaf: Leaf, items: tuple[str, ...]) -> tuple[str, ...]:
 
 
 def row_of(leaf: Leaf, path: str, value: Any = None, digits: int = DIGITS) -> Row:
-    """Return the line of a table for a single value."""
+    """Return the row of a table for a single value."""
     return _row(leaf, path, value, label=leaf.title, digits=digits)
 
 
@@ -165,7 +168,7 @@ def texts_of(value: Any, digits: int, of_items: int = 4) -> tuple[str, ...]:
 def _change(now: Any, before: Any, unit: str) -> str:
     """Return the change from `before` to `now` as text.
 
-    The change is in per cent. If the ratio of two such values has no meaning, as for temperatures, the change is the
+    The change is in per cent. For quantities whose ratios have no meaning, such as temperatures, the change is a
     difference.
     """
     if isinstance(now, bool) or not isinstance(now, int | float) or not isinstance(before, int | float):
@@ -178,7 +181,7 @@ def _change(now: Any, before: Any, unit: str) -> str:
 
 
 def flattened(content: Any, path: str = "") -> dict[str, Any]:
-    """Return the plain values, lists of numbers and matrices of numbers, with their dotted paths as keys."""
+    """Return all single values, lists and matrices in nested content. The keys are the dotted paths."""
     inner: Iterable[tuple[Any, Any]]
     if isinstance(content, dict):
         inner = content.items()
@@ -202,10 +205,10 @@ def resolved(response: Response) -> dict[str, Any]:
 
 
 def cards(response: Documented, inputs: dict[str, Any], before: Documented | None = None) -> list[Row]:
-    """Return the headline numbers in the order of their ranks.
+    """Return the headline numbers, sorted by rank.
 
-    If several numbers have the same rank, the number with the worst verdict is returned. If their verdicts are equal,
-    the largest number is returned. If a warning makes the answer doubtful, no verdict is good.
+    If several numbers have the same rank, only the number with the worst verdict is returned. If their verdicts are
+    equal, only the largest of these numbers is returned. If a warning makes the answer doubtful, no verdict is good.
     """
     values, old = values_by_path(response), values_by_path(before)
     judged = verdicts(response) if isinstance(response, Response) else {}
@@ -233,7 +236,7 @@ def _with_band(items: tuple[str, ...], leaf: Leaf, values: dict[str, Any]) -> tu
 
 
 def _badness(verdict: Verdict | None) -> int:
-    """Return the place of the verdict's level in the list of levels; 0 if there is no verdict."""
+    """Return the index of a verdict's level in `LEVELS`, where the worst level is last; 0 if there is no verdict."""
     return LEVELS.index(verdict.level) if verdict else 0
 
 
@@ -244,8 +247,8 @@ def _size(value: Any) -> float:
 def _verdict(response: Documented, leaf: Leaf, values: dict[str, Any]) -> tuple[str, str]:
     """Return the level and the words of the verdict on a headline number.
 
-    The words come from the answer if the answer judges the number. Otherwise they compare the number with its limit.
-    `values` holds inputs and results under their paths.
+    If the answer itself judges the number, the words come from the answer. Otherwise the words compare the number with
+    its limit. `values` holds inputs and results under their paths.
     """
     view, value = leaf.view, values.get(leaf.path)
     if value is None:
@@ -269,7 +272,10 @@ def _verdict(response: Documented, leaf: Leaf, values: dict[str, Any]) -> tuple[
 
 
 def _standing(value: float, limit: float, *, greatest_is_best: bool) -> tuple[str, str]:
-    """Return the level of a value, and words that compare the value with its limit; `{}` stands for the limit."""
+    """Return the level of a value, and words that compare the value with its limit.
+
+    In these words, `{}` stands for the limit.
+    """
     if greatest_is_best:
         if value < limit:
             return "bad", "below the limit {}"

@@ -1,7 +1,7 @@
 """The kinds of study. Each module of `app.studies.kinds` describes one kind, and has a `PAGE`.
 
-The modules are imported at the first call. An import at the start would be circular: all pages have links to studies,
-and the pages of studies consist of parts of other pages.
+The modules are imported when `study_pages` is called for the first time. An import at the start would be circular: all
+pages have links to studies, and the pages of studies consist of parts of other pages.
 """
 
 import pkgutil
@@ -13,9 +13,11 @@ from app.studies import kinds as package
 
 
 class StudyLink(NamedTuple):
-    """A link to the page of a study: last part of the address, label, description, and position among the links.
+    """A link to the page of a kind of study.
 
-    `endpoint` is the only endpoint whose cases have the study; None if the cases of all endpoints have the study.
+    `name` is the last part of the address, `label` is the text of the link, `hint` is the description of the study, and
+    `place` is the position among the links. `endpoint` is the only endpoint whose cases have this study. If `endpoint`
+    is None, the cases of all endpoints have this study.
     """
 
     name: str

@@ -21,13 +21,13 @@ AROUND = (0.5, 1.5)  # ends of the range in which a derived value is varied, as 
 
 
 def study_links(calculation: Calculation) -> tuple[StudyLink, ...]:
-    """Return links to the studies that a case of a calculation has."""
+    """Return the links to all kinds of studies that the cases of a calculation have."""
     links: tuple[StudyLink, ...] = tuple(page.link for page in study_pages())
     return tuple(study for study in links if study.endpoint in {None, calculation.path})
 
 
 VARY = "vary"
-"""Name of the page that shows the studies of examples."""
+"""Last part of the address of the page on which ready studies run."""
 
 
 class StudyExample(NamedTuple):
@@ -51,7 +51,7 @@ class StudyExample(NamedTuple):
 
 
 class Starter(NamedTuple):
-    """A link to a study that is ready to run."""
+    """A link to a study whose settings are filled in, so that the study is ready to run."""
 
     title: str
     source: str
@@ -64,7 +64,7 @@ STUDIES = tuple(
 
 
 def studies_of(calculation: Calculation) -> list[StudyExample]:
-    """Return the ready studies of examples of a calculation."""
+    """Return the ready studies whose examples belong to a calculation."""
     return [study for study in STUDIES if study.calculation is calculation]
 
 
@@ -75,12 +75,13 @@ def studies_of_case(
     derived: Mapping[str, Any] = MappingProxyType({}),
     file: Mapping[str, str | None] = MappingProxyType({}),
 ) -> list[Starter]:
-    """Return links to the ready studies, applied to a case and with ranges around the values of this case.
+    """Return links that apply the ready studies of a calculation to a case.
 
-    `derived` holds values that the case does not state, under the paths of these values. An example is the power that
-    follows from a given torque. `file` names the REXS file from which the case was read. A study is left out if it
-    varies a number that the case neither states nor implies. Options and values of zero are varied over the range of
-    the example.
+    The ranges of the varied fields lie around the values of the case. `derived` holds values that the case does not
+    state, under the paths of these values. An example is the power that follows from a given torque. `file` names the
+    REXS file from which the case was read. A study is left out if it varies a number that the case neither states nor
+    implies. A field is varied over the range of the example if its value in the case is zero. The same holds for an
+    empty field with options.
     """
     address, starters = f"{page_path(calculation)}/{VARY}", []
     for example in studies_of(calculation):

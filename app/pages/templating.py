@@ -37,7 +37,7 @@ def model_of(calculation: Calculation) -> str:
 
 
 def examples_of(calculation: Calculation) -> list[Example]:
-    """Return the examples of a calculation, starters first."""
+    """Return the examples of a calculation. Examples that suit as a starting point come first."""
     return [example for example in examples().values() if example.endpoint == calculation.path]
 
 

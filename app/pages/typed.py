@@ -49,9 +49,10 @@ def text_of(value: Any) -> str:
 
 
 def number_of(text: str) -> Any:
-    """Read the number in a single field of a link, with a decimal point or comma. Return other text unchanged.
+    """Read the number in a single field of a link. Return other text unchanged.
 
-    Digits may stand in groups of three if it is clear which mark is the decimal mark.
+    The number may have a decimal point or a decimal comma. Digits may stand in groups of three if it is clear which
+    mark is the decimal mark.
     """
     plain = _ungrouped(text)
     number = text if _AMBIGUOUS.fullmatch(plain) else plain_number_of(plain.replace(",", ".", 1))
@@ -174,7 +175,7 @@ def _parts(text: str) -> re.Match[str] | None:
 
 
 def _unit_in_doubt(parts: re.Match[str]) -> bool:
-    """Return whether the last digit may belong to the unit: 19101/min may be 1910 1/min."""
+    """Return whether the last digit may belong to the unit. For example, 19101/min may be 1910 1/min."""
     return parts[1].endswith("1") and (parts[3] or "").startswith("/")
 
 
@@ -193,7 +194,7 @@ def _exponent(power: re.Match[str]) -> str:
 
 
 def _items(text: str, unit: str | None) -> list[str] | None:
-    """Return the items of a list; None if the text has two readings.
+    """Return the items of a list, or None if the text has two readings.
 
     The text is split at semicolons, line breaks and tabs. The parts are split at blanks, and then at commas that
     separate numbers.
@@ -239,7 +240,10 @@ def _packed(unit: str) -> str:
 
 
 def _factors(unit: str) -> tuple[frozenset[tuple[str, int]], int] | None:
-    """Return the base units of a unit with their exponents, and its power of ten; None if the text is not a unit."""
+    """Return the base units and the power of ten of a unit; None if the text is not a unit.
+
+    Every base unit comes with its exponent.
+    """
     text = _ALIASES.get(unit.strip(), unit).translate(_SUPERSCRIPTS).replace("μ", "µ")
     exponents: dict[str, int] = {}
     power = 0

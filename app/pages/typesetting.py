@@ -64,12 +64,12 @@ def shown(value: object, digits: int = 5) -> str:
 def cited(text: str) -> str:
     """Return a source or a reason as pages print it.
 
-    The specification that replaced a report is named with the report. A source that we know only at second hand is
-    called "secondary source".
+    If the text names the withdrawn report, the specification that replaced this report is named too. A source that we
+    know only at second hand is called "secondary source".
     """
     return text.replace(_SECOND_HAND, "secondary source").replace(REPORT, STANDARD)
 
 
 def words(name: str) -> str:
-    """Return a code or a choice as people read it."""
+    """Return a code of the API, such as `full_film`, in words."""
     return _WORDS.get(name, name.replace("_", " "))

@@ -11,7 +11,7 @@ from app.pages.results import DIGITS, Row, resolved, row_of, values_by_path
 from app.schema.fields import headlines, leaf_at
 
 SEPARATOR = "|"
-"""Separator of the queries of the variants in the view `also`."""
+"""Separator of the queries in the query field `also`. Each of these queries describes a further variant."""
 MOST = 5  # largest number of further variants
 NAMES = "BCDEFG"
 KEPT = 64  # number of variants whose inputs and results a worker keeps
@@ -46,14 +46,14 @@ class Variants(NamedTuple):
 
 
 def queries_of(asked: Asked) -> list[str]:
-    """Return the queries of all variants except the first variant."""
+    """Return the queries of the further variants, that is, of all variants except the first."""
     return [query for query in asked.views.get("also", "").split(SEPARATOR) if query][:MOST]
 
 
 def with_this(asked: Asked) -> str:
-    """Return the value of the view `also`, extended by the case as a further variant.
+    """Return the text of the query field `also`, with the case added as a further variant.
 
-    The value is empty if there is no room for a further variant, or if the case is already one of the variants.
+    The text is empty if there is no room for a further variant, or if the case is already a further variant.
     """
     queries = queries_of(asked)
     return SEPARATOR.join([*queries, asked.query]) if len(queries) < MOST and asked.query not in queries else ""
@@ -62,7 +62,7 @@ def with_this(asked: Asked) -> str:
 def variants_of(asked: Asked, case: Case, first: Case | None) -> Variants | None:
     """Return one table with the first variant, the further variants and the case.
 
-    Return None if there is no further variant.
+    Return None if there is no first variant or no further variant.
     """
     queries = queries_of(asked)
     if first is None or not queries:

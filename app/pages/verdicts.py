@@ -1,4 +1,4 @@
-"""Verdicts on several numbers of a result, and the sentence that answers the question of a page."""
+"""Verdicts that depend on several numbers of a result, and the conclusion of a calculation in words."""
 
 from collections.abc import Callable
 from typing import Any, NamedTuple
@@ -31,13 +31,16 @@ def verdicts(response: Response) -> dict[str, Verdict]:
 
 
 def conclusion(response: Response) -> str:
-    """Return the answer to the question of a calculation in words; empty if the calculation has no such answer."""
+    """Return the conclusion of an answer in words; empty if this kind of calculation has no conclusion."""
     conclude = _CONCLUSIONS.get(type(response))
     return conclude(response) if conclude and response.status != "no_solution" else ""
 
 
 def _of_pumping(response: PumpingResponse) -> dict[str, Verdict]:
-    """Judge choking. Mark power, temperature rise, pressure and Mach number as doubtful if they are uncertain."""
+    """Judge choking, and mark uncertain numbers as doubtful.
+
+    These numbers are the power, the temperature rise, the pressure and the Mach number.
+    """
     judged = {
         f"{gear}_spaces.{name}": judge(gear, space, response)
         for gear, space in _spaces(response).items()
@@ -53,7 +56,10 @@ def _of_pumping(response: PumpingResponse) -> dict[str, Verdict]:
 
 
 def _thrust(response: CouplingResponse) -> Verdict:
-    """Compare the thrust in motion with the limit of coaxial shafts, and the design thrust with 0.25 T/D."""
+    """Compare the thrust in motion with the limit of coaxial shafts, and the design thrust with 0.25 T/D.
+
+    0.25 T/D is the customary thrust, where T is the torque and D is the shaft diameter.
+    """
     thrust = response.axial_thrust
     share, customary, held = thrust.fraction_of_limit, thrust.customary_force_n, thrust.design_force_n
     limit = number(thrust.coaxial_limit_n, "N")
@@ -94,13 +100,16 @@ def _coupling(response: CouplingResponse) -> str:
 
 
 def _spaces(response: PumpingResponse) -> dict[str, Any]:
-    """Return the tooth spaces in the answer. The keys are the names of their gears."""
+    """Return the results for the tooth spaces. The keys are "pinion" and "wheel"."""
     spaces = {"pinion": response.pinion_spaces, "wheel": response.wheel_spaces}
     return {gear: space for gear, space in spaces.items() if space is not None}
 
 
 def _axial(gear: str, space: Any, response: PumpingResponse) -> Verdict:
-    """Say whether an end is choked. Mark the verdict as doubtful if the Mach number is too uncertain."""
+    """Say whether the flow at an end of the tooth spaces is choked.
+
+    The verdict is marked as doubtful if the Mach number is too uncertain.
+    """
     supersonic = space.peak_axial_mach > 1.0 and not space.axial_choked
     inside = "; inside the spaces the gas is faster than sound" if supersonic else ""
     level = "bad" if space.axial_choked else "near" if supersonic else "good"
@@ -109,7 +118,10 @@ def _axial(gear: str, space: Any, response: PumpingResponse) -> Verdict:
 
 
 def _radial(gear: str, space: Any, response: PumpingResponse) -> Verdict:
-    """Say whether radial clearances are choked. Mark the verdict as doubtful if the pressure is too uncertain."""
+    """Say whether the flow in radial clearances is choked.
+
+    The verdict is marked as doubtful if the pressure is too uncertain.
+    """
     text = f"radial choking, {gear} spaces: {'yes' if space.radial_choked else 'no'}"
     verdict = Verdict("bad" if space.radial_choked else "good", text)
     return _as_known(verdict, response.resolution.peak_pressure, "the pressure above ambient")

@@ -1,4 +1,4 @@
-"""The views of a case as bytes, made from the fields of the case in a worker."""
+"""The views of a case: page, answer, figure and report. Workers make them and return them as bytes."""
 
 from dataclasses import dataclass, field, replace
 from typing import Any, Literal
@@ -120,17 +120,17 @@ def report(asked: Asked, host: str, study: dict[str, Any] | None = None) -> Show
 
 
 def _asked_back(pairs: Pairs, faults: list[Fault]) -> list[Fault]:
-    """Replace the fault of a text with two readings by a question that asks which of the readings is meant."""
+    """Replace the fault of a text that has two readings by a question. The question asks which reading is meant."""
     asked = {name: question(text) for name, text in pairs if question(text)}
     named = ((next((name for name in asked if f"{fault.path}.".startswith(f"{name}.")), ""), fault) for fault in faults)
     return [*dict.fromkeys(Fault(name, asked[name]) if name else fault for name, fault in named)]
 
 
 def _keep(asked: Asked, case: Case, variant: Case | None = None) -> dict[str, bytes]:
-    """Return the answers of the case and the variant that are not kept yet.
+    """Return those answers of the case and of the variant that are not kept yet.
 
-    The function `key_of` makes the keys from the fields of the case and from the fields of the variant.
-    If the case is too long for a link, both answers are also returned under keys made from the hashes of the cases.
+    The keys are made by `key_of` from the fields of the case and from the fields of the variant. If the case is too
+    long for a link, both answers are also returned under keys made from the hashes of the case and of the variant.
     """
     keep = {}
     for pairs, kept, answered in (asked.pairs, asked.kept, case), (asked.ref_pairs, asked.kept_ref, variant):
@@ -162,7 +162,7 @@ def _page(asked: Asked, state: State, status: int = 200, keep: dict[str, bytes] 
 
 
 def _answered(asked: Asked, case: Case, variant: Case | None, trouble: str, *, compute: bool = False) -> dict[str, Any]:
-    """Return the variables for the part of a page or report that shows the answer, compared with the variant.
+    """Return the template's variables for the answer of a case and for its comparison with the variant.
 
     `trouble` says why the variant cannot be computed.
     """
@@ -188,9 +188,10 @@ def _answered(asked: Asked, case: Case, variant: Case | None, trouble: str, *, c
 
 
 def _elsewhere(asked: Asked) -> list[tuple[str, str, list[str]]]:
-    """Return the calculations whose pages show other figures of the case.
+    """Return the other calculations whose pages show further figures of the case.
 
-    An item has the title of the calculation, the address of the case on its page, and the titles of the figures.
+    An item has the title of the calculation, the address at which its page shows the case, and the titles of the
+    figures.
     """
     pages, declarations = [], asked.calculation.figures
     for path in dict.fromkeys(declaration.shown_at for declaration in declarations if declaration.shown_at):
@@ -203,10 +204,10 @@ def _elsewhere(asked: Asked) -> list[tuple[str, str, list[str]]]:
 
 
 def _both(asked: Asked) -> tuple[Case, Case | None, str]:
-    """Return the case, the variant to compare the case with, and the reason if the variant cannot be computed.
+    """Return the case, the variant, and the reason why the variant cannot be computed.
 
-    If there is no variant, or if the variant cannot be computed, None stands for the variant. The reason is empty
-    unless the variant cannot be computed.
+    The page compares the case with the variant. The variant is None if the query names no variant, or if the variant
+    cannot be computed. The reason is empty unless the variant cannot be computed.
     """
     case = solved(asked.calculation, asked.pairs, asked.kept)
     if not asked.ref and asked.kept_ref is None:

@@ -11,7 +11,7 @@ from tempfile import gettempdir
 
 try:
     gettempdir()
-except FileNotFoundError:  # no folder is writable; matplotlib needs a folder and is given the folder of its own data
+except FileNotFoundError:  # no folder is writable, so let matplotlib use the folder of its own data
     specification = find_spec("matplotlib")
     assert specification is not None
     os.environ["MATPLOTLIBRC"] = str(Path(specification.origin or "").with_name("mpl-data"))

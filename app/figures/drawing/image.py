@@ -22,12 +22,12 @@ from app.figures.wording import subscripts
 
 EDGE = 0.1  # inches; margin around the whole image
 TITLE_LENGTH, LENGTH, BESIDE_LENGTH = 58, 84, 30  # characters per line: titles, other texts, names of axes side by side
-HEIGHTS = {1: 2.6, 2: 1.6, 3: 1.25}  # inches; height of a panel, by the number of panels above one another
-PLANE, PLANE_BESIDE = 3.3, 1.8  # inches; height of a panel with equal scales or areas: alone, and side by side
+HEIGHTS = {1: 2.6, 2: 1.6, 3: 1.25}  # inches; height of a panel if this number of panels stand above one another
+PLANE, PLANE_BESIDE = 3.3, 1.8  # inches; height of a panel with `equal` or `areas`: alone, and side by side
 TOUCH = 0.025  # inches by which the boxes of two texts may overlap, as boxes include space around letters
 NARROW_HEIGHT = 0.66  # height of axes in a narrow figure divided by their usual height
 ROW_HEIGHT = 0.3  # inches; height of a bar whose name has up to two lines
-APART, FEWEST_TICKS = 0.05, 3  # inches, least distance between neighbouring tick labels; number of ticks that are kept
+APART, FEWEST_TICKS = 0.05, 3  # inches, least distance between neighbouring tick labels; least number of ticks
 ABSCISSA = 0.45  # inches; height of the tick labels and the name below axes
 TICKS = 0.35  # inches; least width of the tick labels to the left of axes
 LEGEND, BAR, END = 1.5, 1.1, 0.15  # inches of room to the right of axes that have a legend, a colour bar, or neither
@@ -55,7 +55,7 @@ class Place(NamedTuple):
     """Position of the axes of a panel in the image.
 
     `box` holds left, top, width and height as fractions of the image. `x` describes the abscissa, and `y` describes the
-    ordinate. Both hold the two ends of their axis, and True if this axis is logarithmic.
+    ordinate. Either of them holds the two ends of the axis, and True if the axis is logarithmic.
     """
 
     panel: Panel
@@ -89,7 +89,10 @@ def _width(figure: Figure) -> float:
 
 
 def _letters(figure: Figure, length: int) -> int:
-    """Return the number of characters per line; `length` is this number in a figure of the usual width."""
+    """Return the number of characters per line of text.
+
+    `length` is the number of characters per line in a figure of the usual width.
+    """
     return int(length * _width(figure) / WIDTH)
 
 
@@ -232,7 +235,7 @@ def _room_right(axes: Axes, *, narrow: bool) -> float:
 
 
 def _thin_ticks(axes: Axes) -> None:
-    """Remove every second tick of a linear abscissa until neighbouring labels are far enough apart to be read."""
+    """Remove every second tick of a linear abscissa, until the labels are far enough apart to be read."""
     low, high = sorted(axes.get_xlim())
     ticks = [tick for tick in axes.get_xticks() if low <= tick <= high]
     while axes.get_xscale() == "linear" and len(ticks) > FEWEST_TICKS:

@@ -28,7 +28,7 @@ LINE = 1.3 / 72.0  # inches; height of a line of text per point of letter size
 NAME_BELOW = 36  # characters per line of the name below narrow axes
 ROW = 0.52  # height of a row's bar divided by the distance between rows
 LEAST_REACH = 7  # typographic points between a text and its point or line
-AWAY = 3  # heights by which the name of a horizontal line may be farther from the line if nearer places are taken
+AWAY = 3  # largest additional distance between a horizontal line and its name, in heights of the name
 # Number of steps in which the name of a line can be moved along the line; length of a downward step, as a multiple of
 # the height of the name.
 ALONG, DOWN = 8, 0.6
@@ -407,7 +407,7 @@ def place_texts(axes: Axes, panel: Panel) -> None:
 
 
 def _hidden(curve: Path, box: BboxBase) -> float:
-    """Return the cost of a text whose box lies over a curve. The cost grows with the hidden length of the curve."""
+    """Return the cost of a text whose box lies over a curve. The longer the hidden part, the higher the cost."""
     x, y = np.asarray(curve.vertices).T
     inside = x[(x > box.x0) & (x < box.x1) & (y > box.y0) & (y < box.y1)]
     return 1.0 + 2.0 * float(np.ptp(inside)) / box.width if inside.size else 1.0

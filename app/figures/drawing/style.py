@@ -10,7 +10,7 @@ from app.figures.data import Hue, Role, ThemeName
 
 WIDTH, NARROW = 5.6, 3.9  # inches; width of a figure, and of a figure in a column of a report
 DPI = {"svg": 100, "png": 180, "pdf": 180}  # applies to maps inside the vector formats too
-TITLE, TEXT = 11.0, 8.5  # letter sizes in points; for texts of axes the style sheet says 8
+TITLE, TEXT = 11.0, 8.5  # letter sizes in points; the style sheet sets the size of the texts at axes
 DASHES: dict[Role, Any] = {Role.RESULT: "solid", Role.REFERENCE: (0, (1.2, 1.8)), Role.VARIANT: (0, (4.5, 2.2))}
 LIMIT = "C7"  # colour of limits
 
@@ -21,7 +21,7 @@ def themed(theme: ThemeName) -> AbstractContextManager[None]:
 
 
 def written(hue: Hue) -> str:
-    """Return the colour of a text in a hue.
+    """Return the colour for a text about something that is drawn in `hue`.
 
     The hue is mixed with the text colour, so that the contrast to the background is at least 4.5.
     """

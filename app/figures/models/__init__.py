@@ -1,1 +1,1 @@
-"""Data of the figures for the answers of all models, without any drawing."""
+"""Figures of all models. These modules compute the data of the figures, but do not draw."""

@@ -48,9 +48,10 @@ def friction_map(_: CouplingInputs, result: CouplingResult) -> Figure:
 
 
 def _around(which: str, value: float) -> tuple[float, float]:
-    """Return the ends of an axis of the map. The ends are moved outwards if the value would lie outside them.
+    """Return the ends of an axis of the map.
 
-    A value that is infinite or zero does not move the ends.
+    If the value would lie outside the usual ends, the ends are moved outwards. A value that is infinite or zero does
+    not move the ends.
     """
     low, high = MAP_ENDS[which]
     if not 0.0 < value < inf:
@@ -148,9 +149,10 @@ def orders(_: CouplingInputs, result: OrbitResult) -> Figure:
 
 
 def crowning_scan(inputs: RecommendationInputs, result: Recommendation) -> Figure:
-    """Draw the least load capacity and the largest overlap over the crowning ratio.
+    """Draw the least load capacity and the largest contact overlap over the crowning ratio.
 
-    The feasible range of the crowning ratio is shaded, and the recommended ratio is marked.
+    The least and the largest value are taken over the range of the misalignment. The feasible range of the crowning
+    ratio is shaded, and the recommended ratio is marked.
     """
     scan, best = result.scan, result.crowning_ratio
     ratio, capacity = scan.crowning_ratio, scan.min_load_capacity_coefficient
@@ -257,7 +259,7 @@ def contact_track(_: CouplingInputs, result: CouplingResult) -> Figure:
 
 
 def axial_thrust(inputs: CouplingInputs, result: CouplingResult) -> Figure:
-    """Draw the thrust with its coaxial limit, and the sliding velocity along the teeth.
+    """Draw the thrust with the limit of coaxial shafts, and the sliding velocity along the teeth.
 
     If the coupling has an axial velocity, a line shows this velocity beside the sliding velocity.
     """
@@ -292,7 +294,7 @@ def axial_thrust(inputs: CouplingInputs, result: CouplingResult) -> Figure:
 
 
 def losses(_: CouplingInputs, result: CouplingResult) -> Figure:
-    """Draw the moments that load shaft and bearings, and the power that is lost as heat."""
+    """Draw, for one mesh, the moments that load shaft and bearings, and the power that is lost as heat."""
     loss = result.losses
     moments = [
         Row("friction", loss.friction_moment, Hue.VERMILLION),

@@ -141,10 +141,11 @@ def slope_parts(_: DriveTrainInputs, result: DriveTrainResult) -> Figure:
 
 
 def effects_apart(inputs: DriveTrainInputs, result: DriveTrainResult) -> dict[str, Values]:
-    """Compute the transverse force per face width [N/mm] along the face for variants of the unit without some effects.
+    """Compute the load along the face for variants of the unit in which some effects are left out.
 
-    The variant `mesh alone` lacks all effects. Each of the other variants lacks a single effect. The keys are the names
-    of the variants.
+    The effects come from shafts, couplings and heat. The variant `mesh alone` leaves out all effects. Every other
+    variant leaves out a single effect. The keys are the names of the variants, and the values are transverse forces per
+    face width [N/mm].
     """
     own, variants = inputs.effects, dict[str, Effects]()
     if own.shafts and inputs.acting_couplings:
@@ -163,7 +164,7 @@ def effects_apart(inputs: DriveTrainInputs, result: DriveTrainResult) -> dict[st
 
 
 def face_load(inputs: DriveTrainInputs, result: DriveTrainResult, others: dict[str, Values]) -> Figure:
-    """Draw the load along the face with all effects of the case, and the loads of variants without some effects.
+    """Draw the load along the face with all effects of the case, and for variants in which some effects are left out.
 
     `others` holds the loads of the variants under the names of the variants.
     """
@@ -212,7 +213,7 @@ def journals(_: DriveTrainInputs, result: DriveTrainResult) -> Figure:
 
 
 def _locus(x: float, y: float, reaction: Vector2) -> tuple[Values, Values]:
-    """Return the path that a journal takes from the middle of the clearance to its displacement as the load grows.
+    """Return the path of a journal from the middle of the clearance to its displacement as the load grows.
 
     The displacement (x, y) and the path are divided by the clearance. The direction of the load does not change.
     """
@@ -245,7 +246,7 @@ def thrust(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
 
 
 def losses(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
-    """Draw the power losses of the unit, sorted by the places where the losses arise."""
+    """Draw the power losses of the unit, with one bar for each kind of loss."""
     lost, bearings = result.losses, (*inputs.pinion_shaft.bearings, *inputs.wheel_shaft.bearings)
     plain = any(isinstance(bearing, JournalBearing) for bearing in bearings)  # other bearings have no known friction
     powers: tuple[tuple[str, float | None, Hue], ...] = (
@@ -272,7 +273,10 @@ def losses(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
 
 
 def as_warm(inputs: DriveTrainInputs, result: DriveTrainResult) -> DriveTrainInputs:
-    """Return the unit at the temperatures of its heat balance, or unchanged if it has no heat balance."""
+    """Return the unit at the temperatures of its heat balance.
+
+    If there is no heat balance, return the unit unchanged.
+    """
     heat, kelvin = result.heat, UNITS["c"].offset
     if heat is None:
         return inputs
@@ -288,7 +292,7 @@ def as_warm(inputs: DriveTrainInputs, result: DriveTrainResult) -> DriveTrainInp
 
 
 def mesh_as_drawn(inputs: DriveTrainInputs, result: DriveTrainResult) -> Scuffing | None:
-    """Solve the mesh without modifications, on rigid shafts and without heat."""
+    """Solve the mesh without modifications, as if the shafts were rigid and the gears did not expand with heat."""
     return micropitting.solve_unmodified(contact_of(as_warm(inputs, result)))
 
 
@@ -304,7 +308,7 @@ def wear(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
 
 
 def where_heat_goes(_: DriveTrainInputs, result: DriveTrainResult) -> Figure:
-    """Draw the heat supplied, the heat that leaves the gears, and the heat removed."""
+    """Draw the heat that the losses supply, the heat that leaves the gears, and the heat that leaves the unit."""
     return heat_balance.where_heat_goes(heat_balance.heat_of(result.heat))
 
 
@@ -329,7 +333,7 @@ def curve_over_the_flow(_: DriveTrainInputs, result: DriveTrainResult) -> FlowCu
 
 
 def oil_flow(inputs: DriveTrainInputs, result: DriveTrainResult, curve: FlowCurve) -> Figure:
-    """Draw the temperatures of flanks and drain, and the safety, over the oil flow to the gears."""
+    """Draw the temperatures of flanks and drained oil, and the safety factor, over the oil flow to the gears."""
     scuffing, oil, used = None, oil_temperature(inputs), result.derived.temperatures
     if result.safety is not None and result.safety.minimum and used.scuffing is not None and used.bulk is not None:
         scuffing = (used.scuffing, oil + (used.scuffing - oil) / result.safety.minimum - used.bulk)

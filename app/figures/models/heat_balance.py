@@ -1,4 +1,4 @@
-"""Figures of the heat balance: heat flows, temperatures of the parts, effect of the oil flow, safety over the band."""
+"""Figures of the heat balance: heat flows, temperatures, effect of the oil flow, uncertainty of the safety."""
 
 from collections.abc import Sequence
 
@@ -42,14 +42,17 @@ BY_GEAR = {
 
 
 def heat_of(heat: Heat | None) -> Heat:
-    """Return the heat balance; raise NoFigure if it is None."""
+    """Return the heat balance; raise NoFigure if there is no heat balance."""
     if heat is None:
         raise NoFigure("no_oil", "Without an oil there is no heat balance", "lubricant")
     return heat
 
 
 def where_heat_goes(heat: Heat) -> Figure:
-    """Draw the heat supplied, the heat that each carrier takes out of each gear, and the heat removed."""
+    """Draw the heat that the losses supply, the heat that leaves each gear, and the heat that leaves the unit.
+
+    The heat that leaves a gear is divided among its carriers, for example the oil on the loaded flanks.
+    """
     supplied = heat.balance.supplied / KILOWATT
     groups = (
         ("supplied", _summed(heat, SUPPLY, origins={"source"}), Hue.VERMILLION),
@@ -71,9 +74,10 @@ def where_heat_goes(heat: Heat) -> Figure:
 def _summed(
     heat: Heat, names: dict[str, str], *, origins: set[str] | None = None, targets: set[str] | None = None
 ) -> dict[str, float]:
-    """Return the sum of the heat flows of each carrier [kW], the largest sum first.
+    """Sum the heat flows of each carrier, and return the sums [kW]. The largest sum comes first.
 
-    If `origins` is given, only flows from these places count. If `targets` is given, only flows to these places count.
+    `names` holds the names of the carriers in the figure. If `origins` is given, only flows from these places count. If
+    `targets` is given, only flows to these places count.
     """
     powers: dict[str, float] = {}
     for flow in heat.flows:
@@ -97,7 +101,7 @@ def _out_of(heat: Heat, gear: str) -> dict[str, float]:
 def temperatures(heat: Heat, oil: float) -> Figure:
     """Draw the temperatures of all nodes, and the uncertainty bands of the flank temperatures.
 
-    Lines show the oil temperature `oil` [°C] and the standard's estimate of the bulk temperature.
+    Lines show the oil temperature `oil` [°C] and the estimate of the bulk temperature by ISO/TR 13989-1.
     """
     band = heat.band
     rows = [
@@ -136,7 +140,10 @@ def curve_over_the_flow(inputs: ScuffingInputs, result: Scuffing) -> FlowCurve:
 
 
 def what_the_flow_does(heat: Heat, curve: FlowCurve) -> list[Panel]:
-    """Return panels of the temperatures of flanks and drain over the oil flow. A line shows the flow of the case."""
+    """Return panels that show the temperatures of flanks and drained oil over the oil flow.
+
+    A line shows the flow of the case.
+    """
     flow = curve.flow / UNITS["l_per_min"].scale
     lines = [
         Line("pinion flank", flow, curve.pinion_flank - KELVIN, Hue.VERMILLION),
@@ -158,7 +165,7 @@ def _own_flow(heat: Heat) -> Level:
 
 
 def oil_flow(inputs: ScuffingInputs, result: Scuffing, curve: FlowCurve) -> Figure:
-    """Draw the temperatures of flanks and drain, and the safety factor, over the oil flow of a pair.
+    """Draw the temperatures of flanks and drained oil, and the safety factor, over the oil flow to a gear pair.
 
     Marks show the flows at which the verdict on the safety factor changes.
     """
@@ -168,11 +175,12 @@ def oil_flow(inputs: ScuffingInputs, result: Scuffing, curve: FlowCurve) -> Figu
 
 
 def over_the_oil_flow(heat: Heat, curve: FlowCurve, oil: float, scuffing: tuple[float, float] | None) -> Figure:
-    """Draw the temperatures of flanks and drain, and the safety factor, over the oil flow.
+    """Draw the temperatures of flanks and drained oil, and the safety factor, over the oil flow.
 
-    Marks show the flows at which the verdict on the safety factor changes. `scuffing` holds the scuffing temperature
-    [°C] and the rise of the contact temperature above the bulk temperature [K]; neither depends on the flow. If
-    `scuffing` is None, the safety factor is not drawn. `oil` is the temperature of the supplied oil [°C].
+    Marks show the flows at which the verdict on the safety factor changes. `scuffing` holds two values that do not
+    depend on the flow: the scuffing temperature [°C], and the rise of the contact temperature above the bulk
+    temperature [K]. If `scuffing` is None, the safety factor is not drawn. `oil` is the temperature of the supplied oil
+    [°C].
     """
     panels = what_the_flow_does(heat, curve)
     if scuffing is not None:
@@ -188,7 +196,7 @@ def over_the_oil_flow(heat: Heat, curve: FlowCurve, oil: float, scuffing: tuple[
 
 
 def _flank_change(heat: Heat, curve: FlowCurve) -> str:
-    """Return a text with the temperature of the pinion's flank at twice the oil flow."""
+    """Return a text that states the temperature of the pinion's flank at twice the oil flow."""
     double = float(np.interp(2.0, FLOWS, curve.pinion_flank)) - KELVIN
     if np.isnan(double):
         return f"pinion flank {number(heat.pinion.flank, '°C')}"
@@ -201,7 +209,10 @@ def _factors(scuffing: float, oil: float, contact: Values) -> Values:
 
 
 def _verdicts(factors: Values) -> list[Level]:
-    """Return the limit of high risk, and the limit of low risk if a safety factor comes near the limit of low risk."""
+    """Return the limit of high risk and the limit of low risk.
+
+    The limit of low risk is left out if all safety factors are far below this limit.
+    """
     levels = [Level(HIGH_RISK_BELOW, "high risk below 1", limit=True)]
     if float(np.nanmax(factors)) > (HIGH_RISK_BELOW + LOW_RISK_ABOVE) / 2:
         levels.append(Level(LOW_RISK_ABOVE, "low risk above 2"))
@@ -221,7 +232,8 @@ def _first_crossing(line: Line, limit: float) -> Sequence[Mark]:
 def safety_over_the_band(inputs: ScuffingInputs, result: Scuffing) -> Figure:
     """Draw the safety factor over the bulk temperature.
 
-    Marks show the nominal case, both ends of the uncertainty band, and the standard's estimate of the bulk temperature.
+    Marks show the nominal case, both ends of the uncertainty band, and the estimate of the bulk temperature by ISO/TR
+    13989-1.
     """
     heat, safety, largest = heat_of(result.heat), result.safety, result.flash.blok_max
     if safety is None or safety.blok_factor is None or largest is None:

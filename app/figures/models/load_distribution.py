@@ -1,4 +1,4 @@
-"""Figures of the load distribution: over the flank, over the roll and along the path of contact."""
+"""Figures of the load distribution: over the flank, over the roll position and along the path of contact."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -34,7 +34,7 @@ def face(width: float) -> Axis:
 
 
 def section(gears_of: Callable[[Any], GearPairInputs]) -> Declaration:
-    """Return the declaration of the figure of the gears.
+    """Return the declaration of the figure that shows the transverse section of the gears.
 
     `gears_of` takes the inputs of a calculation and returns the inputs of the gears.
     """
@@ -45,10 +45,10 @@ def section(gears_of: Callable[[Any], GearPairInputs]) -> Declaration:
 def over_flank(
     width: float, flank: Flank | FlankMaps, shown: Axis, grid: Values, largest: float | None, at: Place | None
 ) -> Panel:
-    """Return a map of a quantity over the flank; `width` is the face width [m].
+    """Return a map of the values `grid` over the flank; `width` is the face width [m].
 
-    If `largest` is given and not zero, there is a mark with this value at the place `at`, or at the largest value of
-    the map if `at` is None.
+    If `largest` is given and not zero, a mark shows this value. The mark stands at the place `at`. If `at` is None, the
+    mark stands at the largest value of the map.
     """
     y = flank.face_fraction * width / MM
     ends = 0.0, max(float(np.nanmax(grid, initial=0.0)), largest or 0.0) or 1.0
@@ -86,7 +86,7 @@ def flank_pressure(inputs: LoadDistributionInputs, result: LoadDistribution) -> 
 
 
 def modification(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figure:
-    """Draw the gap between the unloaded flanks over the flank."""
+    """Draw a map of the gap that the modifications leave between the unloaded flanks."""
     flank, width, gap = result.flank, inputs.gears.face_width, _modified(result.flank)
     y = flank.face_fraction * width / MM
     mapped = Map("gap between the unloaded flanks", "µm", y, flank.profile_fraction, gap, Scale.SIGNED)
@@ -95,7 +95,7 @@ def modification(inputs: LoadDistributionInputs, result: LoadDistribution) -> Fi
 
 
 def _modified(flank: Flank) -> Values:
-    """Return the modification of the flanks. Raise NoFigure if the flanks have no modification."""
+    """Return the gap that the modifications leave between the flanks. Raise NoFigure if there are no modifications."""
     if not flank.modification.any():
         raise NoFigure("no_modification", "The flanks are not modified: the gap between them is zero", "modifications")
     return flank.modification
@@ -177,7 +177,11 @@ def transmission_error(_: LoadDistributionInputs, result: LoadDistribution) -> F
 
 
 def path_of_contact(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figure:
-    """Draw line load, pressure and sliding along the feature line."""
+    """Draw line load, pressure and sliding along the feature line.
+
+    The feature line is the diagonal of the flank from the corner where the mesh begins to the corner where the mesh
+    ends.
+    """
     curves, psi, pressure = result.feature_line, result.feature_line.psi, result.pressure.max
     points = path_points(inputs.gears)
     plain = parts.unnamed(points)
@@ -196,14 +200,17 @@ def path_of_contact(inputs: LoadDistributionInputs, result: LoadDistribution) ->
 
 
 def path_points(gears: GearPairInputs) -> list[Level]:
-    """Return the points A to E of the path of contact. Positions are fractions of the length of the path."""
+    """Return vertical lines at the points A to E of the path of contact.
+
+    The positions are fractions of the length of the path.
+    """
     path = meshing_path(gears)
     fractions = {name: (roll - path.start) / path.length for name, roll in points_of_contact(path).items()}
     return [Level(fraction, name, vertical=True) for name, fraction in fractions.items()]
 
 
 def stiffness(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figure:
-    """Draw the stiffness of one pair of teeth along the path of contact, and the stiffness that the standard gives."""
+    """Draw the stiffness of one pair of teeth along the path of contact, and the stiffness by ISO 6336-1."""
     stiff, path = result.stiffness, meshing_path(inputs.gears)
     levels = [Level(stiff.standard_single, f"ISO 6336-1, one pair: {number(stiff.standard_single)}")]
     if stiff.mean_mesh is not None:
@@ -220,7 +227,7 @@ def stiffness(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figur
 
 
 def load_sharing(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figure:
-    """Draw the load sharing factor along the path of contact, and the factor that the standard gives."""
+    """Draw the load sharing factor along the path of contact, and the factor by ISO/TS 6336-20."""
     curves, lines, finding = result.feature_line, list[Line](), NO_LOAD
     if curves.load_sharing is not None:
         lines.append(Line("this mesh", curves.psi, curves.load_sharing))

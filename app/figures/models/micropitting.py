@@ -27,7 +27,8 @@ FILM_OVER_ROUGHNESS = "film over roughness"
 def solve_unmodified(inputs: ScuffingInputs, *_: Scuffing) -> Scuffing | None:
     """Solve the pair in closed form without its modifications and misalignment.
 
-    Return None if the pair has neither. The quantities of the result are in the units in which pages show them.
+    Return None if the pair has neither modifications nor misalignment. The quantities of the result are in the units in
+    which pages show these quantities.
     """
     if inputs.distribution.modifications == Modifications():
         return None
@@ -42,7 +43,7 @@ def where_it_starts(inputs: ScuffingInputs, result: Scuffing, plain: Scuffing | 
 
 
 def answered(answer: Micropitting | None) -> Micropitting:
-    """Return the answer. Raise NoFigure if the answer is None or has no least film ratio."""
+    """Return the answer of the check. Raise NoFigure if there is no answer or no least film ratio."""
     if answer is None:
         message = "The film needs an oil, and the bulk temperature at which the oil enters the contact"
         raise NoFigure("no_oil", message, "lubricant")

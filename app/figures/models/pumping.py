@@ -68,9 +68,9 @@ def temperature_map(inputs: PumpingInputs, result: PumpingResult) -> Figure:
 
 
 def _maps(inputs: PumpingInputs, result: PumpingResult, name: str, scale: Scale, *critical: Level) -> list[Panel]:
-    """Return maps of a quantity of the field for the tooth spaces of both gears, with marks at the extremes.
+    """Return maps of a quantity over face and angle, one for the tooth spaces of each gear, with marks at the extremes.
 
-    The maps have the same scale of colours.
+    `name` is the name of the quantity. The maps have the same scale of colours.
     """
     fields = {gear: space.field for gear, space in spaces(result)}
     grids: list[Values] = [getattr(field, name) for field in fields.values()]
@@ -107,7 +107,7 @@ def scan(inputs: ChokingInputs, result: ChokingSpeeds) -> ChokingCurves:
 def choking(inputs: ChokingInputs, result: ChokingSpeeds, curves: ChokingCurves) -> Figure:
     """Draw peak pressure and exit Mach number over the speed, with the limits of sonic flow and the choking speeds.
 
-    The exit Mach number is the number after an expansion to ambient pressure. If the gas in the outermost slice is
+    The exit Mach number is the Mach number after an expansion to ambient pressure. If the gas in the outermost slice is
     itself supersonic (possible in gas dynamics only), the smaller Mach number of this slice is drawn instead. The curve
     bends at the speed at which the gas in this slice becomes supersonic.
     """
@@ -142,9 +142,9 @@ CHOKING_FIGURES = (
 
 
 def stroke(_: PumpingInputs, result: PumpingResult) -> Figure:
-    """Draw the area of a tooth space that the mating tooth leaves free, and the radial clearances, over one stroke.
+    """Draw, over one stroke, the free area of a tooth space and the radial clearances.
 
-    The range in which the flanks are in contact is shaded.
+    The free area is the area that the mating tooth leaves free. The range in which the flanks are in contact is shaded.
     """
     gear, first = spaces(result)[0]
     course, curves = first.stroke, first.stroke.curves
@@ -167,7 +167,7 @@ def stroke(_: PumpingInputs, result: PumpingResult) -> Figure:
 
 
 def heating(inputs: PumpingInputs, result: PumpingResult) -> Figure:
-    """Draw the temperature rise along the face, averaged over the stroke, with marks at the hottest places."""
+    """Draw, along the face, the temperature rise averaged over the stroke, with marks at the hottest places."""
     lines, marks, texts = [], [], []
     for gear, space in spaces(result):
         profile, most = space.profile, space.max_temperature_rise
@@ -183,9 +183,10 @@ def heating(inputs: PumpingInputs, result: PumpingResult) -> Figure:
 
 
 def peak_pressure(inputs: PumpingInputs, result: PumpingResult) -> Figure:
-    """Draw the largest pressure of the stroke along the face, and the pressure at which clearances become sonic.
+    """Draw, along the face, the largest pressure of the stroke.
 
-    Both pressures are divided by the ambient pressure.
+    A line shows the pressure at which the flow in clearances becomes sonic. Both pressures are divided by the ambient
+    pressure.
     """
     lines, marks = [], []
     for gear, space in spaces(result):
@@ -237,7 +238,7 @@ def pulsation(_: PumpingInputs, result: PumpingResult) -> Figure:
 
 
 def mass_flow(_: PumpingInputs, result: PumpingResult) -> Figure:
-    """Draw the mass flows out of and into the tooth spaces at the ends, and the net outward flow through each exit."""
+    """Draw the mass flows out of and into the tooth spaces at both ends, and the net outward flow through each exit."""
     exits = {gear: _exits(space) for gear, space in spaces(result)}
     still = all(abs(row.value) < NO_FLOW for rows in exits.values() for row in rows)
     x = Axis("mass flow (net: out; negative: in)", "g/s", limits=(0.0, 1.0) if still else None, symbol="m")
@@ -272,7 +273,7 @@ def _grooves(inputs: PumpingInputs) -> list[Span]:
 
 
 def _along(inputs: PumpingInputs, title: str, position: Values, items: Values, hue: Hue) -> Line:
-    """Return a line along the face with gaps at the grooves."""
+    """Return a line along the face. The line has gaps at the grooves."""
     middles = sorted(groove.position / MM for groove in inputs.setup.grooves)
     at = np.searchsorted(position, middles)
     return Line(title, np.insert(position, at, middles), np.insert(items, at, np.nan), hue)

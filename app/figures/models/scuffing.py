@@ -1,4 +1,8 @@
-"""Figures of the check against scuffing, over the flank and along the evaluated lines."""
+"""Figures of the check against scuffing, over the flank and along the evaluated lines.
+
+The evaluated lines are the feature line and, if calculated, the profile through the highest flash temperature. The
+feature line is the diagonal of the flank from the corner where the mesh begins to the corner where the mesh ends.
+"""
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
@@ -104,7 +108,7 @@ def _bulk_of(result: Scuffing, surface: str) -> float:
 
 
 def _flashes(path: ScuffingPath) -> list[Line]:
-    """Return the flash temperatures along a path as lines.
+    """Return lines that show the flash temperatures along a path.
 
     If thermal EHL was solved, the first two lines show the flash temperatures of both flanks by thermal EHL. The last
     line shows the flash temperature by Blok's formula.
@@ -118,7 +122,10 @@ def _flashes(path: ScuffingPath) -> list[Line]:
 
 
 def _paths(result: Scuffing) -> dict[str, ScuffingPath]:
-    """Return the evaluated lines of the flank. The keys are the names of the lines."""
+    """Return the evaluated lines of the flank. The keys are the names of the lines.
+
+    These lines are the feature line and, if calculated, the profile through the highest flash temperature.
+    """
     if result.hottest_path is None:
         return {"feature line": result.path}
     across = number(present(result.flash.blok_at_face), "mm")
@@ -128,7 +135,8 @@ def _paths(result: Scuffing) -> dict[str, ScuffingPath]:
 def _along(inputs: ScuffingInputs, result: Scuffing, finding: str, panel: Callable[[ScuffingPath], Panel]) -> Figure:
     """Return a figure with a panel for each evaluated line. All panels have the same scale.
 
-    `panel` makes the panel of a path. The points of the path and the ranges with warnings are added to this panel.
+    `panel` makes the panel of a line. The points A to E of the path of contact, and the ranges with warnings, are added
+    to the panel.
     """
     points, panels = _points(inputs, result), list[Panel]()
     for path in _paths(result).values():
@@ -202,7 +210,7 @@ def safety_along(inputs: ScuffingInputs, result: Scuffing) -> Figure:
 
 
 def _safeties(result: Scuffing, path: ScuffingPath, oil: float, reserve: float) -> list[Line]:
-    """Return the safety factors along a path, by thermal EHL and by Blok's formula, as lines.
+    """Return lines that show the safety factors along a path, by thermal EHL and by Blok's formula.
 
     The safety factor is NaN at points where the contact is not hotter than the oil.
     """
@@ -216,7 +224,7 @@ def _safeties(result: Scuffing, path: ScuffingPath, oil: float, reserve: float) 
 
 
 def film(inputs: ScuffingInputs, result: Scuffing) -> Figure:
-    """Draw the film thickness along the evaluated lines, and a level at the film thickness that equals the roughness.
+    """Draw the film thickness along the evaluated lines. A level marks the film thickness that equals the roughness.
 
     If thermal EHL was solved, two curves show the minimum and the central film of this solution. A further curve shows
     the film by the formula of Dowson and Higginson.
@@ -331,7 +339,7 @@ def _balanced(build: Build) -> Build:
 
 
 def node_temperatures(inputs: ScuffingInputs, result: Scuffing) -> Figure:
-    """Draw the temperatures of flanks, bodies and mist."""
+    """Draw the temperatures of the flanks, of the gear bodies and of the oil mist."""
     return heat_balance.temperatures(heat_balance.heat_of(result.heat), inputs.temperatures.oil - UNITS["c"].offset)
 
 

@@ -1,4 +1,4 @@
-"""Figures of the warm-up of a unit: temperatures, load and safety over time."""
+"""Figures of the warm-up of a unit: temperatures, face load factor and safety factor over time."""
 
 import numpy as np
 
@@ -45,7 +45,7 @@ def temperatures(_: WarmUpInputs, result: UnitWarmUp) -> Figure:
 
 
 def alignment(_: WarmUpInputs, result: UnitWarmUp) -> Figure:
-    """Draw the face load factor and the safety at five moments of the warm-up."""
+    """Draw the face load factor and the safety factor at five points in time of the warm-up."""
     own, time = result.alignment, axis(AlignmentOverTime, "time")
     factor = Line("face load factor", own.time, own.face_load_factor, Hue.BLUE, named=False)
     factor_axis = axis(AlignmentOverTime, "face_load_factor", magnitude=False)

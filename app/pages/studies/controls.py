@@ -1,4 +1,4 @@
-"""The controls of a study's form and the parts of the request body that they set, as one list.
+"""The controls in the form of a study. A control states which part of the request body it sets.
 
 `body_of` converts typed texts into the body, and `texts_of` converts a body into texts. `control_at` finds the control
 at which an error of the body is shown.
@@ -33,8 +33,8 @@ class Control(NamedTuple):
     label, unit, options
         Label, unit and choices in the form.
     sets
-        Whether the control sets the part. Otherwise something else sets the part, and the control only shows the errors
-        of the part.
+        Whether `body_of` sets the part from this control. If not, other code sets the part, and the control only shows
+        the errors of the part.
     """
 
     name: str
@@ -74,15 +74,19 @@ def _put(place: Any, parts: list[str], value: Any) -> None:
 
 
 def texts_of(controls: Iterable[Control], body: Any) -> dict[str, str]:
-    """Return the texts from which `body_of` makes the parts of this body; omit the texts of default values."""
+    """Return the texts that `body_of` would convert into the parts of this body.
+
+    Texts of default values are left out.
+    """
     values = ((control, value_at(body, control.path)) for control in controls if control.sets)
     return {control.name: text_of(value) for control, value in values if value is not None and value != control.default}
 
 
 def control_at(controls: Sequence[Control], path: str) -> str:
-    """Return the name of the control that sets the part of the body at a path, or the nearest part around this path.
+    """Return the name of the control that sets the part of the body at `path`.
 
-    If there is no such control, return the path. If several controls set one part, the last control counts.
+    If no control sets this part, take the nearest enclosing part that a control sets. If there is no such part, return
+    the path. If several controls set the same part, the last of these controls counts.
     """
     parts = path.split(".")
     names = {control.path: control.name for control in controls}
@@ -158,5 +162,5 @@ def choices_of(leaf: Leaf) -> list[Any]:
 
 
 def has_numbers(leaf: Leaf) -> bool:
-    """Return whether a field takes numbers, so that an axis can run along it."""
+    """Return whether a field takes numbers. Only such a field can be varied along an axis of numbers."""
     return leaf.kind in NUMBERS or any(map(is_number, leaf.options))

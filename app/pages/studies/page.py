@@ -1,4 +1,7 @@
-"""The page of a study before, during and after the calculation, and its figures as files; runs in workers."""
+"""The page of a study before, during and after the calculation, and the figures of the study as files.
+
+The functions of this module run in workers.
+"""
 
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
@@ -35,7 +38,7 @@ OUTPUT = Control("show", "outputs", sets=False)
 
 
 class Controls(NamedTuple):
-    """A group of controls in the form of a study; if there is a text `about`, each of the controls has its own line."""
+    """A group of controls in a study's form. If `about` is not empty, each of the controls stands on its own line."""
 
     title: str
     menu: Menu | None = None
@@ -44,7 +47,7 @@ class Controls(NamedTuple):
 
 
 class Number(str):
-    """The heading of a column of numbers, which are aligned to the right."""
+    """The heading of a column of numbers. The column is aligned to the right."""
 
     __slots__ = ()
 
@@ -58,7 +61,7 @@ class Link(NamedTuple):
 
 
 class Table(NamedTuple):
-    """A table with its title and a note below it; a folded table opens at a click."""
+    """A table with a title above it and a note below it. A folded table shows its rows only after a click."""
 
     title: str
     head: tuple[str, ...]
@@ -77,7 +80,7 @@ class Result:
     """The result of a study in the order of the page: the `first` tables, the figures, then the other tables.
 
     `answer` is a sentence that answers the question of the study. `leads` are links above the result. `script` is JSON
-    for the script of the page; the script opens the case of a point if the user clicks on this point in the first
+    for the script of the page. This script opens the case of a point if the user clicks on the point in the first
     figure.
     """
 
@@ -101,22 +104,23 @@ class StudyPage(ABC):
     names
         Names of all controls that the page may have, except the menu of outputs.
     figures, files
-        Names of all figures that the page can show, and the formats in which the lines can be downloaded.
+        Names of all figures that the page can show, and the formats in which the answer can be downloaded.
     template
         Template of the result.
     outputs
         Preferred outputs. If the user chooses no output, the page shows the first preferred output that the answer has.
         If the answer has none of the preferred outputs, the page shows the first headline.
     grows
-        Whether the page shows its result while lines arrive; otherwise it shows only the progress.
+        Whether the page shows a result while the study runs. If not, the page shows only the progress until the study
+        has ended.
     needs, choose
         Controls of which at least one must be filled in to start a study, and the sentence that asks the user to do so.
     plan
         The class of the study. Its arguments are the body, the largest number of points, and the deadline of a point
         [s].
     case, study, faults
-        The case as far as the query states it; the study, which is None until the query has been accepted; and the
-        errors of a rejected query, each with the name of its control.
+        The case, as far as the query states the case; the study, or None until the query has been accepted; the errors
+        of a rejected query, each with the name of the control at which the error is shown.
 
     """
 
@@ -146,7 +150,10 @@ class StudyPage(ABC):
 
     @abstractmethod
     def result(self, lines: list[Line]) -> Result:
-        """Return the result of all lines, or of the lines that have arrived so far if the page `grows`."""
+        """Return the result that the lines of the study's answer contain.
+
+        If the page `grows`, this method is also called with the lines that have arrived so far.
+        """
 
     def controls(self) -> tuple[Controls, ...]:
         """Return the groups of controls above the menu of outputs."""
@@ -157,18 +164,18 @@ class StudyPage(ABC):
         return ()
 
     def declared(self) -> tuple[Control, ...]:
-        """Return the controls with the parts of the body that they set, without the menu of outputs.
+        """Return all controls except the menu of outputs. A control states which part of the body it sets.
 
         The page of a rejected query also uses these controls, so this method does not raise errors.
         """
         return ()
 
     def given(self) -> dict[str, Any]:
-        """Return the parts of the body that the declared controls set, as typed or by default."""
+        """Return the parts of the body that the declared controls set, from typed texts or from default values."""
         return body_of(self.declared(), self.views)
 
     def starters(self) -> Sequence[Starter | StudyExample]:
-        """Return links to ready studies, one per example; no links if the query has a case."""
+        """Return a link to a ready study for each example. If the query has a case, return no links."""
         examples = () if self.asked.pairs else examples_of(self.calculation)
         path = f"{self.asked.path}/{self.link.name}"
         return [Starter(example.title, example.source, link(path, pairs_of(example.request))) for example in examples]
@@ -180,7 +187,7 @@ class StudyPage(ABC):
 
     @property
     def usual_output(self) -> Leaf:
-        """The output that is shown if the user chooses none."""
+        """The output that is shown if the user chooses no output."""
         response = self.calculation.response
         preferred = (leaf for path in self.outputs if (leaf := leaf_at(response, path)))
         return next(preferred, headlines(response)[0])
@@ -238,35 +245,42 @@ class StudyPage(ABC):
         return len(self.view("").partition("?")[2]) > LONGEST_QUERY
 
     def image(self, figure: str, image_format: str) -> str:
-        """Return the address of a figure as a file."""
+        """Return the address of a figure's file."""
         return self.view(f"/figures/{figure}.{image_format}")
 
     def field_at(self, path: str) -> Leaf | None:
-        """Return the field of the request at a path from the query, or None if the path has no single value."""
+        """Return the field of the request at a path from the query, or None if the path leads to no single value."""
         try:
             return self.input(path)
         except Unprocessable:
             return None
 
     def input(self, path: str) -> Leaf:
-        """Return the field of the request at a path; raises Unprocessable if the path has no single value."""
+        """Return the field of the request at a path; raise Unprocessable if the path leads to no single value."""
         return scalar_at(self.calculation.request, path, "", "unknown_path")
 
     def address(self, overrides: Overrides, below: str = "") -> str:
-        """Return the address of the case at a point, with `below` added to its path for a view such as the report."""
+        """Return the address of the case with the values of one point of the study.
+
+        `overrides` holds the values of this point. `below` is appended to the path of the address and selects a view
+        such as the report.
+        """
         body = with_overrides(self.calculation, self.asked.body, overrides)
         del body["detail"]
         return link(f"{self.asked.path}{below}", pairs_of(body), theme=self.asked.theme)
 
     def solved(self, overrides: Overrides) -> Case:
-        """Return the case at a point with its answer; only the parts that the outputs need are calculated."""
+        """Return the case with the values of one point of the study, and with the answer for this point.
+
+        `overrides` holds the values of the point. Only the parts of the answer that the outputs need are calculated.
+        """
         body = with_overrides(self.calculation, self.asked.body, overrides)
         outputs = [leaf.path for leaf in self.study.outputs]
         return solved(self.calculation, pairs_of(reduced_request(self.calculation.path, body, outputs)), None)
 
 
 class Opened(NamedTuple):
-    """A study page in two parts. If the study runs, its result is sent between the two parts."""
+    """A study page, cut into `head` and `tail`. If the study runs, its result is sent between these two parts."""
 
     page: StudyPage
     status: int
@@ -275,7 +289,10 @@ class Opened(NamedTuple):
 
 
 def opened(kind: type[StudyPage], asked: Asked, most: int, deadline_s: float) -> Opened:
-    """Return the page for a query. It has the study that the query asks for, or the errors of a rejected query."""
+    """Return the page for a query. The page has the study that the query asks for, or the errors of a rejected query.
+
+    `most` is the largest number of points of a study, and `deadline_s` is the deadline of a point [s].
+    """
     page, status = kind(asked), 200
     try:
         if asked.pairs and (not page.needs or any(asked.views.get(name) for name in page.needs)):
@@ -283,8 +300,8 @@ def opened(kind: type[StudyPage], asked: Asked, most: int, deadline_s: float) ->
     except REFUSED as error:
         status = 400 if isinstance(error, Unreadable) else 422
         at_controls = [(page.control_at(fault.path), fault.message) for fault in faults_of(error, page.calculation)]
-        # The message about a fault in the table of cases is not replaced by a question, because the message names the
-        # line.
+        # A message about a fault in the table of cases names the line of the fault. Such a message is therefore not
+        # replaced by a question.
         texts = {name: text for name, text in asked.views.items() if name != CASES}
         page.faults = [Fault(name, question(texts.get(name, "")) or message) for name, message in at_controls]
     show = page.menu("show", "output", page.usual_output.title, output_choices(page.calculation))
@@ -310,7 +327,8 @@ def opened(kind: type[StudyPage], asked: Asked, most: int, deadline_s: float) ->
 def checked(kind: type[StudyPage], asked: Asked, most: int, deadline_s: float) -> StudyPage:
     """Return the page with the study that the query asks for.
 
-    If the query is rejected, raise one of the errors in REFUSED. The paths in this error refer to the body.
+    If the query is rejected, raise one of the errors in REFUSED. The paths in such an error are paths in the request
+    body.
     """
     page = kind(asked)
     page.study = page.plan(page.body(), most, deadline_s)
@@ -338,9 +356,9 @@ def titled(leaf: Leaf) -> str:
 
 
 def drawn(page: StudyPage, lines: list[Line], done: int | None = None) -> bytes:
-    """Return the result as HTML with figures, tables and links.
+    """Return the result of a study as HTML with figures, tables and links.
 
-    While the study runs, `done` is the number of solved points. If the study ended early, the result begins with the
+    While the study runs, `done` is the number of solved points. If the study ended early, the HTML begins with the
     reason.
     """
     *before, last = lines or [{"type": "progress"}]
@@ -370,7 +388,7 @@ def file(page: StudyPage, lines: list[Line], name: str, image_format: Format) ->
 
 
 def report_head(page: StudyPage) -> bytes:
-    """Return the beginning of the document. This document shows first the progress of the study, then the report."""
+    """Return the beginning of a document that first shows the progress of a study, and then the report."""
     return rendered("report_progress.html", page.asked.root, page=page).encode()
 
 
@@ -381,10 +399,9 @@ def report_progress(page: StudyPage, done: int, *, has_ended: bool = False, prob
 
 
 def report(page: StudyPage, lines: list[Line], host: str) -> bytes:
-    """Return the style and the body of the report of the case, with a section about the study.
+    """Return the style sheet and the body of a case's report, with a section about the study.
 
-    Style and body are sent after the parts that show the progress. If the case has no answer, return the reason
-    instead.
+    Both are sent after the parts that show the progress. If the case has no answer, return a part that says so.
     """
     section = {
         "title": page.link.label,

@@ -1,4 +1,7 @@
-"""The page and the report of a study while its lines arrive, as parts of a document that replace each other."""
+"""The page and the report of a study, sent in parts while the study runs.
+
+A new part with results or with the progress replaces the part before it.
+"""
 
 import logging
 from collections.abc import AsyncGenerator, Callable
