@@ -55,7 +55,10 @@ def setup_notices(setup: PumpingSetup, path: PathOfContact, active_slices: float
 
 
 def jump_notices(tables: Sequence[StrokeTable]) -> list[Notice]:
-    """Return a warning if the area of a space jumps, because the gas is then compressed without motion of the teeth."""
+    """Return a warning if the area of a space jumps.
+
+    At such a jump, the model compresses the gas although the teeth do not move.
+    """
     share, angle = max(table.jump for table in tables)
     if share == 0.0:
         return []

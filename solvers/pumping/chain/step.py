@@ -4,9 +4,13 @@
  dE_i/dt = (M h)_{i-1/2} - (M h)_{i+1/2} - (Q h)_i - p dV/dt              energy closure, h = c_p T upstream
  p = p_e (rho/rho_e)^gamma                                                isentropic closure (Eq. 1)
 
+Here m_i and E_i are mass and energy of pocket i, M_{i-1/2} and M_{i+1/2} are the mass flows through the faces below and
+above the pocket, Q_i is the mass flow through the radial gaps, and h is the enthalpy of the gas upstream. The index e
+denotes the ambient state. All terms are per metre of face.
+
 The step is a backward Euler step, but the wall work is computed with the mean pressure of the step. Newton's method
-solves for pressure and mass of all pockets. The Jacobian consists of blocks of two by two, which are eliminated along
-the chain. All amounts are per metre of face.
+solves for pressure and mass of all pockets. The Jacobian consists of blocks of two by two. These blocks are eliminated
+along the chain.
 """
 
 from typing import Any, NamedTuple
@@ -18,7 +22,7 @@ from solvers.compiled import kernel
 from solvers.pumping.flow.nozzle import Gas, mass_flux
 
 _NEWTON_LIMIT = 200  # number of iterations after which a step counts as not converged
-_TOLERANCE = 1e-10  # largest residual, relative to a pocket's content at ambient pressure
+_TOLERANCE = 1e-10  # largest permitted residual, relative to a pocket's content at ambient pressure
 _ROUNDING = 1e-7  # largest residual that is accepted if round-off keeps Newton's method from reducing the residual
 _HALVINGS = 12  # largest number of halvings of a Newton step; steps below 1/4096 of Newton's step do not help
 
@@ -56,7 +60,10 @@ the step.
 
 
 def empty_pockets(pockets: int) -> RecordArray:
-    """Return an array of POCKET with one more record than pockets, for the face above the last pocket."""
+    """Return an array of records of POCKET for `pockets` pockets.
+
+    The array has one more record than pockets. The last record describes the face above the last pocket.
+    """
     return records(pockets + 1, POCKET)
 
 
@@ -69,7 +76,7 @@ class Side(NamedTuple):
 
 
 class Passage(NamedTuple):
-    """Flow of mass or heat through an opening from left to right, and derivatives of the flow by both states."""
+    """Flow of mass or heat through an opening from left to right, and its derivatives by the states on both sides."""
 
     flow: float
     by_left_pressure: float
@@ -213,7 +220,11 @@ def _assemble(
 
 @kernel
 def _store(gas: Gas, pockets: RecordArray, low: int, high: int, isentropic: bool) -> None:
-    """Set residuals and derivatives as if the pockets were closed, so that they keep mass, and energy or entropy."""
+    """Set the residuals and derivatives of closed pockets; `_leak` and `_exchange` add the flows.
+
+    A closed pocket keeps its mass. It also keeps its entropy if `isentropic` is true. Otherwise, its energy changes by
+    the wall work only.
+    """
     g = gas.exponent
     for i in range(low, high):
         p, content = pockets[i].trial.pressure, pockets[i].trial.mass

@@ -30,10 +30,10 @@ class Duct(NamedTuple):
 
 
 class Wall(NamedTuple):
-    """Walls of a tooth space: its area, both clearances, and the gas that its flanks have carried along.
+    """Walls of a tooth space at one position on the face and one angle.
 
-    `area` is the cross-section of the space [m^2], `clearance` is the sum of both clearances [m], and `carried` is the
-    cross-section of the gas that the moving flanks have carried out of the space [m^2].
+    `area` is the cross-section of the space [m^2], and `clearance` is the sum of the clearances on both sides [m].
+    `carried` is the cross-section of the gas that the moving flanks have carried out of the space [m^2].
     """
 
     area: float
@@ -66,7 +66,10 @@ def wall_at(duct: Duct, z: float, angle: float) -> Wall:
 
 @kernel
 def phase_of(duct: Duct, i: int, angle: float) -> float:
-    """Compute the phase of cell i [rad], on which the walls depend: the owner's angle minus the lag of the cell."""
+    """Compute the phase of cell i [rad]: the owner's angle minus the lag of the cell.
+
+    The walls of the cell depend on the phase only.
+    """
     return angle - duct.lag * (duct.start + (i + 0.5) * duct.width)
 
 
@@ -97,7 +100,7 @@ def stroke_end(duct: Duct) -> float:
 def stroke_share(duct: Duct, z: float, angle: float, turn: float) -> float:
     """Compute the share of a step in which the stroke is under way at z [m].
 
-    The step begins at `angle` [rad] and turns the owner by `turn` [rad].
+    The step begins at the owner's `angle` [rad]. During the step the owner turns by `turn` [rad].
     """
     phase = angle - duct.lag * z
     inside = min(phase + turn, stroke_end(duct)) - max(phase, duct.first_angle)
