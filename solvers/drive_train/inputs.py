@@ -53,7 +53,7 @@ def torsion_diameter(gears: GearPairInputs, teeth: GearTeeth) -> float:
 
     Notes
     -----
-    Eq. D16, the rule of a public program.
+    Eq. D16. This is the rule of a published program.
     """
     reference = teeth.teeth * gears.normal_module / cos(gears.helix_angle)
     return reference - gears.normal_module * teeth.dedendum
@@ -373,13 +373,16 @@ class Arrangement:
 
 @record
 class Heat:
-    """Tooth temperatures, and the shares of the gas's temperature rise that reach the metal.
+    """Tooth temperatures and wall responses.
 
-    If `wall_response` is None, a response of 0.5 is assumed and a warning states this. If `wall_response_wheel` is
-    None, the response of the wheel is the response of the pinion times z1/z2, because a wheel tooth meets the hot gas
-    once per turn of the wheel. Normally the tooth temperatures do not include the pumping heat. If the temperatures
-    already include the pumping heat, only the difference between the temperature rise of the gas and the mean of this
-    rise over the face counts.
+    The wall response of a gear is the temperature rise of the metal divided by the temperature rise of the pumped gas.
+    If `wall_response` is None, a response of 0.5 is assumed and a warning states this assumption. If
+    `wall_response_wheel` is None, the response of the wheel is the response of the pinion times z1/z2, because a wheel
+    tooth meets the hot gas once per turn of the wheel.
+
+    Normally the tooth temperatures do not include the pumping heat, and the model adds the temperature rise of the
+    metal. If the tooth temperatures already include the pumping heat, the model subtracts the mean over the face from
+    this rise before it adds the rise.
     """
 
     wall_response: float | None = quantity(
