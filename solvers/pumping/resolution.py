@@ -210,7 +210,7 @@ def _mach_reach(fine: SpaceFlow, half: SpaceFlow) -> float:
 
 
 def _profiles(gas: Gas, flow: SpaceFlow) -> dict[str, FloatArray]:
-    """Return the extremes of each slice over the stroke, expressed like the values of `_summary`."""
+    """Return the extremes of each slice over the stroke, as gauge pressures [Pa] and temperature rises [K]."""
     profiles = {
         "peak_pressure": flow.peak_pressure - gas.pressure,
         "min_pressure": gas.pressure - flow.lowest_pressure,

@@ -200,7 +200,7 @@ def _evaluate(unit: Unit, mesh: LoadedMesh, gap: FloatArray, hubs: HubLoads, bef
 
 
 def _matrix(mesh: LoadedMesh, state: _State) -> FloatArray:
-    """Return Newton's matrix I - D B."""
+    """Return the matrix I - D B of Newton's step; the docstring of this module explains D and B."""
     by_force = _remove_mean_of_rows(state.answer.derivative)
     return np.asarray(np.eye(state.gap.size) - mesh.scale * by_force @ state.response.derivative)
 

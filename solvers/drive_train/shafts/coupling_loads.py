@@ -43,8 +43,9 @@ LEAST_TILT = 1e-12  # rad; below this tilt the moments are proportional to the t
 class HubMoments:
     """Moments of one hub [N m], and the limit of the hub's thrust [N].
 
-    `straightening` is the moment a = M_s + M_e, `loss` is the moment M_l. The hub `sticks` if none of its teeth slides.
-    `share` is the friction moment divided by the friction moment of full sliding.
+    `straightening` is the sum a = M_s + M_e of the straightening moment and the elastic moment. `loss` is the loss
+    moment M_l of friction. The hub `sticks` if none of its teeth slides. `share` is the friction moment divided by the
+    friction moment of full sliding.
     """
 
     straightening: float

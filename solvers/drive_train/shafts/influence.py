@@ -234,7 +234,7 @@ def _collar_loads(
     position: float,
     index: int,
 ) -> FloatArray:
-    """Return the nodal loads of a unit axial force at the thrust collar; without a collar the loads are 0.
+    """Return the nodal loads of an axial force of 1 N at the thrust collar; without a collar the loads are 0.
 
     The force points towards +Z on the pinion and towards -Z on the wheel. The force acts at the radius of the collar
     and therefore loads the shaft with a tilting moment at y = b. The force balances the axial forces of mesh and

@@ -45,7 +45,10 @@ def pocket_chain(
 
 
 def _march(gas: Gas, stretch: Stretch, duct: Duct, angle: FloatArray, closure: Closure, substeps: int) -> March:
-    """March one stretch; if Newton's method stalls because the flow reverses in a step, repeat with shorter steps."""
+    """March one stretch of a tooth space through the stroke.
+
+    Newton's method may stall if the flow reverses in a step. The march is then repeated with shorter steps.
+    """
     for refinement in _REFINEMENTS:
         count = refinement * substeps
         record = empty_record(gas, angle.size, duct.cells, count * (angle.size - 1))
@@ -104,7 +107,7 @@ def _renew(
     new_high: int,
     angle: float,
 ) -> None:
-    """Fill pockets with ambient gas when their stroke begins, and update the balances.
+    """Fill pockets with ambient gas when their stroke begins, and update the balances of mass and energy.
 
     The content of a pocket is added to the balances when the stroke of the pocket begins and when the stroke ends.
     """
@@ -146,7 +149,7 @@ def _mach(gas: Gas, left: float, right: float) -> float:
 
 @kernel
 def _record_field(gas: Gas, pockets: RecordArray, record: Record, low: int, high: int, k: int) -> None:
-    """Record the gas at angle k in the active pockets."""
+    """Record the gas in the active pockets at the angle with the number k."""
     field = record.field
     mach = 0.0
     for i in range(low, high):
@@ -181,7 +184,7 @@ def _record_ends(
 
 @kernel
 def _record_jets(gas: Gas, pockets: RecordArray, record: Record, low: int, high: int) -> None:
-    """Record the largest Mach number and velocity of the jets through the faces."""
+    """Record the largest Mach number and the largest velocity of the jets between pockets and at the ends."""
     largest, fastest = 0.0, 0.0
     right = gas.pressure
     for face in range(low, high + 1):

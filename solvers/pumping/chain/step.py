@@ -175,7 +175,7 @@ def advance(
 
 @kernel
 def _add_change(value: float, change: float) -> float:
-    """Add Newton's change to a positive value, but reduce the value by at most 80 %."""
+    """Add the change of a Newton step to a positive value; the value falls by at most 80 %."""
     return value + max(change, -0.8 * value)
 
 
@@ -261,7 +261,7 @@ def _side(pockets: RecordArray, i: int) -> Side:
 
 @kernel
 def _add(row: Any, share: float, by_pressure: float, by_mass: float) -> None:
-    """Add a share of two derivatives to a row of the Jacobian."""
+    """Multiply two derivatives by `share` and add the products to a row of the Jacobian."""
     row.by_pressure += share * by_pressure
     row.by_mass += share * by_mass
 
@@ -314,7 +314,7 @@ def _exchange(
 
 @kernel
 def _add_outflow(balance: Any, share: float, passage: Passage) -> None:
-    """Add the flow out of a pocket through the face above it."""
+    """Add the flow out of a pocket through the upper face of the pocket to the balance of this pocket."""
     balance.residual += share * passage.flow
     _add(balance.diagonal, share, passage.by_left_pressure, passage.by_left_mass)
     _add(balance.upper, share, passage.by_right_pressure, passage.by_right_mass)
@@ -322,7 +322,7 @@ def _add_outflow(balance: Any, share: float, passage: Passage) -> None:
 
 @kernel
 def _add_inflow(balance: Any, share: float, passage: Passage) -> None:
-    """Add the flow into a pocket through the face below it."""
+    """Add the flow into a pocket through the lower face of the pocket to the balance of this pocket."""
     balance.residual -= share * passage.flow
     _add(balance.diagonal, -share, passage.by_right_pressure, passage.by_right_mass)
     _add(balance.lower, -share, passage.by_left_pressure, passage.by_left_mass)
@@ -359,7 +359,10 @@ def _eliminate(pockets: RecordArray, low: int, high: int) -> None:
 
 @kernel
 def _substitute(balance: Any, pressure: Any, mass: Any) -> None:
-    """Eliminate the pocket below from a balance; `pressure` and `mass` are the solved rows of the pocket below."""
+    """Eliminate the state of the pocket below from a balance.
+
+    `pressure` and `mass` are the solved rows of the pocket below.
+    """
     p, m = balance.lower.by_pressure, balance.lower.by_mass
     balance.diagonal.by_pressure -= p * pressure.upper.by_pressure + m * mass.upper.by_pressure
     balance.diagonal.by_mass -= p * pressure.upper.by_mass + m * mass.upper.by_mass

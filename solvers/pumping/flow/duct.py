@@ -42,7 +42,7 @@ class Wall(NamedTuple):
 
 
 def wall_table(area: FloatArray, clearance: FloatArray, carried: FloatArray) -> RecordArray:
-    """Build the table of walls from arrays of the values of `Wall`, given at equal steps of the owner's angle."""
+    """Build a table of walls from the values of `Wall` at equal steps of the angle of the gear."""
     table = records(area.size, WALL)
     table.area, table.clearance, table.carried = area, clearance, carried
     return table
@@ -50,7 +50,10 @@ def wall_table(area: FloatArray, clearance: FloatArray, carried: FloatArray) -> 
 
 @kernel
 def wall_at(duct: Duct, z: float, angle: float) -> Wall:
-    """Interpolate the walls at z [m] for an `angle` [rad] of the owner; outside the stroke, return the end values."""
+    """Interpolate the walls at the position z [m] for an `angle` [rad] of the gear to which the space belongs.
+
+    Before and after the stroke, return the walls at the start and at the end of the stroke.
+    """
     position = (angle - duct.lag * z - duct.first_angle) / duct.angle_step
     table = duct.table
     last = table.size - 1

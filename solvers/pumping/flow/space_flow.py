@@ -68,7 +68,7 @@ def empty_record(gas: Gas, angles: int, cells: int, steps: int) -> Record:
 
 @kernel
 def add_outflow(record: Record, end: int, step: int, mass: float, energy: float) -> None:
-    """Add the mass [kg] and the energy [J] that flowed out of the low end (0) or the high end (1) in a step."""
+    """Record the mass [kg] and the energy [J] that left through the low end (0) or the high end (1) in a step."""
     if end == 0:
         record.mass[0].low_end += mass
         record.energy[0].low_end += energy

@@ -40,7 +40,7 @@ _UNSETTLED = 5.0  # number of steps after the start of a stroke until the leakag
 
 
 def gas_dynamics(gas: Gas, ducts: list[tuple[Stretch, Duct]], angle: FloatArray) -> SpaceFlow:
-    """March every stretch of a tooth space through its stroke, and record the gas at each `angle` [rad].
+    """March every stretch of a tooth space through the stroke, and record the gas at each `angle` [rad].
 
     Raises NoSolution: unphysical_state if no step length gives a physical state, or if too many steps are needed.
     """
@@ -74,9 +74,9 @@ def march(gas: Gas, duct: Duct, cells: Cells, angles: FloatArray, record: Record
     """March from the first to the last of the `angles` [rad]; return the number of steps, or a negative number.
 
     A step never passes one of the angles. Steps are as long as the waves allow; the last step before an angle covers
-    the remaining turn. If the number of steps between two angles grows by one, the additional step is very short at
-    first, so results depend continuously on the step length. The result is -1 if the record has no room for more steps,
-    and -2 if no step length gives a physical state.
+    the remaining turn. If a small change of the step length makes an additional step necessary, this last step is very
+    short. Results therefore depend continuously on the step length. The result is -1 if the record has no room for more
+    steps, and -2 if no step length gives a physical state.
     """
     angle, taken, low, high = angles[0], 0, 0, 0
     for k in range(1, angles.size):
@@ -188,7 +188,7 @@ def _border(gas: Gas, duct: Duct, cells: Cells, low: int, high: int) -> State:
 
 @kernel
 def _record_changes(duct: Duct, cells: Cells, record: Record, low: int, high: int, new_low: int, new_high: int) -> None:
-    """Add to the balances the content of the cells whose stroke ends or begins between two steps.
+    """Add the content of the cells whose stroke ends or begins between two steps to the balances of mass and energy.
 
     The active cells were low..high in the step before, and are now new_low..new_high.
     """
@@ -267,7 +267,7 @@ def _take_over(cells: Cells, low: int, high: int) -> None:
 def _record_field(
     gas: Gas, duct: Duct, cells: Cells, record: Record, low: int, high: int, k: int, angle: float
 ) -> None:
-    """Record the gas at angle k in the active cells whose stroke is not over."""
+    """Record the gas at the angle with the number k in the active cells whose stroke is not over."""
     for i in range(low, high):
         if phase_of(duct, i, angle) <= stroke_end(duct):
             rho, u, p = cells.state[i].density, cells.state[i].velocity, cells.state[i].pressure

@@ -142,8 +142,9 @@ def _improve(flux: float, squared: float, slope: float) -> float:
 
 @kernel
 def _is_settled(change: float, content: float, drop: float) -> bool:
-    """Return whether the error of the flux is within tolerance after Newton's last `change` of a content [kg/m].
+    """Return whether the error of the flux is within tolerance after a Newton step.
 
+    The step has changed the `content` of the cell [kg/m] by `change` [kg/m]. `drop` is the relative pressure drop.
     The linearised law leaves out the second derivative. Therefore the relative error of the flux is about
     (change / content)^2 divided by the relative pressure drop, times a factor of 1 to 2. The factor results from the
     powers with which pressure and density of the cell fall.

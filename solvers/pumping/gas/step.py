@@ -271,7 +271,10 @@ def _edge(w: RecordArray, s: RecordArray, i: int, side: float) -> State:
 
 @kernel
 def _safe_edge(w: RecordArray, s: RecordArray, i: int, side: float) -> State:
-    """Extrapolate the state to an edge of cell i; return the cell state if density or pressure falls too far."""
+    """Extrapolate the state w by the slope s to an edge of cell i.
+
+    Return the state of the cell if the extrapolated density or pressure is below a tenth of the cell's value.
+    """
     edge = _edge(w, s, i, side)
     if edge.density < 0.1 * w[i].density or edge.pressure < 0.1 * w[i].pressure:
         return State(w[i].density, w[i].velocity, w[i].pressure)

@@ -111,7 +111,8 @@ def _side(space: ToothSpace, angle: float, mate_angle: float, gap: float) -> tup
     """Compute the area of a side [m^2], its clearance [m] and the area of gas carried through its section [m^2].
 
     Flanks that face each other close the space on the line of action, where they are `gap` [m] apart. If the gap is 0,
-    the involutes are used down to the base circles even if the gear is undercut, as in the path of contact.
+    the involutes are used down to the base circles even if the gear is undercut. The path of contact is computed in the
+    same way.
     A wide gap is not always the narrowest place of the side, because a tip corner may be closer to the root fillet. The
     distance of the tip corner is then the clearance, but the section that bounds the area stays on the line of action.
     """
