@@ -25,8 +25,9 @@ class Parts:
 
     All contributions are computed at the loads in equilibrium. The mesh force deforms the shafts elastically. This
     deformation contributes `bending`, `torsion` and `tilting_moment`. The displacements in all bearings under all loads
-    contribute `films`. The shafts also bend elastically under the loads of the couplings, under the load of the thrust
-    collar and under their weight. This bending contributes `coupling`, `collar` and `weight`.
+    contribute `films`. The offsets of the bores contribute `bearing_offsets`. The shafts also bend elastically under
+    the loads of the couplings, under the load of the thrust collar and under their weight. This bending contributes
+    `coupling`, `collar` and `weight`.
     """
 
     bending: float = quantity("slope by bending", "f_b", unit="um", text="of the mesh's transverse force")

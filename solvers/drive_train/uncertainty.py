@@ -10,9 +10,9 @@ from solvers.drive_train.inputs import DriveTrainInputs, JournalBearing, Shaft
 from solvers.notices import Notice
 
 MOST_CORNERS = 256  # number of combinations of eight uncertain inputs with two values per input
-FRICTION = (0.05, 0.25)  # coefficients of friction: the best mixed lubrication; a coupling with the thrust 0.25 T/D
+FRICTION = (0.05, 0.25)  # coefficients of friction: best mixed lubrication; the value that gives the thrust 0.25 T/D
 THRUST = (0.0, 1.0)  # thrust as a share of the friction limit of the coupling
-RESPONSE = (0.3, 1.0)  # wall responses: chosen for a wall that oil cools; 1 for a wall as warm as the gas
+RESPONSE = (0.3, 1.0)  # wall responses: 0.3, chosen, if oil cools the wall; 1.0 if the wall is as warm as the gas
 CLEARANCE = 0.1  # relative change of the clearance, up and down
 QUARTERS: tuple[Callable[[float, float], tuple[float, float]], ...] = (
     lambda x, y: (x, y),

@@ -111,6 +111,6 @@ def refuse_cost(pinion_speed: float, parts: list[Stretch], excess: float) -> NoR
 
 
 def _rounded_up(value: float) -> float:
-    """Round a value up to three significant digits."""
+    """Round a value up and keep three significant digits."""
     unit = 10.0 ** (floor(log10(value)) - 2)
     return ceil(value / unit) * unit

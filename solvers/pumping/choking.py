@@ -19,7 +19,7 @@ from solvers.pumping.spaces import CELL_STEP_LIMIT, Mesh, Space, derived, flow_a
 _COARSENING = 4  # the number of slices is divided by this factor while the speeds are bracketed
 _BRACKET = log(1.1)  # half width of the bracket around the result of the coarse grid, as a logarithm of the speed
 _ACCURACY = 1e-4  # accuracy of the logarithm of the speed, which means 0.01 % of the speed
-_STEP_DOWN, _STEPS_DOWN = log(sqrt(2.0)), 24  # steps of the scan: size as a logarithm, and number down to 1/4096
+_STEP_DOWN, _STEPS_DOWN = log(sqrt(2.0)), 24  # logarithmic step of the scan; number of steps to 1/4096 of the limit
 _SOLVES = 8  # divisor of the permitted cost of a single solution, because the search needs several solutions
 
 Excess = Callable[[float], float]

@@ -14,7 +14,7 @@ from solvers.pumping.space.stroke import StrokeTable
 FEW_TEETH = 12  # chosen: the gears of the paper and of all comparisons have more teeth
 TIP_SPEED_SHARE = 0.8  # share of the ambient speed of sound; published checks end at this tip speed
 PITCH_LINE_SPEED = 250.0  # m/s; published checks end at this speed
-FEW_SLICES = 20  # least number of slices that must be in their stroke at the same time; below it there is a warning
+FEW_SLICES = 20  # if fewer slices are in their stroke at the same time, there is a warning
 INCOMPRESSIBLE_MACH = 0.3  # usual limit, at which the density changes by 5 %
 RESOLVED = 0.06  # largest relative uncertainty of a result without a warning
 NET_UNCERTAINTY = 0.3  # largest uncertainty of a net flow without a warning, relative to the net flow

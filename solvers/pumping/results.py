@@ -227,8 +227,8 @@ class Derived:
     """Values derived from the inputs.
 
     `centre_distance` is in [m]. `slices` is the number of slices over the whole face, including the grooves.
-    `rack_tip_radius` is the tip radius of the rack in normal modules. This radius is limited, so that the racks of both
-    gears have room for it.
+    `rack_tip_radius` is the tip radius of the rack in normal modules. It is limited to the
+    largest radius for which the racks of both gears have room.
     """
 
     centre_distance: float = quantity("centre distance used", "a", unit="mm")

@@ -10,9 +10,9 @@ of friction. The straightening moment M_s and the elastic moment M_e act against
 Moments m are conjugate to slopes: m = -Z x M for a moment vector M. The loads are
     moment on hub A               m = -a e + s (M_l - s_d T delta / 2) Z x e
     force on the unit's shaft     f = towards [-a e + s (M_l + s_d T delta / 2) Z x e] / l     summed over both hubs
-The sign of T delta / 2 differs between hub and sleeve, because the axis of the torque bisects the angle between the
-axes of hub and sleeve. Along Z the coupling pushes the shaft with the share tau of the friction limit. This limit is
-the smaller of the limits of both hubs.
+The force on the unit's shaft results from the moments on the sleeve. The sign of T delta / 2 differs between hub and
+sleeve, because the axis of the torque bisects the angle between the axes of hub and sleeve. Along Z the coupling pushes
+the shaft with the share tau of the friction limit. This limit is the smaller of the limits of both hubs.
 """
 
 from collections.abc import Iterator

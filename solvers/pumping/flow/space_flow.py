@@ -43,9 +43,9 @@ ENDS = floats("time", "low_outflow", "high_outflow")
 class Record(NamedTuple):
     """Arrays of records that are filled while a duct is marched through its stroke.
 
-    The records of `field` (angles, cells) have the type FIELD. The records of `profile` (cells,) have the type PROFILE,
-    those of `extremes` (1,) the type EXTREMES, those of `mass` (1,) and `energy` (1,) the type BALANCE, and those of
-    `ends` (steps,) the type ENDS. The record of `energy` has one more field: `work` is the work on the gas by pressures
+    `field` (angles, cells) contains records of FIELD. `profile` (cells,) contains records of PROFILE. `extremes` (1,)
+    contains one record of EXTREMES. `mass` (1,) and `energy` (1,) contain one record of BALANCE each. `ends` (steps,)
+    contains records of ENDS. The record in `energy` has one more field: `work` is the work on the gas by pressures
     above ambient pressure [J].
     """
 

@@ -157,7 +157,7 @@ def _longest_turn(gas: Gas, duct: Duct, cells: Cells, low: int, high: int) -> fl
 
 @kernel
 def _fill(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, new_low: int, new_high: int, angle: float) -> None:
-    """Fill the cells whose stroke begins with gas in the state that `_border` returns."""
+    """Fill a cell with gas in the state of `_border` when the stroke of this cell begins."""
     rho, u, p = _border(gas, duct, cells, low, high)
     for i in range(new_low, new_high):
         if i < low or i >= high:
@@ -172,8 +172,8 @@ def _border(gas: Gas, duct: Duct, cells: Cells, low: int, high: int) -> State:
     """Compute the state of the gas with which the next cells begin their stroke.
 
     This state is the state of the moving border (`front_face`) while the border is at the centre of the next cell. The
-    gas behind the border has the state of the last two active cells, extrapolated by one cell width. If no cell is
-    active yet, the next cells begin with ambient gas at rest.
+    state of the gas behind the border is extrapolated by one cell width from the states of the last two active cells.
+    If no cell is active yet, the next cells begin with ambient gas at rest.
     """
     if not low < high < duct.cells:
         return State(gas.density, 0.0, gas.pressure)
@@ -188,9 +188,10 @@ def _border(gas: Gas, duct: Duct, cells: Cells, low: int, high: int) -> State:
 
 @kernel
 def _record_changes(duct: Duct, cells: Cells, record: Record, low: int, high: int, new_low: int, new_high: int) -> None:
-    """Add the content of the cells whose stroke ends or begins between two steps to the balances of mass and energy.
+    """Update the balances of mass and energy if the stroke of a cell ends or begins between two steps.
 
-    The active cells were low..high in the step before, and are now new_low..new_high.
+    The content of such a cell is added to the balances. The active cells were low..high in the step before, and are now
+    new_low..new_high.
     """
     for i in range(low, high):
         if i < new_low or i >= new_high:

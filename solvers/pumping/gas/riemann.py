@@ -177,7 +177,7 @@ def front_face(gas: Gas, speed: float, cell: State) -> State:
 def _inflow(gas: Gas, invariant: float, cell_sound_speed: float) -> State:
     """Compute the state of the gas that flows in from rest through a face.
 
-    The inflow meets the gas of the cell. Both gases have the same pressure and the same velocity there. The inflow is
+    Where the inflow meets the gas of the cell, both gases have the same pressure and the same velocity. The inflow is
     at most sonic. `cell_sound_speed` is the speed of sound of the cell's gas after an expansion to ambient pressure
     [m/s]. If the temperatures of both gases differ, a contact discontinuity lies between the gases, and the invariant
     v + 2c/(g-1) holds on the side of the cell. In the code, `ratio` is the speed of sound at the face divided by the

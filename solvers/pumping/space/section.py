@@ -73,8 +73,8 @@ def _flank_section(
 ) -> tuple[float, float, float, float, float]:
     """Find the section of a side on the line of action; returns the same values as `_corner_section`.
 
-    The line of action may miss the involute of one gear, gear A. The section then starts at the point in which the line
-    of action meets the flank of the other gear, gear B, and ends at the nearest point of gear A. The clearance is the
+    The line of action may miss the involute of one gear, gear A. The section then starts at the point where the line of
+    action meets the flank of the other gear, gear B, and ends at the nearest point of gear A. The clearance is the
     length of this section. If the distance between the end of the missed involute and gear B is smaller, the clearance
     is this distance.
     """
