@@ -169,7 +169,7 @@ def gear_oil_viscosity(oil: OilSheet | Lubricant, oil_temperature: float, film_t
 
 @record
 class Shaft:
-    """A shaft in two bearings; its sections follow one another along Z from `start`."""
+    """A shaft in two bearings; the sections of the shaft follow one another along Z and begin at `start`."""
 
     start: float = quantity(
         "start of the shaft",
@@ -345,7 +345,7 @@ class UnitCoupling:
 
 @record
 class Arrangement:
-    """Position and rotation of the unit; angles are counter-clockwise from X if one looks in the direction -Z."""
+    """Position and rotation of the unit; angles are measured counter-clockwise from X, seen from +Z."""
 
     hand: Literal["right", "left"] = quantity(
         "hand of the pinion's helix", default="right", text="without meaning for spur gears"
@@ -381,8 +381,8 @@ class Heat:
     tooth meets the hot gas once per turn of the wheel.
 
     Normally the tooth temperatures do not include the pumping heat, and the model adds the temperature rise of the
-    metal. If the tooth temperatures already include the pumping heat, the model subtracts the mean over the face from
-    this rise before it adds the rise.
+    metal. If the tooth temperatures already include the pumping heat, the model adds only the difference between
+    this rise and the mean of this rise over the face.
     """
 
     wall_response: float | None = quantity(

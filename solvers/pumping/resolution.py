@@ -221,9 +221,9 @@ def _profiles(gas: Gas, flow: SpaceFlow) -> dict[str, FloatArray]:
 
 
 def _reach(position: FloatArray, here: FloatArray, coarse: FloatArray, there: FloatArray, times: float = RISE) -> float:
-    """Compute the largest of the local maxima over the face if every maximum rises further by `times` its last rise.
+    """Compute the largest of the local maxima over the face after a further rise of every maximum.
 
-    The last rise of a maximum is the rise from the coarse to the fine grid.
+    The last rise of a maximum is the rise from the coarse to the fine grid. The further rise is `times` the last rise.
     """
     edged = np.pad(here, 1, constant_values=-np.inf)
     tops = (here >= edged[:-2]) & (here >= edged[2:])

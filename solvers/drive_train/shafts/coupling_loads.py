@@ -182,8 +182,8 @@ def elastic_plastic(ratio: float) -> tuple[float, float]:
 
     Notes
     -----
-    Eq. D9. Springs with a sliding limit pass through a hysteresis loop in one revolution. The moments are the first
-    harmonic of this loop.
+    Eq. D9. The teeth act like springs that slide above a limit force. Such springs pass through a hysteresis loop in
+    one revolution. The moments are the first harmonic of this loop.
     """
     if ratio <= 1.0:
         return 0.0, pi * ratio / 4

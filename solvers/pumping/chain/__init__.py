@@ -1,1 +1,1 @@
-"""The pocket chain of Milian et al.: `step` computes one time step, and `pocket_chain` all time steps of a stroke."""
+"""The pocket chain of Milian et al.: `step` computes one time step, `pocket_chain` computes all steps of a stroke."""

@@ -62,7 +62,7 @@ the step.
 def empty_pockets(pockets: int) -> RecordArray:
     """Return an array of records of POCKET for `pockets` pockets.
 
-    The array has one more record than pockets. The last record describes the face above the last pocket.
+    The array has `pockets` + 1 records. The last record describes the face above the last pocket.
     """
     return records(pockets + 1, POCKET)
 
@@ -76,7 +76,10 @@ class Side(NamedTuple):
 
 
 class Passage(NamedTuple):
-    """Flow of mass or heat through an opening from left to right, and its derivatives by the states on both sides."""
+    """Flow of mass or heat through an opening from left to right.
+
+    The other fields are the derivatives of this flow by the states on both sides of the opening.
+    """
 
     flow: float
     by_left_pressure: float

@@ -94,7 +94,7 @@ def normal_backlash(pair: GearPair, extra: float) -> float:
 
 
 def _thinning(pair: GearPair, normal_backlash: float) -> float:
-    """Compute by how much the mate's tooth is thinner on its working circle [m]."""
+    """Compute the reduction of the thickness of the mate's tooth on the mate's working circle [m]."""
     return normal_backlash / (cos(pair.base_helix_angle) * cos(pair.working_pressure_angle))
 
 
