@@ -1,4 +1,4 @@
-"""Checks of the inputs of a drive train, which raise InvalidInput."""
+"""Checks of the inputs of a drive train; a failed check raises InvalidInput."""
 
 import numpy as np
 
@@ -9,7 +9,7 @@ from solvers.gears.pair import PathOfContact
 NAMES = ("pinion_shaft", "wheel_shaft")
 COLLAR_BEYOND_TEETH = 3.0  # normal modules; largest distance of the collar radius from the pitch circle
 LEAST_BEARING_DISTANCE = 0.5  # in face widths; least distance between the two bearings of a shaft
-LEAST_STIFFNESS = 1e6  # N/m; limit for the stiffness in the weakest direction, by the symmetric part of the matrix
+LEAST_STIFFNESS = 1e6  # N/m; least stiffness in the weakest direction, from the symmetric part of the matrix
 ROUNDING = 1e-9  # relative rounding error of numbers that were converted from other units
 
 

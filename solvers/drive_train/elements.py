@@ -33,7 +33,10 @@ def warnings_of(unit: Unit, equilibrium: Equilibrium) -> list[tuple[Notice, ...]
 
 
 def _tilt_sizes(unit: Unit, equilibrium: Equilibrium) -> list[Vector2]:
-    """Return the sizes of the tilts [rad] of both hubs of every coupling; smaller sizes are raised to `LEAST_TILT`."""
+    """Return the sizes of the tilts [rad] of both hubs of every coupling.
+
+    A size below `LEAST_TILT` is raised to `LEAST_TILT`.
+    """
     tilts = equilibrium.hubs.tilts.reshape(len(unit.couplings), 2, 2)
     return [(max(hypot(*a), LEAST_TILT), max(hypot(*b), LEAST_TILT)) for a, b in tilts]
 
@@ -43,7 +46,7 @@ def coupling_results(
 ) -> tuple[CouplingResult, ...]:
     """Return tilts, friction and loads of the couplings.
 
-    The conjugate moments m = -Z x M of the ports are converted back to moments M.
+    The equilibrium holds conjugate moments m = -Z x M. The results hold the moments M.
     """
     results = []
     for k, (port, pair) in enumerate(zip(unit.couplings, hubs, strict=True)):

@@ -63,8 +63,8 @@ class ShaftBearing:
         Raises
         ------
         InvalidInput
-            `no_oil` if a plain bearing has neither a viscosity nor an oil; `bearing_data` if data are missing that the
-            type of the bearing requires.
+            `no_oil` if a plain bearing has neither a viscosity nor an oil; `bearing_data` if the type of the bearing
+            requires data that are missing.
         """
         if self.type == "rigid":
             return RigidBearing(self.position, offset=self.offset)

@@ -53,7 +53,7 @@ def torsion_diameter(gears: GearPairInputs, teeth: GearTeeth) -> float:
 
     Notes
     -----
-    Eq. D16, the rule of a public program.
+    Eq. D16. This is the rule of a published program.
     """
     reference = teeth.teeth * gears.normal_module / cos(gears.helix_angle)
     return reference - gears.normal_module * teeth.dedendum
@@ -169,7 +169,7 @@ def gear_oil_viscosity(oil: OilSheet | Lubricant, oil_temperature: float, film_t
 
 @record
 class Shaft:
-    """A shaft in two bearings; its sections follow one another along Z from `start`."""
+    """A shaft in two bearings; the sections of the shaft follow one another along Z and begin at `start`."""
 
     start: float = quantity(
         "start of the shaft",
@@ -345,7 +345,7 @@ class UnitCoupling:
 
 @record
 class Arrangement:
-    """Position and rotation of the unit; angles are counter-clockwise from X if one looks in the direction -Z."""
+    """Position and rotation of the unit; angles are measured counter-clockwise from X, seen from +Z."""
 
     hand: Literal["right", "left"] = quantity(
         "hand of the pinion's helix", default="right", text="without meaning for spur gears"
@@ -373,13 +373,16 @@ class Arrangement:
 
 @record
 class Heat:
-    """Tooth temperatures, and the shares of the gas's temperature rise that reach the metal.
+    """Tooth temperatures and wall responses.
 
-    If `wall_response` is None, a response of 0.5 is assumed and a warning states this. If `wall_response_wheel` is
-    None, the response of the wheel is the response of the pinion times z1/z2, because a wheel tooth meets the hot gas
-    once per turn of the wheel. Normally the tooth temperatures do not include the pumping heat. If the temperatures
-    already include the pumping heat, only the difference between the temperature rise of the gas and the mean of this
-    rise over the face counts.
+    The wall response of a gear is the temperature rise of the metal divided by the temperature rise of the pumped gas.
+    If `wall_response` is None, a response of 0.5 is assumed and a warning states this assumption. If
+    `wall_response_wheel` is None, the response of the wheel is the response of the pinion times z1/z2, because a wheel
+    tooth meets the hot gas once per turn of the wheel.
+
+    Normally the tooth temperatures do not include the pumping heat, and the model adds the temperature rise of the
+    metal. If the tooth temperatures already include the pumping heat, the model adds only the difference between
+    this rise and the mean of this rise over the face.
     """
 
     wall_response: float | None = quantity(

@@ -21,8 +21,9 @@ def train_losses(
     """Return the losses of all parts of the unit [W].
 
     `mesh` [W] is the loss that the model of the mesh computes; `pumping` [W] is the loss that the pumping model
-    computes. A heat balance adds other losses and replaces the loss of the mesh. If the loss of the mesh is not known,
-    the total is None. If the total is not smaller than the power, the efficiency is None.
+    computes. If there is a heat balance, the mesh loss of the heat balance replaces `mesh`, and the losses by
+    acceleration of the oil, by windage and in other parts are added. If the loss of the mesh is not known, the total is
+    None. If the total is not smaller than the power, the efficiency is None.
     """
     bearings = sum(bearing.friction_power for shaft in shafts for bearing in shaft.bearings)
     coupling = sum(result.friction_power for result in couplings)
@@ -39,8 +40,9 @@ def train_losses(
 def force_balance(unit: Unit, equilibrium: Equilibrium, torques: tuple[float, float], force: float) -> ForceBalance:
     """Return the largest unbalanced force and the largest unbalanced moment on a shaft.
 
-    The forces are balanced in both planes. The moments are balanced in both planes and about Z. `torques` [N m] drive
-    the pinion and brake the wheel; `force` is F_bt [N].
+    The forces on a shaft are added up in both planes. The moments are added up in both planes and about Z. In
+    equilibrium all these sums are 0. `torques` [N m] drive the pinion and brake the wheel; `force` is F_bt [N]. The
+    results are divided by F_bt and by F_bt b.
     """
     if force == 0.0:
         return ForceBalance(None, None)

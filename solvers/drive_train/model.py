@@ -25,7 +25,7 @@ from solvers.scuffing.thermal.temperatures import in_force, oil_notices
 
 
 def solve(inputs: DriveTrainInputs, start: FloatArray | None = None) -> DriveTrainResult:
-    """Compute misalignment, load, safety, thrust and losses of a unit in one state.
+    """Compute misalignment, load, safety, thrust and losses of a unit in one state, hot or cold.
 
     Parameters
     ----------

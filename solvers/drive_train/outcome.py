@@ -19,9 +19,10 @@ from solvers.scuffing.thermal.temperatures import in_force
 class Outcome:
     """Main results of a unit: pressure [Pa], line load [N/m], slopes of the gap [m] and transmission error [m].
 
-    `safety` is the safety factor over the flank by Blok's method. The method compares Blok's contact temperature
-    `temperature` [profile, face] [K] with the scuffing temperature `limit` [K]. `shares` is the load along the face
-    divided by the mean load. The calculation of a similar unit can start from `gap` [m].
+    `safety` is the safety factor at the hottest place of the flank, by Blok's method. The method compares the contact
+    temperature with the scuffing temperature `limit` [K]. `temperature` [profile, face] [K] is the contact temperature
+    over the flank. `shares` is the load along the face divided by the mean load. The calculation of a similar unit can
+    start from `gap` [m].
     """
 
     face_load_factor: float | None
@@ -40,8 +41,8 @@ class Outcome:
 def outcome(inputs: DriveTrainInputs, start: FloatArray | None = None) -> Outcome:
     """Compute the main results of a unit.
 
-    If `start` [m] is given, the iteration starts from this gap, the gap of a similar unit. Raises the errors of
-    `model.solve`.
+    `start` [m] is the gap of a similar unit. If `start` is given, the iteration starts from this gap. Raises the errors
+    of `model.solve`.
     """
     if asks_for_balance(inputs):
         warm = warm_unit(

@@ -21,11 +21,13 @@ from solvers.sources import ISO_6336, OCVIRK
 
 @record
 class Parts:
-    """Parts of the slope of the shafts' gap over the face. There is one part per cause, under the load in equilibrium.
+    """Contributions to the slope of the gap that the shafts cause over the face; one contribution per cause.
 
-    `bending`, `torsion` and `tilting_moment` are parts from the elastic deformation that the mesh force causes. `films`
-    is the part from the displacements in all bearings under all loads. `coupling`, `collar` and `weight` are parts from
-    the elastic bending that the loads of the couplings, of the thrust collar and of the weight cause.
+    All contributions are computed at the loads in equilibrium. The mesh force deforms the shafts elastically. This
+    deformation contributes `bending`, `torsion` and `tilting_moment`. The displacements in all bearings under all loads
+    contribute `films`. The offsets of the bores contribute `bearing_offsets`. The shafts also bend elastically under
+    the loads of the couplings, under the load of the thrust collar and under their weight. This bending contributes
+    `coupling`, `collar` and `weight`.
     """
 
     bending: float = quantity("slope by bending", "f_b", unit="um", text="of the mesh's transverse force")
@@ -188,7 +190,7 @@ class CouplingResult:
 
 @record
 class FlashPlaces:
-    """Largest flash temperatures by Blok's formula; the values are None if the contact reaches a base circle.
+    """Largest flash temperatures by Blok's formula; these values are None if the contact reaches a base circle.
 
     `contact_max` is the largest sum of bulk and flash temperature at one place.
     """
@@ -214,8 +216,9 @@ class FlashPlaces:
 class TrainSafety:
     """Safety factors by Blok's method on the feature line and over the flank, and by thermal EHL on two lines.
 
-    The profile line runs from A to E through `blok_at`, the hottest place by Blok. A factor that is not known is None.
-    If one of the factors is not known, `minimum` is None too.
+    Thermal EHL is solved on the feature line and on a profile line. The profile line runs from A to E through
+    `blok_at`, the hottest place by Blok. A factor that is not known is None. If a factor is not known, `minimum` is
+    None too.
     """
 
     blok_feature: float | None = quantity("safety factor on the feature line (flash temperature method)", "S_B,1")
@@ -238,7 +241,7 @@ class TrainLosses:
 
     If the coefficient of friction of the mesh is not known, the loss of the mesh, the total and the efficiency are
     None. With a heat balance, the loss of the mesh is calculated at the temperature of the flanks. The total then also
-    contains the losses due to acceleration of the oil, due to windage and in other parts.
+    contains the loss due to acceleration of the oil, the loss due to windage, and the loss in other parts.
     """
 
     coupling: float = quantity("loss of the couplings", "P_C", unit="w")

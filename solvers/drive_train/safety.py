@@ -137,7 +137,10 @@ def _feature_points(inputs: DriveTrainInputs, mesh: LoadDistribution, bulk: Face
 
 
 def _with_line(peak: Peak | None, along: FloatArray, across: FloatArray, on_line: FloatArray) -> Peak | None:
-    """Return the higher of the peak over the flank and the peak on the feature line; None if a peak is not known."""
+    """Return the higher of two peaks: the peak over the flank and the peak on the feature line.
+
+    Return None if the peak over the flank or a value on the feature line is not known.
+    """
     if peak is None or np.isnan(on_line).any():
         return None
     top = int(np.argmax(on_line))

@@ -10,9 +10,9 @@ from solvers.drive_train.inputs import DriveTrainInputs, JournalBearing, Shaft
 from solvers.notices import Notice
 
 MOST_CORNERS = 256  # number of combinations of eight uncertain inputs with two values per input
-FRICTION = (0.05, 0.25)  # coefficient of the best mixed lubrication, and coefficient that gives the thrust 0.25 T/D
+FRICTION = (0.05, 0.25)  # coefficients of friction: best mixed lubrication; the value that gives the thrust 0.25 T/D
 THRUST = (0.0, 1.0)  # thrust as a share of the friction limit of the coupling
-RESPONSE = (0.3, 1.0)  # wall response; chosen for a wall cooled by oil, and for a wall as warm as the gas
+RESPONSE = (0.3, 1.0)  # wall responses: 0.3, chosen, if oil cools the wall; 1.0 if the wall is as warm as the gas
 CLEARANCE = 0.1  # relative change of the clearance, up and down
 QUARTERS: tuple[Callable[[float, float], tuple[float, float]], ...] = (
     lambda x, y: (x, y),
@@ -24,7 +24,11 @@ QUARTERS: tuple[Callable[[float, float], tuple[float, float]], ...] = (
 
 @dataclass(frozen=True, slots=True)
 class Range:
-    """Values of one uncertain `quantity`. Each row of `values` holds one value for each input in the dotted `names`."""
+    """Values of one uncertain quantity.
+
+    `quantity` is the name of the quantity in words. `names` are the paths of the inputs that change with this quantity,
+    such as "heat.wall_response". Each row of `values` holds one value per input.
+    """
 
     quantity: str
     names: tuple[str, ...]
@@ -34,7 +38,7 @@ class Range:
 def uncertain_inputs(inputs: DriveTrainInputs) -> tuple[Range, ...]:
     """Return the ranges of the uncertain inputs of a unit.
 
-    Uncertain are the wall response and the bearing clearances of each shaft. Three inputs of each coupling are
+    The wall response and the bearing clearances of each shaft are uncertain. Three inputs of each coupling are
     uncertain as well: the friction, the direction of the offset, and the thrust. The clearances of a shaft's two
     bearings change by 10 % in opposite senses, because the same change in both bearings would not tilt the shaft. All
     couplings change together. If the couplings varied independently, a unit with two couplings would need 2,048 runs.

@@ -144,7 +144,8 @@ def at_temperatures(
     flanks, bodies : tuple of float
         Temperatures of pinion and wheel [K].
     films : list of float
-        Film temperatures of the four bearings, the pinion's first [K]; NaN for bearings without a film.
+        Film temperatures of the two bearings of the pinion, then of the two bearings of the wheel [K]; NaN for bearings
+        without a film.
     casing : float or None
         Temperature of the casing [K].
 
@@ -166,7 +167,10 @@ def at_temperatures(
 
 
 def _with_films(mesh: ScuffingInputs, shaft: Shaft, films: list[float]) -> Shaft:
-    """Return the shaft, with the viscosity at the film temperature for each bearing that runs in the gears' oil."""
+    """Return the shaft with new viscosities for the bearings that run in the gears' oil.
+
+    The viscosity of such a bearing is the viscosity of the gears' oil at the temperature of the bearing's film.
+    """
     assert mesh.known_oil is not None
     oil = heat_balance.cooling_oil(mesh.known_oil, mesh.temperatures.oil)
     bearings = tuple(
@@ -179,7 +183,10 @@ def _with_films(mesh: ScuffingInputs, shaft: Shaft, films: list[float]) -> Shaft
 
 
 def _with_rise(coupling: UnitCoupling, casing: float | None, reference: float) -> UnitCoupling:
-    """Return the coupling. If no temperature rise of the unit's supports is given, the rise of the casing is used."""
+    """Return the coupling with a temperature rise of the unit's supports.
+
+    If no temperature rise of the supports is given, the temperature rise of the casing is used.
+    """
     alignment = coupling.alignment
     if casing is None or alignment is None or alignment.unit_rise is not None:
         return coupling
@@ -211,7 +218,7 @@ def _balance(
 
 
 def _journals(system: Unit, equilibrium: Equilibrium, face: tuple[float, float]) -> Iterator[Journal]:
-    """Yield the plain bearings of both shafts under their loads, as the heat balance needs them."""
+    """Yield the plain bearings of both shafts and their loads, in the form that the heat balance needs."""
     states = system.bearings(equilibrium.loads)
     for gear, side in enumerate(system.shafts):
         for k, bearing in enumerate(side.shaft.bearings):

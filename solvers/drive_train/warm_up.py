@@ -217,9 +217,9 @@ def _rotor(shaft: Shaft, material: Solid, solid: float, reference: float) -> flo
 def _times(course: WarmUp) -> FloatArray:
     """Return the five points in time of the alignment.
 
-    The five points are the start, the end, the time of the greatest temperature difference between the gear bodies, one
-    time before this greatest difference and one time after the greatest difference. If the difference is greatest at
-    the start or at the end, the five points are equidistant.
+    One point is the time at which the temperature difference between the gear bodies is greatest. The other points are
+    the start, a time between the start and this time, a time between this time and the end, and the end. If the
+    difference is greatest at the start or at the end, the five points are equidistant.
     """
     end = float(course.curves.time[-1])
     greatest = course.greatest_difference_at

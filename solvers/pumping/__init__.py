@@ -1,9 +1,10 @@
 """Air and mist pumped by meshing teeth.
 
-Data pass through the modules in this order: inputs, checks -> space (shape, section and stroke of a tooth space; the
-face between grooves) -> flow (properties of the gas, duct, records) -> one of the flow models (gas, chain,
-incompressible) -> resolution, lead_correction, pulsation. `spaces` prepares everything that does not depend on the
-speed, and calls the flow model. `model`, `choking` and `speed_scan` use `spaces`.
+Data pass through the modules in this order: inputs, checks -> space -> flow -> one of the flow models (gas, chain,
+incompressible) -> resolution, lead_correction, pulsation. `space` describes shape, section and stroke of a tooth space,
+and divides the face between grooves. `flow` holds what all flow models use: the properties of the gas, the duct, and
+the records of a calculation. `spaces` prepares everything that does not depend on the speed, and calls the flow model.
+`model`, `choking` and `speed_scan` use `spaces`.
 """
 
 from solvers.guards import guarded

@@ -8,7 +8,7 @@ from solvers.pumping.gas.gas_dynamics import LEAST_SLICES
 from solvers.pumping.inputs import Flow, PumpingSetup, rpm
 from solvers.pumping.space.face import Stretch
 
-LEAST_TEETH = 5  # chosen: gears of fewer teeth are not in use
+LEAST_TEETH = 5  # chosen, because gears with fewer teeth are not in use
 LEAST_SPEED = 1e-100  # rad/s; at lower speeds the duration of a stroke overflows
 NARROW = 0.5  # share of the widest slice; if a slice is narrower, the grooves are the reason for short steps
 
@@ -86,10 +86,10 @@ def check_speed(pinion_speed: float) -> None:
 
 
 def refuse_cost(pinion_speed: float, parts: list[Stretch], excess: float) -> NoReturn:
-    """Refuse a march that needs `excess` times the permitted number of steps; the message says what would be permitted.
+    """Refuse a march that needs `excess` times the permitted number of steps.
 
     Raises InvalidInput: narrow_land if the reason is the thin slices of a short stretch between grooves, else
-    too_many_steps.
+    too_many_steps. The message states the inputs with which the march would be permitted.
     """
     narrowest, widest = min(part.width for part in parts), max(part.width for part in parts)
     if narrowest < NARROW * widest:
@@ -111,6 +111,6 @@ def refuse_cost(pinion_speed: float, parts: list[Stretch], excess: float) -> NoR
 
 
 def _rounded_up(value: float) -> float:
-    """Round up to three digits."""
+    """Round a value up and keep three significant digits."""
     unit = 10.0 ** (floor(log10(value)) - 2)
     return ceil(value / unit) * unit

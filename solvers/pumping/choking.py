@@ -17,10 +17,10 @@ from solvers.pumping.results import ChokingCurves, ChokingSpeeds
 from solvers.pumping.spaces import CELL_STEP_LIMIT, Mesh, Space, derived, flow_at, prepare
 
 _COARSENING = 4  # the number of slices is divided by this factor while the speeds are bracketed
-_BRACKET = log(1.1)  # half width of the bracket around the speed from the coarse grid; speeds are logarithms here
+_BRACKET = log(1.1)  # half width of the bracket around the result of the coarse grid, as a logarithm of the speed
 _ACCURACY = 1e-4  # accuracy of the logarithm of the speed, which means 0.01 % of the speed
-_STEP_DOWN, _STEPS_DOWN = log(sqrt(2.0)), 24  # size and number of the steps of a scan down to 1/4096 of the limit
-_SOLVES = 8  # number of solutions that together may cost as much as the most expensive single solution
+_STEP_DOWN, _STEPS_DOWN = log(sqrt(2.0)), 24  # logarithmic step of the scan; number of steps to 1/4096 of the limit
+_SOLVES = 8  # divisor of the permitted cost of a single solution, because the search needs several solutions
 
 Excess = Callable[[float], float]
 
@@ -36,7 +36,7 @@ def choking_speeds(inputs: ChokingInputs) -> ChokingSpeeds:
     Returns
     -------
     ChokingSpeeds
-        Lowest choking speeds over the selected spaces [rad/s], the curves of the scan, and warnings.
+        Lowest choking speeds over the selected spaces [rad/s], the curves of a scan over the speed, and warnings.
 
     Raises
     ------
@@ -48,9 +48,9 @@ def choking_speeds(inputs: ChokingInputs) -> ChokingSpeeds:
 
     Notes
     -----
-    Eq. P11. A radial gap chokes if the largest pressure over the ambient pressure reaches the inverse of the critical
-    ratio. An exit chokes if the gas would reach Mach 1 by an expansion to ambient pressure. Choking speeds are
-    bracketed on a coarse grid and refined on the full grid.
+    Eq. P11. A radial gap chokes if the largest pressure, divided by the ambient pressure, reaches the inverse of the
+    critical ratio. An exit chokes if the gas would reach Mach 1 by an expansion to ambient pressure. A scan on a coarse
+    grid brackets the choking speeds. Further solutions on the full grid then refine the choking speeds.
     """
     setup, top = inputs.setup, log(inputs.search_limit)
     if setup.model.flow is Flow.INCOMPRESSIBLE:
@@ -80,9 +80,11 @@ def choking_speeds(inputs: ChokingInputs) -> ChokingSpeeds:
 
 
 class _Demand:
-    """Logarithms of the pressure and of the exit Mach number of a space, both relative to their choking limits.
+    """Distance of a space from choking, as a function of the speed.
 
-    Speeds are logarithms as well. The flow at a speed is computed only once.
+    `radial` returns the logarithm of the largest pressure divided by the pressure at which the radial gap chokes.
+    `axial` returns the logarithm of the exit Mach number; the exit chokes at Mach 1. The argument of both functions is
+    the logarithm of the pinion speed. The flow at a speed is computed only once.
     """
 
     def __init__(self, mesh: Mesh, space: Space, slices: int) -> None:

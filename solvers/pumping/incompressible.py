@@ -36,18 +36,19 @@ def incompressible(
     Returns
     -------
     SpaceFlow
-        The flow at the middle of each interval of the table. Temperatures are None, because the model gives the work,
-        but not the place at which the work heats the gas.
+        The flow at the middle of each interval of the table. Temperatures are None: the model computes the work, but it
+        does not compute where the work heats the gas.
 
     Raises
     ------
     InvalidInput
-        incompressible_vacuum, if the suction would exceed the ambient pressure.
+        incompressible_vacuum if the suction would exceed the ambient pressure.
 
     Notes
     -----
     Eq. P14: the gas has the same velocity U = -(dV/dt) / [C_d (2 S + L b)] in every opening, and
-    p - p_e = rho U |U| / 2.
+    p - p_e = rho U |U| / 2. Here S is the area and V is the volume of the space, L is the sum of both clearances, and b
+    is the face width.
     """
     time = (table.angle - table.angle[0]) / (pinion_speed * speed_ratio)
     step = np.diff(time)

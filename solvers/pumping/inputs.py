@@ -203,7 +203,10 @@ class PumpingModel:
 
 @record
 class PumpingSetup:
-    """All inputs except the speed; `normal_backlash` [m] is added to the backlash of the centre distance."""
+    """All inputs except the speed.
+
+    `normal_backlash` [m] is added to the backlash that results from the centre distance.
+    """
 
     gears: GearPairInputs = quantity("gear pair")
     normal_backlash: float = quantity(
@@ -228,7 +231,7 @@ class PumpingSetup:
 
 @record
 class PumpingInputs:
-    """One operating point; `pinion_speed` [rad/s]."""
+    """The inputs at one operating point; `pinion_speed` is in [rad/s]."""
 
     setup: PumpingSetup
     pinion_speed: float = quantity("pinion speed", "n_1", MILIAN, unit="rpm", gt=0, le=1e5)
@@ -236,7 +239,7 @@ class PumpingInputs:
 
 @record
 class ChokingInputs:
-    """A search for the speeds that choke the flow, up to `search_limit` [rad/s] of the pinion."""
+    """A search for the pinion speeds at which the flow chokes; the search ends at the speed `search_limit` [rad/s]."""
 
     setup: PumpingSetup
     search_limit: float = quantity(

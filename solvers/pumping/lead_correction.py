@@ -1,11 +1,13 @@
-"""Thermal growth of the pinion's flanks along the face, and the lead correction that compensates it (own derivation).
+"""Thermal growth of the pinion's flanks along the face, and the lead correction that compensates this growth.
 
 A heated body keeps its shape and grows. A point moves radially by eps times its distance from the axis, and axially by
 eps times its distance from the end z = 0; no angle changes. Along the transverse line of action a flank moves by
 
  d(z) = eps(z) s_C + tan(beta_b) integral_0^z eps dz',    eps = alpha_L dT,    s_C = r_w sin(alpha_wt).
 
-The first term is the growth of the radius. The second term is the growth in length, which shifts the helix.
+Here alpha_L is the coefficient of thermal expansion, dT is the temperature rise, r_w is the working pitch radius,
+alpha_wt is the working transverse pressure angle, and beta_b is the base helix angle. The first term is the growth of
+the radius. The second term is the growth in length, which shifts the helix. The derivation is our own.
 """
 
 from math import sin, tan
@@ -96,8 +98,8 @@ def lead_correction(pair: GearPair, position: FloatArray, temperature_rise: Floa
 def _elongation(position: FloatArray, strain: FloatArray) -> FloatArray:
     """Integrate the strain from the end of the face to the positions [m].
 
-    The strain is linear between two positions, even if a groove lies between them. From the end of the face to the
-    first position, the strain is that of the first position.
+    The strain is linear between two positions, even if a groove lies between these positions. From the end of the face
+    to the first position, the strain is constant and equal to the strain at the first position.
     """
     parts = 0.5 * (strain[1:] + strain[:-1]) * np.diff(position)
     elongation: FloatArray = strain[0] * position[0] + np.concatenate([[0.0], np.cumsum(parts)])

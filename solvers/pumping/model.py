@@ -44,7 +44,8 @@ def solve(inputs: PumpingInputs) -> PumpingResult:
     Returns
     -------
     PumpingResult
-        The operating point in SI: the spaces of the selected gears, totals, uncertainties and warnings.
+        Results at the operating point in SI units: results of the spaces of the selected gears, totals, uncertainties
+        and warnings.
 
     Raises
     ------
@@ -114,13 +115,16 @@ def _geometry(mesh: Mesh) -> MeshGeometry:
 
 def _on_grids(mesh: Mesh, space: Space, speed: float, slices: int) -> Grids:
     """Compute one stroke at the given resolution, and at half and a quarter of this resolution to estimate errors."""
-    flow = flow_at(mesh, space, speed, slices)  # first, because this call refuses too long a march
+    flow = flow_at(mesh, space, speed, slices)  # this call comes first, because it refuses a march that is too long
     half, quarter = (coarser_flow_at(mesh, space, speed, slices, times) for times in (2, 4))
     return Grids(flow, half, quarter, _lead(mesh, space, speed))
 
 
 def _lead(mesh: Mesh, space: Space, speed: float) -> float:
-    """Compute `Grids.lead`; return infinity if the flow model has no waves. Only gas dynamics has waves."""
+    """Compute how far sound is ahead of or behind the meshing line (`Grids.lead`).
+
+    Only gas dynamics has waves. For the other flow models, return infinity.
+    """
     if mesh.setup.model.flow is not Flow.GAS_DYNAMICS:
         return inf
     return abs(mesh.gas.sound_speed * space.lag / (speed * space.speed_ratio) - 1.0)

@@ -14,7 +14,7 @@ from solvers.pumping.space.stroke import StrokeTable
 FEW_TEETH = 12  # chosen: the gears of the paper and of all comparisons have more teeth
 TIP_SPEED_SHARE = 0.8  # share of the ambient speed of sound; published checks end at this tip speed
 PITCH_LINE_SPEED = 250.0  # m/s; published checks end at this speed
-FEW_SLICES = 20  # least number of slices in the stroke at one time without a warning
+FEW_SLICES = 20  # if fewer slices are in their stroke at the same time, there is a warning
 INCOMPRESSIBLE_MACH = 0.3  # usual limit, at which the density changes by 5 %
 RESOLVED = 0.06  # largest relative uncertainty of a result without a warning
 NET_UNCERTAINTY = 0.3  # largest uncertainty of a net flow without a warning, relative to the net flow
@@ -26,7 +26,7 @@ THIN_AIR = 20e3  # Pa, chosen; nearly a vacuum
 def setup_notices(setup: PumpingSetup, path: PathOfContact, active_slices: float) -> list[Notice]:
     """Return the warnings about the gear pair, a small contact ratio, a small number of teeth and too few slices.
 
-    `active_slices` is the number of slices in the stroke at one time.
+    `active_slices` is the number of slices that are in their stroke at the same time.
     """
     notices = pair_notices(path)
     ratio = path.transverse_contact_ratio
@@ -55,7 +55,10 @@ def setup_notices(setup: PumpingSetup, path: PathOfContact, active_slices: float
 
 
 def jump_notices(tables: Sequence[StrokeTable]) -> list[Notice]:
-    """Return a warning if the area of a space jumps, because the gas is then compressed without motion of the teeth."""
+    """Return a warning if the area of a space jumps.
+
+    At such a jump, the model compresses the gas although the teeth do not move.
+    """
     share, angle = max(table.jump for table in tables)
     if share == 0.0:
         return []

@@ -40,8 +40,8 @@ def pulsation(meshing_frequency: float, flows: list[tuple[SpaceFlow, float, floa
 
     Notes
     -----
-    Eq. P13: the amplitude of order k is 2 f_m |integral m_dot exp(-2 pi i k f_m t) dt|. The wave of order k is computed
-    as the wave of order 1 to the power k.
+    Eq. P13: the amplitude of order k is 2 f_m |integral m_dot exp(-2 pi i k f_m t) dt|. The code computes
+    the exponential of order k as the k-th power of the exponential of order 1.
     """
     front = np.zeros(HARMONICS, dtype=complex)
     rear = np.zeros(HARMONICS, dtype=complex)

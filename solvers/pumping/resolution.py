@@ -1,14 +1,14 @@
 """Errors of discretisation, estimated from the same flow at half and a quarter of the resolution.
 
-The flow has kinks during a stroke, so errors are of first order in the width of the slices. For two grids and first
-order, Roache's grid convergence index takes three times the difference of the grids as the uncertainty of the finer
-grid (J. Fluids Eng. 116, 1994, 405).
+The flow has kinks during a stroke, so errors are of first order in the width of the slices. For two grids and errors of
+first order, Roache's grid convergence index gives the uncertainty of the finer grid as three times the difference
+between the grids (J. Fluids Eng. 116, 1994, 405).
 
 Extremes need more care. An extreme may lie between two slices, and two grids may agree on an extreme by
-chance. Therefore the estimate does three more things. It also compares a third grid with a quarter of the resolution.
+chance. Therefore the estimate does three more things. It also uses a third grid, which has a quarter of the resolution.
 It increases the uncertainty of an extreme by a fifth. It includes places at which the value is not the highest yet, but
 rises with the resolution. In a test, 800 random gear pairs were computed again with twice the number of slices. Only
-one result changed by more than its uncertainty; the change exceeded the uncertainty by a hundredth.
+one result changed by more than its uncertainty. This change was 1 % larger than the uncertainty.
 
 Two grids may also agree on an extreme but not on the pressure around it, because both grids damp the waves alike.
 Therefore the difference of the pressures close to an extreme is included. If the meshing line moves along the face
@@ -30,17 +30,18 @@ from solvers.pumping.results import Resolution
 SAFETY = 3.0  # factor on the difference of two grids, as in the grid convergence index (Roache 1994)
 OF_EXTREMES = 1.2  # further factor on the uncertainty of extremes
 RISE = 2.0  # a value may rise further by this factor times its rise from half to full resolution
-NEAR = 0.97  # share of an end's Mach number; on a finer grid, slices above this share may exceed the end
+NEAR = 0.97  # share of the Mach number at an end; a slice above this share may exceed the end on a finer grid
 CLOSE = 0.9  # share of an extreme gauge pressure; larger pressures count as close to the extreme
 SPREAD = 4.0  # number of slices over which a grid spreads a wave
-LOST = 1.0  # relative uncertainty of a pressure at which no result is certain, as a finer grid may give another flow
+LOST = 1.0  # if a pressure has this relative uncertainty, a finer grid may give another flow; no result is certain
 
 
 class Grids(NamedTuple):
     """One stroke at the full resolution, at half and at a quarter of this resolution.
 
-    `lead` is the distance along the face that sound runs ahead of or behind the meshing line, relative to the distance
-    that the meshing line covers.
+    `lead` compares sound with the meshing line, which moves along the face. In the same time, sound and meshing line
+    cover different distances. `lead` is the difference between both distances, divided by the distance that the meshing
+    line covers.
     """
 
     flow: SpaceFlow
@@ -88,11 +89,11 @@ def resolution(gas: Gas, spaces: list[Grids]) -> Resolution:
 
 
 def behind_jumps(resolved: Resolution, gas: Gas, flows: list[SpaceFlow], jumps: list[float]) -> Resolution:
-    """Raise the uncertainties to at least the effect of jumps of the area, which a higher resolution does not reduce.
+    """Raise the uncertainties to at least the effect of jumps of the area.
 
-    A jump of the logarithm of the area raises the pressure of the gas by the share `compressed`. The jump changes the
-    Mach number as much as a wave with this pressure rise does. If the pressure rise is as large as the gauge pressure,
-    no result is certain.
+    A higher resolution does not reduce this effect. A jump of the logarithm of the area raises the pressure of the gas
+    by the share that `compressed` returns. The jump changes the Mach number as much as a wave with this pressure rise
+    does. If the pressure rise is as large as the gauge pressure, no result is certain.
     """
     peak, low, mach = resolved.peak_pressure, resolved.min_pressure, resolved.axial_mach
     shares = [compressed(gas, jump) for jump in jumps]
@@ -121,8 +122,8 @@ def net_uncertainty(grids: Grids, jumped: float) -> float:
     """Estimate the uncertainty of the net mass through an end in a stroke [kg] from the flow at half the resolution.
 
     The net mass is the difference between outflow and inflow, and may change little by chance. The uncertainty is
-    therefore at least the sum of the changes of outflow and inflow. If jumps of the area change the pressure by the
-    share `jumped`, the uncertainty is also at least this share of all mass that passes the ends.
+    therefore at least the change of the outflow plus the change of the inflow. If jumps of the area change the pressure
+    by the share `jumped`, the uncertainty is also at least this share of all mass that passes the ends.
     """
     here, there = grids.flow.ends, grids.halved.ends
     ends = ((here.front, there.front), (here.rear, there.rear))
@@ -209,7 +210,7 @@ def _mach_reach(fine: SpaceFlow, half: SpaceFlow) -> float:
 
 
 def _profiles(gas: Gas, flow: SpaceFlow) -> dict[str, FloatArray]:
-    """Return the extremes of each slice over the stroke, expressed like the values of `_summary`."""
+    """Return the extremes of each slice over the stroke, as gauge pressures [Pa] and temperature rises [K]."""
     profiles = {
         "peak_pressure": flow.peak_pressure - gas.pressure,
         "min_pressure": gas.pressure - flow.lowest_pressure,
@@ -220,9 +221,9 @@ def _profiles(gas: Gas, flow: SpaceFlow) -> dict[str, FloatArray]:
 
 
 def _reach(position: FloatArray, here: FloatArray, coarse: FloatArray, there: FloatArray, times: float = RISE) -> float:
-    """Compute the largest of the local maxima over the face if every maximum rises further by `times` its last rise.
+    """Compute the largest of the local maxima over the face after a further rise of every maximum.
 
-    The last rise of a maximum is the rise from the coarse to the fine grid.
+    The last rise of a maximum is the rise from the coarse to the fine grid. The further rise is `times` the last rise.
     """
     edged = np.pad(here, 1, constant_values=-np.inf)
     tops = (here >= edged[:-2]) & (here >= edged[2:])

@@ -28,7 +28,11 @@ class MeshGeometry(Diameters):
 
 @record
 class Stroke:
-    """One stroke of a tooth space: angles of its gear from the line of centres [rad], areas [m^2]."""
+    """One stroke of a tooth space.
+
+    Angles [rad] are angles of the gear to which the space belongs. The angle is 0 if the space is on the line of
+    centres. Areas are in [m^2].
+    """
 
     start: float = quantity("start of the stroke", "φ_s", unit="deg", text="the mating tooth enters")
     contact_start: float = quantity("start of contact", "φ_A", unit="deg", text="the driving flanks touch")
@@ -43,9 +47,10 @@ class Stroke:
 class MassFlow:
     """Mass flow out of the spaces of one gear [kg/s].
 
-    The first five values are the net flows through the different exits; they add up to 0, see `ExitMasses`. The next
-    four values are the outflow and the inflow at each end. The last two values are the uncertainties of net flows.
-    Such an uncertainty can be large, because the net flow of an end is a small difference between outflow and inflow.
+    The first five values are the net flows through the five exits. These five values add up to 0, see `ExitMasses`. The
+    next four values are the outflow and the inflow at each end. The last two values are uncertainties of net flows. The
+    net flow of an end is a small difference between outflow and inflow; its relative uncertainty can therefore be
+    large.
     """
 
     front: float = quantity("net mass flow at the front", "m_f", unit="g_per_s", text="at the end that meshes first")
@@ -96,9 +101,10 @@ class Resolution:
     """Relative uncertainties of the results due to the resolution.
 
     Uncertainties of pressures are relative to the gauge pressure. The resolution is the number of slices in gas
-    dynamics, the number of steps in the pocket chain, and the number of positions in the incompressible model. An
-    uncertainty is at least the relative change of the pressure that a jump of the area causes. `temperature_rise` is
-    None if the flow model gives no temperatures. Uncertainties of the net flows are in `MassFlow`.
+    dynamics, the number of steps in the pocket chain, and the number of positions in the incompressible model. If the
+    area of a space jumps, the jump changes the pressure. No uncertainty is then smaller than the relative change of the
+    pressure. `temperature_rise` is None if the flow model gives no temperatures. Uncertainties of the net flows are in
+    `MassFlow`.
     """
 
     peak_pressure: float = quantity("uncertainty of the peak pressure", text="of the largest gauge pressure")
@@ -115,7 +121,7 @@ class Resolution:
 
 @record
 class FaceProfile:
-    """Curves over the face, (slices,): temperature rises averaged over the stroke [K], and peak pressures."""
+    """Curves over the face, (slices,): temperature rises averaged over the stroke [K], and peak pressure ratios."""
 
     position: FloatArray = quantity("position", "z", unit="mm", text="from the end that meshes first")
     temperature_rise: FloatArray | None = quantity(
@@ -165,8 +171,8 @@ class GasField:
 class SpacesResult:
     """Results of the spaces of one gear: power [W], work per space and stroke [J], mass flow [kg/s], temperatures [K].
 
-    Pressures are relative to the ambient pressure. A value is None if the flow model does not give this value; a notice
-    then says so.
+    Pressures are ratios to the ambient pressure. A value is None if the flow model does not give this value; a notice
+    then states that the value is missing.
     """
 
     stroke: Stroke = quantity("stroke", text="one stroke")
@@ -199,8 +205,8 @@ class SpacesResult:
 class Totals:
     """Power of the selected spaces [W], meshing frequency [Hz], and speed of the meshing point along the face [m/s].
 
-    `axial_meshing_mach` is `axial_meshing_speed` divided by the ambient speed of sound. Both values are None for spur
-    gears, because the whole face of a spur gear meshes at once.
+    `axial_meshing_mach` is `axial_meshing_speed` divided by the ambient speed of sound. For spur gears both values are
+    None, because the whole face of a spur gear meshes at once.
     """
 
     pumping_power: float = quantity("pumping power", "P", unit="w")
@@ -218,10 +224,11 @@ class Totals:
 
 @record
 class Derived:
-    """Values derived from the inputs: centre distance [m], and number of slices over the whole face with the grooves.
+    """Values derived from the inputs.
 
-    `rack_tip_radius` is the tip radius of the rack in normal modules, limited to the largest radius for which both
-    racks have room.
+    `centre_distance` is in [m]. `slices` is the number of slices over the whole face, including the grooves.
+    `rack_tip_radius` is the tip radius of the rack in normal modules. It is limited to the
+    largest radius for which the racks of both gears have room.
     """
 
     centre_distance: float = quantity("centre distance used", "a", unit="mm")
@@ -235,8 +242,8 @@ class Derived:
 class PumpingResult:
     """Results of a pumping calculation at one operating point.
 
-    `slices` is the number of slices outside the grooves. `lead_correction` holds for a pinion that warms as much as the
-    gas.
+    `slices` is the number of slices outside the grooves. `lead_correction` is valid for a pinion that warms as much as
+    the gas.
     """
 
     geometry: MeshGeometry = quantity("mesh", text="the mesh")

@@ -127,8 +127,8 @@ def coarser_flow_at(mesh: Mesh, space: Space, pinion_speed: float, slices: int, 
     """Compute the stroke of `flow_at` at a resolution that is `times` times lower.
 
     Gas dynamics gets fewer slices. Because a step never passes a recorded angle, gas dynamics also gets fewer recorded
-    angles. The pocket chain gets fewer steps, because the number of pockets is a constant of the model. The single
-    pocket gets fewer positions. Raises the errors of `flow_at` except those about the number of steps.
+    angles. The pocket chain gets fewer steps, because the number of pockets is a constant of the model. The
+    incompressible model gets fewer positions. Raises the errors of `flow_at` except too_many_steps and narrow_land.
     """
     if mesh.setup.model.flow is Flow.INCOMPRESSIBLE:
         return _single_pocket(mesh, space, pinion_speed, space.table.coarser(times))

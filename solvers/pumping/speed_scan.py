@@ -1,6 +1,6 @@
 """Peak pressure and exit Mach number over the pinion speed.
 
-A scan takes no longer than the longest permitted single solution, because low speeds, which need more steps, get fewer
+A scan takes no longer than the longest permitted single solution. Low speeds need more steps and therefore get fewer
 slices.
 """
 
@@ -20,9 +20,8 @@ _COARSENINGS = {Flow.GAS_DYNAMICS: (1, 2, 4)}
 def speed_scan(setup: PumpingSetup, speeds: FloatArray) -> ChokingCurves:
     """Return the largest pressure ratio and exit Mach number of the selected spaces at each pinion speed [rad/s].
 
-    Both are NaN at a speed without a solution.
-
-    Raises InvalidInput, with the codes of `prepare`, if `prepare` refuses the setup.
+    Both values are NaN at a speed without a solution. Raises InvalidInput, with the codes of `prepare`, if `prepare`
+    refuses the setup.
     """
     mesh, limit = prepare(setup), CELL_STEP_LIMIT // speeds.size
     pressure, demand = np.array([_point(mesh, float(speed), limit) for speed in speeds]).T

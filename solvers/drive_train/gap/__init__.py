@@ -1,6 +1,6 @@
 """The gap between the flanks over the face.
 
 `balance` finds the gap at which mesh and shafts are in equilibrium, and uses `hub_balance` for the hubs of couplings.
-`thermal_lead` computes the part of the gap that heat causes. `misalignment` divides the gap into parts by cause.
+`thermal_lead` computes the part of the gap that heat causes. `misalignment` computes the contribution of each cause.
 `face_curves` evaluates curves over the face.
 """

@@ -3,8 +3,8 @@
 The gap determines how the load is distributed over the face. This load bends the shafts, and the bent shafts in turn
 cause a gap. Both gaps have to be equal. The unknown is the gap g at the stations. The residual R is g minus the gap
 that shafts, bearings and couplings cause under the load that belongs to g. Newton's step dg is the solution of the
-linear equations (I - D B) dg = -R. Here B = dQ/dg is the derivative of the mesh force Q, which is a mean over a base
-pitch. The shafts follow only this mean, because the mesh frequency is far higher than the natural frequencies of
+linear equations (I - D B) dg = -R. Here B = dQ/dg is the derivative of the mesh force Q. The force Q is a mean over a
+base pitch. The shafts follow only this mean, because the mesh frequency is far higher than the natural frequencies of
 bending and of the bearing films. D is the derivative of the shafts' gap with respect to Q; the response of the
 couplings is part of D. The mean of the gap belongs to the transmission error and is subtracted. The first steps, which
 are most of the steps, are made with fewer roll positions and slices.
@@ -27,7 +27,7 @@ from solvers.scuffing.model import PreparedMesh
 from solvers.scuffing.modification import kinks_along_face, kinks_along_path
 
 TOLERANCE = 1e-12  # m
-ITERATIONS = 40  # chosen: an iteration that needs more does not converge
+ITERATIONS = 40  # chosen: an iteration that needs more iterations than this does not converge
 COARSER = 4  # divisor of the numbers of roll positions and slices; the coarse mesh changes the gap by a nanometre
 ROUGH_TOLERANCE = 1e-9  # m
 ROUGH_ITERATIONS = 10  # the rough gap need not be exact, because the iteration only starts from it
@@ -55,7 +55,7 @@ class LoadedMesh:
         return self.scale * self.force * self.prepared.path.plane.cos_base_helix
 
     def under(self, gap: FloatArray) -> Mesh:
-        """Return the mesh with the gap [m] that the shafts cause at the stations."""
+        """Return the mesh whose gap is the fixed gap plus the gap [m] that the shafts cause at the stations."""
         points = np.linspace(0.0, self.stations[-1], self.fixed.size)
         mesh = self.prepared.mesh
         lead = self.fixed + np.interp(points, self.stations, gap)
@@ -200,7 +200,7 @@ def _evaluate(unit: Unit, mesh: LoadedMesh, gap: FloatArray, hubs: HubLoads, bef
 
 
 def _matrix(mesh: LoadedMesh, state: _State) -> FloatArray:
-    """Return Newton's matrix I - D B."""
+    """Return the matrix I - D B of Newton's step; the docstring of this module explains D and B."""
     by_force = _remove_mean_of_rows(state.answer.derivative)
     return np.asarray(np.eye(state.gap.size) - mesh.scale * by_force @ state.response.derivative)
 

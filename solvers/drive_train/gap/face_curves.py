@@ -24,7 +24,7 @@ def face_slope(values: FloatArray) -> float:
     Returns
     -------
     float
-        Rise from y = 0 to y = b, which is 12 int (eta - 1/2) v d eta for the values v at eta = y/b, in the unit of v.
+        Rise from y = 0 to y = b, in the unit of the values v. The rise is 12 int (eta - 1/2) v d eta with eta = y/b.
 
     Notes
     -----
@@ -45,8 +45,8 @@ def face_crown(values: FloatArray) -> float:
     Returns
     -------
     float
-        Height (15/2) int P2(2 eta - 1) v d eta for the values v at eta = y/b, in the unit of v. Here P2(t) is
-        (3 t^2 - 1) / 2.
+        Height C, in the unit of the values v. The height is (15/2) int P2(2 eta - 1) v d eta with eta = y/b. Here P2(t)
+        is (3 t^2 - 1) / 2.
 
     Notes
     -----

@@ -1,8 +1,10 @@
 """Tilts of the coupling hubs in equilibrium with the loads of the couplings.
 
-A hub that moves by u has the tilt x = rest + lever u. The loads p(x) of the coupling bend the shaft, and the bent shaft
-moves the hub. Newton's step on x has the matrix I - lever D dp/dx, where D is the derivative of the hubs' motion with
-respect to the loads of the couplings.
+The ports of a unit are the stations of the face and the hubs on the unit's shafts (see `influence`). If the shaft moves
+by u at the hub of a coupling, both hubs of this coupling have the tilts x = rest + lever u. Here `rest` are the tilts
+for u = 0, and `lever` is a constant matrix. The loads p(x) of the coupling bend the shaft, and the bent shaft moves the
+hub. Newton's step on x has the matrix I - lever D dp/dx, where D is the derivative of the hubs' motion with respect to
+the loads of the couplings.
 """
 
 from dataclasses import dataclass
@@ -53,11 +55,12 @@ class Yielding:
 
 
 def free_hubs(unit: Unit, force: FloatArray) -> HubLoads:
-    """Return tilts and loads of the hubs, if the shafts carry a force over the face [N] but no loads of the couplings.
+    """Compute the tilts of the hubs while the shafts carry only a force over the face [N].
 
-    The iteration for the balance starts from these tilts. It does not start from the tilts of hubs on straight shafts,
-    because a hub on a straight shaft may have no tilt, and the friction of a hub is stiffest at zero tilt. Raises
-    InvalidInput if a tilt is out of the range of the coupling model.
+    The loads of the couplings are computed at these tilts, but they do not act on the shafts. The iteration for the
+    balance starts from these tilts. Tilts of hubs on straight shafts would be a worse start: a hub on a straight shaft
+    may have no tilt, and the friction of a hub is stiffest at zero tilt. Raises InvalidInput if a tilt is out of the
+    range of the coupling model.
     """
     ports = unit.couplings
     if not ports:
@@ -93,8 +96,8 @@ def respond(unit: Unit, force: FloatArray, start: HubLoads) -> Yielding:
     Notes
     -----
     Eq. D12. If the iteration from `start` does not converge, a second iteration starts from the tilts of the hubs
-    without coupling loads. If the second iteration does not converge either, these tilts are followed while the
-    coupling loads grow from zero, and a third iteration starts from the tilts at the end of this path.
+    without coupling loads. If the second iteration does not converge either, the coupling loads grow step by step from
+    zero, and the tilts are computed at each step. A third iteration starts from the tilts at the last step.
     """
     yielding, residual = _solve(unit, force, start)
     if yielding is None:
@@ -111,8 +114,9 @@ def respond(unit: Unit, force: FloatArray, start: HubLoads) -> Yielding:
 class _State:
     """Hubs at assumed tilts, the motion of the ports, and the residual.
 
-    The residual is the assumed tilts minus the tilts that follow from the motion. `by_tilts` and `by_share` are the
-    derivatives of the residual with respect to the tilts and with respect to the share of the coupling loads that acts.
+    The residual is the assumed tilts minus the tilts that follow from the motion. `by_tilts` is the derivative of the
+    residual with respect to the tilts. `by_share` is the derivative of the residual with respect to the factor by which
+    the coupling loads are multiplied.
     """
 
     hubs: HubLoads
@@ -128,7 +132,7 @@ class _State:
 
 
 def _evaluate(unit: Unit, force: FloatArray, hubs: HubLoads, share: float = 1.0) -> _State:
-    """Return the state of the hubs if only a share of the coupling loads acts."""
+    """Return the state of the hubs if the coupling loads are multiplied by `share`."""
     levers, own = _levers(unit.couplings), force.size
     motion, derivative = unit.motion(np.concatenate([force, share * hubs.loads]))
     through = levers @ derivative[own:, own:]
@@ -191,7 +195,10 @@ def _try_tilts(unit: Unit, force: FloatArray, tilts: FloatArray, share: float = 
 
 
 def _yielding(unit: Unit, count: int, state: _State) -> Yielding:
-    """Return the motion of the ports at a state with balanced hubs, with the derivative with respect to the force."""
+    """Return the motion of the ports while the hubs are in balance, and the derivative of this motion.
+
+    The derivative is the derivative with respect to the force over the face.
+    """
     mesh, hubs = state.derivative[:count], state.derivative[count:]
     through = solve_linear(state.by_tilts, _levers(unit.couplings) @ hubs[:, :count])
     return Yielding(state.hubs, state.motion, mesh[:, :count] + mesh[:, count:] @ state.hubs.by_tilts @ through)

@@ -1,6 +1,6 @@
-"""The gap over the face, the part that each cause has in the gap, and modifications that compensate the gap.
+"""The gap over the face, the contribution of each cause to the gap, and modifications that compensate the gap.
 
-The parts follow from the superposition of the loads.
+The contributions follow from the superposition of the loads.
 """
 
 import numpy as np
@@ -20,7 +20,7 @@ from solvers.scuffing.modification import gaps_at
 def misalignment(
     inputs: DriveTrainInputs, unit: Unit, mesh: LoadedMesh, thermal: ThermalLead, equilibrium: Equilibrium
 ) -> Misalignment:
-    """Return the gap due to shafts and heat, its parts by cause, and the modifications that compensate the gap."""
+    """Return the gap due to shafts and heat, the part of each cause, and the modifications that compensate the gap."""
     even = _even_gap(inputs, unit, mesh, equilibrium) + _at_stations(thermal.lead, unit.stations.size)
     return Misalignment(
         shaft_slope=face_slope(equilibrium.gap),
@@ -50,7 +50,7 @@ def _even_gap(inputs: DriveTrainInputs, unit: Unit, mesh: LoadedMesh, equilibriu
 
 
 def gap_parts(unit: Unit, loads: FloatArray) -> Parts:
-    """Return the part that each cause has in the slope of the gap, under given loads of the ports."""
+    """Return the contribution of each cause to the slope of the gap, under given loads of the ports."""
     count = unit.stations.size
     force, hubs = loads[:count], loads[count:]
     axial = np.arange(hubs.size) % LOADS == LOADS - 1
@@ -86,7 +86,8 @@ def _curves(
 ) -> GapCurves:
     """Return the gaps over the face.
 
-    The gap due to the modifications contains only the lead modifications, and its mean over the face is subtracted.
+    The gap due to the modifications contains only the lead modifications. The mean of this gap over the face is
+    subtracted from the gap.
     """
     plane, count = mesh.prepared.path.plane, unit.stations.size
     form = mesh.prepared.mesh.gap._replace(profile_slope=0.0, profile_crowning=0.0, tip_relief=0.0, root_relief=0.0)

@@ -4,10 +4,11 @@ The gear bodies are assumed to be as warm as the teeth, and the pumped gas heats
 its shape and grows by the strain eps = alpha_L dT; alpha_L is the coefficient of expansion and dT is the temperature
 rise. A point of the body moves away from the axis by eps times the distance between point and axis, and moves along the
 axis by the integral of eps. In the direction of the line of action the flanks of the pinion grow by eps_1 (s_A + x) +
-tan beta_b int_0^y eps_1, and the flanks of the wheel grow by eps_2 (N - s_A - x) - tan beta_b int_0^y eps_2. Here s_A
-is the distance from the pinion's base tangent point to A, x is the distance from A along the path of contact, and N is
-the distance between both base tangent points. If both gears are equally hot, only the base pitch changes and the
-contact lines stay parallel. Own derivation, checked against the numerical geometry of a heated helicoid.
+tan beta_b int_0^y eps_1, and the flanks of the wheel grow by eps_2 (N - s_A - x) - tan beta_b int_0^y eps_2. Here A
+is the start of the path of contact, s_A is the distance from the pinion's base tangent point to A, x is the distance
+from A along the path of contact, N is the distance between both base tangent points, and beta_b is the base helix
+angle. If both gears are equally hot, only the base pitch changes and the contact lines stay parallel. The derivation is
+our own. It was checked against the numerical geometry of a heated helicoid.
 """
 
 from dataclasses import dataclass
@@ -45,7 +46,7 @@ class GasHeat:
 
 @dataclass(frozen=True, slots=True)
 class ThermalLead:
-    """Gap that heat causes, and the temperature rise of the metal that pumping causes [K].
+    """Gap that heat causes, and temperature rise of the metal due to pumping [K].
 
     `lead` [m] is the gap at the stations; its mean is 0. `profile_slope` [m] belongs to the lead: only lead and profile
     slope together keep parallel contact lines parallel. `base_pitch` [m] is the growth of the pinion's base pitch minus
@@ -96,12 +97,13 @@ def thermal_lead(inputs: DriveTrainInputs, path: PathOfContact, stations: FloatA
     Returns
     -------
     ThermalLead
-        Gap, profile slope and base pitch deviation [m], and temperature rises that pumping causes [K].
+        Gap, profile slope and base pitch deviation [m], and temperature rises of the metal due to pumping [K].
 
     Notes
     -----
     Eq. D10: lead = -[eps_1 s_C + tan beta_b int eps_1 + eps_2 (N - s_C) - tan beta_b int eps_2] + mean;
-    profile slope = -(mean eps_1 - mean eps_2) g_alpha.
+    profile slope = -(mean eps_1 - mean eps_2) g_alpha. Here s_C is the distance from the pinion's base tangent point to
+    the pitch point, and g_alpha is the length of the path of contact.
     """
     heat, ratio = inputs.heat, path.pair.pinion.teeth / path.pair.wheel.teeth
     rises = [np.zeros(stations.size), np.zeros(stations.size)]

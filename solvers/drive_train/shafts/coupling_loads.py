@@ -1,17 +1,18 @@
 """Moments and forces of a gear coupling on a shaft of the unit, as functions of the tilts of both hubs.
 
-Hub A sits on the unit's shaft, hub B on the machine's shaft. The distance of the hubs is l. `towards` is +1 if the
+Hub A sits on the unit's shaft, hub B on the machine's shaft. The distance between the hubs is l. `towards` is +1 if the
 machine lies towards +Z, else -1. The slope of the sleeve is (c_B - c_A) / (towards l), where c_A and c_B are the
 positions of the hubs in X and Y. The tilt of a hub is the slope of the hub minus the slope of the sleeve. This tilt is
-a vector d = delta e with the size delta and the direction e. Moments m are conjugate to slopes: m = -Z x M for a moment
-vector M. With a = M_s + M_e the loads are
-    on the hub       m = -a e + s (M_l - s_d T delta / 2) Z x e
-    on its shaft     f = towards [-a e + s (M_l + s_d T delta / 2) Z x e] / l     summed over both hubs
-M_l is the loss moment of friction. The straightening moment M_s and the elastic moment M_e act against the tilt. s is
-the sense of rotation, T is the torque, and s_d is +1 if the hub drives the sleeve, else -1. The sign of T delta / 2
-differs between hub and sleeve, because the axis of the torque bisects the angle between the axes of hub and sleeve.
-Along Z the coupling pushes the shaft with the share tau of the friction limit. This limit is the smaller of the limits
-of both hubs.
+a vector d = delta e with the size delta and the direction e.
+
+T is the torque, and s is the sense of rotation. s_d is +1 if the hub drives the sleeve, else -1. M_l is the loss moment
+of friction. The straightening moment M_s and the elastic moment M_e act against the tilt; their sum is a = M_s + M_e.
+Moments m are conjugate to slopes: m = -Z x M for a moment vector M. The loads are
+    moment on hub A               m = -a e + s (M_l - s_d T delta / 2) Z x e
+    force on the unit's shaft     f = towards [-a e + s (M_l + s_d T delta / 2) Z x e] / l     summed over both hubs
+The force on the unit's shaft results from the moments on the sleeve. The sign of T delta / 2 differs between hub and
+sleeve, because the axis of the torque bisects the angle between the axes of hub and sleeve. Along Z the coupling pushes
+the shaft with the share tau of the friction limit. This limit is the smaller of the limits of both hubs.
 """
 
 from collections.abc import Iterator
@@ -42,8 +43,9 @@ LEAST_TILT = 1e-12  # rad; below this tilt the moments are proportional to the t
 class HubMoments:
     """Moments of one hub [N m], and the limit of the hub's thrust [N].
 
-    `straightening` is the moment a = M_s + M_e, `loss` is the moment M_l. The hub `sticks` if none of its teeth slides.
-    `share` is the friction moment divided by the friction moment of full sliding.
+    `straightening` is the sum a = M_s + M_e of the straightening moment and the elastic moment. `loss` is the loss
+    moment M_l of friction. The hub `sticks` if none of its teeth slides. `share` is the friction moment divided by the
+    friction moment of full sliding.
     """
 
     straightening: float
@@ -56,11 +58,11 @@ class HubMoments:
 
 @dataclass(frozen=True, slots=True)
 class CouplingPort:
-    """A coupling at its shaft, with the torque [N m], speed [rad/s] and sense of rotation of this shaft.
+    """A coupling, and the torque [N m], speed [rad/s] and rotation of the unit's shaft that carries the coupling.
 
     The tilts of both hubs are `rest` + `lever` @ v. The vector v is the motion of the shaft at the unit's hub:
     displacements U and V along X and Y, both slopes, and the displacement along Z.
-    `sleeve_weight` (X, Y) [N] is the part of the sleeve's weight on this hub.
+    `sleeve_weight` (X, Y) [N] is the part of the sleeve's weight that the unit's hub carries.
     """
 
     inputs: UnitCoupling
@@ -81,7 +83,10 @@ class CouplingPort:
 
     @property
     def driving(self) -> tuple[float, float]:
-        """Signs s_d of hubs A and B. One machine drives the pinion, and the wheel drives another machine."""
+        """Signs s_d of hubs A and B: +1 for a hub that drives the sleeve, else -1.
+
+        One machine drives the pinion. The wheel drives another machine.
+        """
         return (-1.0, 1.0) if self.inputs.shaft == "pinion" else (1.0, -1.0)
 
 
@@ -95,10 +100,10 @@ def coupling_port(
     down: FloatArray,
     gravity: float,
 ) -> CouplingPort:
-    """Return the coupling together with the state of its shaft.
+    """Return the coupling with the torque, speed and rotation of its shaft.
 
-    `down` (X, Y) is the unit vector in the direction of gravity, `gravity` is the acceleration [m/s^2]. Warm supports
-    raise the shaft of the machine against `down`.
+    `down` (X, Y) is the unit vector in the direction of gravity, and `gravity` is the acceleration of gravity [m/s^2].
+    Warm supports raise the shaft of the machine against `down`.
     """
     offset = np.array(inputs.offset) - (0.0 if inputs.alignment is None else inputs.alignment.growth) * down
     distance = inputs.coupling.hub_distance if inputs.machine_side == "plus" else -inputs.coupling.hub_distance
@@ -122,7 +127,7 @@ def sliding_tilt(port: CouplingPort, friction: float) -> float:
     Parameters
     ----------
     port : CouplingPort
-        The coupling at its shaft.
+        The coupling and its shaft.
     friction : float
         Coefficient of friction mu [-].
 
@@ -133,7 +138,8 @@ def sliding_tilt(port: CouplingPort, friction: float) -> float:
 
     Notes
     -----
-    Eq. D8.
+    Eq. D8. kt is the result of `axial_share`, T is the torque, z is the number of teeth, r_o is the pitch radius, alpha
+    is the pressure angle, and c_a is the axial stiffness of a tooth.
     """
     coupling = port.inputs.coupling
     stiffness = port.inputs.axial_tooth_stiffness or coupling.tooth_stiffness
@@ -142,12 +148,12 @@ def sliding_tilt(port: CouplingPort, friction: float) -> float:
 
 
 def axial_share(port: CouplingPort) -> float:
-    """Compute the share of the friction that resists tilting if the share tau of the friction limit acts axially.
+    """Compute the share of the friction that is left to resist tilting.
 
     Parameters
     ----------
     port : CouplingPort
-        The coupling at its shaft, with the axial share tau.
+        The coupling. The share tau of its friction limit acts axially.
 
     Returns
     -------
@@ -176,8 +182,8 @@ def elastic_plastic(ratio: float) -> tuple[float, float]:
 
     Notes
     -----
-    Eq. D9. Springs with a sliding limit pass through a hysteresis loop in one revolution. The moments are the first
-    harmonic of this loop.
+    Eq. D9. The teeth act like springs that slide above a limit force. Such springs pass through a hysteresis loop in
+    one revolution. The moments are the first harmonic of this loop.
     """
     if ratio <= 1.0:
         return 0.0, pi * ratio / 4
@@ -199,7 +205,7 @@ def hub_moments(port: CouplingPort, tilt: float) -> HubMoments:
     Parameters
     ----------
     port : CouplingPort
-        The coupling at its shaft.
+        The coupling and its shaft.
     tilt : float
         Tilt of the hub, greater than 0 [rad].
 
@@ -272,7 +278,7 @@ def coupling_loads(port: CouplingPort, tilts: FloatArray) -> tuple[FloatArray, F
     Parameters
     ----------
     port : CouplingPort
-        The coupling at its shaft.
+        The coupling and its shaft.
     tilts : FloatArray of shape (4,)
         Tilts of hub A and hub B in both planes [rad].
 
@@ -310,8 +316,8 @@ def coupling_loads(port: CouplingPort, tilts: FloatArray) -> tuple[FloatArray, F
 def _polar(tilt: FloatArray, moments: FloatArray, slopes: FloatArray, torque: float) -> tuple[FloatArray, FloatArray]:
     """Return the vector v = -a e + (b + torque delta) Z x e at a tilt delta e, and the derivative of v by the tilt.
 
-    `moments` begins with a and b; `slopes` begins with the derivatives of a and b with respect to delta. Below
-    `LEAST_TILT`, a and b are proportional to delta.
+    The first two values of `moments` are a and b. The first two values of `slopes` are the derivatives of a and b with
+    respect to delta. If delta is smaller than `LEAST_TILT`, a and b are proportional to delta.
     """
     size = hypot(*tilt)
     direction = tilt / size if size > 0.0 else np.array([1.0, 0.0])

@@ -57,10 +57,11 @@ def frame(arrangement: Arrangement, path: PathOfContact) -> Frame:
 
     Notes
     -----
-    Eq. D1. e_t = sigma Z x e_r is the direction of the pinion's velocity at C. The flank force on the pinion opposes
-    this velocity: n_t = -(cos a_wt e_t + sin a_wt e_r). A helix adds the component -tan beta_b along y. The direction
-    of y is -sigma h Z, where h is +1 for a right-hand pinion and -1 for a left-hand pinion. A spur pair meshes over the
-    whole face at once; for a spur pair h is always +1.
+    Eq. D1. sigma is the sense of rotation, and e_r points from pinion to wheel. e_t = sigma Z x e_r is the direction of
+    the pinion's velocity at the pitch point C. The flank force on the pinion opposes this velocity:
+    n_t = -(cos a_wt e_t + sin a_wt e_r). A helix adds the component -tan beta_b along y. The direction of y is
+    -sigma h Z, where h is +1 for a right-hand pinion and -1 for a left-hand pinion. A spur pair meshes over the whole
+    face at once; for a spur pair h is always +1.
     """
     pair = path.pair
     rotation = 1.0 if arrangement.rotation == "counterclockwise" else -1.0

@@ -1,5 +1,6 @@
-"""Shafts, bearings and couplings as one elastic system, which gives the gap over the face and the motion of the hubs.
+"""Shafts, bearings and couplings as one elastic system.
 
+The system determines the gap over the face and the motion of the hubs under given loads.
 The ports of the system are the stations of the face and the hubs of the couplings. The transverse force Q at a station
 loads both shafts with a force, a tilting moment and a torque. The matrix A holds the coefficients of these loads, and
 the transpose of A converts the motion of the shafts into the gap. If C is the flexibility of the shafts, the elastic
@@ -61,8 +62,9 @@ class ShaftPorts:
 class Unit:
     """The elastic system of a unit at its ports: the stations of the face, then five ports per coupling.
 
-    A coupling's ports are U, V, both slopes and the motion along Z at the unit's hub. The motion along Z is the
-    response of the thrust collar to the coupling's thrust, and is 0 without a collar.
+    A coupling's ports are five motions of the shaft at the unit's hub: the displacements U and V along X and Y, both
+    slopes, and the motion along Z. The motion along Z is the response of the thrust collar to the coupling's thrust;
+    this motion is 0 without a collar.
 
     `elastic` (ports, ports) [m/N, ...] is the flexibility with the bearings at rest. `rest` is the motion of the ports
     under the constant loads. Under loads q of the ports the bearings carry `bearing_loads` @ q + `bearing_rest` [N]:
@@ -232,7 +234,7 @@ def _collar_loads(
     position: float,
     index: int,
 ) -> FloatArray:
-    """Return the nodal loads of a unit axial force at the thrust collar; without a collar the loads are 0.
+    """Return the nodal loads of an axial force of 1 N at the thrust collar; without a collar the loads are 0.
 
     The force points towards +Z on the pinion and towards -Z on the wheel. The force acts at the radius of the collar
     and therefore loads the shaft with a tilting moment at y = b. The force balances the axial forces of mesh and

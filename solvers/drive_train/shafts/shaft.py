@@ -3,7 +3,8 @@
 A shaft in two bearings is statically determinate, that is, shear force V and bending moment M of every element follow
 from the loads alone. Between nodes V is constant and M is linear. The flexibility is the second derivative of the
 strain energy int [M^2 / (2 E I) + V^2 / (2 kappa G A)] dz of Timoshenko's beam. The flexibility is exact for stepped
-cylinders under nodal loads. It is symmetric and positive semidefinite by construction, even for very short elements.
+cylinders under nodal loads. The flexibility is symmetric and positive semidefinite by construction, even if elements
+are very short.
 """
 
 from dataclasses import dataclass
@@ -168,7 +169,8 @@ def _torsion(shaft: Shaft, z: FloatArray, elements: list[ShaftSection], torque_p
 def _weight(shaft: Shaft, z: FloatArray, elements: list[ShaftSection]) -> FloatArray:
     """Return the consistent nodal loads of the weight.
 
-    At both ends of every element act the force q L / 2 and the moment +-q L^2 / 12.
+    An element of length L has the weight q per unit length. The force q L / 2 acts at both ends of the element. The
+    moment is q L^2 / 12 at the start of the element and -q L^2 / 12 at the end.
     """
     lengths = np.diff(z)
     load = GRAVITY * shaft.density * np.array([area(part) for part in elements]) * lengths

@@ -18,8 +18,8 @@ USABLE = 0.5  # usable share of the ultimate rating
 class Thrust:
     """Axial forces on one shaft, positive towards +Z, and the bounds of the load on the thrust bearing.
 
-    The bounds are None if a thrust collar replaces the bearing. `customary` is the thrust of the coupling by a rule of
-    thumb.
+    The bounds are None if a thrust collar replaces the bearing. `customary` is an estimate of the coupling's thrust
+    that follows a rule of thumb.
     """
 
     mesh: float = quantity("axial force of the mesh", "F_a", unit="n")
@@ -100,11 +100,11 @@ def thrust_budget(
     mesh : float
         Axial force of the mesh on the pinion [N].
     couplings : tuple of float
-        Thrust of the couplings on the shafts of pinion and wheel [N].
+        Thrust on the pinion's shaft by the couplings of this shaft, and the same for the wheel's shaft [N].
     limits : tuple of float
-        Friction limits of the thrust of the couplings [N].
+        Largest thrust on each shaft that the friction in the couplings of this shaft can cause [N].
     diameters : tuple of float or None
-        Diameters of the shafts at their couplings [m]; None for a shaft without a coupling.
+        Diameter of each shaft at the coupling [m]; None for a shaft without a coupling.
 
     Returns
     -------
@@ -145,7 +145,10 @@ def thrust_budget(
 
 
 def _use(lower: float | None, upper: float | None, ultimate: float | None) -> float | None:
-    """Return the largest load divided by the usable half of the rating; None if there is no rating or no bearing."""
+    """Return the largest load on the thrust bearing divided by the usable half of the bearing's rating.
+
+    Return None if the rating is not given or if there is no thrust bearing.
+    """
     if lower is None or upper is None or ultimate is None:
         return None
     return max(abs(lower), abs(upper)) / (USABLE * ultimate)

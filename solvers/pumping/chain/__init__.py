@@ -1,1 +1,1 @@
-"""The paper's chain of pockets: `pocket_chain` marches through the stroke by the time steps of `step`."""
+"""The pocket chain of Milian et al.: `step` computes one time step, `pocket_chain` computes all steps of a stroke."""

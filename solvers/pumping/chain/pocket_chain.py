@@ -1,6 +1,6 @@
-"""The paper's chain of pockets (Eqs. 2-7), marched in time through the strokes of the pockets.
+"""March of the pocket chain of Milian et al. (Eqs. 2-7) through the strokes of its pockets.
 
-Pressures depend on the number of pockets, which is a constant of this model.
+The computed pressures depend on the number of pockets. In this model, the number of pockets is a constant.
 """
 
 from math import ceil
@@ -35,7 +35,7 @@ _REFINEMENTS = (1, 2, 4, 8)  # factors on the number of steps, tried in turn unt
 def pocket_chain(
     gas: Gas, ducts: list[tuple[Stretch, Duct]], angle: FloatArray, closure: Closure, steps: int = STEPS
 ) -> SpaceFlow:
-    """March every stretch of a tooth space through its stroke in at least `steps` steps.
+    """March every stretch of a tooth space through the stroke, in at least `steps` steps per stretch.
 
     The gas is recorded at each `angle` [rad]. Raises NoSolution: newton_not_converged if a step does not converge.
     """
@@ -45,7 +45,10 @@ def pocket_chain(
 
 
 def _march(gas: Gas, stretch: Stretch, duct: Duct, angle: FloatArray, closure: Closure, substeps: int) -> March:
-    """March one stretch; if Newton's method stalls because the flow reverses in a step, repeat with shorter steps."""
+    """March one stretch of a tooth space through the stroke.
+
+    Newton's method may stall if the flow reverses in a step. The march is then repeated with shorter steps.
+    """
     for refinement in _REFINEMENTS:
         count = refinement * substeps
         record = empty_record(gas, angle.size, duct.cells, count * (angle.size - 1))
@@ -104,7 +107,7 @@ def _renew(
     new_high: int,
     angle: float,
 ) -> None:
-    """Fill pockets with ambient gas when their stroke begins, and update the balances.
+    """Fill pockets with ambient gas when their stroke begins, and update the balances of mass and energy.
 
     The content of a pocket is added to the balances when the stroke of the pocket begins and when the stroke ends.
     """
@@ -140,13 +143,13 @@ def _temperature(gas: Gas, pressure: float, area: float, content: float) -> floa
 
 @kernel
 def _mach(gas: Gas, left: float, right: float) -> float:
-    """Compute the Mach number in the narrowest section of the jet between two pressures [Pa]."""
+    """Compute the Mach number in the narrowest section of a jet from the pressures on both sides [Pa]."""
     return throat_mach(gas, max(left, right), min(left, right))
 
 
 @kernel
 def _record_field(gas: Gas, pockets: RecordArray, record: Record, low: int, high: int, k: int) -> None:
-    """Record the gas at angle k in the active pockets."""
+    """Record the gas in the active pockets at the angle with the number k."""
     field = record.field
     mach = 0.0
     for i in range(low, high):
@@ -161,7 +164,10 @@ def _record_field(gas: Gas, pockets: RecordArray, record: Record, low: int, high
 def _record_ends(
     gas: Gas, duct: Duct, pockets: RecordArray, record: Record, low: int, high: int, dt: float, taken: int
 ) -> None:
-    """Record the flow out of both ends of the active pockets, which are ends of the duct or borders to idle pockets."""
+    """Record the flow out of both ends of the row of active pockets.
+
+    Each end of the row is either an end of the duct or a border to idle pockets.
+    """
     for end in range(2):
         face, outward = (low, -1.0) if end == 0 else (high, 1.0)
         open_end = (low == 0) if end == 0 else (high == duct.cells)
@@ -178,7 +184,7 @@ def _record_ends(
 
 @kernel
 def _record_jets(gas: Gas, pockets: RecordArray, record: Record, low: int, high: int) -> None:
-    """Record the largest Mach number and velocity of the jets through the faces."""
+    """Record the largest Mach number and the largest velocity of the jets between pockets and at the ends."""
     largest, fastest = 0.0, 0.0
     right = gas.pressure
     for face in range(low, high + 1):
@@ -196,7 +202,10 @@ def _record_jets(gas: Gas, pockets: RecordArray, record: Record, low: int, high:
 
 @kernel
 def _record_pockets(gas: Gas, duct: Duct, pockets: RecordArray, record: Record, low: int, high: int, dt: float) -> None:
-    """Record losses to the walls, means and extremes, and make the new state the old state of the next step."""
+    """Record wall losses, mean temperatures and extreme pressures of the active pockets.
+
+    Also copy the new state of each active pocket to `old`, from which the next step starts.
+    """
     mass = energy = work = 0.0
     for i in range(low, high):
         growth = pockets[i].area - pockets[i].start_area

@@ -4,9 +4,13 @@
  dE_i/dt = (M h)_{i-1/2} - (M h)_{i+1/2} - (Q h)_i - p dV/dt              energy closure, h = c_p T upstream
  p = p_e (rho/rho_e)^gamma                                                isentropic closure (Eq. 1)
 
+Here m_i and E_i are mass and energy of pocket i, M_{i-1/2} and M_{i+1/2} are the mass flows through the faces below and
+above the pocket, Q_i is the mass flow through the radial gaps, and h is the enthalpy of the gas upstream. The index e
+denotes the ambient state. All terms are per metre of face.
+
 The step is a backward Euler step, but the wall work is computed with the mean pressure of the step. Newton's method
-solves for pressure and mass of all pockets. The Jacobian consists of blocks of two by two, which are eliminated along
-the chain. All amounts are per metre of face.
+solves for pressure and mass of all pockets. The Jacobian consists of blocks of two by two. These blocks are eliminated
+along the chain.
 """
 
 from typing import Any, NamedTuple
@@ -18,7 +22,7 @@ from solvers.compiled import kernel
 from solvers.pumping.flow.nozzle import Gas, mass_flux
 
 _NEWTON_LIMIT = 200  # number of iterations after which a step counts as not converged
-_TOLERANCE = 1e-10  # largest residual, relative to a pocket's content at ambient pressure
+_TOLERANCE = 1e-10  # largest permitted residual, relative to a pocket's content at ambient pressure
 _ROUNDING = 1e-7  # largest residual that is accepted if round-off keeps Newton's method from reducing the residual
 _HALVINGS = 12  # largest number of halvings of a Newton step; steps below 1/4096 of Newton's step do not help
 
@@ -56,7 +60,10 @@ the step.
 
 
 def empty_pockets(pockets: int) -> RecordArray:
-    """Return an array of POCKET with one more record than pockets, for the face above the last pocket."""
+    """Return an array of records of POCKET for `pockets` pockets.
+
+    The array has `pockets` + 1 records. The last record describes the face above the last pocket.
+    """
     return records(pockets + 1, POCKET)
 
 
@@ -69,7 +76,10 @@ class Side(NamedTuple):
 
 
 class Passage(NamedTuple):
-    """Flow of mass or heat through an opening from left to right, and derivatives of the flow by both states."""
+    """Flow of mass or heat through an opening from left to right.
+
+    The other fields are the derivatives of this flow by the states on both sides of the opening.
+    """
 
     flow: float
     by_left_pressure: float
@@ -168,7 +178,7 @@ def advance(
 
 @kernel
 def _add_change(value: float, change: float) -> float:
-    """Add Newton's change to a positive value, but reduce the value by at most 80 %."""
+    """Add the change of a Newton step to a positive value; the value falls by at most 80 %."""
     return value + max(change, -0.8 * value)
 
 
@@ -213,7 +223,11 @@ def _assemble(
 
 @kernel
 def _store(gas: Gas, pockets: RecordArray, low: int, high: int, isentropic: bool) -> None:
-    """Set residuals and derivatives as if the pockets were closed, so that they keep mass, and energy or entropy."""
+    """Set the residuals and derivatives of closed pockets; `_leak` and `_exchange` add the flows.
+
+    A closed pocket keeps its mass. It also keeps its entropy if `isentropic` is true. Otherwise, its energy changes by
+    the wall work only.
+    """
     g = gas.exponent
     for i in range(low, high):
         p, content = pockets[i].trial.pressure, pockets[i].trial.mass
@@ -250,7 +264,7 @@ def _side(pockets: RecordArray, i: int) -> Side:
 
 @kernel
 def _add(row: Any, share: float, by_pressure: float, by_mass: float) -> None:
-    """Add a share of two derivatives to a row of the Jacobian."""
+    """Multiply two derivatives by `share` and add the products to a row of the Jacobian."""
     row.by_pressure += share * by_pressure
     row.by_mass += share * by_mass
 
@@ -303,7 +317,7 @@ def _exchange(
 
 @kernel
 def _add_outflow(balance: Any, share: float, passage: Passage) -> None:
-    """Add the flow out of a pocket through the face above it."""
+    """Add the flow out of a pocket through the upper face of the pocket to the balance of this pocket."""
     balance.residual += share * passage.flow
     _add(balance.diagonal, share, passage.by_left_pressure, passage.by_left_mass)
     _add(balance.upper, share, passage.by_right_pressure, passage.by_right_mass)
@@ -311,7 +325,7 @@ def _add_outflow(balance: Any, share: float, passage: Passage) -> None:
 
 @kernel
 def _add_inflow(balance: Any, share: float, passage: Passage) -> None:
-    """Add the flow into a pocket through the face below it."""
+    """Add the flow into a pocket through the lower face of the pocket to the balance of this pocket."""
     balance.residual -= share * passage.flow
     _add(balance.diagonal, -share, passage.by_right_pressure, passage.by_right_mass)
     _add(balance.lower, -share, passage.by_left_pressure, passage.by_left_mass)
@@ -348,7 +362,10 @@ def _eliminate(pockets: RecordArray, low: int, high: int) -> None:
 
 @kernel
 def _substitute(balance: Any, pressure: Any, mass: Any) -> None:
-    """Eliminate the pocket below from a balance; `pressure` and `mass` are the solved rows of the pocket below."""
+    """Eliminate the state of the pocket below from a balance.
+
+    `pressure` and `mass` are the solved rows of the pocket below.
+    """
     p, m = balance.lower.by_pressure, balance.lower.by_mass
     balance.diagonal.by_pressure -= p * pressure.upper.by_pressure + m * mass.upper.by_pressure
     balance.diagonal.by_mass -= p * pressure.upper.by_mass + m * mass.upper.by_mass

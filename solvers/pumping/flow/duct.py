@@ -30,10 +30,10 @@ class Duct(NamedTuple):
 
 
 class Wall(NamedTuple):
-    """Walls of a tooth space: its area, both clearances, and the gas that its flanks have carried along.
+    """Walls of a tooth space at one position on the face and at one angle of the gear.
 
-    `area` is the cross-section of the space [m^2], `clearance` is the sum of both clearances [m], and `carried` is the
-    cross-section of the gas that the moving flanks have carried out of the space [m^2].
+    `area` is the cross-section of the space [m^2], and `clearance` is the sum of the clearances on both sides [m].
+    `carried` is the cross-section of the gas that the moving flanks have carried out of the space [m^2].
     """
 
     area: float
@@ -42,7 +42,7 @@ class Wall(NamedTuple):
 
 
 def wall_table(area: FloatArray, clearance: FloatArray, carried: FloatArray) -> RecordArray:
-    """Build the table of walls from arrays of the values of `Wall`, given at equal steps of the owner's angle."""
+    """Build a table of walls from the values of `Wall` at equal steps of the angle of the gear."""
     table = records(area.size, WALL)
     table.area, table.clearance, table.carried = area, clearance, carried
     return table
@@ -50,7 +50,10 @@ def wall_table(area: FloatArray, clearance: FloatArray, carried: FloatArray) -> 
 
 @kernel
 def wall_at(duct: Duct, z: float, angle: float) -> Wall:
-    """Interpolate the walls at z [m] for an `angle` [rad] of the owner; outside the stroke, return the end values."""
+    """Interpolate the walls at the position z [m] for an `angle` [rad] of the gear to which the space belongs.
+
+    Before and after the stroke, return the walls at the start and at the end of the stroke.
+    """
     position = (angle - duct.lag * z - duct.first_angle) / duct.angle_step
     table = duct.table
     last = table.size - 1
@@ -66,7 +69,10 @@ def wall_at(duct: Duct, z: float, angle: float) -> Wall:
 
 @kernel
 def phase_of(duct: Duct, i: int, angle: float) -> float:
-    """Compute the phase of cell i [rad], on which the walls depend: the owner's angle minus the lag of the cell."""
+    """Compute the phase of cell i [rad]: the owner's angle minus the lag of the cell.
+
+    The walls of the cell depend on the phase only.
+    """
     return angle - duct.lag * (duct.start + (i + 0.5) * duct.width)
 
 
@@ -97,7 +103,7 @@ def stroke_end(duct: Duct) -> float:
 def stroke_share(duct: Duct, z: float, angle: float, turn: float) -> float:
     """Compute the share of a step in which the stroke is under way at z [m].
 
-    The step begins at `angle` [rad] and turns the owner by `turn` [rad].
+    The step begins at the owner's `angle` [rad]. During the step the owner turns by `turn` [rad].
     """
     phase = angle - duct.lag * z
     inside = min(phase + turn, stroke_end(duct)) - max(phase, duct.first_angle)

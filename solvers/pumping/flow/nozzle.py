@@ -1,4 +1,7 @@
-"""The perfect gas with its ambient state, and the flow of this gas through an opening; Eq. 7 is the choked limit."""
+"""The perfect gas with its ambient state, and the flow of this gas through an opening.
+
+Eq. 7 gives the flow through a choked opening.
+"""
 
 from math import sqrt
 from typing import NamedTuple
@@ -8,7 +11,7 @@ import numpy as np
 from solvers.compiled import inlined_kernel, kernel
 from solvers.pumping.inputs import MOLAR_GAS_CONSTANT, Ambient
 
-_LINEAR = 1e-7  # relative pressure drop below which the flux is made linear, so that its derivative stays finite
+_LINEAR = 1e-7  # relative pressure drop; below it the flux is linear in the drop, so that no derivative is infinite
 _SMALL = 1e-2  # relative pressure drop; below it the expansion is computed by a series
 _TERMS = 7  # number of terms of the series; for drops up to _SMALL the first omitted term is below 1e-16
 
@@ -16,7 +19,8 @@ _TERMS = 7  # number of terms of the series; for drops up to _SMALL the first om
 class Gas(NamedTuple):
     """The perfect gas and its ambient state, in SI units.
 
-    `critical_ratio` and `critical_density_ratio` are the pressure and the density at Mach 1 divided by those at rest.
+    `critical_ratio` is the pressure at Mach 1 divided by the pressure at rest. `critical_density_ratio` is the density
+    at Mach 1 divided by the density at rest.
     """
 
     exponent: float
@@ -48,7 +52,7 @@ def gas(ambient: Ambient) -> Gas:
 
 @inlined_kernel
 def flux_squared(gas: Gas, upstream: float, density: float, drop: float) -> tuple[float, float, float]:
-    """Compute the square of the mass flux through an opening and its derivatives by both pressures.
+    """Compute the square of the mass flux through an opening, and the derivatives of this square by both pressures.
 
     Parameters
     ----------
@@ -111,7 +115,7 @@ def _expansion(power: float, drop: float) -> tuple[float, float]:
 
 @kernel
 def mass_flux(gas: Gas, upstream: float, density: float, downstream: float) -> tuple[float, float, float]:
-    """Compute the mass flux G through an opening and its derivatives by both pressures.
+    """Compute the mass flux G through an opening, and the derivatives of G by both pressures.
 
     Parameters
     ----------

@@ -1,4 +1,7 @@
-"""The flow in a tooth space over one stroke: the records of a march in time, and the result of every flow model."""
+"""The flow in a tooth space over one stroke.
+
+`Record` holds the values that a march in time records. `SpaceFlow` is the result that every flow model returns.
+"""
 
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -40,9 +43,10 @@ ENDS = floats("time", "low_outflow", "high_outflow")
 class Record(NamedTuple):
     """Arrays of records that are filled while a duct is marched through its stroke.
 
-    `field` (angles, cells) of FIELD; `profile` (cells,) of PROFILE; `extremes` (1,) of EXTREMES; `mass` and `energy`
-    (1,) of BALANCE; `ends` (steps,) of ENDS. `energy` also has the field `work`: work on the gas by pressures above
-    ambient pressure [J].
+    `field` (angles, cells) contains records of FIELD. `profile` (cells,) contains records of PROFILE. `extremes` (1,)
+    contains one record of EXTREMES. `mass` (1,) and `energy` (1,) contain one record of BALANCE each. `ends` (steps,)
+    contains records of ENDS. The record in `energy` has one more field: `work` is the work on the gas by pressures
+    above ambient pressure [J].
     """
 
     field: RecordArray
@@ -64,7 +68,7 @@ def empty_record(gas: Gas, angles: int, cells: int, steps: int) -> Record:
 
 @kernel
 def add_outflow(record: Record, end: int, step: int, mass: float, energy: float) -> None:
-    """Add the mass [kg] and the energy [J] that flowed out of the low end (0) or the high end (1) in a step."""
+    """Record the mass [kg] and the energy [J] that left through the low end (0) or the high end (1) in a step."""
     if end == 0:
         record.mass[0].low_end += mass
         record.energy[0].low_end += energy
@@ -119,7 +123,10 @@ def include_speed(extremes: RecordArray, mach: float, velocity: float) -> None:
 
 @kernel
 def include_demand(extremes: RecordArray, mach: float) -> None:
-    """Update the largest demand of the stroke with the Mach number of an expansion to ambient pressure at an end."""
+    """Update the largest demand of the stroke with a new demand at an end.
+
+    The demand `mach` is the Mach number that the gas would reach at the end if it expanded to ambient pressure.
+    """
     extremes[0].demand = max(extremes[0].demand, mach)
 
 
@@ -140,7 +147,11 @@ class ExitMasses:
 
 @dataclass(frozen=True, slots=True)
 class EndFlow:
-    """Mass that leaves through both ends of the face in each step, (steps,): `time` [s], `front` and `rear` [kg]."""
+    """Mass that leaves through the ends of the face in each step; arrays of shape (steps,).
+
+    `time` [s] is the middle of the step. `front` and `rear` [kg] are the masses that leave through the front end and
+    through the rear end.
+    """
 
     time: FloatArray
     front: FloatArray
@@ -149,13 +160,18 @@ class EndFlow:
 
 @dataclass(frozen=True, slots=True)
 class SpaceFlow:
-    """One stroke of one tooth space; temperatures are None if the flow model gives no temperatures.
+    """One stroke of one tooth space.
 
-    Fields of shape (angles, positions): `pressure` [Pa], `mach` and `stagnation_temperature` [K] at the owner's `angle`
-    [rad] and the `position` [m]. Curves over the face, (positions,): means of temperature and stagnation temperature
-    over the stroke [K], peak and lowest pressure [Pa], largest Mach number within the slices (0 in the pocket chain).
-    `exit_demand` is the largest Mach number that an end would have if the gas expanded to ambient pressure; above 1 the
-    end is choked. `work` is the work on the gas by pressures above ambient pressure [J]. Errors are relative.
+    `pressure` [Pa], `mach` and `stagnation_temperature` [K] are fields of shape (angles, positions). Their axes are the
+    owner's `angle` [rad] and the `position` on the face [m]. Curves over the face have the shape (positions,).
+    `mean_temperature` and `mean_stagnation_temperature` [K] are means over the stroke. `peak_pressure` and
+    `lowest_pressure` [Pa] are extremes over the stroke. `peak_mach` is the largest Mach number within a slice; in the
+    pocket chain it is 0.
+
+    `exit_demand` is the largest Mach number that the gas would reach at an end if it expanded to ambient pressure; if
+    this Mach number is above 1, the end is choked. `work` is the work on the gas by pressures above ambient pressure
+    [J]. `mass_error` and `energy_error` are relative errors of conservation. All temperatures are None if the flow
+    model gives no temperatures.
     """
 
     angle: FloatArray
@@ -183,7 +199,7 @@ class SpaceFlow:
 
 @dataclass(frozen=True, slots=True)
 class March:
-    """The record of a march through one stretch of the face, and the number of its steps."""
+    """The record of a march through one stretch of the face, and the number of steps of this march."""
 
     stretch: Stretch
     record: Record

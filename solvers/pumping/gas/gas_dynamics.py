@@ -30,17 +30,17 @@ from solvers.pumping.gas.step import Cells, empty_cells, set_walls, step
 from solvers.pumping.space.face import Stretch
 
 LEAST_SLICES = 4  # chosen: limited slopes need three cells
-_HASTE = 2.5  # the record has room for this factor times the number of steps that sound in gas at rest needs
+_HASTE = 2.5  # the record has room for this factor times the number of steps that `_steps` estimates
 COURANT = 0.7  # Courant number; less than the limit of the scheme, 1, because waves may become faster within a step
-_ROUNDING = 1e-6  # share of a step; a step may be longer by this share, so that no smaller remainder is left
+_ROUNDING = 1e-6  # a step may exceed the longest step by this share, so that no tiny step remains
 _RETRIES = 12  # number of halvings of a failed step, chosen
 _AHEAD = 4.0  # number of cells that take part early if the stroke runs along the face faster than sound
-_STEEP = 0.5  # share of a cell's density or pressure; smaller extrapolated values are replaced by those of the cell
+_STEEP = 0.5  # share of a cell's value; if an extrapolated value is smaller, the cell's own values are used
 _UNSETTLED = 5.0  # number of steps after the start of a stroke until the leakage and the waves of the start settle
 
 
 def gas_dynamics(gas: Gas, ducts: list[tuple[Stretch, Duct]], angle: FloatArray) -> SpaceFlow:
-    """March every stretch of a tooth space through its stroke, and record the gas at each `angle` [rad].
+    """March every stretch of a tooth space through the stroke, and record the gas at each `angle` [rad].
 
     Raises NoSolution: unphysical_state if no step length gives a physical state, or if too many steps are needed.
     """
@@ -74,9 +74,9 @@ def march(gas: Gas, duct: Duct, cells: Cells, angles: FloatArray, record: Record
     """March from the first to the last of the `angles` [rad]; return the number of steps, or a negative number.
 
     A step never passes one of the angles. Steps are as long as the waves allow; the last step before an angle covers
-    the remaining turn. If the number of steps between two angles grows by one, the additional step is very short at
-    first, so results depend continuously on the step length. The result is -1 if the record has no room for more steps,
-    and -2 if no step length gives a physical state.
+    the remaining turn. If a small change of the step length makes an additional step necessary, the additional step is
+    very short. Results therefore depend continuously on the step length. The result is -1 if the record has no room for
+    more steps, and -2 if no step length gives a physical state.
     """
     angle, taken, low, high = angles[0], 0, 0, 0
     for k in range(1, angles.size):
@@ -118,18 +118,20 @@ def march(gas: Gas, duct: Duct, cells: Cells, angles: FloatArray, record: Record
 
 @kernel
 def _taking_part(gas: Gas, duct: Duct, angle: float, turn: float) -> tuple[int, int]:
-    """Find the range of cells that take part in a step of `turn` from `angle` [rad].
+    """Find the range of cells that take part in a step.
 
-    Returns the first of these cells, and the cell after the last of them.
+    In the step, the owner turns by `turn` [rad], starting at `angle` [rad]. Returns the first cell of the range, and
+    the cell after the last cell of the range.
 
     A cell takes part while the stroke is under way at the centre of the cell. The first and the last cell of the duct
     also take part while the stroke is under way at the end of the duct, so that gas can leave through an end as long as
-    the end is open. Walls and balances count only the share of the step that lies in the stroke.
+    the end is open. For the walls and the balances of a cell, only the share of the step that lies in the stroke
+    counts.
 
-    If the stroke runs along the face faster than sound, cells take part a few cell widths early. Physical waves then do
-    not reach the border to the idle cells, but on a grid waves spread over a few cells. If the border lay within this
-    spread, the gas that passes the border would fill the next cells. The flow could then develop in two different ways,
-    depending on the sequence of steps.
+    If the stroke runs along the face faster than sound, cells take part a few cell widths early. In this case, physical
+    waves do not reach the border to the idle cells. On a grid, however, waves spread over a few cells. If the border
+    lay within this spread, the gas that passes the border would fill the next cells. The flow could then develop in two
+    different ways, depending on the sequence of steps.
     """
     low, high, rear = 0, 0, duct.cells - 1
     early = _AHEAD * duct.lag * duct.width if duct.speed >= duct.lag * gas.sound_speed else 0.0
@@ -155,7 +157,7 @@ def _longest_turn(gas: Gas, duct: Duct, cells: Cells, low: int, high: int) -> fl
 
 @kernel
 def _fill(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, new_low: int, new_high: int, angle: float) -> None:
-    """Fill the cells whose stroke begins; they receive the gas of the border."""
+    """Fill a cell with gas in the state of `_border` when the stroke of this cell begins."""
     rho, u, p = _border(gas, duct, cells, low, high)
     for i in range(new_low, new_high):
         if i < low or i >= high:
@@ -167,10 +169,11 @@ def _fill(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, new_low: int,
 
 @kernel
 def _border(gas: Gas, duct: Duct, cells: Cells, low: int, high: int) -> State:
-    """Compute the state of the gas with which the next cells begin: the state of a border at the centre of these cells.
+    """Compute the state of the gas with which the next cells begin their stroke.
 
-    The states of the last two active cells are extrapolated by one cell width to the border. If no cell is active yet,
-    the gas is ambient gas at rest.
+    This state is the state of the moving border (`front_face`) while the border is at the centre of the next cell. The
+    state of the gas behind the border is extrapolated by one cell width from the states of the last two active cells.
+    If no cell is active yet, the next cells begin with ambient gas at rest.
     """
     if not low < high < duct.cells:
         return State(gas.density, 0.0, gas.pressure)
@@ -185,9 +188,10 @@ def _border(gas: Gas, duct: Duct, cells: Cells, low: int, high: int) -> State:
 
 @kernel
 def _record_changes(duct: Duct, cells: Cells, record: Record, low: int, high: int, new_low: int, new_high: int) -> None:
-    """Add to the balances the content of the cells whose stroke ends or begins between two steps.
+    """Update the balances of mass and energy if the stroke of a cell ends or begins between two steps.
 
-    The active cells were low..high in the step before, and are now new_low..new_high.
+    The content of such a cell is added to the balances. The active cells were low..high in the step before, and are now
+    new_low..new_high.
     """
     for i in range(low, high):
         if i < new_low or i >= new_high:
@@ -203,10 +207,11 @@ def _record_changes(duct: Duct, cells: Cells, record: Record, low: int, high: in
 def _record_ends(
     duct: Duct, cells: Cells, record: Record, low: int, high: int, angle: float, turn: float, taken: int
 ) -> None:
-    """Record the flow out of both ends of the active cells, which are ends of the duct or borders to idle cells.
+    """Record the flow out of both ends of the row of active cells.
 
-    An end of the duct counts as an end for the share of the step in which its position is in the stroke. For the
-    remaining share, it counts as a border to idle cells.
+    Each end of the row is either an end of the duct or a border to idle cells. An end of the duct counts as an end of
+    the duct only for the share of the step in which the stroke is under way there. For the remaining share of the step,
+    this end counts as a border to idle cells.
     """
     dt = turn / duct.speed
     for end in range(2):
@@ -226,12 +231,13 @@ def _record_ends(
 def _record_cells(
     gas: Gas, duct: Duct, cells: Cells, record: Record, low: int, high: int, angle: float, turn: float, longest: float
 ) -> None:
-    """Record losses to the walls, mean temperatures and extremes of the active cells.
+    """Record wall losses, mean temperatures and extremes of the active cells.
 
-    Mean temperatures follow from the trapezoidal rule. `longest` is the turn of a whole step [rad]. The extremes leave
-    out two kinds of cells. A cell whose stroke ends within the step is closed for the remainder of the step and
-    collects the inflow. A cell whose stroke has just begun starts from the state of the border; the leakage of this
-    cell settles within a fraction of a step, so the implicit scheme of second order overshoots.
+    Mean temperatures follow from the trapezoidal rule. The extremes leave out two kinds of cells. A cell whose stroke
+    ends within the step is closed for the remainder of the step and collects the inflow. A cell whose stroke has just
+    begun starts from the state of the border; the leakage of this cell settles within a fraction of a step, so the
+    implicit scheme of second order overshoots. `longest` is the largest permitted turn of a step [rad]. A stroke counts
+    as just begun during the first `_UNSETTLED` turns of this size.
     """
     old, new, loss, dt = cells.state, cells.next_state, cells.loss, turn / duct.speed
     for i in range(low, high):
@@ -262,7 +268,7 @@ def _take_over(cells: Cells, low: int, high: int) -> None:
 def _record_field(
     gas: Gas, duct: Duct, cells: Cells, record: Record, low: int, high: int, k: int, angle: float
 ) -> None:
-    """Record the gas at angle k in the active cells whose stroke is not over."""
+    """Record the gas at the angle with the number k in the active cells whose stroke is not over."""
     for i in range(low, high):
         if phase_of(duct, i, angle) <= stroke_end(duct):
             rho, u, p = cells.state[i].density, cells.state[i].velocity, cells.state[i].pressure

@@ -22,8 +22,8 @@ class Walls(NamedTuple):
     """The walls of a cell at one instant.
 
     `area` is the area of the cell's section [m^2], and `growth` is the rate at which this area grows [m^2/s]. `gap` is
-    the clearance times the discharge coefficient [m]. `transport` is the area of gas that the flanks carry out of the
-    space per second [m^2/s].
+    the clearance times the discharge coefficient [m]. `transport` is the rate at which the moving flanks take gas out
+    of the space, as a cross-section of gas per unit time [m^2/s].
     """
 
     area: float
@@ -35,9 +35,10 @@ class Walls(NamedTuple):
 class Stage(NamedTuple):
     """Content and pressure of a cell after a stage, and the rates at which the cell loses its content in the stage.
 
-    Content: `mass` [kg/m], `momentum` [kg/s] and `energy` [J/m]; `pressure` [Pa]. Rates of loss: `leak` of mass
-    [kg/(s m)], `momentum_rate` [N/m] and `energy_rate` [W/m]. `through_gaps` is the part of `leak` that passes the
-    radial gaps [kg/(s m)]. `fits` tells whether the state is physical.
+    The content after the stage is `mass` [kg/m], `momentum` [kg/s] and `energy` [J/m]. `pressure` [Pa] is the pressure
+    after the stage. In the stage, the cell loses mass at the rate `leak` [kg/(s m)], momentum at the rate
+    `momentum_rate` [N/m], and energy at the rate `energy_rate` [W/m]. `through_gaps` [kg/(s m)] is the part of `leak`
+    that passes through the radial gaps. `fits` tells whether the state after the stage is physical.
     """
 
     mass: float
@@ -81,8 +82,8 @@ def implicit_stage(
 
     Notes
     -----
-    Eq. P7. In the code, `stiffness` [m^2] is the internal energy divided by the pressure for a cell without gaps, which
-    does work on its walls and loses gas with the flanks.
+    Eq. P7. In the code, `stiffness` [m^2] is the internal energy before the stage divided by the pressure after the
+    stage, for a cell without gaps. Such a cell does work on its walls and loses gas with the flanks.
     """
     g, area = gas.exponent, walls.area
     into, carried = max(-walls.transport, 0.0) * gas.density, max(walls.transport, 0.0) / area
@@ -141,8 +142,9 @@ def _improve(flux: float, squared: float, slope: float) -> float:
 
 @kernel
 def _is_settled(change: float, content: float, drop: float) -> bool:
-    """Return whether the error of the flux is within tolerance after Newton's last `change` of a content [kg/m].
+    """Return whether the error of the flux is within tolerance after a Newton step.
 
+    The step has changed the `content` of the cell [kg/m] by `change` [kg/m]. `drop` is the relative pressure drop.
     The linearised law leaves out the second derivative. Therefore the relative error of the flux is about
     (change / content)^2 divided by the relative pressure drop, times a factor of 1 to 2. The factor results from the
     powers with which pressure and density of the cell fall.
@@ -154,8 +156,8 @@ def _is_settled(change: float, content: float, drop: float) -> bool:
 def _outflow(gas: Gas, walls: Walls, stiffness: float, mass: float, inner: float, h: float, guess: float) -> float:
     """Compute the leakage out of a cell above ambient pressure [kg/(s m)].
 
-    The pressure of the cell is inner / resistance. The resistance [m^2] is the stiffness plus a term for the enthalpy
-    that leaks out.
+    `inner` is the internal energy of the cell before the leakage [J/m]. The pressure after the stage is inner /
+    resistance. The resistance [m^2] is the stiffness plus a term for the enthalpy that leaks out.
     """
     g, area, gap = gas.exponent, walls.area, walls.gap
     thinning = 1.0 / (1.0 + h * max(walls.transport, 0.0) / area)

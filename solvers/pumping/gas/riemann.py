@@ -144,15 +144,17 @@ def reservoir_face(gas: Gas, cell: State) -> tuple[State, float]:
 
 @kernel
 def front_face(gas: Gas, speed: float, cell: State) -> State:
-    """Compute the state of a border that moves at `speed` [m/s] into gas at rest, from the cell behind the border.
+    """Compute the state of the gas at a border that moves at `speed` [m/s] into gas at rest.
 
-    Seen from the border, the gas ahead is a head wind of this speed. In the frame of the border, the border is
-    therefore a reservoir face, and the reservoir has the stagnation state of the head wind. At the speed of sound and
-    above, no wave runs ahead of the border. The head wind is then limited to the speed of sound, so that waves that the
-    grid has spread can pass the border.
+    `cell` is the state of the gas behind the border. Seen from the border, the gas ahead of the border is a head wind
+    with the speed `speed`. In the frame of the border, the border is therefore a reservoir face, and the reservoir has
+    the stagnation state of the head wind. If the border moves at the speed of sound or faster, no wave runs ahead of
+    the border. The speed of the head wind is then limited to the speed of sound. On a grid, waves spread over several
+    cells; the limit lets such waves pass the border.
 
-    Simpler borders fail. A border at ambient pressure draws a jet along. A border that is alternately at ambient
-    pressure and at rest reflects the pressure rho c u, which is in proportion to the speed instead of its square.
+    Two simpler conditions at the border fail. If the border is always at ambient pressure, a jet follows the border. If
+    the border is alternately at ambient pressure and at rest, the border reflects waves with the pressure rho c u. This
+    pressure is proportional to the speed u, but the correct pressure is proportional to the square of the speed.
     """
     g, head = gas.exponent, min(speed, gas.sound_speed)
     warming = 1.0 + 0.5 * (g - 1.0) * (head / gas.sound_speed) ** 2
@@ -173,12 +175,13 @@ def front_face(gas: Gas, speed: float, cell: State) -> State:
 
 @kernel
 def _inflow(gas: Gas, invariant: float, cell_sound_speed: float) -> State:
-    """Compute the state of inflow from rest that has the same pressure and velocity as the gas of the cell.
+    """Compute the state of the gas that flows in from rest through a face.
 
-    The inflow is at most sonic. `cell_sound_speed` is the speed of sound of the cell's gas after an expansion to
-    ambient pressure [m/s]. If this gas is hotter than the ambient gas, a contact discontinuity lies between both gases,
-    and the invariant v + 2c/(g-1) holds on the side of the cell. In the code, `ratio` is the speed of sound at the face
-    divided by the speed of sound in the ambient gas. This ratio is the larger root of a quadratic equation.
+    Where the inflow meets the gas of the cell, both gases have the same pressure and the same velocity. The inflow is
+    at most sonic. `cell_sound_speed` is the speed of sound of the cell's gas after an expansion to ambient pressure
+    [m/s]. If the temperatures of both gases differ, a contact discontinuity lies between the gases, and the invariant
+    v + 2c/(g-1) holds on the side of the cell. In the code, `ratio` is the speed of sound at the face divided by the
+    speed of sound in the ambient gas. This ratio is the larger root of a quadratic equation.
     """
     g, stagnation = gas.exponent, gas.sound_speed
     slope, jet = 2.0 / (g - 1.0) * cell_sound_speed, 2.0 / (g - 1.0) * stagnation**2

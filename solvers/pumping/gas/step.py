@@ -4,12 +4,13 @@
  d(A rho u)/dt     + d(A (rho u^2 + p))/dz     = p dA/dz - q u_q
  d(A rho E)/dt     + d(A u (rho E + p))/dz     = -p dA/dt - q h_q
 
-Here q is the leakage, u_q is the velocity of the leaking gas, and h_q is the stagnation enthalpy of this gas.
+Here A is the area of the section, and E is the energy of the gas per unit mass, internal plus kinetic. q is the
+leakage, u_q is the velocity of the leaking gas, and h_q is the stagnation enthalpy of this gas.
 
 The MUSCL-Hancock method is of second order in space and time. States at the faces come from a limited linear
-reconstruction and a half-step predictor. The exchange with the walls, leakage q and wall work, is integrated by an
-implicit Runge-Kutta method with two stages, L-stable and stiffly accurate; the fluxes through the faces are constant
-in these stages.
+reconstruction and a half-step predictor. The leakage q and the wall work are integrated by an implicit Runge-Kutta
+method with two stages. This method is L-stable and stiffly accurate. The fluxes through the faces are constant during
+both stages.
 """
 
 from typing import NamedTuple
@@ -51,13 +52,19 @@ flux grew in this step [kg/(s^2 m)].
 
 
 class Cells(NamedTuple):
-    """Arrays of a duct that the kernels of a step share; shapes: cells (cells,), faces (cells + 1,), ends (2,).
+    """Arrays of a duct that the kernels of a step share.
 
-    At the start of the step: `content` (CONSERVED), `state` (STATE) and `walls` (WALL). At the end of the step:
-    `next_content`, `next_state` and `next_walls`. In the middle of the step: the state `half` (STATE), the `face_area`
-    [m^2] and the `flux` through the faces (CONSERVED). `slope` is the change of the state over a cell (STATE). For the
-    whole step: `loss` (LOSS), `ends` (END), `leak` (LEAK) and `share`, the share of the step in which the stroke is
-    under way at the centre of a cell. Outside the stroke the walls of a cell stand still, and nothing leaks.
+    Most arrays have one value per cell, (cells,). `face_area` and `flux` have one value per face, (cells + 1,), and
+    `ends` has one value per end of the duct, (2,). Names in capitals are types of records.
+
+    `content` (CONSERVED), `state` (STATE) and `walls` (WALL) hold the values at the start of the step. `next_content`,
+    `next_state` and `next_walls` hold the values at the end of the step. `half` (STATE) is the state in the middle of
+    the step. `face_area` [m^2] is the area of the faces and `flux` (CONSERVED) is the flux through the faces, both in
+    the middle of the step. `slope` (STATE) is the change of the state over a cell.
+
+    `loss` (LOSS), `ends` (END) and `leak` (LEAK) belong to the whole step. `share` is the share of the step in which
+    the stroke is under way at the centre of a cell. Outside the stroke the walls of a cell stand still, and nothing
+    leaks.
     """
 
     content: RecordArray
@@ -183,7 +190,11 @@ def _put_slope(slope: RecordArray, i: int, density: float, velocity: float, pres
 
 @kernel
 def _limited(side: int, back: float, ahead: float) -> float:
-    """Return van Leer's limited slope of neighbouring differences, or `_end_slope` in an end cell (side -1 or 1)."""
+    """Return the limited slope of a cell from two neighbouring differences.
+
+    `side` is -1 in the first active cell and 1 in the last active cell; in these cells the slope is `_end_slope`. In
+    all other cells `side` is 0, and the slope is van Leer's.
+    """
     if side < 0:
         return _end_slope(back, ahead)
     if side > 0:
@@ -193,7 +204,11 @@ def _limited(side: int, back: float, ahead: float) -> float:
 
 @kernel
 def _end_slope(nearest: float, next_one: float) -> float:
-    """Compute the slope of a parabola in an end cell from two differences; limit it to twice the nearest difference."""
+    """Compute the limited slope in an end cell from the two differences that are nearest to this cell.
+
+    The slope is the slope of a parabola in the end cell, but not steeper than twice the nearest difference. The slope
+    is 0 if the signs of the parabola's slope and of the nearest difference are opposite.
+    """
     slope = 1.5 * nearest - 0.5 * next_one
     if slope * nearest <= 0.0:
         return 0.0
@@ -215,7 +230,7 @@ def _walls(duct: Duct, now: RecordArray, after: RecordArray, i: int, fraction: f
 def _predict(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, dt: float) -> bool:
     """Compute the states in the middle of the step by Hancock's method.
 
-    The fluxes at both edges of a cell are those of the cell's own state.
+    The flux at each edge of a cell is computed from the state of this cell alone.
     """
     g, share = gas.exponent, 0.5 * dt / duct.width
     w, s, c, area = cells.state, cells.slope, cells.content, cells.face_area
@@ -256,7 +271,10 @@ def _edge(w: RecordArray, s: RecordArray, i: int, side: float) -> State:
 
 @kernel
 def _safe_edge(w: RecordArray, s: RecordArray, i: int, side: float) -> State:
-    """Extrapolate the state to an edge of cell i; return the cell state if density or pressure falls too far."""
+    """Extrapolate the state w by the slope s to an edge of cell i.
+
+    Return the state of the cell if the extrapolated density or pressure is below a tenth of the cell's value.
+    """
     edge = _edge(w, s, i, side)
     if edge.density < 0.1 * w[i].density or edge.pressure < 0.1 * w[i].pressure:
         return State(w[i].density, w[i].velocity, w[i].pressure)
@@ -273,7 +291,7 @@ def _set_fluxes(gas: Gas, duct: Duct, cells: Cells, low: int, high: int) -> None
         fluxes[i].mass, fluxes[i].momentum, fluxes[i].energy = area[i] * mass, area[i] * momentum, area[i] * energy
     _set_end(gas, cells, low, low, 0)
     if high < duct.cells:
-        # The border to cells whose stroke is about to begin has the state with which the stroke of these cells begins.
+        # The gas at the border to idle cells has the state with which these cells would begin their stroke.
         border = front_face(gas, duct.speed / duct.lag, _safe_edge(half, slope, high - 1, 0.5))
         _put_flux(gas, cells, high, 1.0, border)
     else:
@@ -314,7 +332,7 @@ def _correct(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, dt: float)
         momentum = (fluxes[i].momentum - fluxes[i + 1].momentum + force) / duct.width
         energy = (fluxes[i].energy - fluxes[i + 1].energy) / duct.width
         early, late, latest = dt - h, h, leak[i].latest
-        ahead = 2.0 * (leak[i].halfway - latest)  # growth over the step
+        ahead = 2.0 * (leak[i].halfway - latest)  # expected growth of the leakage over the step
         walls = _walls(duct, cells.walls, cells.next_walls, i, _DIAGONAL, dt)
         old_mass, old_momentum, old_energy = c[i].mass, c[i].momentum, c[i].energy
         first = implicit_stage(

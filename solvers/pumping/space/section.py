@@ -16,7 +16,7 @@ from solvers.pumping.space.tooth_space import ToothSpace
 
 
 class Section(NamedTuple):
-    """Free area [m^2], clearances of both sides [m], and area of gas carried out of the space by the flanks [m^2]."""
+    """Free area [m^2], clearances of both sides [m], and area of gas that the flanks moved out of the space [m^2]."""
 
     area: float
     left: float
@@ -73,9 +73,10 @@ def _flank_section(
 ) -> tuple[float, float, float, float, float]:
     """Find the section of a side on the line of action; returns the same values as `_corner_section`.
 
-    If the line of action misses the involute of gear A, the section joins the point of the line of action on the flank
-    of the other gear B to the nearest point of gear A. The clearance is the length of this section, or the distance
-    between the end of the missed involute and gear B if this distance is smaller.
+    The line of action may miss the involute of one gear, gear A. The section then starts at the point where the line of
+    action meets the flank of the other gear, gear B, and ends at the nearest point of gear A. The clearance is the
+    length of this section. If the distance between the end of the missed involute and gear B is smaller, the clearance
+    is this distance.
     """
     start = space.root.involute_roll
     if roll < start:
@@ -95,8 +96,9 @@ def _flank_section(
 def _carried(space: ToothSpace, roll: float, gap: float) -> float:
     """Compute the area of gas [m^2] that rolling flanks have carried through a section of width `gap` [m].
 
-    The area is positive towards growing roll lengths. The gas moves with the mean of the rolling velocities of both
-    flanks. The integral over time of each rolling velocity begins at the angle at which this velocity is 0.
+    The area is positive if the gas moves towards growing roll lengths. The velocity of the gas is the mean of the
+    rolling velocities of both flanks. The integral of each rolling velocity over time begins at the angle at which this
+    velocity is 0.
     """
     facing = space.line_of_action - gap
     roll = min(max(roll, facing - space.mate_tip_roll), space.tip_roll)
@@ -109,7 +111,8 @@ def _side(space: ToothSpace, angle: float, mate_angle: float, gap: float) -> tup
     """Compute the area of a side [m^2], its clearance [m] and the area of gas carried through its section [m^2].
 
     Flanks that face each other close the space on the line of action, where they are `gap` [m] apart. If the gap is 0,
-    the involutes are used down to the base circles even if the gear is undercut, as in the path of contact.
+    the involutes are used down to the base circles even if the gear is undercut. The path of contact is computed in the
+    same way.
     A wide gap is not always the narrowest place of the side, because a tip corner may be closer to the root fillet. The
     distance of the tip corner is then the clearance, but the section that bounds the area stays on the line of action.
     """
@@ -147,8 +150,8 @@ def section(space: ToothSpace, angle: float) -> Section:
 
     Notes
     -----
-    Eqs. 5, P3. The flanks of the coast side carry gas through a section that is fixed on the line of action. They carry
-    the gas out of the space if the owner of the space drives, else into the space.
+    Eqs. 5, P3. The flanks of the coast side carry gas through a section that is fixed on the line of action. These
+    flanks carry the gas out of the space if the owner of the space drives, else into the space.
     """
     mate_angle = angle * space.ratio + space.offset
     left_gap = 0.0 if space.owner_drives else space.backlash_gap

@@ -23,10 +23,11 @@ JUMP = 0.01
 class StrokeTable:
     """One stroke of a tooth space at equal steps of the owner's angle [rad], arrays of shape (positions,).
 
-    `area` [m^2]; `clearance_left`, `clearance_right` [m]; `carried`: area of gas that the flanks have carried out of
-    the space through its narrowest sections since the stroke began [m^2]. The table holds this accumulated area instead
-    of its rate. At the angle at which a section passes from a tip corner to the flanks, the rate jumps, and the slope
-    of `area` changes. If `area` and `carried` are both interpolated between two positions, they stay consistent.
+    `area` is in [m^2]; `clearance_left` and `clearance_right` are in [m]. `carried` is the area of the gas that the
+    flanks have carried out of the space through its narrowest sections since the stroke began [m^2]. The table holds
+    this accumulated area instead of its rate. At the angle at which a section passes from a tip corner to the flanks,
+    the rate jumps, and the slope of `area` changes. If `area` and `carried` are both interpolated between two
+    positions, they stay consistent.
     """
 
     limits: StrokeLimits

@@ -1,4 +1,4 @@
-"""A tooth space of one gear and the mate's tooth that passes through it, in the transverse plane.
+"""A tooth space of one gear, and the tooth of the mate that passes through this space, in the transverse plane.
 
 Frame: the owner is the gear to which the space belongs. The owner turns about (0, 0), and the mate turns about (0, a).
 Angles of the owner are measured from +y and angles of the mate from -y, both positive towards +x, the direction of
@@ -94,7 +94,7 @@ def normal_backlash(pair: GearPair, extra: float) -> float:
 
 
 def _thinning(pair: GearPair, normal_backlash: float) -> float:
-    """Compute by how much the mate's tooth is thinner on its working circle [m]."""
+    """Compute the reduction of the thickness of the mate's tooth on the mate's working circle [m]."""
     return normal_backlash / (cos(pair.base_helix_angle) * cos(pair.working_pressure_angle))
 
 
