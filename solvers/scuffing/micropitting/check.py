@@ -28,9 +28,10 @@ LIKELY_BELOW, UNLIKELY_ABOVE = 1.0, 2.0  # limits of the safety factor, from com
 
 @dataclass(frozen=True, slots=True)
 class CheckedFlank:
-    """Answer of a check, film of the flank, and film ratio at the points of the flank's maps.
+    """Results of a check of the flank.
 
-    Unknown values are None.
+    `answer` contains the results for the user. `film` computes the film ratio at any point of the flank. `ratio` is the
+    film ratio at the points of the flank's maps. Unknown values are None.
     """
 
     answer: Micropitting | None = None
@@ -51,7 +52,7 @@ def check_micropitting(
     Parameters
     ----------
     inputs : ScuffingInputs
-        Inputs of the scuffing check. Estimates of friction, temperatures and oil are already replaced by numbers.
+        Inputs of the scuffing check. Friction, temperatures and oil must be numbers; estimates are already computed.
     distribution : LoadDistribution
         Load distribution of the pair.
     grid : FlashMap

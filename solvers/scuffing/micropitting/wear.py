@@ -12,7 +12,10 @@ from solvers.scuffing.results import LoadDistribution
 
 
 class WearDepths(NamedTuple):
-    """Maps [profile, face] of the depth of wear of each gear per revolution of the gear [m]; NaN near a base circle."""
+    """Depth of wear of pinion and wheel per revolution of the gear [m]: two maps [profile, face].
+
+    The depth is NaN near a base circle.
+    """
 
     pinion: FloatArray
     wheel: FloatArray
@@ -83,9 +86,10 @@ def solve_wear(coefficient: float, distribution: LoadDistribution) -> Wear:
 
 
 class _Largest(NamedTuple):
-    """Largest depth of wear [m] and its place, as fraction of the path and as distance on the face [m].
+    """Largest depth of wear [m] on a flank, and the place of this depth.
 
-    All values are None if the depth has no limit.
+    `psi` is the fraction of the path from A, and `face` is the distance from the end that meshes first [m]. All values
+    are None if the depth has no limit.
     """
 
     value: float | None
