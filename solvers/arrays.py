@@ -22,7 +22,10 @@ The share is far above rounding errors, and far below any share that can be meas
 
 
 def frozen(values: ArrayLike) -> NDArray[Any]:
-    """Return a read-only array of the values; if the values are already an array, return a read-only view of it."""
+    """Return a read-only array of the values.
+
+    If the values are already an array, the result is a view of this array; the elements are not copied.
+    """
     array = np.asarray(values).view()
     array.flags.writeable = False
     return array
@@ -41,8 +44,8 @@ def records(shape: int | tuple[int, ...], fields: Fields) -> RecordArray:
     """Return a record array of zeros.
 
     Kernels pass a group of arrays to each other as one record array, because numba counts the references to every array
-    in a call. When every field was an array of its own, a run of the pumping model `pocket_chain` took 3.3 times as
-    long, and a run of the gas dynamics took 1.4 times as long.
+    in a call. In a test with a separate array for every field, a run of the pumping model `pocket_chain` took 3.3 times
+    as long, and a run of the gas dynamics took 1.4 times as long.
     """
     return np.zeros(shape, fields).view(np.recarray)
 

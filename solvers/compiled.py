@@ -24,9 +24,9 @@ def kernel(function: Callable[P, R]) -> Callable[P, R]:
 def inlined_kernel(function: Callable[P, R]) -> Callable[P, R]:
     """Compile a kernel whose code is copied into the kernels that call it.
 
-    Without this copy, numba counts the references to every array in a call. A kernel that takes many arrays may be
-    called at every step of a loop, for example at every column of a film. The counting can then take twice as long as
-    the calculation in the kernel.
+    If the code were not copied, numba would count the references to every array in a call. A kernel that takes many
+    arrays may be called at every step of a loop, for example at every column of a film. The counting could then take
+    twice as long as the calculation in the kernel.
     """
     return _compiled(function, forceinline=True)
 

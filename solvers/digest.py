@@ -46,10 +46,10 @@ def package_digest() -> str:
 def digest_of(package: Path) -> str:
     """Return the SHA-256 hash of all modules in `package`.
 
-    The hash is computed from the names and the syntax trees of the modules. Before this, docstrings and the labels of
-    quantities are removed from the trees; comments and layout are not part of a tree. An edit of such text therefore
-    does not change the digest. An edit of a constant or of a formula changes the digest. Different versions of Python
-    may give different trees, and therefore different digests.
+    The hash is computed from the names and the syntax trees of the modules. A syntax tree contains no comments and no
+    layout. Docstrings and the labels of quantities (title, symbol and similar text) are removed from the tree. An edit
+    of comments, layout, docstrings or labels therefore does not change the digest. An edit of a constant or of a
+    formula changes the digest. Different versions of Python may give different trees, and therefore different digests.
     """
     digest = sha256()
     for path in sorted(package.rglob("*.py")):

@@ -143,8 +143,9 @@ MINERAL_VISCOSITY_100 = {
 class KindOfOil:
     """Typical properties of a kind of oil; a data sheet rarely states these properties.
 
-    Gold's law of the pressure-viscosity coefficient is alpha = s nu^t. `pressure_viscosity_scale` is s [1/GPa at
-    1 mm^2/s], and `pressure_viscosity_exponent` is t. The other fields are in SI units.
+    Gold's law of the pressure-viscosity coefficient is alpha = s nu^t, where nu is the kinematic viscosity.
+    `pressure_viscosity_scale` is s [1/GPa at 1 mm^2/s], and `pressure_viscosity_exponent` is t. The other fields are in
+    SI units.
     """
 
     pressure_viscosity_scale: float
@@ -214,7 +215,8 @@ class OilSheet:
         ------
         InvalidInput
             `out_of_range` if the viscosity at 100 C is below 1 mm^2/s; `viscosity_order` if the viscosity at 100 C is
-            not lower than the viscosity at 40 C; `viscosity_index` if no oil has the index that follows from both.
+            not lower than the viscosity at 40 C; `viscosity_index` if no oil has the viscosity index that follows from
+            both viscosities.
         """
         thick, thin, field = self.kinematic_viscosity_40, self.kinematic_viscosity_100, _THIN
         if not thin >= LEAST_VISCOSITY_100:
@@ -266,7 +268,7 @@ class OilSheet:
 
     @property
     def reference_density(self) -> float:
-        """Density at 15 C [kg/m^3]; a density that is typical of the kind of oil if the data sheet states none."""
+        """Density at 15 C [kg/m^3]: the density in the data sheet, or else a density typical of the kind of oil."""
         return KINDS[self.kind].density_15 if self.density_15 is None else self.density_15
 
     @property

@@ -127,7 +127,7 @@ class Quantity:
         Advice on what to enter instead. `if_above` is shown if the entry is not a number or is above the range,
         `if_negative` is shown if the entry is negative.
     length : tuple of (int, int), optional
-        Least and largest number of values of a list.
+        Least and largest number of values in a list.
     detail : str
         Lowest level of detail at which a result contains the field.
     axis : str or tuple of (str, str), optional
@@ -166,7 +166,7 @@ class Quantity:
 
     @property
     def bounds(self) -> dict[str, float]:
-        """Ends of the range by name; ends that are not given are left out."""
+        """Ends of the range under the names `ge`, `gt`, `le` and `lt`; ends that are not given are left out."""
         return {name: end for name in ("ge", "gt", "le", "lt") if (end := getattr(self, name)) is not None}
 
     def to_si(self, value: Any) -> Any:

@@ -1,7 +1,7 @@
 """Calibration of the network with measured temperatures.
 
-The wetting share is fitted to a measured gear temperature. `Network.other`, the losses that no other part of the model
-computes, is fitted to a measured drain temperature.
+The wetting share is fitted to a measured gear temperature. The other losses (`Network.other`), which no other part of
+the model computes, are fitted to a measured drain temperature.
 """
 
 from dataclasses import replace
@@ -24,7 +24,7 @@ MET = 1e-5  # K; tolerance of the measured temperature
 
 
 def wetted(network: Network, share: float) -> Network:
-    """Return the network with another wetting share."""
+    """Return the network with the wetting share `share`."""
     return replace(network, spray=replace(network.spray, wetting_share=share))
 
 

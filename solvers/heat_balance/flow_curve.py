@@ -29,8 +29,8 @@ def over_the_flow(inputs: HeatBalanceInputs, flows: FloatArray) -> FlowCurve:
     Parameters
     ----------
     inputs : HeatBalanceInputs
-        The pair or unit. Measured temperatures in these inputs belong to the oil flow in these inputs; the model is
-        calibrated with them.
+        The pair or unit. If these inputs contain measured temperatures, the model is calibrated with these temperatures
+        at the oil flow of these inputs.
     flows : FloatArray
         Flows to the gears, rising [m^3/s].
 

@@ -319,8 +319,8 @@ class Cooling:
         Raises
         ------
         InvalidInput
-            `exclusive` if both temperatures of one gear are given as measured, or if a value is given that also follows
-            from a measured temperature (wetting share or other losses).
+            `exclusive` if measured temperatures are given for both the flank and the body of one gear. Also `exclusive`
+            if the wetting share or the other losses are given although a measured temperature determines this value.
         """
         measured = self.measured
         for gear in ("pinion", "wheel"):

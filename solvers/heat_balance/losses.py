@@ -11,7 +11,7 @@ from solvers.heat_balance.oil import CoolingOil
 from solvers.quantity import described, record
 
 VISCOSITY_EXPONENT = -0.05  # exponent of the viscosity in Schlenk's mean coefficient of friction (quoted, not verified)
-LARGEST_ACCELERATION_SHARE = 0.5  # chosen: largest share of the rise that `flow_by_rise` attributes to the acceleration
+LARGEST_ACCELERATION_SHARE = 0.5  # chosen: in `flow_by_rise`, largest share of the rise that the acceleration causes
 
 
 @record

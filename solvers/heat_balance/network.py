@@ -1,8 +1,8 @@
 """The network of a gear pair or gear unit: its nodes, and all heat flows between them.
 
 The nodes are the flank and the body of each gear, the mist, the oil that leaves each plain bearing, and the casing if
-there is one. Each heat flow is entered once, with an origin and a target, so that the supplied heat equals the removed
-heat. Temperatures are rises over the supply temperature of the oil [K].
+there is one. Each heat flow is entered once, with an origin and a target. All heat that leaves the origin therefore
+arrives at the target. Temperatures are rises over the supply temperature of the oil [K].
 """
 
 from collections.abc import Iterator
@@ -92,7 +92,7 @@ class CasingWalls:
 
 
 class Flow(NamedTuple):
-    """A heat flow `power` [W] in the network, and the name of what carries the heat.
+    """A heat flow in the network: its power [W], and the name of the carrier of the heat.
 
     The heat flows from the place with the index `origin` to the place with the index `target` (see `Network.places`).
     """
@@ -107,8 +107,8 @@ class Flow(NamedTuple):
 class Network:
     """The network of a gear pair or gear unit, with its losses [W].
 
-    `windage` contains the losses of both gears together. `other` contains all losses that no other part of the model
-    computes. Both losses heat the mist.
+    `windage` is the windage loss of both gears together. `other` is the sum of all losses that no other part of the
+    model computes. `windage` and `other` heat the mist.
     """
 
     oil: CoolingOil

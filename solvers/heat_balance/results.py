@@ -63,7 +63,7 @@ class HeatLosses:
 
 @record
 class Balance:
-    """Supplied heat, removed heat, and the relative error: their difference divided by the supplied heat."""
+    """Supplied heat, removed heat, and the difference of the two divided by the supplied heat."""
 
     supplied: float = quantity("heat supplied", "P_in", unit="w")
     removed: float = quantity("heat removed", "P_out", unit="w")

@@ -8,7 +8,7 @@ from solvers.arrays import FloatArray
 from solvers.errors import NoSolution
 from solvers.heat_balance.network import Network
 
-TOLERANCE = 1e-5  # K; tolerance of the last full Newton step. The remaining error is about the square of this step.
+TOLERANCE = 1e-5  # K; largest last Newton step, which must be a full step. The error is about the square of the step.
 DIFFERENCE = 1e-4  # K; step of the Jacobian's differences
 MOST_STEPS, MOST_HALVINGS = 50, 30
 LARGEST_STEP = 100.0  # K

@@ -12,13 +12,13 @@ from solvers.errors import InvalidInput
 from solvers.gears.pair import ContactPlane, PathOfContact
 from solvers.scuffing.modification import Gap, gap_at
 
-COINCIDENT = 1e-9  # in base pitches; breakpoints that are closer to each other are treated as one breakpoint
-LEAST_STEPS = 8  # least number of steps between two breakpoints, even if the breakpoints are close to each other
+COINCIDENT = 1e-9  # in base pitches; corners that are closer to each other are treated as one corner
+LEAST_STEPS = 8  # least number of steps between two corners, even if the corners are close to each other
 MOST_LINES = 100  # largest number of lines in contact at the same time; real gears have fewer than ten
-MOST_ZONES = 12  # largest number of zones of one line; further zones are joined to the last zone
+MOST_ZONES = 12  # largest number of loaded stretches per part of a line; further stretches are joined to the last one
 LEAST_SAMPLES = 8  # least number of samples per smooth part
 BISECTIONS = 45  # halvings of the step between samples: 2^-45 of the step is below the rounding of a gap
-GOLDEN_STEPS = 30  # number of steps; they narrow a minimum, where the gap is flat, to 5e-7 of two sample steps
+GOLDEN_STEPS = 30  # number of steps; they narrow the range of a minimum to 5e-7 of its width (two sample steps)
 GOLDEN = 0.6180339887498949  # (sqrt(5) - 1) / 2, the golden section
 
 

@@ -131,7 +131,7 @@ def _parts(
         else:
             pieces = ceil(slices * (high - low) / (last_y - first_y) - 1e-9)
             least = max(LEAST_SAMPLES, ceil(stations * (high - low)))
-            # The middles of the slices of a whole line are among the samples.
+            # If the whole line is loaded, the middles of its slices are among the samples.
             samples = 2 * pieces * ceil(least / (2 * pieces))
             added = loaded_zones(mesh.gap, mesh.plane, line, (low, high), samples, reach, zones[count:])
         for start, end in zones[count : count + added]:

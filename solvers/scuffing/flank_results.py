@@ -16,7 +16,7 @@ from solvers.scuffing.tooth_stiffness import compliance_at, line_load
 
 SUBSTEPS = 4  # number of substeps per step between roll positions, if a line is loaded over a part of its length only
 FACE_POINTS = 101  # one point per percent of the face
-NEARLY = 0.98  # share of the largest value; tops below this share cannot become the largest by refinement
+NEARLY = 0.98  # share of the largest value; a lower top (local maximum) cannot become the largest on finer grids
 TOPS = 3  # number of tops (local maxima) that are refined, beginning with the highest
 ZOOMS = 3  # number of zooms; every zoom narrows the range that contains the maximum by a factor of 3
 ZOOM_POINTS = 7  # number of points per zoom; they lie between the neighbours of a top
@@ -62,7 +62,10 @@ def _in_part(balance: LoadBalance) -> bool:
 
 
 def tops(values: FloatArray) -> list[int]:
-    """Return the indices of local maxima that are nearly as large as the largest value, in ascending order of value."""
+    """Return the indices of the local maxima that are nearly as large as the largest value.
+
+    The indices are sorted by the values of the maxima, in ascending order.
+    """
     edged = np.concatenate([[-np.inf], values, [-np.inf]])
     local = np.flatnonzero((values > edged[:-2]) & (values >= edged[2:]) & (values >= NEARLY * values.max()))
     return sorted(local.tolist(), key=lambda k: float(values[k]))

@@ -80,9 +80,9 @@ class Load:
     def torque(self) -> float:
         """Transmitted torque of the pinion [N m]; if only the power is given, the torque is P/omega.
 
-        P/omega is 9549 P/n in the units of the paper.
+        In the units of the paper (kW and 1/min), P/omega is 9549 P/n.
 
-        Raises InvalidInput torque_or_power if neither torque nor power is given.
+        Raises InvalidInput (`torque_or_power`) if neither torque nor power is given.
         """
         if self.pinion_torque is not None:
             return self.pinion_torque
@@ -141,10 +141,10 @@ class Modifications:
     A positive `profile_slope` opens the gap towards E (pinion tip). A positive `helix_slope` opens the gap towards the
     end of the face that leaves the mesh last. `in_plane_deviation` and `out_of_plane_deviation` are shaft deviations
     over the face width; they act like a helix slope. `tip_relief` acts at E and is the sum of the reliefs of pinion tip
-    and wheel root.
-    `root_relief` acts at A and is the sum of the reliefs of pinion root and wheel tip. The lengths of tip and root
-    relief are measured along the line of action [m]. The length of the end relief is measured along the face [m]. If a
-    length is None, the default in `modification.gap` is used. `lead_curve` adds any further gap over the face.
+    and wheel root. `root_relief` acts at A and is the sum of the reliefs of pinion root and wheel tip. The lengths of
+    tip and root relief are measured along the line of action [m]. The length of the end relief is measured along the
+    face [m]. If a length is None, the function `modification.gap` chooses a default length. `lead_curve` adds a gap
+    that varies over the face in any way.
     """
 
     profile_crowning: float = quantity(

@@ -147,7 +147,7 @@ def newton(table: Slices, count: int, logarithmic: float, force: float, error: f
     error : float
         Approach TE [m].
     residual : float
-        Residual divided by the force [-].
+        Residual of the force divided by the force [-].
     steps : float
         Number of steps.
 
@@ -278,10 +278,11 @@ def _balanced(mesh: Mesh, rolls: RollPositions, force: float, slices: int, start
 
 
 def _bent_steps(balance: LoadBalance) -> IntArray:
-    """Return the indices of the steps between neighbouring roll positions over which TE is not linear, ascending.
+    """Return the indices of the steps over which TE is not linear, in ascending order.
 
-    At every roll position, TE is compared with the straight line between TE at both neighbouring positions. If TE is
-    not close to this line, the steps on both sides of the position are not linear. Corners are not tested.
+    A step lies between two neighbouring roll positions. At every roll position, TE is compared with the straight line
+    through TE at both neighbouring positions. If TE is not close to this line, TE is not linear over the steps on both
+    sides of the position. Corners are not tested.
     """
     phase, error = balance.rolls.phase, balance.transmission_error
     spread = np.full(error.size, max(float(np.ptp(error)), LEAST_SPREAD))
@@ -298,7 +299,7 @@ def _bent_steps(balance: LoadBalance) -> IntArray:
 def _merged(balance: LoadBalance, added: LoadBalance, places: IntArray) -> LoadBalance:
     """Insert the roll positions of `added` into `balance`; both are balances of the same mesh.
 
-    Every added roll position is inserted before the position of `balance` with the index in `places`.
+    For every added roll position, `places` contains the index of the roll position in `balance` that follows it.
     """
 
     def together(old: Any, new: Any) -> Any:
@@ -379,7 +380,7 @@ def _balance(
 def error_at(
     plane: ContactPlane, phase: FloatArray, error: FloatArray, x: float, y: float, index: int
 ) -> tuple[float, int]:
-    """Return TE at the moment at which a contact line passes through (x, y), and the index of the step there.
+    """Return TE at the roll position at which a contact line passes through (x, y), and the index of the step there.
 
     A step lies between two neighbouring roll positions of the balance; within a step, TE is interpolated linearly. The
     search for the step begins at the step `index`. At the end of the path, TE is the value just before the line leaves

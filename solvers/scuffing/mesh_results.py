@@ -56,9 +56,9 @@ def _narrow(x: FloatArray, length: float, double: float) -> FloatArray:
 def _buttressing(path: PathOfContact, x: FloatArray) -> FloatArray:
     """Return the buttressing factor of helical teeth; the factor is 1 for spur gears.
 
-    Helical teeth carry more load near the ends of the path. The factor is 1 + 0.3 min(eps_beta, 1) at A and E. From A
-    and from E towards the middle of the path, the factor falls linearly to 1. It reaches 1 where the profile parameter
-    Gamma differs by 0.2 sin beta_b from its value at A or E (Eq. 15).
+    Helical teeth carry more load near the ends of the path than in the middle. The factor is 1 + 0.3 min(eps_beta, 1)
+    at A and E. From A and from E towards the middle of the path, the factor falls linearly to 1. It reaches 1 where the
+    profile parameter Gamma differs by 0.2 sin beta_b from its value at A or E (Eq. 15).
     """
     plane = path.plane
     ramp = 0.2 * plane.tan_base_helix * plane.cos_base_helix * path.pitch_point
@@ -238,7 +238,7 @@ def period_mean(values: FloatArray, phase: FloatArray) -> float:
 
 def _fourier(values: FloatArray, phase: FloatArray) -> NDArray[np.complex128]:
     """Return the complex Fourier coefficients c_1, c_2, ... of a function of the roll position."""
-    # Wave k is the first wave raised to the power k.
+    # The wave of order k is the wave of order 1 raised to the power k.
     waves = np.cumprod(np.tile(np.exp(-2j * np.pi * phase / phase[-1]), (HARMONICS, 1)), axis=0)
     return np.asarray(np.trapezoid((values - values.mean()) * waves, phase) / phase[-1])
 

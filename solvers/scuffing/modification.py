@@ -88,8 +88,8 @@ def gap(modifications: Modifications, path: PathOfContact) -> Gap:
 def lead_table(curve: LeadCurve, face_width: float) -> FloatArray:
     """Return the gap of a lead curve at equidistant points of the face [m].
 
-    Raises InvalidInput lead_curve if the curve has fewer than two points, if the number of gaps differs from the number
-    of positions, or if the positions do not ascend within the face.
+    Raises InvalidInput (`lead_curve`) if the curve has fewer than two points, if the number of gaps differs from the
+    number of positions, or if the positions are not in ascending order from 0 to the face width.
     """
     position, value = np.asarray(curve.position), np.asarray(curve.gap)
     rising = position.size >= 2 and bool(np.all(np.diff(position) > 0.0))

@@ -179,7 +179,8 @@ class Film:
 class Safety:
     """Safety factors against scuffing (Eq. 26); a factor is None if the teeth are not hotter than the oil.
 
-    `scuffing` is the scuffing temperature [K]. `verdict` is the risk class of the standard for Blok's factor.
+    `scuffing` is the scuffing temperature [K]. `verdict` is the risk class by ISO/TR 13989-1 for Blok's factor, or for
+    the smallest factor in the band if there is a band.
     """
 
     scuffing: float = quantity("scuffing temperature used", "θ_S", unit="c", text="given or by the scuffing test")
@@ -238,9 +239,9 @@ class ScuffingDerived:
 class ThermalPath:
     """The thermal EHL solution at the points of a line; temperatures [K], films [m], pressure [Pa], friction [-].
 
-    The values are NaN at unsolved points. The solver refuses a point if the load of the point is too light. Such a
-    point is solved under the lightest load that the solver accepts: `flash_bound` [K] is its flash temperature, and
-    `film_bound` [m] is its film under this load. The real flash temperature of the point is not higher than
+    The values are NaN at unsolved points. If the solver refuses a point because its load is too light, the point is
+    solved under the lightest load that the solver accepts. `flash_bound` [K] and `film_bound` [m] are the flash
+    temperature and the film of the point under this load. The real flash temperature of the point is not higher than
     `flash_bound`, and the real film is not thinner than `film_bound`.
     """
 

@@ -78,10 +78,10 @@ def section_gear(pair: GearPair, gear: Gear, teeth: GearTeeth, section: Literal[
 def tooth_shape(gear: Gear) -> ToothShape:
     """Return the rectangle and the trapezium of a tooth.
 
-    Heights are measured along the centre line from the root chord, which is the chord of width S_F on the root circle.
-    If a tooth is at least as wide at the tip as at the root, its shape is a single rectangle. Raises InvalidInput
-    (`pointed_tooth`) if the tooth ends in a point. In the normal section, the tooth of the virtual gear may end in a
-    point even if the tooth of the gear itself does not.
+    Heights are measured along the tooth's centre line from the root chord, which is the chord of width S_F on the root
+    circle. If a tooth is at least as wide at the tip as at the root, its shape is a single rectangle. Raises
+    InvalidInput (`pointed_tooth`) if the tooth ends in a point. In the normal section, the tooth of the virtual gear
+    may end in a point even if the tooth of the gear itself does not.
     """
     root_angle, tip_angle = gear.half_tooth_angle(gear.form_radius), gear.half_tooth_angle(gear.tip_radius)
     root_width = 2 * gear.form_radius * sin(root_angle)
@@ -180,8 +180,10 @@ def bending_trapezium(shape: ToothShape, points: LoadPoints, material: Solid) ->
     Notes
     -----
     Eq. L5: delta_Bt / w = 6 cos^2 omega_x / (E S_F^3) [q (4 - q) - 2 ln q - 3] (h_i - h_r)^3 with
-    q = (h_i - h_x)/(h_i - h_r) and the load angle omega_x. The sign of the logarithm is right as printed; with the
-    other sign the compliance would be negative. E is the modulus of the gear itself; the paper prints E_1.
+    q = (h_i - h_x)/(h_i - h_r) and the load angle omega_x. h_i is the height at which the sides of the trapezium meet,
+    h_r is the height of the rectangle, h_x is the height of the load point, and S_F is the width of the rectangle. The
+    sign of the logarithm is right as printed; with the other sign the compliance would be negative. E is the modulus of
+    the gear itself; the paper prints E_1.
     """
     if shape.tip_width == shape.root_width:
         return np.zeros_like(points.height)
@@ -210,7 +212,7 @@ def shear(shape: ToothShape, points: LoadPoints, material: Solid) -> FloatArray:
     Notes
     -----
     Eq. L6: delta_S / w = 2 (1 + nu) cos^2 omega_x / (E S_F) [h_r + (h_i - h_r) ln(1/q)], with the load angle omega_x
-    and a shear factor of 1.
+    and a shear factor of 1. The other symbols are those of `bending_trapezium`.
     """
     length = np.minimum(shape.rectangle_height, points.height)
     if shape.tip_width < shape.root_width:
@@ -436,7 +438,11 @@ def _half_space(path: PathOfContact, x: FloatArray, members: list[Member]) -> tu
 
 
 def _parabola(fraction: FloatArray, end_ratio: float) -> FloatArray:
-    """Return 1 - (1 - r)(2 xi - 1)^2; r = 0.757 is calibrated to the paper's load maxima."""
+    """Return the ratio of the stiffness to its maximum, 1 - (1 - r)(2 xi - 1)^2.
+
+    r is `end_ratio`, and xi is `fraction`, the fraction of the path from A. With r = 0.757 the loads agree with the
+    paper's load maxima.
+    """
     return np.asarray(1 - (1 - end_ratio) * (2 * fraction - 1) ** 2)
 
 

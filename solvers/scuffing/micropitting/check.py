@@ -47,7 +47,7 @@ def check_micropitting(
     thermal_film: float | None,
     bulk: FaceFunction | None = None,
 ) -> CheckedFlank:
-    """Compare the film over the flank with the permissible film from the oil's micropitting test.
+    """Compare the film ratio over the flank with the permissible film ratio.
 
     Parameters
     ----------
@@ -113,7 +113,7 @@ def _local(
 def _local_points(
     distribution: LoadDistribution, film: FlankFilm | None, permissible: float | None
 ) -> list[LocalPoint]:
-    """Return the film at the characteristic points of the feature line that lie on the path of contact."""
+    """Return the film at those characteristic points (A, B, C and so on) that lie on the path of contact."""
     path = distribution.path_of_contact
     places = {name: x / path.length for name, x in characteristic_points(path).items() if 0.0 <= x <= path.length}
     psi = np.array([*places.values()])

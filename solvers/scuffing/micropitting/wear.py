@@ -78,7 +78,7 @@ def solve_wear(coefficient: float, distribution: LoadDistribution) -> Wear:
         wheel_at_psi=wheel.psi,
         wheel_at_face=wheel.face,
         psi=distribution.flank.profile_fraction,
-        pinion=frozen(depths.pinion.max(axis=1)),  # in each row either every value is NaN or no value is NaN
+        pinion=frozen(depths.pinion.max(axis=1)),  # in a row, either all values are NaN or none is
         wheel=frozen(depths.wheel.max(axis=1)),
         pinion_map=frozen(depths.pinion),
         wheel_map=frozen(depths.wheel),

@@ -40,7 +40,7 @@ ContactFunction = Callable[[ContactPoints], FloatArray]
 
 @dataclass(frozen=True, slots=True)
 class FlashMap:
-    """Blok's flash temperature `flash` [K] over a grid of the flank; NaN where the flash temperature has no limit.
+    """Blok's flash temperature `flash` [K] over a grid of the flank; NaN at points where it has no limit.
 
     The grid has the coordinates x (n,) along the path and y (m,) along the face [m]. Values over the grid have the
     shape (n, m); a row contains the points with the same x. `load` is the line load [N/m]. `heaviest` contains one
@@ -224,7 +224,10 @@ def formula_film(inputs: ScuffingInputs) -> ContactFunction:
 
 
 def on_diagonals(distribution: LoadDistribution, peak: Peak, function: FlankFunction) -> Peak:
-    """Return the highest of these values: `peak`, the values on the feature line, and what `_or_beside` finds."""
+    """Return `peak`, or a higher value on certain lines of the flank.
+
+    These lines are the feature line of the pair and the lines that `_or_beside` searches.
+    """
     along_feature_line = _peak_along(distribution, function, mirrored=False)
     return _or_beside(distribution, max(peak, along_feature_line, key=_height), function)
 
@@ -245,9 +248,9 @@ def _or_beside(distribution: LoadDistribution, peak: Peak, function: FlankFuncti
 def _peak_at_kinks(distribution: LoadDistribution, function: FlankFunction, peak: Peak) -> Peak:
     """Find the largest value on the profile line through `peak`, at the roll positions of the load balance.
 
-    At every roll position, the contact lines cross the profile line at certain points; these points are searched.
-    Between roll positions the approach is linear, so that a sharp maximum of the load (where another pair of teeth
-    begins to carry load) lies at a roll position. The search over the grid can miss this maximum, because roll
+    At every roll position, the contact lines cross the profile line at certain points; these points are searched. Where
+    another pair of teeth begins to carry load, the load has a sharp maximum. This maximum lies at a roll position,
+    because the approach is linear between roll positions. The search over the grid can miss this maximum, because roll
     positions may lie closer together than the points of the grid.
     """
     plane, rolls = distribution.path_of_contact.plane, distribution.balance.rolls
@@ -297,8 +300,9 @@ def find_largest(grid: FlashMap, values: FloatArray, function: FlankFunction) ->
 def _around(places: FloatArray, top: IntArray, reach: int) -> FloatArray:
     """Return a finer row of equidistant places for every row of `places`.
 
-    `top` contains one index for every row. The finer row extends over `reach` steps of the old row on both sides of the
-    place with this index. In the finer row, the place nearest to this place is replaced by it.
+    `top` contains, for every row, the index of one place, which is the centre of the finer row. The finer row extends
+    over `reach` steps of the old row on both sides of the centre. In the finer row, the place that is nearest to the
+    centre is replaced by the centre.
     """
     row, last = np.arange(top.size), places.shape[1] - 1
     centre = places[row, top]

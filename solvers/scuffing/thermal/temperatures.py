@@ -102,8 +102,8 @@ def with_friction(inputs: ScuffingInputs, distribution: LoadDistribution) -> tup
 def with_temperatures(inputs: ScuffingInputs, distribution: LoadDistribution, flash: FlashMap) -> ScuffingInputs:
     """Return the inputs with numbers for bulk and scuffing temperature, and with the oil at the bulk temperature.
 
-    If no oil is given, the bulk temperature and the lubricant are None. Both are also None if the bulk temperature is
-    to be estimated but the flash temperature is NaN at some point, so that it has no mean.
+    If no oil is given, the bulk temperature and the lubricant are None. Both are also None if the bulk temperature
+    cannot be estimated, because the flash temperature is NaN at some point and therefore has no mean.
 
     Raises
     ------
