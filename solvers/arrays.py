@@ -15,24 +15,27 @@ Fields = list[tuple[str, Any]]
 """Names and types of the fields of a record."""
 
 ROUNDING = 1e-12
-"""Ratio of a sum to the sum of the absolute values of its summands, below which the sum counts as zero.
+"""If a sum is smaller than this share of the sum of the absolute values of its summands, the sum counts as zero.
 
-This ratio is far above rounding errors and far below any measured share.
+The share is far above rounding errors, and far below any share that can be measured.
 """
 
 
 def frozen(values: ArrayLike) -> NDArray[Any]:
-    """Return the values as a read-only array; the elements of a given array are not copied."""
+    """Return a read-only array of the values.
+
+    If the values are already an array, the result is a view of this array; the elements are not copied.
+    """
     array = np.asarray(values).view()
     array.flags.writeable = False
     return array
 
 
 def without_rounding(value: float, scale: float) -> float:
-    """Return a sum, or zero if the sum is only a rounding error.
+    """Return the sum `value`, or zero if this sum is only a rounding error.
 
-    A sum below 1e-12 of `scale` counts as a rounding error, where `scale` is the sum of the absolute values of the
-    summands.
+    `scale` is the sum of the absolute values of the summands. If the absolute value of the sum is below 1e-12 of
+    `scale`, the sum counts as a rounding error.
     """
     return 0.0 if abs(value) < ROUNDING * abs(scale) else value
 
@@ -40,9 +43,9 @@ def without_rounding(value: float, scale: float) -> float:
 def records(shape: int | tuple[int, ...], fields: Fields) -> RecordArray:
     """Return a record array of zeros.
 
-    Kernels pass groups of arrays to each other as one record array, because numba counts references to every array that
-    is passed in a call. With one array per field, a run of the pocket chain took 3.3 times as long, and a run of the
-    gas dynamics took 1.4 times as long.
+    Kernels pass a group of arrays to each other as one record array, because numba counts the references to every array
+    in a call. In a test with a separate array for every field, a run of the pumping model `pocket_chain` took 3.3 times
+    as long, and a run of the gas dynamics took 1.4 times as long.
     """
     return np.zeros(shape, fields).view(np.recarray)
 

@@ -1,7 +1,8 @@
 """The two decorators with which numba compiles every kernel of this package.
 
-A kernel is compiled for the types of its first call. Its machine code is kept on disk (see `solvers.kernel_cache`). A
-division by zero gives infinity or NaN, as in IEEE 754, instead of an exception.
+A kernel is compiled when it is first called with arguments of given types. The machine code of the kernel is kept on
+disk (see `solvers.kernel_cache`). In a kernel, a division by zero gives infinity or NaN, as in IEEE 754. No exception
+is raised.
 """
 
 from collections.abc import Callable
@@ -23,9 +24,9 @@ def kernel(function: Callable[P, R]) -> Callable[P, R]:
 def inlined_kernel(function: Callable[P, R]) -> Callable[P, R]:
     """Compile a kernel whose code is copied into the kernels that call it.
 
-    In a call that is not inlined, numba counts references to every array that is passed. If the kernel is one step of a
-    loop and takes many arrays (for example a step for one column of a film), this counting can take twice as long as
-    the step itself.
+    If the code were not copied, numba would count the references to every array in a call. A kernel that takes many
+    arrays may be called at every step of a loop, for example at every column of a film. The counting could then take
+    twice as long as the calculation in the kernel.
     """
     return _compiled(function, forceinline=True)
 

@@ -1,6 +1,7 @@
-"""The digest of the sources of the solvers.
+"""The digest (a hash) of the source code of the solvers.
 
-The digest identifies results. The name of the folder with the compiled kernels also depends on the digest.
+The service states the digest with every result, so that a user can see whether two results come from the same source
+code. The name of the folder for compiled kernels also depends on the digest.
 """
 
 import ast
@@ -25,10 +26,10 @@ def cache_base() -> Path:
 
 
 def package_digest() -> str:
-    """Return the digest of this package.
+    """Return the digest of the package `solvers`.
 
-    The digest takes a second to compute. The digest is therefore kept on disk, in a file whose name depends on paths,
-    times and sizes of the source files.
+    The digest takes a second to compute. The digest is therefore kept in a file on disk. The name of this file is a
+    hash of the paths, the modification times and the sizes of all source files.
     """
     status = [(str(path), (state := path.stat()).st_mtime_ns, state.st_size) for path in sorted(PACKAGE.rglob("*.py"))]
     kept = cache_base() / "digests" / sha256(repr(status).encode()).hexdigest()
@@ -43,10 +44,12 @@ def package_digest() -> str:
 
 
 def digest_of(package: Path) -> str:
-    """Return the SHA-256 of the syntax trees of the modules in `package`, without docstrings, comments and labels.
+    """Return the SHA-256 hash of all modules in `package`.
 
-    A change of layout, comments or docstrings does not change the digest. A change of a constant, of a formula or of
-    the name of a module changes the digest. The trees, and therefore the digest, may differ between versions of Python.
+    The hash is computed from the names and the syntax trees of the modules. A syntax tree contains no comments and no
+    layout. Docstrings and the labels of quantities (title, symbol and similar text) are removed from the tree. An edit
+    of comments, layout, docstrings or labels therefore does not change the digest. An edit of a constant or of a
+    formula changes the digest. Different versions of Python may give different trees, and therefore different digests.
     """
     digest = sha256()
     for path in sorted(package.rglob("*.py")):
@@ -58,7 +61,7 @@ def digest_of(package: Path) -> str:
 
 
 def _without_prose(path: Path) -> ast.Module:
-    """Return the syntax tree of a module without its docstrings and without the labels of quantities."""
+    """Return the syntax tree of a module, without docstrings and without the labels in declarations of quantities."""
     tree = ast.parse(path.read_bytes())
     for node in ast.walk(tree):
         if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef):

@@ -23,7 +23,7 @@ class InvalidInput(SolverError):
     """Physically impossible or unsupported input.
 
     `code` is stable and meant for programs. `message` says what to change. `field` is the dotted name of the wrong
-    input without its unit ("pinion.teeth"), or None if no single input is wrong.
+    input, without a unit ("pinion.teeth"). If the error does not concern one input alone, `field` may be None.
     """
 
     def __init__(self, code: str, message: str, field: str | None = None) -> None:
@@ -32,7 +32,10 @@ class InvalidInput(SolverError):
 
 
 class NoSolution(SolverError):
-    """Error of an iteration that ended without convergence; `residuals` holds the remaining errors by name."""
+    """Failure of an iteration to converge.
+
+    `residuals` contains the residuals at which the iteration stopped. A key is the name of a residual.
+    """
 
     def __init__(self, code: str, message: str, residuals: dict[str, float] | None = None) -> None:
         super().__init__(code, message, residuals)

@@ -1,4 +1,4 @@
-"""Former oil classes, which have the same fields as a request; the next minor version removes these classes.
+"""Former classes of oils; the next minor version removes these classes.
 
 Use `OilSheet`, `iso_vg` or `sheet_of_index` for an oil that is given by its data sheet or grade, and `Lubricant` for an
 oil that is given by its viscosity.
@@ -27,7 +27,7 @@ class OilBySheet:
     density_15: float | None = described("Density at 15 C; None: typical of the kind [kg/m^3].", default=None)
 
     def sheet(self) -> OilSheet | None:
-        """Return the oil of the given grade or data sheet, or None if neither is given.
+        """Return the oil that the grade or the data sheet describes; return None if neither is given.
 
         Raises InvalidInput (`viscosity_order` or `viscosity_index`) if no oil has the given viscosities.
         """
@@ -64,7 +64,10 @@ class OilChoice(OilBySheet):
     compressible: bool = described("Whether the density depends on pressure and temperature.", default=True)
 
     def resolve(self) -> OilSheet | Lubricant | None:
-        """Return the oil in the form that the models use, or None if no viscosity is given."""
+        """Return the oil in the form that the models use.
+
+        The result is None if neither a grade, nor a data sheet, nor a viscosity is given.
+        """
         given = {item.name: getattr(self, item.name) for item in fields(self)}
         if sheet := self.sheet():
             names = {item.name for item in fields(OilSheet)} - {item.name for item in fields(OilBySheet)}

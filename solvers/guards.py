@@ -1,7 +1,7 @@
 """Guards of a solver: reject inputs outside their declared ranges, and warn of unusual inputs.
 
-Each model defines its warnings about unusual values. Such a warning names the input and the likely mistake, which is
-often a wrong unit.
+Each model defines its warnings about unusual inputs. Such a warning names the input and the likely mistake, for example
+a wrong unit.
 """
 
 from collections.abc import Callable, Iterator
@@ -31,13 +31,13 @@ def guarded(
     solve : callable
         The solver. Its first argument is a dataclass of inputs, and its result is a dataclass with a field `warnings`.
     unusual : callable
-        Function of the inputs and the result that yields the warnings about unusual values.
+        Function that takes the inputs and the result, and yields the warnings about unusual values.
 
     Returns
     -------
     callable
-        The solver as users call it. In addition to the errors of `solve`, this function raises InvalidInput
-        (`out_of_range`) with the dotted name of the field.
+        The solver with these guards, which users call. In addition to the errors of `solve`, it raises InvalidInput
+        (`out_of_range`) with the dotted name of the input that is outside its range.
     """
 
     @wraps(solve)

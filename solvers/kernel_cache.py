@@ -1,9 +1,9 @@
 """The folder in which numba keeps the machine code of compiled kernels.
 
-Before numba uses the machine code of a kernel from its cache, numba checks only the source file of this kernel. If the
-kernel calls a kernel in another file, and this other file is edited, the old machine code would still run. The name of
-the folder is therefore a digest of all sources of the solvers and of numba's version. This module must be imported
-before the first kernel is decorated.
+Numba reuses the machine code of a kernel if the source file of this kernel has not changed. But a kernel may call
+kernels in other files. Numba does not notice an edit of such a file, and would run outdated machine code. The name of
+the folder is therefore a hash of all sources of the solvers and of numba's version, so that numba uses a new folder
+after every edit. This module must be imported before the first kernel is decorated.
 """
 
 import logging
@@ -25,9 +25,11 @@ logger = logging.getLogger(__name__)
 
 
 def _writable(folder: Path) -> Path | None:
-    """Create the folder if necessary and return its path; warn and return None if no files can be kept in the folder.
+    """Create the folder if necessary, and return its path.
 
-    Also remove old folders; the most recently used folders are kept.
+    The function also deletes the folders of other versions beside this folder, except the most recently used folders.
+    If files cannot be written to the folder, or if the disk is nearly full, the function logs a warning and returns
+    None.
     """
     try:
         folder.mkdir(parents=True, exist_ok=True)

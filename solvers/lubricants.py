@@ -29,11 +29,12 @@ ROELANDS_POLE_TEMPERATURE = 138.0  # K
 
 @record
 class Lubricant:
-    """A lubricating oil; the default is the oil of Xue, Zhang and Wang (second Table 2) at 360 K.
+    """A lubricating oil.
 
-    An incompressible oil has the same density at every pressure and temperature. The fields have no ranges here,
-    because a `Lubricant` may also hold computed properties of an oil at some temperature. The API declares ranges for
-    the inputs that state these properties.
+    The default values describe the oil of Xue, Zhang and Wang at 360 K. (Two tables of their paper are numbered 2; the
+    values are from the second of these tables.) An incompressible oil has the same density at every pressure and
+    temperature. The fields have no ranges, because the models also compute `Lubricant` objects for any temperature. The
+    API declares ranges where it asks users for these values.
     """
 
     viscosity: float = quantity(
@@ -162,7 +163,7 @@ class OilInUse:
 
 
 def oil_in_use(lubricant: Lubricant) -> dict[str, Any]:
-    """Return the fields of `OilInUse` by name."""
+    """Return the values for the fields of `OilInUse`; a key is the name of a field."""
     return {item.name: getattr(lubricant, item.name) for item in fields(OilInUse)}
 
 
@@ -191,7 +192,7 @@ def pressure_part(laws: FluidLaws, pressure: float) -> tuple[float, float]:
     laws : FluidLaws
         Constants of the oil.
     pressure : float
-        Pressure p [Pa]; negative pressures occur only during an iteration, and count as zero.
+        Pressure p [Pa]; a negative pressure, which occurs only during an iteration, counts as zero.
 
     Returns
     -------
@@ -268,7 +269,7 @@ def density(laws: FluidLaws, pressure: float, temperature: float) -> tuple[float
     Returns
     -------
     tuple of float
-        Density [kg/m^3], its derivative by pressure [kg/(m^3 Pa)] and by temperature [kg/(m^3 K)].
+        Density [kg/m^3], its derivative by pressure [kg/(m^3 Pa)] and its derivative by temperature [kg/(m^3 K)].
 
     Notes
     -----
@@ -283,7 +284,7 @@ def density(laws: FluidLaws, pressure: float, temperature: float) -> tuple[float
 
 
 def thick_oil(viscosity: float | None, field: str = "lubricant.viscosity") -> Iterator[Notice]:
-    """Warn if the viscosity [Pa s] at operating temperature is unusually high."""
+    """Warn if the viscosity [Pa s] of the oil at its operating temperature is unusually high."""
     if viscosity is not None and viscosity > THICK_OIL:
         yield unusual_value(
             field,

@@ -18,8 +18,9 @@ RANKS: tuple[Rank, ...] = get_args(Rank)
 class Notice:
     """A warning about the validity of a result.
 
-    `code` is stable and meant for programs. `message` says what is wrong or uncertain. `field` is the dotted name of an
-    input without its unit.
+    `code` is stable and meant for programs. `message` says what is wrong or uncertain. `field` is the dotted name of
+    the input that the warning is about, without a unit. If the warning is not about one input alone, `field` may be
+    None.
     """
 
     code: str

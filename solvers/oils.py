@@ -39,8 +39,9 @@ REFERENCE_OILS = (
 """Each row holds a smallest viscosity at 100 C [mm^2/s], the coefficients (a, b, c) of L, and the coefficients of H.
 
 A row is valid from its smallest viscosity up to the smallest viscosity of the next row. L = a Y^2 + b Y + c, where Y is
-the viscosity at 100 C; the formula of H is the same. An oil with this Y has the index 0 if its viscosity at 40 C
-[mm^2/s] is L, and the index 100 if this viscosity is H (ASTM D2270, Table X2.1; read in a public implementation).
+the viscosity at 100 C; the formula of H is the same. L and H are viscosities at 40 C [mm^2/s]. Among the oils with the
+same Y, the oil with the viscosity L at 40 C has the index 0, and the oil with the viscosity H at 40 C has the index 100
+(ASTM D2270, Table X2.1; taken from a public implementation).
 """
 
 
@@ -61,9 +62,9 @@ def viscosity_index(viscosity_40: float, viscosity_100: float) -> float:
 
     Notes
     -----
-    Eq. R2: the index is 100 (L - U)/(L - H) if this is at most 100; otherwise the index is 100 + (10^N - 1)/0.00715
-    with N = log(H/U)/log Y. L and H follow from Y (see `REFERENCE_OILS`). The standard defines no index if Y is below
-    2 mm^2/s; in this range the first formula is used with the first row of `REFERENCE_OILS`.
+    Eq. R2: the index is 100 (L - U)/(L - H) if this value is at most 100. Otherwise the index is
+    100 + (10^N - 1)/0.00715 with N = log(H/U)/log Y. L and H follow from Y (see `REFERENCE_OILS`). If Y is below
+    2 mm^2/s, the standard defines no index. The first formula is then used with the first row of `REFERENCE_OILS`.
     """
     u, y = viscosity_40 / SQUARE_MILLIMETRE, viscosity_100 / SQUARE_MILLIMETRE
     _, low, high = max((row for row in REFERENCE_OILS if row[0] <= y), default=REFERENCE_OILS[0])
@@ -142,8 +143,9 @@ MINERAL_VISCOSITY_100 = {
 class KindOfOil:
     """Typical properties of a kind of oil; a data sheet rarely states these properties.
 
-    `pressure_viscosity_scale` is Gold's s [1/GPa at 1 mm^2/s] and `pressure_viscosity_exponent` is Gold's t. Density at
-    15 C, specific heat and thermal conductivity are in SI units.
+    Gold's law of the pressure-viscosity coefficient is alpha = s nu^t, where nu is the kinematic viscosity.
+    `pressure_viscosity_scale` is s [1/GPa at 1 mm^2/s], and `pressure_viscosity_exponent` is t. The other fields are in
+    SI units.
     """
 
     pressure_viscosity_scale: float
@@ -167,10 +169,11 @@ _THICK, _THIN = "lubricant.kinematic_viscosity_40", "lubricant.kinematic_viscosi
 
 @record
 class OilSheet:
-    """An oil with the values of its data sheet; a value that is None follows from the kind of oil or the viscosities.
+    """An oil, described by its data sheet.
 
-    `iso_vg` returns the sheet of an oil of an ISO grade. `sheet_of_index` returns the sheet of an oil whose viscosity
-    at 100 C is not known.
+    If a value is None, this value is computed from the kind of oil and from both viscosities. The function `iso_vg`
+    makes an `OilSheet` for an ISO grade. The function `sheet_of_index` makes an `OilSheet` from the viscosity index if
+    the viscosity at 100 C is not known.
     """
 
     kinematic_viscosity_40: float = quantity(
@@ -211,7 +214,9 @@ class OilSheet:
         Raises
         ------
         InvalidInput
-            `out_of_range`, `viscosity_order` or `viscosity_index`.
+            `out_of_range` if the viscosity at 100 C is below 1 mm^2/s; `viscosity_order` if the viscosity at 100 C is
+            not lower than the viscosity at 40 C; `viscosity_index` if no oil has the viscosity index that follows from
+            both viscosities.
         """
         thick, thin, field = self.kinematic_viscosity_40, self.kinematic_viscosity_100, _THIN
         if not thin >= LEAST_VISCOSITY_100:
@@ -263,7 +268,7 @@ class OilSheet:
 
     @property
     def reference_density(self) -> float:
-        """Density at 15 C [kg/m^3]; if the data sheet states no density, a typical density of the kind of oil."""
+        """Density at 15 C [kg/m^3]: the density in the data sheet, or else a density typical of the kind of oil."""
         return KINDS[self.kind].density_15 if self.density_15 is None else self.density_15
 
     @property
@@ -310,7 +315,7 @@ class OilSheet:
         return self.kinematic_viscosity(temperature) * self.density(temperature)
 
     def temperature_coefficient(self, temperature: float) -> float:
-        """Compute the temperature-viscosity coefficient; a coefficient in the data sheet takes precedence.
+        """Compute the temperature-viscosity coefficient, or return the coefficient in the data sheet if there is one.
 
         Parameters
         ----------
@@ -335,7 +340,7 @@ class OilSheet:
         return float(thinning + expansion)
 
     def pressure_coefficient(self, temperature: float) -> float:
-        """Compute Gold's pressure-viscosity coefficient; a coefficient in the data sheet takes precedence.
+        """Compute Gold's pressure-viscosity coefficient, or return the coefficient in the data sheet if there is one.
 
         Parameters
         ----------
@@ -349,7 +354,7 @@ class OilSheet:
 
         Notes
         -----
-        Eq. R4: alpha = s nu^t in 1/GPa, with nu in mm^2/s.
+        Eq. R4: alpha = s nu^t in 1/GPa, with the kinematic viscosity nu in mm^2/s. `KindOfOil` states s and t.
         """
         if self.pressure_viscosity is not None:
             return self.pressure_viscosity
@@ -358,7 +363,7 @@ class OilSheet:
         return float(kind.pressure_viscosity_scale * thickness**kind.pressure_viscosity_exponent) * 1e-9
 
     def lubricant(self, temperature: float) -> Lubricant:
-        """Return the lubricant whose reference temperature is this temperature [K]."""
+        """Return this oil as a `Lubricant`; the reference temperature of the `Lubricant` is `temperature` [K]."""
         kind = KINDS[self.kind]
         return Lubricant(
             viscosity=self.viscosity(temperature),
@@ -377,9 +382,9 @@ class OilSheet:
         )
 
     def walther(self) -> tuple[float, float]:
-        """Return A and B of the Walther law log10 log10 (nu + 0.7) = A - B log10 T through both given viscosities.
+        """Return the constants A and B of the Walther law log10 log10 (nu + 0.7) = A - B log10 T.
 
-        Here nu is in mm^2/s, and T is in kelvin.
+        Here nu is in mm^2/s, and T is in kelvin. A and B follow from the viscosities at 40 C and at 100 C.
         """
         cold, hot = 40.0 + CELSIUS, 100.0 + CELSIUS
         thick = _double_logarithm(self.kinematic_viscosity_40)

@@ -4,7 +4,8 @@
     class Coupling:
         face_width: float = quantity("face width", "b", "ISO 21771", unit="mm", ge=0.1, le=2000, tolerance=0.1)
 
-The attribute is in SI; range, default and tolerance of the declaration are in the unit in which the quantity is shown.
+The value of the attribute is in SI units. In the declaration, range, default and tolerance are in the unit in which the
+quantity is shown (here mm).
 """
 
 import re
@@ -24,9 +25,10 @@ _LEFT_OUT_OF_TYPES = re.compile(r"\b(?:[a-z_]\w*\.)+|(?<=ndarray)\[.*?\]\]|^'|'$
 
 
 class Unit(NamedTuple):
-    """A unit in which a quantity is shown, with its `symbol`; the SI value is scale × shown value + offset.
+    """A unit in which a quantity is shown.
 
-    `si` is the symbol of the SI unit, or None if the quantity is shown in its SI unit.
+    `symbol` is the symbol of this unit. The value in SI units is `scale` × shown value + `offset`. `si` is the symbol
+    of the SI unit. If the quantity is shown in SI units, `si` is None.
     """
 
     symbol: str
@@ -97,7 +99,7 @@ class Quantity:
     Parameters
     ----------
     title : str
-        Label that can be read alone.
+        Label that can be understood without further text.
     symbol, source : str, optional
         Symbol of the quantity, and the literature that uses this symbol.
     text : str, optional
@@ -111,10 +113,10 @@ class Quantity:
     default_text : str, optional
         Words that describe the default if the default is None.
     assumed : str, optional
-        Reason for a default that is our own choice and not from the paper; a result that depends on this default lists
-        the reason.
+        Reason for the default, if the default is our own choice and not from the paper. A result that depends on this
+        default lists the reason.
     advanced : bool
-        Whether the field is an option of model or resolution.
+        Whether the field is an option of the model or of the resolution.
     folded : bool
         Whether a form shows the input only on demand, because few users know the input.
     tolerance, relative_tolerance : float, optional
@@ -125,14 +127,15 @@ class Quantity:
         Advice on what to enter instead. `if_above` is shown if the entry is not a number or is above the range,
         `if_negative` is shown if the entry is negative.
     length : tuple of (int, int), optional
-        Least and largest number of values of a list.
+        Least and largest number of values in a list.
     detail : str
         Lowest level of detail at which a result contains the field.
     axis : str or tuple of (str, str), optional
-        Field that is the abscissa of a curve, or both fields that are the axes of a map; a dotted name is a path from
-        the whole result.
+        Name of the field that is the abscissa of a curve, or names of both fields that are the axes of a map. A dotted
+        name is a path that starts at the whole result.
     index : str, optional
-        Meaning of the positions in a list, if no field states this meaning.
+        For a list, the meaning of the positions in the list (for example "X, Y"), if no other field states this
+        meaning.
     gaps : bool
         Whether NaN in an array marks a point without a value.
     """
@@ -163,7 +166,7 @@ class Quantity:
 
     @property
     def bounds(self) -> dict[str, float]:
-        """Ends of the range by name; ends that are not given are left out."""
+        """Ends of the range under the names `ge`, `gt`, `le` and `lt`; ends that are not given are left out."""
         return {name: end for name in ("ge", "gt", "le", "lt") if (end := getattr(self, name)) is not None}
 
     def to_si(self, value: Any) -> Any:
@@ -185,7 +188,7 @@ def quantity(
     kw_only: bool = False,
     **details: Any,
 ) -> Any:
-    """Return a dataclass field with its `Quantity`; the default is given in the shown unit and stored in SI."""
+    """Return a dataclass field with its `Quantity`; `default` is given in the shown unit and stored in SI units."""
     declared = Quantity(title, symbol, source, default=default, **details)
     options: dict[str, Any] = {"metadata": {_KEY: declared}}
     if kw_only:
@@ -199,7 +202,7 @@ def quantity(
 
 
 def described(text: str, **options: Any) -> Any:
-    """Return a dataclass field without a `Quantity`; the docstring of the class contains `text` as its description."""
+    """Return a dataclass field without a `Quantity`; `text` describes the field in the docstring of the dataclass."""
     return field(metadata={_TEXT: text}, **options)
 
 
@@ -221,8 +224,8 @@ def record(*, kw_only: bool = False, slots: bool = True) -> Callable[[type[T]], 
 def record(cls: Any = None, /, *, kw_only: bool = False, slots: bool = True) -> Any:
     """Make a frozen dataclass whose fields may be declared by `quantity`.
 
-    The `repr` of the dataclass shows the values with their units. The docstring of the class gets numpydoc's sections
-    on the fields. A dataclass without slots can keep computed values (`cached_property`).
+    The `repr` of the dataclass shows the values with their units. The docstring of the dataclass gets numpydoc's
+    sections on the fields. A dataclass that uses `cached_property` must have `slots=False`.
     """
 
     def make(kind: Any) -> Any:
@@ -254,7 +257,7 @@ def type_of(kind: Any, name: str) -> Any:
 
 
 def _function_of(member: Any) -> Callable[[Any], Any] | None:
-    """Return the function that computes a property; None for any other member."""
+    """Return the function of a property or cached property; return None for any other member of a class."""
     return member.fget if isinstance(member, property) else getattr(member, "func", None)
 
 
@@ -273,9 +276,9 @@ def allowed(declared: Quantity) -> str:
 
 
 def advice(declared: Quantity, value: Any) -> str:
-    """Return advice on what to enter if the entry is not a number or is outside the range.
+    """Return the advice on what to enter instead of `value`, which is not a number or is outside the range.
 
-    `value` is in the shown unit. The advice may be empty.
+    `value` is in the shown unit. If the declaration contains no such advice, the result is empty.
     """
     is_number = isinstance(value, int | float) and not isinstance(value, bool)
     if is_number and value < 0:
@@ -301,8 +304,8 @@ def converted(
     Parameters
     ----------
     value : Any
-        A number, an array, a dataclass, a section of a request, or lists of these. None, booleans and text are
-        returned unchanged.
+        A number, an array, a dataclass, a section of a request, or a (nested) list of such values. None, booleans and
+        text are returned unchanged.
     number : callable
         Function that converts a number or an array.
     inside : callable, optional
@@ -347,7 +350,7 @@ def to_dict(data: Any) -> dict[str, Any]:
 
 
 def _named(data: Any, outer: Quantity | None) -> dict[str, Any]:
-    """Return the declared values by name; `outer` declares inner values that have no unit of their own."""
+    """Return the declared values under their names; values without a unit of their own take the unit of `outer`."""
     kind: Any = type(data)
     named = {}
     for name, declared in quantities(kind).items():

@@ -1,9 +1,9 @@
 """Heat balance of a gear pair or gear unit: losses, cooling by the oil, and temperatures of flanks and bodies.
 
-The data flow through the modules in this order: inputs and oil -> losses, bearings, fling_off, convection and
-conduction -> network (nodes and heat flows) -> solution (equilibrium), calibration (with measured temperatures) and
-band -> results and notices. `model.solve` calls these modules. `warm_up` computes the temperatures of the network over
-time, with the heat capacities of the nodes. The model is our own derivation; the sources are named at the equations.
+The calculation uses the modules in this order: inputs and oil; losses, bearings, fling_off, convection and conduction;
+network (nodes and heat flows); solution (equilibrium), calibration (with measured temperatures) and band; results and
+notices. `model.solve` calls these modules. `warm_up` computes how the temperatures of the nodes change over time, with
+the heat capacities of the nodes. The model is our own derivation; the docstrings name the sources of single equations.
 """
 
 from solvers.guards import guarded

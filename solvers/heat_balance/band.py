@@ -1,4 +1,7 @@
-"""Band of flank temperatures that the uncertain amount of oil on the flanks allows; the band states no probability."""
+"""Band of flank temperatures that are possible because the amount of oil on the flanks is uncertain.
+
+The band states no probability.
+"""
 
 from dataclasses import dataclass, replace
 
@@ -31,7 +34,7 @@ POORLY_COOLED = Extreme(wetting_share=0.2, fling_off_factor=0.7, measured=MEASUR
 
 
 def extreme_network(network: Network, cooling: Cooling, extreme: Extreme) -> Network:
-    """Return the network at one end of the band; values that the user gives are not varied.
+    """Return the network at one end of the band; values that the user gives stay as given.
 
     Parameters
     ----------
@@ -50,9 +53,9 @@ def extreme_network(network: Network, cooling: Cooling, extreme: Extreme) -> Net
 
     Notes
     -----
-    Eq. H21. If the temperature of a gear is measured, the wetting share is fitted again, to the measured temperature
-    plus or minus its uncertainty. If no share gives this temperature, the share whose temperature comes nearest is
-    used.
+    Eq. H21. If the temperature of a gear was measured, the uncertainty is added to the measured temperature or
+    subtracted from it, and the wetting share is fitted to the result. If no share gives this temperature, the share
+    that comes nearest to this temperature is used.
     """
     spray = network.spray
     if cooling.fling_off_factor is None:
@@ -67,7 +70,10 @@ def extreme_network(network: Network, cooling: Cooling, extreme: Extreme) -> Net
 
 
 def _fitted_again(network: Network, node: str, temperature: float) -> Network:
-    """Return the network with the wetting share at which the node is at, or nearest to, the given temperature [K]."""
+    """Return the network with the wetting share at which the node has the given temperature [K].
+
+    If no share gives this temperature, the share that comes nearest to this temperature is used.
+    """
     place, wanted = network.nodes.index(node), temperature - network.oil.inlet
     all_oil = wetted(network, MOST_WETTING)
     if float(equilibrium(all_oil).rises[place]) >= wanted:  # no share cools the node to this temperature

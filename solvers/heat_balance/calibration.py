@@ -1,4 +1,8 @@
-"""Fit the wetting share to a measured gear temperature, and the other losses to a measured drain temperature."""
+"""Calibration of the network with measured temperatures.
+
+The wetting share is fitted to a measured gear temperature. The other losses (`Network.other`), which no other part of
+the model computes, are fitted to a measured drain temperature.
+"""
 
 from dataclasses import replace
 
@@ -14,18 +18,18 @@ LEAST_WETTING, MOST_WETTING = 0.02, 1.0
 TRIED_SHARES = np.geomspace(MOST_WETTING, LEAST_WETTING, 8)
 CLOSE = 1e-7  # tolerance of the wetting share
 SHARE_STEP = 1e-5  # step of the logarithm of the wetting share in difference quotients
-MOST_FITS, LARGEST_FIT = 20, 1.0  # number of Newton steps, and largest change of the logarithm of the share per step
+MOST_FITS, LARGEST_FIT = 20, 1.0  # largest number of Newton steps; largest change of the share's logarithm per step
 FITTED = 1e-6  # K; tolerance of the last step
 MET = 1e-5  # K; tolerance of the measured temperature
 
 
 def wetted(network: Network, share: float) -> Network:
-    """Return the network with another wetting share."""
+    """Return the network with the wetting share `share`."""
     return replace(network, spray=replace(network.spray, wetting_share=share))
 
 
 def drain_rise(network: Network, rises: FloatArray) -> float:
-    """Compute the temperature rise of all oil that leaves a unit.
+    """Compute the temperature rise of the oil in the drain, where the oil of gears and bearings is mixed.
 
     Parameters
     ----------
@@ -37,7 +41,7 @@ def drain_rise(network: Network, rises: FloatArray) -> float:
     Returns
     -------
     float
-        Temperature rise of the mixed oil of gears and bearings [K].
+        Temperature rise of the mixed oil over the supplied oil [K].
     """
     flows = oil_flows(network, rises)
     warmed = network.spray.flow * rises[MIST] + flows @ rises[MIST + 1 : MIST + 1 + flows.size]
@@ -51,19 +55,19 @@ def oil_flows(network: Network, rises: FloatArray) -> FloatArray:
 
 
 def with_drain(network: Network, drain: float) -> Network:
-    """Return the network and choose the other losses so that the oil in the drain has the measured temperature.
+    """Fit the other losses so that the oil in the drain has the measured temperature; return the fitted network.
 
     Parameters
     ----------
     network : Network
         The network.
     drain : float
-        Measured temperature of all oil that leaves [K].
+        Measured temperature of the oil in the drain [K].
 
     Returns
     -------
     Network
-        The network with fitted other losses, which are negative if the calculated losses are too high.
+        The network with fitted other losses. The other losses are negative if the calculated losses are too high.
 
     Raises
     ------
@@ -110,7 +114,7 @@ def with_rotor(network: Network, node: str, temperature: float, drain: float | N
     temperature : float
         Measured temperature of the node [K].
     drain : float, optional
-        Measured temperature of all oil that leaves; if given, the other losses are fitted to this temperature [K].
+        Measured temperature of the oil in the drain; if given, the other losses are fitted to this temperature [K].
 
     Returns
     -------
@@ -157,11 +161,12 @@ def with_rotor(network: Network, node: str, temperature: float, drain: float | N
 
 
 def _fitted(network: Network, place: int, wanted: float, drain: float | None) -> Network | None:
-    """Return the network in which a node has the rise `wanted` [K] and, if given, the drain has the rise `drain` [K].
+    """Return the network in which the node with the index `place` has the temperature rise `wanted` [K].
 
-    Newton's method solves for the rises of the other nodes, the logarithm of the wetting share and, if `drain` is
-    given, the other losses together. The method starts with all oil on the flanks. The function returns None if the
-    method does not converge to a share from 0.02 to 1 and an equilibrium at this share.
+    If `drain` is given, the oil in the drain also has the temperature rise `drain` [K]. Newton's method finds these
+    unknowns together: the rises of all other nodes, the logarithm of the wetting share and, if `drain` is given, the
+    other losses. The start value of the wetting share is 1. The function returns None if the method does not converge,
+    if the wetting share is not from 0.02 to 1, or if the network has no equilibrium with this share.
     """
     try:
         start = equilibrium(wetted(network, MOST_WETTING)).rises

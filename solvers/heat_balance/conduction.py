@@ -48,7 +48,8 @@ def rod_conductance(sections: tuple[tuple[float, float, float], ...], conductivi
 
     Notes
     -----
-    Eq. H14: 1/sum(L/(k A)); this is exact for a rod.
+    Eq. H14: 1/sum(L/(k A)), with the length L and the cross-section A of each section, and the conductivity k. The
+    formula is exact for a rod.
     """
     lengths = sum(length / (outer**2 - inner**2) for length, outer, inner in sections)
     return conductivity * pi / 4 / lengths

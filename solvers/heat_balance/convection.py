@@ -1,4 +1,7 @@
-"""Convection from the rim and the faces of a rotating gear to air; a given factor accounts for oil mist."""
+"""Convection between a rotating gear and air, at the rim and at the faces of the gear.
+
+The network multiplies the coefficients for air by a factor, because the gears rotate in oil mist.
+"""
 
 RECOVERY = 0.88  # recovery factor of a turbulent boundary layer
 AIR_HEAT = 1006.0  # J/(kg K)
@@ -21,7 +24,7 @@ def rim_convection(speed: float, radius: float) -> float:
 
     Notes
     -----
-    Eq. H16: 3.75 omega^0.7 r_a^0.4, after Jungnickel; this agrees with the formula of Becker within 12 %.
+    Eq. H16: 3.75 omega^0.7 r_a^0.4, after Jungnickel. The result agrees with the formula of Becker within 12 %.
     """
     return float(3.75 * speed**0.7 * radius**0.4)
 
@@ -43,13 +46,13 @@ def face_convection(speed: float, radius: float) -> float:
 
     Notes
     -----
-    Eq. H16: 2.73 omega^0.8 r_a^0.6, after Jungnickel; this agrees with the formula for a free disc within 5 %.
+    Eq. H16: 2.73 omega^0.8 r_a^0.6, after Jungnickel. The result agrees with the formula for a free disc within 5 %.
     """
     return float(2.73 * speed**0.8 * radius**0.6)
 
 
 def recovery_rise(speed: float, radius: float, recovery: float = RECOVERY) -> float:
-    """Compute the temperature rise that friction at the tooth tips causes in the mist.
+    """Compute the temperature rise in the mist that air friction at the tooth tips causes.
 
     Parameters
     ----------
@@ -67,6 +70,6 @@ def recovery_rise(speed: float, radius: float, recovery: float = RECOVERY) -> fl
 
     Notes
     -----
-    Eq. H16: 0.88 (omega r_a)^2/(2 c_p).
+    Eq. H16: 0.88 (omega r_a)^2/(2 c_p), where c_p is the specific heat of air.
     """
     return recovery * (speed * radius) ** 2 / (2 * AIR_HEAT)

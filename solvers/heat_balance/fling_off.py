@@ -94,7 +94,7 @@ def heat_number(film: float, turn: float) -> float:
 
 
 def fling_off_time(oil: CoolingOil, teeth: TurningTeeth, temperature: float) -> float:
-    """Compute the time in which a film that is as thick as the thermal layer is thrown off.
+    """Compute the time t* after which the film is only as thick as the thermal layer in the film.
 
     Parameters
     ----------
@@ -112,7 +112,8 @@ def fling_off_time(oil: CoolingOil, teeth: TurningTeeth, temperature: float) -> 
 
     Notes
     -----
-    Eq. H3: t* = sqrt(nu H/(a r))/omega.
+    Eq. H3: t* = sqrt(nu H/(a r))/omega. At the time t*, the rotation has thinned the film at the end of the tooth
+    height to sqrt(a t*). This is also the thickness of the layer that the heat of the flank has reached by then.
     """
     viscosity = oil.viscosity(temperature) / oil.density
     return sqrt(viscosity * teeth.height / (oil.diffusivity * teeth.radius)) / teeth.speed
@@ -144,10 +145,10 @@ def laid_film(teeth: TurningTeeth, flow: float) -> float:
 class FlingOff:
     """Cooling of one gear by its oil film.
 
-    `conductance` [W/K] is the conductance of the film as laid. `flooded` [W/K] is the conductance of a film that is so
-    thick that more oil does not help. `film` [m] is the thickness that the jets lay per turn. `turn_film` [m] is the
-    thickness of a film that takes 0.9 of the heat of a flooded flank. `limited` is true if the heat capacity of the oil
-    flow limits the conductance.
+    `film` [m] is the thickness of the film that the jets lay per turn. `conductance` [W/K] is the conductance of this
+    film. A flank is flooded if a thicker film would not take more heat. `flooded` [W/K] is the conductance of the film
+    on a flooded flank. `turn_film` [m] is the thickness of a film that takes 0.9 of the heat of the film on a flooded
+    flank. `limited` is true if the heat capacity of the oil flow limits the conductance.
     """
 
     conductance: float
@@ -197,6 +198,6 @@ def fling_off(oil: CoolingOil, teeth: TurningTeeth, flow: float, factor: float, 
 
 
 def _thickness_of(heat: float, turn: float) -> float:
-    """Return the scaled thickness at which a film takes `heat`; this is the inverse of `heat_number`."""
+    """Return the scaled thickness of the film for which `heat_number` returns `heat`."""
     unlimited = (2 * sqrt(turn / pi)) ** TIME_POWER + LONG_TURN**TIME_POWER
     return float((heat**FILM_POWER - unlimited ** (FILM_POWER / TIME_POWER)) ** (1 / FILM_POWER))

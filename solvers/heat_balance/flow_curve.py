@@ -1,4 +1,4 @@
-"""Temperatures as functions of the oil flow; these functions show the effect of more oil."""
+"""Temperatures of flanks and drain at several oil flows; they show the effect of more oil."""
 
 from dataclasses import replace
 
@@ -29,7 +29,8 @@ def over_the_flow(inputs: HeatBalanceInputs, flows: FloatArray) -> FlowCurve:
     Parameters
     ----------
     inputs : HeatBalanceInputs
-        The pair or unit; measured temperatures belong to the oil flow of these inputs and are used for calibration.
+        The pair or unit. If these inputs contain measured temperatures, the model is calibrated with these temperatures
+        at the oil flow of these inputs.
     flows : FloatArray
         Flows to the gears, rising [m^3/s].
 
@@ -50,10 +51,11 @@ def over_the_flow(inputs: HeatBalanceInputs, flows: FloatArray) -> FlowCurve:
 
 
 def _solved(network: Network, start: FloatArray | None) -> tuple[FloatArray | None, tuple[float, float, float]]:
-    """Return the rises [K] of all nodes, and the rises of both flanks and of the drain.
+    """Return the temperature rises [K] of all nodes, and the three rises that the curve shows.
 
-    The solution of the next case starts from the rises of all nodes. If there is no equilibrium, the function returns
-    None instead of the rises of all nodes, and NaN for both flanks and the drain.
+    The three rises are those of the pinion's flank, of the wheel's flank and of the drain. If there is no equilibrium,
+    the three rises are NaN, and the function returns None instead of the rises of all nodes. The rises of all nodes
+    are the start values at the next oil flow.
     """
     try:
         rises = equilibrium(network, start).rises

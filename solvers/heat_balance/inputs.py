@@ -300,26 +300,27 @@ class Cooling:
 
     @property
     def wetting(self) -> float:
-        """The wetting share in use."""
+        """The given wetting share, or its default value."""
         return WETTING_SHARE if self.wetting_share is None else self.wetting_share
 
     @property
     def rewetting(self) -> float:
-        """The rewetting share in use."""
+        """The given rewetting share, or its default value."""
         return REWETTING_SHARE if self.rewetting_share is None else self.rewetting_share
 
     @property
     def factor(self) -> float:
-        """The fling-off factor in use."""
+        """The given fling-off factor, or its default value."""
         return FLING_OFF_FACTOR if self.fling_off_factor is None else self.fling_off_factor
 
     def check(self) -> None:
-        """Refuse two measured temperatures of one gear, and a given value that a measured temperature also determines.
+        """Refuse inputs that exclude each other.
 
         Raises
         ------
         InvalidInput
-            `exclusive`.
+            `exclusive` if measured temperatures are given for both the flank and the body of one gear. Also `exclusive`
+            if the wetting share or the other losses are given although a measured temperature determines this value.
         """
         measured = self.measured
         for gear in ("pinion", "wheel"):

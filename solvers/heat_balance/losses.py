@@ -11,7 +11,7 @@ from solvers.heat_balance.oil import CoolingOil
 from solvers.quantity import described, record
 
 VISCOSITY_EXPONENT = -0.05  # exponent of the viscosity in Schlenk's mean coefficient of friction (quoted, not verified)
-LARGEST_ACCELERATION_SHARE = 0.5  # chosen: largest share of the rise that `flow_by_rise` attributes to the acceleration
+LARGEST_ACCELERATION_SHARE = 0.5  # chosen: in `flow_by_rise`, largest share of the rise that the acceleration causes
 
 
 @record
@@ -81,9 +81,10 @@ def share_to_pinion(
 
     Notes
     -----
-    Eq. H7: phi = int q sqrt(u_1)/(sqrt(u_1) + sqrt(u_2)) / int q for equal effusivities; for other effusivities, their
-    ratio multiplies sqrt(u_2). Both surfaces are half spaces under a moving heat source, and have the same
-    temperature in the contact.
+    Eq. H7: for equal effusivities, phi = int q sqrt(u_1)/(sqrt(u_1) + sqrt(u_2)) / int q. Here q is the frictional
+    heat, and u_1 and u_2 are the surface speeds of pinion and wheel. If the effusivities differ, sqrt(u_2) is
+    multiplied by the effusivity ratio. The model treats both surfaces as half spaces under a moving heat source, and
+    assumes that both surfaces have the same temperature in the contact.
     """
     total = float(np.trapezoid(heat, position))
     if total == 0.0:
@@ -123,7 +124,7 @@ def windage(pitch_line_velocity: float, diameter: float, face_width: float, modu
 
 
 def acceleration_power(oil: CoolingOil, flow: float, velocity: float, jet: float) -> float:
-    """Compute the power that accelerates oil from the speed of the jet to the speed of the pitch line.
+    """Compute the power that accelerates the oil from the jet velocity to the pitch-line velocity.
 
     Parameters
     ----------

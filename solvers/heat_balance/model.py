@@ -94,7 +94,8 @@ def solve(inputs: HeatBalanceInputs) -> Heat:
         `exclusive` if a measured temperature excludes another input or another measured temperature of the same gear;
         `measured_unreachable` if the model cannot reach a measured temperature.
     NoSolution
-        `heat_balance`, `thermal_runaway`, or the code of an error in a bearing.
+        `heat_balance` if the iteration does not converge; `thermal_runaway` if the equilibrium is not stable; the error
+        of the bearing model if a bearing cannot carry its load.
     """
     cooling = inputs.cooling
     cooling.check()
@@ -136,7 +137,7 @@ def network_of(inputs: HeatBalanceInputs) -> Network:
     Returns
     -------
     Network
-        Nodes and flows of heat.
+        The network of nodes and heat flows.
     """
     cooling, oil = inputs.cooling, inputs.oil
     pumping = (cooling.pumping / 2, cooling.pumping / 2) if inputs.pumping is None else inputs.pumping
@@ -168,9 +169,9 @@ def network_of(inputs: HeatBalanceInputs) -> Network:
 
 
 def calibrated(network: Network, cooling: Cooling) -> Network:
-    """Return the network that reproduces the measured temperatures of one gear and of the drain.
+    """Fit the network to the measured temperatures of one gear and of the drain.
 
-    If the temperatures of both gears were measured, the temperature of the pinion is used.
+    If the temperatures of both gears were measured, only the temperature of the pinion is used.
 
     Parameters
     ----------
@@ -182,8 +183,8 @@ def calibrated(network: Network, cooling: Cooling) -> Network:
     Returns
     -------
     Network
-        The network with a fitted wetting share if a gear was measured, and fitted other losses if the drain was
-        measured.
+        The fitted network. If the temperature of a gear was measured, the wetting share is fitted. If the temperature
+        of the drain was measured, the other losses are fitted.
     """
     measured = cooling.measured
     if measured.rotors:
@@ -283,7 +284,10 @@ def _estimates(inputs: HeatBalanceInputs) -> BulkEstimates:
 
 
 def _deviation(network: Network, cooling: Cooling, rises: FloatArray) -> float | None:
-    """Return the calculated minus the measured temperature of the wheel [K]; None unless both gears were measured."""
+    """Return the calculated minus the measured temperature of the wheel [K].
+
+    The result is None if no temperature of the wheel, or no temperature of the pinion, was measured.
+    """
     rotors = list(cooling.measured.rotors.items())
     if len(rotors) < 2:
         return None
@@ -294,7 +298,7 @@ def _deviation(network: Network, cooling: Cooling, rises: FloatArray) -> float |
 def backlash_loss(
     heat: Heat, working_radii: tuple[float, float], working_pressure_angle: float, expansion: float
 ) -> Heat:
-    """Return the result with the backlash that is lost because the gears are warmer than the casing.
+    """Compute the backlash that is lost because the gears are warmer than the casing, and add it to the result.
 
     Parameters
     ----------
@@ -310,12 +314,12 @@ def backlash_loss(
     Returns
     -------
     Heat
-        The result with `backlash_loss` [m], which is None without a casing.
+        The result with `backlash_loss` [m]; `backlash_loss` is None if no casing is given.
 
     Notes
     -----
-    Eq. H22: 2 tan(alpha_wt) alpha_L sum r_wi (B_i - C), where B_i is the temperature of gear body i, and C is the
-    temperature of the casing.
+    Eq. H22: 2 tan(alpha_wt) alpha_L sum r_wi (B_i - C), where alpha_L is the thermal expansion, r_wi is the working
+    pitch radius of gear i, B_i is the temperature of the body of gear i, and C is the temperature of the casing.
     """
     if heat.casing is None:
         return heat
@@ -325,7 +329,7 @@ def backlash_loss(
 
 
 def cooling_in_force(cooling: Cooling, heat: Heat) -> CoolingInForce:
-    """Return the values in use for those inputs of the cooling that may be omitted.
+    """Return the values that the calculation used for the optional inputs of the cooling.
 
     Parameters
     ----------

@@ -1,8 +1,8 @@
 """The network of a gear pair or gear unit: its nodes, and all heat flows between them.
 
 The nodes are the flank and the body of each gear, the mist, the oil that leaves each plain bearing, and the casing if
-there is one. Each heat flow is entered once, with an origin and a target, so that the supplied heat equals the removed
-heat. Temperatures are rises over the supply temperature of the oil [K].
+there is one. Each heat flow is entered once, with an origin and a target. All heat that leaves the origin therefore
+arrives at the target. Temperatures are rises over the supply temperature of the oil [K].
 """
 
 from collections.abc import Iterator
@@ -27,9 +27,10 @@ GEAR_NODES = ("pinion_flank", "pinion_body", "wheel_flank", "wheel_body", "mist"
 
 @dataclass(frozen=True)
 class CooledGear:
-    """A gear in the network: its teeth, lengths [m], conductivity [W/(m K)] and heat of the pumped gas [W].
+    """A gear in the network; lengths in [m], conductivity in [W/(m K)].
 
-    `face_area` is the area of both faces of the gear without the cross-sections of the shaft [m^2].
+    `flanks` describes the flanks that the oil cools. `face_area` is the area of both faces of the gear without the
+    cross-sections of the shaft [m^2]. `pumping` is the heat that this gear produces by pumping gas [W].
     """
 
     teeth: int
@@ -48,7 +49,7 @@ class CooledGear:
 
     @cached_property
     def rim(self) -> float:
-        """Conductance from the rim to air [W/K]; one half belongs to the flanks, the other half belongs to the body."""
+        """Conductance from the rim to air [W/K]; the network connects half of it to the flanks and half to the body."""
         area = 2 * pi * self.tip_radius * self.face_width
         return area * rim_convection(self.flanks.speed, self.tip_radius)
 
@@ -60,10 +61,10 @@ class CooledGear:
 
 @dataclass(frozen=True, slots=True)
 class Spray:
-    """Oil of the jets: flow [m^3/s], speeds of pitch line and jet [m/s], shares, and factor of the fling-off cooling.
+    """Oil of the jets: flow [m^3/s], velocities [m/s], shares, and factor of the fling-off cooling.
 
-    The shares are the wetting share and the rewetting share. The velocity of the jet is positive if the jet is directed
-    into the mesh, and negative if the jet is directed against the teeth that leave the mesh.
+    `velocity` is the pitch-line velocity of the gears. `jet` is the velocity of the jet. `jet` is positive if the jet
+    is directed into the mesh, and negative if the jet is directed against the teeth that leave the mesh.
     """
 
     flow: float
@@ -75,7 +76,7 @@ class Spray:
     fling_off_factor: float = 1.0
 
     def wetting(self, gear: int) -> float:
-        """Return the flow that hits the teeth of gear 0 or 1 [m^3/s]."""
+        """Return the oil flow that hits the teeth of gear 0 (pinion) or 1 (wheel) [m^3/s]."""
         share = self.flow_to_pinion if gear == 0 else 1 - self.flow_to_pinion
         return self.wetting_share * self.flow * share
 
@@ -91,7 +92,10 @@ class CasingWalls:
 
 
 class Flow(NamedTuple):
-    """Heat flow [W] between two places of the network, given by their indices, and the carrier of the heat."""
+    """A heat flow in the network: its power [W], and the name of the carrier of the heat.
+
+    The heat flows from the place with the index `origin` to the place with the index `target` (see `Network.places`).
+    """
 
     origin: int
     target: int
@@ -101,9 +105,10 @@ class Flow(NamedTuple):
 
 @dataclass(frozen=True)
 class Network:
-    """A gear pair or gear unit with its losses [W].
+    """The network of a gear pair or gear unit, with its losses [W].
 
-    `windage` and `other` are losses of both gears together; these losses heat the mist.
+    `windage` is the windage loss of both gears together. `other` is the sum of all losses that no other part of the
+    model computes. `windage` and `other` heat the mist.
     """
 
     oil: CoolingOil
@@ -127,7 +132,7 @@ class Network:
 
     @cached_property
     def places(self) -> tuple[str, ...]:
-        """Names of the nodes, followed by the names of the leaving oil, the surroundings and the source of losses."""
+        """Names of all places: the nodes, and then the leaving oil, the surroundings and the source of the losses."""
         return (*self.nodes, "oil", "ambient", "source")
 
     @property
@@ -142,14 +147,14 @@ class Network:
 
     @cached_property
     def _coolings(self) -> dict[tuple[int, float], FlingOff]:
-        """Cache of the fling-off cooling; a key consists of the gear and the flank temperature.
+        """Cache of the fling-off cooling; a key consists of the number of the gear and the flank temperature.
 
-        A Jacobian by finite differences needs the cooling at only a few flank temperatures.
+        A Jacobian by finite differences asks for the cooling many times, but only at a few flank temperatures.
         """
         return {}
 
     def cooling(self, gear: int, rises: FloatArray) -> FlingOff:
-        """Return the fling-off cooling of gear 0 or 1."""
+        """Return the fling-off cooling of gear 0 (pinion) or 1 (wheel)."""
         flank = self.oil.inlet + float(rises[FLANKS[gear]])
         cooling = self._coolings.get((gear, flank))
         if cooling is None:
@@ -160,11 +165,17 @@ class Network:
 
     @cached_property
     def _operations(self) -> dict[tuple[int, float], tuple[float, float]]:
-        """Cache of friction power and oil flow; a key consists of bearing number and rise of the leaving oil."""
+        """Cache of the friction power and the oil flow of the bearings.
+
+        A key consists of the number of the bearing and the temperature rise of the oil that leaves this bearing.
+        """
         return {}
 
     def operation(self, number: int, outlet: float) -> tuple[float, float]:
-        """Return friction power [W] and oil flow [m^3/s] of a bearing; `outlet` [K] is the rise of the leaving oil."""
+        """Return the friction power [W] and the oil flow [m^3/s] of the bearing with this number.
+
+        `outlet` [K] is the temperature rise of the oil that leaves the bearing.
+        """
         operation = self._operations.get((number, outlet))
         if operation is None:
             viscosity = self.oil.viscosity(self.film_temperature(outlet))
@@ -215,10 +226,10 @@ class Network:
         return np.asarray(incoming - np.bincount([flow.origin for flow in flows], powers, places))
 
     def _sources(self, gear: int, rises: FloatArray) -> Iterator[Flow]:
-        """Yield the heat flows of mesh friction, pumped gas and accelerated oil of one gear.
+        """Yield the heat flows that one gear produces: mesh friction, pumping of gas, and acceleration of oil.
 
-        The share of the pumped heat that enters the teeth goes half to the flank and half to the body; the other pumped
-        heat goes to the mist.
+        A share of the heat from pumping enters the teeth. Half of this share goes to the flank, and the other half goes
+        to the body. The rest of the heat from pumping goes to the mist.
         """
         source, flank, body = self.size + 2, FLANKS[gear], BODIES[gear]
         flanks = self.oil.inlet + float(rises[FLANKS[0]] + rises[FLANKS[1]]) / 2
@@ -271,7 +282,7 @@ class Network:
         yield Flow(body, node, journal.shaft_conductance * (float(rises[body]) - outlet), "shaft")
 
     def film_temperature(self, outlet: float) -> float:
-        """Return the film temperature of a bearing [K]; `outlet` [K] is the rise of the leaving oil."""
+        """Return the film temperature of a bearing [K]; `outlet` [K] is the temperature rise of the leaving oil."""
         return self.oil.inlet + self.bearing_film_share * outlet
 
     def _casing(self, walls: CasingWalls, rises: FloatArray) -> Iterator[Flow]:

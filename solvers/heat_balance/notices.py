@@ -10,7 +10,7 @@ from solvers.heat_balance.oil import CoolingOil
 from solvers.heat_balance.results import Heat
 from solvers.notices import Notice, unusual_value
 
-SLOW = 40.0  # m/s; below this speed the oil of the jets is not the only oil that wets the flanks
+SLOW = 40.0  # m/s; at lower speeds the flanks are also wetted by oil that does not come from the jets
 TURBULENT = 41.0  # this number times sqrt(R/c) is the Reynolds number at which Taylor vortices begin in a plain bearing
 KNOWN_WITHIN = 15.0  # K, chosen: uncertainty of flank temperatures without a measured gear temperature
 USUAL_RISE = (2.0, 60.0)  # K, chosen: usual temperature rise of the oil by the losses of the gears

@@ -1,4 +1,4 @@
-"""Properties of the cooling oil that the heat balance needs, at the supply temperature of the oil."""
+"""The cooling oil of the heat balance."""
 
 from collections.abc import Callable
 from functools import partial
@@ -10,7 +10,7 @@ from solvers.quantity import described, record
 
 @record
 class CoolingOil:
-    """The cooling oil; density, specific heat and conductivity are those at the supply temperature."""
+    """The cooling oil; density, specific heat and conductivity are values at the supply temperature of the oil."""
 
     inlet: float = described("Supply temperature [K].")
     viscosity: Callable[[float], float] = described("Function that returns the viscosity [Pa s] at a temperature [K].")
@@ -30,7 +30,7 @@ class CoolingOil:
 
 
 def cooling_oil(oil: OilSheet | Lubricant, inlet: float) -> CoolingOil:
-    """Convert an oil of the other models into the cooling oil of the heat balance.
+    """Convert an oil, as other models describe it, into the cooling oil of the heat balance.
 
     Parameters
     ----------
@@ -42,7 +42,8 @@ def cooling_oil(oil: OilSheet | Lubricant, inlet: float) -> CoolingOil:
     Returns
     -------
     CoolingOil
-        The oil with its density at the supply temperature, and its viscosity without pressure at any temperature.
+        The cooling oil. Its density is the density at the supply temperature. Its viscosity is a function of the
+        temperature, at ambient pressure.
     """
     supplied = lubricant_at(oil, inlet)
     return CoolingOil(

@@ -63,7 +63,7 @@ class HeatLosses:
 
 @record
 class Balance:
-    """Supplied heat, removed heat, and the ratio of their difference to the supplied heat."""
+    """Supplied heat, removed heat, and the difference of the two divided by the supplied heat."""
 
     supplied: float = quantity("heat supplied", "P_in", unit="w")
     removed: float = quantity("heat removed", "P_out", unit="w")
@@ -80,7 +80,7 @@ class BulkEstimates:
 
 @record
 class HeatBand:
-    """Ranges of flank temperatures and safety that the uncertain amount of oil on the flanks allows."""
+    """Ranges of flank temperatures and safety factor that follow from the uncertain amount of oil on the flanks."""
 
     pinion_flank: Range = quantity("band of the pinion's flank", "θ_F1", unit="c", index="low, high")
     wheel_flank: Range = quantity("band of the wheel's flank", "θ_F2", unit="c", index="low, high")
@@ -89,7 +89,7 @@ class HeatBand:
 
 @record
 class CoolingInForce:
-    """Values in use for those inputs of the cooling that a request may omit."""
+    """Values that the calculation used for the optional inputs of the cooling."""
 
     gear_flow: float = quantity("oil flow to the gears used", "Q_g", unit="l_per_min")
     wetting_share: float = quantity("wetting share used", "w")

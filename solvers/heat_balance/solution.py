@@ -8,11 +8,11 @@ from solvers.arrays import FloatArray
 from solvers.errors import NoSolution
 from solvers.heat_balance.network import Network
 
-TOLERANCE = 1e-5  # K; tolerance of the last full Newton step. The remaining error is about the square of this step.
+TOLERANCE = 1e-5  # K; largest last Newton step, which must be a full step. The error is about the square of the step.
 DIFFERENCE = 1e-4  # K; step of the Jacobian's differences
 MOST_STEPS, MOST_HALVINGS = 50, 30
 LARGEST_STEP = 100.0  # K
-COLDEST = 0.75  # share of the lowest given temperature [K] below which the laws of viscosity do not hold
+COLDEST = 0.75  # share of the lowest given temperature [K]; at lower temperatures the laws of viscosity do not hold
 HOTTEST = 1200.0  # K over the supply temperature; steel melts at such temperatures
 
 
@@ -38,7 +38,7 @@ def equilibrium(network: Network, start: FloatArray | None = None) -> Equilibriu
     Returns
     -------
     Equilibrium
-        The rises of the nodes over the supplied oil [K].
+        The temperature rises of the nodes over the supplied oil [K], the number of Newton steps and the residual [W].
 
     Raises
     ------
@@ -47,10 +47,10 @@ def equilibrium(network: Network, start: FloatArray | None = None) -> Equilibriu
 
     Notes
     -----
-    Eq. H18. The negative Jacobian -J is an M-matrix if -J has no positive element off the diagonal, and if every node
-    becomes warmer when every node gains a little more heat. The equilibrium is then stable. If all row sums of -J are
-    positive, this equilibrium is also the only one. Hot flanks with little oil can violate the condition on the row
-    sums; such a case is not refused for this reason.
+    Eq. H18. J is the Jacobian of the residual. -J is an M-matrix if -J has no positive element off the diagonal, and if
+    every node becomes warmer when every node gains a little more heat. The equilibrium is then stable. If all row sums
+    of -J are positive, there is no second equilibrium. If hot flanks get little oil, a row sum may be negative; such a
+    case is solved nevertheless.
     """
     rises = np.zeros(network.size) if start is None else np.array(start, dtype=float)
     residual = network.residual(rises)
@@ -81,7 +81,10 @@ def jacobian(network: Network, rises: FloatArray, residual: FloatArray) -> Float
 def _descend(
     network: Network, step: FloatArray, rises: FloatArray, residual: FloatArray
 ) -> tuple[FloatArray, FloatArray, float]:
-    """Halve the step until the residual falls; return new rises, new residual and the fraction of the step taken."""
+    """Halve the step until the residual falls.
+
+    Returns the new rises, the new residual, and the share of the original step that was taken.
+    """
     size, share = float(np.abs(residual).max()), 1.0
     final = float(np.abs(step).max()) <= TOLERANCE
     for _ in range(MOST_HALVINGS):
@@ -94,7 +97,7 @@ def _descend(
 
 
 def _residual_where_defined(network: Network, rises: FloatArray) -> FloatArray | None:
-    """Return the residual, or None if a bearing cannot carry its load with the oil at these temperatures."""
+    """Return the residual; return None if a bearing cannot carry its load with oil of these temperatures."""
     try:
         return network.residual(rises)
     except NoSolution:
@@ -102,7 +105,7 @@ def _residual_where_defined(network: Network, rises: FloatArray) -> FloatArray |
 
 
 def _check_stability(network: Network, slopes: FloatArray) -> None:
-    """Raise NoSolution (`thermal_runaway`) if an additional watt at every node would not make every node warmer."""
+    """Raise NoSolution (`thermal_runaway`) if one more watt at every node would not make every node warmer."""
     response = np.linalg.solve(-slopes, np.ones(network.size))
     if float(response.min()) <= 0.0:
         node = network.nodes[int(np.argmin(response))]

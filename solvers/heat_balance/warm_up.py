@@ -34,7 +34,10 @@ class WarmUpCurves:
 
 @record
 class WarmUp:
-    """A warm-up: final temperatures, times to 95 % of the change, and temperature difference of the gear bodies."""
+    """Results of a warm-up: final temperatures, times to 95 % of the temperature change, and curves over time.
+
+    `greatest_difference` is the greatest temperature difference between the bodies of pinion and wheel.
+    """
 
     nodes: tuple[str, ...] = quantity("nodes", index="flanks and bodies, mist, bearings, casing")
     final: FloatArray = quantity("final temperatures", "θ_end", unit="c", index="nodes")
@@ -63,12 +66,13 @@ def warm_up(network: Network, capacities: Capacities, start: float, until: float
     Returns
     -------
     WarmUp
-        Temperatures over time, times to 95 % of the change, and greatest difference between pinion and wheel body.
+        Temperatures of the nodes over time, the time after which each node has made 95 % of its temperature change, and
+        the greatest temperature difference between the bodies of pinion and wheel.
 
     Raises
     ------
     NoSolution
-        The codes of `equilibrium`; also `warm_up` if the integration fails.
+        The errors of `equilibrium`; `warm_up` if the integration fails.
 
     Notes
     -----
@@ -116,8 +120,9 @@ def _integrated(network: Network, capacity: FloatArray, begin: FloatArray, end: 
 
 
 def _time_95(times: FloatArray, rises: FloatArray, final: float) -> float | None:
-    """Return the time [s] after which the difference from the final rise stays below 5 % of the whole change.
+    """Return the time [s] after which the temperature of a node has made 95 % of its change.
 
+    After this time, the difference from the final temperature rise `final` [K] stays below 5 % of the whole change.
     Returns None if there is no such time, or if the temperature of the node does not change.
     """
     left = np.abs(rises - final)

@@ -12,13 +12,13 @@ from solvers.errors import InvalidInput
 from solvers.gears.pair import ContactPlane, PathOfContact
 from solvers.scuffing.modification import Gap, gap_at
 
-COINCIDENT = 1e-9  # in base pitches; breakpoints that are closer to each other are treated as one breakpoint
-LEAST_STEPS = 8  # least number of steps between two breakpoints, even if the breakpoints are close to each other
+COINCIDENT = 1e-9  # in base pitches; corners that are closer to each other are treated as one corner
+LEAST_STEPS = 8  # least number of steps between two corners, even if the corners are close to each other
 MOST_LINES = 100  # largest number of lines in contact at the same time; real gears have fewer than ten
-MOST_ZONES = 12  # largest number of zones of one line; further zones are joined to the last zone
+MOST_ZONES = 12  # largest number of loaded stretches per part of a line; further stretches are joined to the last one
 LEAST_SAMPLES = 8  # least number of samples per smooth part
 BISECTIONS = 45  # halvings of the step between samples: 2^-45 of the step is below the rounding of a gap
-GOLDEN_STEPS = 30  # number of steps; they narrow a minimum, where the gap is flat, to 5e-7 of two sample steps
+GOLDEN_STEPS = 30  # number of steps; they narrow the range of a minimum to 5e-7 of its width (two sample steps)
 GOLDEN = 0.6180339887498949  # (sqrt(5) - 1) / 2, the golden section
 
 
@@ -52,15 +52,15 @@ def contact_lengths(path: PathOfContact) -> ContactLengths:
     Raises
     ------
     InvalidInput
-        `no_contact` if L_min = 0, so that no pair of teeth is in contact at some roll positions; `overlap_range` if
-        more than 100 lines are in contact at the same time.
+        `no_contact` if L_min = 0, because then no pair of teeth is in contact at some roll positions; `overlap_range`
+        if more than 100 lines are in contact at the same time.
 
     Notes
     -----
     Eq. 4 is missing in the paper; these formulas replace it. The mean length is L = eps_alpha b / cos beta_b. The
-    total length as a function of the roll position is the periodic convolution of two rectangles. The lengths of the
-    rectangles are eps_alpha = n_a + f_a and eps_beta = n_b + f_b, each split into a whole number and a fraction. With
-    the unit u = b / (eps_beta cos beta_b):
+    total length as a function of the roll position is the periodic convolution of two rectangles. One rectangle has the
+    length eps_alpha = n_a + f_a, and the other has the length eps_beta = n_b + f_b. Here n_a and n_b are whole numbers,
+    and f_a and f_b are fractions below 1. With the unit u = b / (eps_beta cos beta_b):
 
     L_min = u [n_a eps_beta + n_b f_a + max(0, f_a + f_b - 1)],  L_max = u [n_a eps_beta + n_b f_a + min(f_a, f_b)].
     """
@@ -94,10 +94,9 @@ def contact_lengths(path: PathOfContact) -> ContactLengths:
 class RollPositions(NamedTuple):
     """Roll positions [m] in one base pitch, in ascending order.
 
-    `corner` marks the roll positions at which a contact line meets a corner of the plane or of the gap; loads may
-    change abruptly there. `side` is 0 for helical gears. The contact length of spur gears jumps at corners. For spur
-    gears every corner therefore occurs twice: with side -1 for the limit from below, and with side +1 for the limit
-    from above.
+    `corner` marks the roll positions that are corners (see `roll_positions`); loads may change abruptly at a corner.
+    `side` is 0 for helical gears. The contact length of spur gears jumps at a corner. For spur gears every corner
+    therefore occurs twice: with side -1 for the limit from below, and with side +1 for the limit from above.
     """
 
     phase: FloatArray
@@ -110,9 +109,10 @@ def roll_positions(
 ) -> RollPositions:
     """Return at least `count` roll positions, equidistant between neighbouring corners.
 
-    A contact line passes a point (x, y) at the roll position (x + y tan beta_b) mod p_bt. This roll position is called
-    a corner if the point is a corner of the plane, or if a kink of the gap crosses another kink or an edge of the plane
-    at this point.
+    `along_path` contains the x [m] of kinks of the gap, and `along_face` contains the y [m] of kinks of the gap. These
+    kinks and the edges of the plane are straight lines in the plane of action. A contact line passes the point (x, y)
+    at the roll position (x + y tan beta_b) mod p_bt. If two of the straight lines cross at this point, the roll
+    position is called a corner.
     """
     pitch = plane.base_pitch
     x = np.array([0.0, plane.path_length, *along_path])
@@ -141,10 +141,10 @@ def line_ends(plane: ContactPlane, phase: float, side: float) -> tuple[float, fl
     plane : ContactPlane
         The rectangle of the plane of action.
     phase : float
-        Place of the line at y = 0 [m].
+        The x of the line at y = 0 [m].
     side : float
-        Only for spur gears, if the line lies at an end of the path: 1 for the limit from above, -1 for the limit from
-        below. Otherwise 0.
+        If the line of a spur gear lies at an end of the path: 1 for the limit from above, -1 for the limit from below.
+        Otherwise 0.
 
     Returns
     -------
@@ -155,9 +155,10 @@ def line_ends(plane: ContactPlane, phase: float, side: float) -> tuple[float, fl
 
     Notes
     -----
-    Eq. L3: the line is x = phase - y tan beta_b. The line of a spur gear at an end of the path is in contact if `side`
-    selects the limit from inside the path. The line of a helical gear that only meets a corner of the rectangle is not
-    in contact; otherwise rounding would decide whether this line has the least gap of the unloaded teeth.
+    Eq. L3: the line is x = phase - y tan beta_b. If the line of a spur gear lies at an end of the path, the line is in
+    contact if `side` selects the limit from inside the path. If the line of a helical gear only meets a corner of the
+    rectangle, the line is not in contact. Otherwise rounding errors would decide whether such a line counts when the
+    least gap of the unloaded teeth is determined.
     """
     if plane.tan_base_helix == 0.0:
         nudged = phase + side * COINCIDENT * plane.base_pitch
@@ -198,9 +199,9 @@ def gap_on_line(form: Gap, plane: ContactPlane, line: float, y: float) -> float:
 
 @kernel
 def valley(form: Gap, plane: ContactPlane, line: float, low: float, high: float) -> float:
-    """Find, by golden section, the y [m] at which the gap on a line is least between the points `low` and `high`.
+    """Find the y [m] at which the gap on a line is least, by golden section between y = `low` and y = `high`.
 
-    The gap has only one minimum between the two points.
+    The gap must have only one minimum between these two points.
     """
     inner, outer = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
     at_inner, at_outer = gap_on_line(form, plane, line, inner), gap_on_line(form, plane, line, outer)
@@ -254,9 +255,10 @@ def loaded_zones(
     reach: float,
     zones: FloatArray,
 ) -> int:
-    """Write the loaded stretches of a smooth part of a line to `zones`, and return the number of stretches.
+    """Find the loaded stretches within a part of a line, write them to `zones`, and return their number.
 
-    A row of `zones` contains the first and the last y [m] of a stretch.
+    `part` contains the first and the last y [m] of the part; the gap has no kink between them. A stretch is loaded if
+    the gap is below `reach` [m]. A row of `zones` contains the first and the last y [m] of a stretch.
     """
     low, high = part
     step, count = (high - low) / samples, 0

@@ -44,13 +44,13 @@ class Cover(NamedTuple):
 
 
 class Slices(NamedTuple):
-    """Slices of the contact lines; the arrays have room for the slices of all lines.
+    """Table of the slices of all contact lines; the fields are arrays over the slices.
 
-    `x` and `y` are the place of the middle of a slice [m], `length` is the length of the slice along the line [m], and
-    `gap` is the gap at the middle [m]. `constant` and `limit` describe the compliance of the pair of teeth
-    (`tooth_stiffness.compliance_at`). `load` is the line load w [N/m]. `log_load` is ln w, the guess for the next
-    solution. `stiffness` is the derivative of w with respect to the approach [N/m^2]. `line` is the number of the
-    line.
+    `x` and `y` are the coordinates of the middle of a slice [m], `length` is the length of the slice along the line
+    [m], and `gap` is the gap at the middle [m]. `constant` and `limit` describe the compliance of the pair of teeth
+    (`tooth_stiffness.compliance_at`). `load` is the line load w [N/m]. `log_load` is ln w; the next solution starts
+    from this value. `stiffness` is the derivative of w with respect to the approach [N/m^2]. `line` is the number of
+    the line. The arrays may be longer than the number of slices.
     """
 
     x: FloatArray
@@ -66,7 +66,7 @@ class Slices(NamedTuple):
 
 
 class Peaks(NamedTuple):
-    """Largest value at every roll position and the place of this value, as in `Peak`; arrays (positions,)."""
+    """Largest value at every roll position, and the place x, y [m] of this value; arrays (positions,)."""
 
     value: FloatArray
     x: FloatArray
@@ -93,9 +93,9 @@ def slice_table(mesh: Mesh, slices: int) -> Slices:
 
 @inlined_kernel
 def _cut(mesh: Mesh, line: float, j: int, zone: FloatArray, slices: int, table: Slices, count: int) -> int:
-    """Cut a stretch of line j into equal slices, add the slices to the table, and return the new number of slices.
+    """Cut a stretch of line j into equal slices, and add these slices to the table.
 
-    `zone` contains the first and the last y [m] of the stretch.
+    `zone` contains the first and the last y [m] of the stretch. Returns the new number of slices in the table.
     """
     low, high = zone
     step = (high - low) / slices
@@ -131,7 +131,7 @@ def _parts(
         else:
             pieces = ceil(slices * (high - low) / (last_y - first_y) - 1e-9)
             least = max(LEAST_SAMPLES, ceil(stations * (high - low)))
-            # The middles of the slices of a whole line are among the samples.
+            # If the whole line is loaded, the middles of its slices are among the samples.
             samples = 2 * pieces * ceil(least / (2 * pieces))
             added = loaded_zones(mesh.gap, mesh.plane, line, (low, high), samples, reach, zones[count:])
         for start, end in zones[count : count + added]:
@@ -144,9 +144,9 @@ def _parts(
 def gather(mesh: Mesh, phase: float, side: float, slices: int, reach: float, table: Slices) -> Cover:
     """Fill the table with slices of all lines at a roll position.
 
-    The slices cover the stretches of the lines where the gap is below `reach` [m]. A line has at least `slices` slices.
-    Some lines have more, because the number of slices of every stretch is rounded up. No slice contains a kink of the
-    gap.
+    The slices cover only those stretches of a line where the gap is below `reach` [m]. Every covered line has at least
+    `slices` slices. Some lines have more slices, because the number of slices per stretch is rounded up. No slice
+    contains a kink of the gap.
     """
     plane, zones = mesh.plane, np.empty((MOST_EDGES * MOST_ZONES, 2))
     count, length, least, most = 0, 0.0, np.inf, -np.inf
@@ -168,7 +168,11 @@ def gather(mesh: Mesh, phase: float, side: float, slices: int, reach: float, tab
 
 @inlined_kernel
 def _range(mesh: Mesh, line: float, zone: FloatArray, table: Slices, first: int, last: int) -> tuple[float, float]:
-    """Return the least and the largest gap [m] on a stretch; the slices of the stretch are `first` to `last` - 1."""
+    """Return the least and the largest gap [m] on a stretch.
+
+    `zone` contains the first and the last y [m] of the stretch. The stretch consists of the slices `first` to
+    `last` - 1.
+    """
     low, high = zone
     at_low, at_high = gap_on_line(mesh.gap, mesh.plane, line, low), gap_on_line(mesh.gap, mesh.plane, line, high)
     least, most = min(at_low, at_high), max(at_low, at_high)
@@ -192,7 +196,9 @@ def _beside(
 ) -> float:
     """Return the least gap [m] between an end of a stretch and the middle of the slice at this end.
 
-    `end` contains y [m] of the end of the stretch, and the step [m] from there to the other end of the slice.
+    `end` contains two values: the y [m] of this end of the stretch, and the step in y [m] across the slice, away from
+    this end. `at_end` is the gap [m] at this end. `middle` is the index of the slice at this end, and `following` is
+    the index of the next slice.
     """
     y, step = end
     if table.gap[middle] > table.gap[following]:
@@ -205,9 +211,9 @@ def _beside(
 
 @inlined_kernel
 def load_under(compliance: PairCompliance, approach: float, x: float, log_load: float) -> tuple[float, float]:
-    """Return the line load w [N/m] of a pair at x [m] from A, and ln w.
+    """Return the line load w [N/m] of a pair of teeth at the distance x [m] from A, and ln w.
 
-    `approach` [m] is the approach of the flanks at this point; `log_load` is a guess of ln w.
+    `approach` [m] is the approach of the flanks at this distance; `log_load` is a guess of ln w.
     """
     constant, limit = compliance_at(compliance, x)
     load, _, log_load = line_load(approach, constant, compliance.logarithmic, limit, log_load)
@@ -215,13 +221,13 @@ def load_under(compliance: PairCompliance, approach: float, x: float, log_load: 
 
 
 class Survey(NamedTuple):
-    """Sums and largest values at every roll position; arrays over the roll positions.
+    """Sums and largest values over the contact lines at every roll position; arrays over the roll positions.
 
     `friction_moment` is int w |s - s_C| dl [N m], where s - s_C is the distance from the pitch point along the path.
-    `loaded_length` and `length` are the loaded and the total length of the contact lines [m]. `held` is the number of
-    slices whose approach exceeds the limit of the half-space. `undefined` is the number of loaded points that are too
-    near a base circle to have a pressure. `peak_load` is the largest w [N/m], and `peak_pressure` is the largest
-    w / R_n [N/m^2]. `line_forces` (positions, lines) are the forces on the lines [N].
+    `loaded_length` is the loaded length and `length` is the total length of the contact lines [m]. `held` is the number
+    of slices whose approach exceeds `limit`, so that their compliance is held constant. `undefined` is the number of
+    loaded points that are too near a base circle to have a pressure. `peak_load` is the largest w [N/m], and
+    `peak_pressure` is the largest w / R_n [N/m^2]. `line_forces` (positions, lines) are the forces on the lines [N].
     """
 
     friction_moment: FloatArray
@@ -277,7 +283,7 @@ def _note_peaks(mesh: Mesh, survey: Survey, i: int, load: float, at: tuple[float
 
 @kernel
 def survey_slices(mesh: Mesh, table: Slices, count: int, error: float, survey: Survey, i: int) -> None:
-    """Add the slices of roll position i to the survey."""
+    """Add the slices of roll position i to the survey; `error` is the approach TE [m] at this roll position."""
     arm = mesh.plane.pitch_point - mesh.plane.start
     for n in range(count):
         load, length = table.load[n], table.length[n]
@@ -290,9 +296,10 @@ def survey_slices(mesh: Mesh, table: Slices, count: int, error: float, survey: S
 
 @kernel
 def survey_ends(mesh: Mesh, phase: float, side: float, error: float, survey: Survey, i: int) -> None:
-    """Add the peaks of roll position i at the ends of the lines and at the kinks of the gap to the survey.
+    """Update the peaks of roll position i with the loads at the ends of the lines and at the kinks of the gap.
 
-    A line that only meets a corner of the plane has no length. The corner then counts as the end of the line.
+    `error` is the approach TE [m] at this roll position. If a line only meets a corner of the plane, it has no length;
+    the corner then counts as the end of the line.
     """
     plane, edges, log_load = mesh.plane, np.empty(MOST_EDGES), 0.0
     overlap = plane.face_width * plane.tan_base_helix
@@ -309,12 +316,15 @@ def survey_ends(mesh: Mesh, phase: float, side: float, error: float, survey: Sur
 
 
 def reaches_base_circle(survey: Survey) -> bool:
-    """Return True if a load acts so near a base circle that pressure and flash temperature grow without limit."""
+    """Return True if a loaded point is so near a base circle that pressure and flash temperature have no limit."""
     return bool(np.any(survey.undefined > 0.0))
 
 
 def largest(peaks: Peaks) -> Peak | None:
-    """Return the largest peak of all roll positions, or the first of several equal peaks; None without load."""
+    """Return the largest peak of all roll positions; return None if there is no load.
+
+    If several peaks are equally large, the first of these is returned.
+    """
     values = peaks.value
     first = int(np.argmax(values >= values.max() * (1.0 - EQUAL)))
     if values[first] <= 0.0:

@@ -19,13 +19,13 @@ from solvers.scuffing.load_balance import TOLERANCE, solve_near
 
 @dataclass(frozen=True, slots=True)
 class FaceResponse:
-    """Transverse force at the stations, averaged over a base pitch, and its derivative with respect to the gaps.
+    """Transverse forces at the stations, averaged over a base pitch, and their derivatives with respect to the gaps.
 
-    `force` [N] has one value for each station. In `derivative` [N/m], a row belongs to a force and a column to a gap.
-    The force over the whole face is the same at every roll position. Therefore every row and every column of the
-    derivative adds up to 0. At every roll position, `error` is the approach of the flanks [m], and `log_load` is ln w
-    of the slices. `error` and `log_load` are the start values for the next response of the same mesh under a similar
-    gap.
+    `force` [N] has one value for each station. In `derivative` [N/m], the rows are the forces at the stations, and the
+    columns are the gaps at the stations. The sum of all forces is the same at every roll position. Therefore the
+    elements of every row and of every column of `derivative` add up to 0. `error` is the approach of the flanks [m] at
+    every roll position, and `log_load` is ln w of the slices at every roll position. The next response of the same mesh
+    under a similar gap starts from `error` and `log_load`.
     """
 
     force: FloatArray
@@ -37,32 +37,32 @@ class FaceResponse:
 def face_response(
     mesh: Mesh, rolls: RollPositions, force: float, slices: int, stations: int, start: FaceResponse | None = None
 ) -> FaceResponse:
-    """Compute the force over the face and its derivative with respect to the gap over the face.
+    """Compute the forces over the face and their derivatives with respect to the gaps over the face.
 
     Parameters
     ----------
     mesh : Mesh
         The mesh with its gap.
     rolls : RollPositions
-        Roll positions of the balance.
+        Roll positions at which the load is balanced.
     force : float
-        Force in the balance [N].
+        Force that the load balance distributes over the contact lines [N].
     slices : int
         Number of slices per line.
     stations : int
         Number of equidistant stations from y = 0 to b, both included.
     start : FaceResponse, optional
-        Response of the same mesh under a similar gap, which contains the start values.
+        Response of the same mesh under a similar gap; this response contains the start values.
 
     Returns
     -------
     FaceResponse
-        Force at the stations and its derivative with respect to the gap at the stations.
+        Forces at the stations, and their derivatives with respect to the gaps at the stations.
 
     Raises
     ------
     NoSolution
-        `load_balance` if the balance does not converge.
+        `load_balance` if the load balance does not converge.
 
     Notes
     -----
@@ -98,11 +98,13 @@ def _respond(
     spread: FloatArray,
     derivative: FloatArray,
 ) -> float:
-    """Add the forces of all roll positions to `spread`, and their derivatives to `derivative`.
+    """Add the forces of all roll positions to `spread`, and the derivatives of the forces to `derivative`.
 
-    At every roll position the force at station a is the sum of w dl hat_a over the slices. The derivative is
-    k k^T / (1^T k) - P, where P_ab = sum (dw/ddelta) dl hat_a hat_b, k = P 1, and 1 is the vector of ones. Force and
-    derivative are multiplied by the share of the roll position. Returns the largest relative residual of the balance.
+    At every roll position the force at station a is the sum of w dl hat_a over the slices, where hat_a is the hat
+    function of the station. The derivative is k k^T / (1^T k) - P, where P_ab = sum (dw/ddelta) dl hat_a hat_b,
+    k = P 1, and 1 is the vector of ones. Forces and derivatives are multiplied by `share`: the weight of the roll
+    position in the average over the base pitch, times cos beta_b, so that the forces are transverse forces. Returns the
+    largest relative residual of the load balance.
     """
     table, worst = slice_table(mesh, slices), 0.0
     springs = np.zeros(spread.size)
@@ -133,7 +135,7 @@ def _spread(
     derivative: FloatArray,
     springs: FloatArray,
 ) -> None:
-    """Distribute the loads and the stiffness of the slices of a balanced roll position over the stations."""
+    """Distribute the loads and the stiffnesses of all slices over the stations, at a roll position with known loads."""
     steps_per_metre = (spread.size - 1) / mesh.plane.face_width
     for n in range(count):
         if table.load[n] <= 0.0:

@@ -16,9 +16,9 @@ from solvers.scuffing.tooth_stiffness import compliance_at, line_load
 
 SUBSTEPS = 4  # number of substeps per step between roll positions, if a line is loaded over a part of its length only
 FACE_POINTS = 101  # one point per percent of the face
-NEARLY = 0.98  # share of the largest value; tops below this share cannot become the largest by refinement
+NEARLY = 0.98  # share of the largest value; a lower top (local maximum) cannot become the largest on finer grids
 TOPS = 3  # number of tops (local maxima) that are refined, beginning with the highest
-ZOOMS = 3  # number of zooms; each narrows the place of the maximum by a factor of 3
+ZOOMS = 3  # number of zooms; every zoom narrows the range that contains the maximum by a factor of 3
 ZOOM_POINTS = 7  # number of points per zoom; they lie between the neighbours of a top
 SAME = 1e-6  # share of the range of places, or of a length; smaller differences are rounding
 
@@ -41,10 +41,11 @@ def face_load_factor(balance: LoadBalance, y: float) -> float:
     Notes
     -----
     Eq. L17: K_Hbeta is the largest value of q(y) = int w dx / p_bt divided by the mean value of q. This definition
-    follows the idea of ISO 6336-1, annex E. The mean value is computed from the force in the balance and the face
-    width. The search first computes q at equidistant places, at kinks of the gap and at `y`, without substeps between
-    roll positions. The search then refines the place with the largest q. If lines are loaded over a part of their
-    length only, q without substeps is inexact. The search then refines several places at which q is nearly as large.
+    follows the idea of ISO 6336-1, annex E. The mean value of q is computed from the transmitted force and the face
+    width. To find the largest value, q is first computed at equidistant places, at kinks of the gap and at `y`, without
+    substeps between roll positions. Then q is computed on finer grids around the place with the largest q. If lines are
+    loaded over a part of their length only, q without substeps is inexact. In this case, finer grids are used around up
+    to three local maxima of q that are nearly as large.
     """
     plane = balance.mesh.plane
     evenly = np.linspace(0.0, plane.face_width, FACE_POINTS)
@@ -61,14 +62,17 @@ def _in_part(balance: LoadBalance) -> bool:
 
 
 def tops(values: FloatArray) -> list[int]:
-    """Return the indices of local maxima that are nearly as large as the largest value, in ascending order of value."""
+    """Return the indices of the local maxima that are nearly as large as the largest value.
+
+    The indices are sorted by the values of the maxima, in ascending order.
+    """
     edged = np.concatenate([[-np.inf], values, [-np.inf]])
     local = np.flatnonzero((values > edged[:-2]) & (values >= edged[2:]) & (values >= NEARLY * values.max()))
     return sorted(local.tolist(), key=lambda k: float(values[k]))
 
 
 def _largest_around(balance: LoadBalance, places: FloatArray, top: int) -> float:
-    """Return the largest force per face width [N/m] between both neighbours of the place with the index `top`."""
+    """Return the largest force per face width [N/m] between the two neighbours of the place with the index `top`."""
     for _ in range(ZOOMS):
         low, high = places[max(top - 1, 0)], places[min(top + 1, places.size - 1)]
         places = _apart(np.append(np.linspace(low, high, ZOOM_POINTS), places[top]))
@@ -78,7 +82,7 @@ def _largest_around(balance: LoadBalance, places: FloatArray, top: int) -> float
 
 
 def _apart(places: FloatArray) -> FloatArray:
-    """Return the places in ascending order, without places that differ from the next place only by rounding."""
+    """Return the places in ascending order; drop a place if it differs from the next place only by rounding."""
     ascending = np.sort(places)
     return np.asarray(ascending[np.append(np.diff(ascending) > SAME * (ascending[-1] - ascending[0]), True)])
 
@@ -93,8 +97,8 @@ def face_loads(balance: LoadBalance, y: FloatArray, substeps: int = SUBSTEPS) ->
     y : ndarray
         Distances from the end that meshes first [m].
     substeps : int, optional
-        Number of substeps per step between roll positions. Substeps are used only if lines are loaded over a part of
-        their length, because the load at a place then begins or ends between roll positions.
+        Number of substeps per step between roll positions. Substeps are used only if some line is loaded over a part of
+        its length. In this case the load at a place of the face may begin or end between two roll positions.
 
     Returns
     -------
@@ -111,11 +115,11 @@ def face_loads(balance: LoadBalance, y: FloatArray, substeps: int = SUBSTEPS) ->
 
 @kernel
 def _face_loads(mesh: Mesh, phase: FloatArray, error: FloatArray, substeps: int, y: FloatArray) -> FloatArray:
-    """Integrate the load along the path from A to E by the trapezoidal rule, for each of the places y of the face.
+    """Integrate the load along the path from A to E by the trapezoidal rule, for every place y of the face.
 
-    The integral for a place of the face uses the points at which the contact lines of the roll positions pass this
-    place. A step between roll positions begins at the point where the previous step ends. If TE jumps there, this point
-    is used again with the new TE.
+    At every roll position (and substep), a contact line passes the place y at a certain x. The rule uses the loads at
+    these points. If TE jumps at a roll position, the point of this roll position is used twice: with TE before the jump
+    and with TE after the jump.
     """
     plane, compliance, form = mesh.plane, mesh.compliance, mesh.gap
     across = lead_gaps(form, y)
@@ -144,9 +148,9 @@ def _face_loads(mesh: Mesh, phase: FloatArray, error: FloatArray, substeps: int,
 def contact_points(
     path: PathOfContact, x: FloatArray, load: FloatArray, pinion_speed: float, modulus: float
 ) -> ContactPoints:
-    """Return the contacts at distances x [m] from A under line loads [N/m]; `modulus` is the reduced modulus E' [Pa].
+    """Return the contacts at the distances x [m] from A, under the line loads `load` [N/m].
 
-    Distances and loads are arrays of one shape.
+    Distances and loads are arrays of one shape. `modulus` is the reduced modulus E' [Pa].
     """
     radius = reduced_radius(path.plane, x)
     half_width = hertz.half_width(load, np.where(radius < path.plane.least_radius, 0.0, radius), modulus)
@@ -206,14 +210,15 @@ def feature_line(
 
 
 def _load_sharing(path: PathOfContact, load: FloatArray, tangential_force: float) -> FloatArray:
-    """Return X = w b / F_bt, which can be compared with the load-sharing factor of the standard."""
+    """Return X = w b / F_bt; this ratio can be compared with the load-sharing factor of ISO/TR 13989-1."""
     return load * path.plane.face_width / tangential_force
 
 
 def flank(balance: LoadBalance, modulus: float, profile_points: int, face_points: int) -> Flank:
     """Compute the maps over the flank; `modulus` is the reduced modulus E' [Pa].
 
-    The maps [profile, face] run from A to E along the path, and from the end that meshes first over the face.
+    The maps are arrays [profile, face]. Along the path they run from A to E. Over the face they begin at the end that
+    meshes first.
     """
     plane = balance.mesh.plane
     profile, face = np.linspace(0.0, 1.0, profile_points), np.linspace(0.0, 1.0, face_points)
@@ -232,11 +237,11 @@ def flank(balance: LoadBalance, modulus: float, profile_points: int, face_points
 def _maps(
     mesh: Mesh, phase: FloatArray, error: FloatArray, loaded: bool, x: FloatArray, y: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Return gap Delta [m] and line load w [N/m] over a grid.
+    """Return the gap Delta [m] and the line load w [N/m] over a grid with the coordinates x and y.
 
-    The iteration for the load at a point starts from the load at the same place of the face in the previous row. If the
-    iteration started from the neighbouring point of the same row, the processor would have to compute the points of the
-    row one by one.
+    The points of a row have the same x. The load at a point is found by iteration. The iteration starts from the load
+    at the same y in the previous row, not from the previous point of the same row. The processor can therefore compute
+    several points of a row at the same time.
     """
     plane, compliance, form = mesh.plane, mesh.compliance, mesh.gap
     gaps, loads = np.empty((x.size, y.size)), np.zeros((x.size, y.size))
@@ -272,8 +277,8 @@ def contact_pressure(plane: ContactPlane, radius: FloatArray, load: FloatArray, 
     Returns
     -------
     ndarray
-        Pressure p_H [Pa]; 0 without load. NaN near a base circle, because the reduced radius vanishes towards the base
-        circle and the pressure has no limit.
+        Pressure p_H [Pa]. The pressure is 0 at points without load. It is NaN near a base circle, because the reduced
+        radius vanishes at the base circle, so that the pressure has no limit.
 
     Notes
     -----

@@ -35,7 +35,7 @@ FlankSurface = Literal[
 
 @record
 class Load:
-    """Torque or power, and speed of the driving pinion; if torque and power are both given, the torque is used.
+    """Speed of the driving pinion, and its torque or power; if torque and power are both given, the torque is used.
 
     The factors K_A, K_v and K_gamma multiply the load of the contacts, not the transmitted power.
     """
@@ -80,9 +80,9 @@ class Load:
     def torque(self) -> float:
         """Transmitted torque of the pinion [N m]; if only the power is given, the torque is P/omega.
 
-        P/omega is 9549 P/n in the units of the paper.
+        In the units of the paper (kW and 1/min), P/omega is 9549 P/n.
 
-        Raises InvalidInput torque_or_power if neither torque nor power is given.
+        Raises InvalidInput (`torque_or_power`) if neither torque nor power is given.
         """
         if self.pinion_torque is not None:
             return self.pinion_torque
@@ -138,12 +138,13 @@ class LeadCurve:
 class Modifications:
     """Gaps [m] along the transverse line of action; positive where material is missing.
 
-    A positive `profile_slope` opens the gap towards E (pinion tip). A positive `helix_slope` opens the gap towards E2,
-    the end that leaves the mesh last. Shaft deviations over the face, in the plane of the shafts and out of this plane,
-    act like a helix slope. `tip_relief` acts at E and is the sum of the reliefs of pinion tip and wheel root.
-    `root_relief` acts at A and is the sum of the reliefs of pinion root and wheel tip. The lengths of tip and root
-    relief are measured along the line of action [m]. The length of the end relief is measured along the face [m]. If a
-    length is None, the default in `modification.gap` is used. `lead_curve` adds any further gap over the face.
+    A positive `profile_slope` opens the gap towards E (pinion tip). A positive `helix_slope` opens the gap towards the
+    end of the face that leaves the mesh last. `in_plane_deviation` and `out_of_plane_deviation` are shaft deviations
+    over the face width; they act like a helix slope. `tip_relief` acts at E and is the sum of the reliefs of pinion tip
+    and wheel root. `root_relief` acts at A and is the sum of the reliefs of pinion root and wheel tip. The lengths of
+    tip and root relief are measured along the line of action [m]. The length of the end relief is measured along the
+    face [m]. If a length is None, the function `modification.gap` chooses a default length. `lead_curve` adds a gap
+    that varies over the face in any way.
     """
 
     profile_crowning: float = quantity(
@@ -279,11 +280,11 @@ class Model:
     """Options of the physical model.
 
     `tooth_stiffness` is "ishikawa" for Ishikawa's tooth, or "parabola" for a stiffness that is a parabola along the
-    path. The maximum of the parabola equals the maximum stiffness of Ishikawa's tooth. The parabola is calibrated to
-    the paper's load maxima; `parabola_end_ratio` is the stiffness at A and E divided by the maximum. `contact` is
-    "hertzian" for half-spaces (Weber, Johnson), or "linear" for the paper's linear term. `section` is the section in
-    which the tooth is cut to compute the compliance of the tooth. `load_convention` is "exact" to use F_bn in the load
-    balance, or "paper" to use F_bt (Eq. 1).
+    path. The maximum of the parabola equals the maximum stiffness of Ishikawa's tooth. `parabola_end_ratio` is the
+    stiffness at A and E divided by the maximum; its default makes the loads agree with the paper's load maxima.
+    `contact` selects the compliance of the contact: "hertzian" for half-spaces (Weber, Johnson), or "linear" for the
+    paper's linear term. `section` selects the section of the tooth that is used to compute the bending.
+    `load_convention` is "exact" to use F_bn in the load balance, or "paper" to use F_bt (Eq. 1).
     """
 
     tooth_stiffness: ToothModel = quantity(
@@ -414,12 +415,12 @@ class ScuffingTest:
 class Temperatures:
     """Bulk temperature of the teeth, oil temperature and scuffing temperature [K].
 
-    The oil enters the contact at the bulk temperature. If `bulk_method` is "estimated", the bulk temperature follows
-    from the oil, the oil supply and Blok's flash temperature; `bulk` is None before this estimate. If `bulk_method` is
-    "heat_balance", the bulk temperature is the mean of `flanks`. `flanks` are the temperatures of both flanks [K] from
-    the heat balance. If a bulk temperature is given, `bulk_method` must be "given". The scuffing temperature is a
-    property of oil and material; the paper states no value. The user gives either the scuffing temperature or the
-    result of a scuffing test. Without a scuffing temperature there is no safety factor.
+    The oil enters the contact at the bulk temperature. If `bulk_method` is "given", `bulk` is the given bulk
+    temperature. If `bulk_method` is "estimated", the bulk temperature follows from the oil temperature, the oil supply
+    and Blok's flash temperature; `bulk` is None before this estimate. If `bulk_method` is "heat_balance", the heat
+    balance computes the temperatures `flanks` of both flanks [K], and the bulk temperature is their mean. The scuffing
+    temperature is a property of oil and material; the paper states no value. The user gives either the scuffing
+    temperature or the result of a scuffing test. Without either of these there is no safety factor.
     """
 
     bulk: float | None = quantity(
@@ -486,7 +487,8 @@ class Temperatures:
     def surfaces(self) -> tuple[float, float] | None:
         """Bulk temperatures of pinion and wheel [K].
 
-        The value is `flanks` if `flanks` is known, otherwise `bulk` for both gears, and None if `bulk` is None, too.
+        If `flanks` is known, the value is `flanks`. Otherwise both temperatures are `bulk`. If `bulk` is also None, the
+        value is None.
         """
         if self.flanks is not None or self.bulk is None:
             return self.flanks
@@ -518,10 +520,10 @@ class MicropittingCheck:
     """Inputs of the checks against micropitting and wear.
 
     The inputs describe the micropitting test of the oil, and the surfaces and the quality of the flanks.
-    `permissible_ratio` may be given instead of the test. `material_factor` replaces the factors of the surfaces. If
-    `material_factor` is None, the smaller of the factors of the two surfaces is used. If neither a failure load stage
-    nor a permissible ratio is given, the film is computed, but the safety factor is not. `quality_grade` is only used
-    for the load sharing of the standard.
+    `permissible_ratio`, the permissible film ratio, may be given instead of the test. If `material_factor` is given, it
+    replaces the material factors of both surfaces; otherwise the smaller of these two factors is used. If neither a
+    failure load stage nor a permissible ratio is given, no safety factor is computed; the film is still computed.
+    `quality_grade` is only used for the load sharing of method B.
     """
 
     failure_load_stage: int | None = quantity(
@@ -586,14 +588,19 @@ class MicropittingCheck:
 class ScuffingInputs:
     """Inputs of a scuffing check.
 
-    If `oil` is given, `lubricant` becomes this oil at the bulk temperature. If neither `oil` nor `lubricant` is given,
-    film, contact temperature and safety factor are not computed. `friction` is "given" to use the coefficient of
-    `distribution`, or "iso_tr_13989" to use the mean coefficient of ISO/TR 13989-1 for Blok's flash temperature, and
-    Schlenk's coefficient for the losses. `lubrication` is "thermal_ehl" to compute the thermal EHL film under the local
-    load with the options in `film`, or "closed_form" to use only the formulas of Blok and of Dowson and Higginson. With
-    "thermal_ehl" these formulas are evaluated, too. `line` is "flank" to check the whole flank, or "feature_line" to
-    check only the paper's diagonal from A1 to E2. Each checked line has `path_points` equidistant points. `cooling` is
-    only used if the bulk temperature follows from the heat balance.
+    If `oil` is given, the calculation replaces `lubricant` by this oil at the bulk temperature. If neither `oil` nor
+    `lubricant` is given, film, contact temperature and safety factor are not computed.
+
+    If `friction` is "given", the coefficient of friction in `distribution` is used. If `friction` is "iso_tr_13989",
+    Blok's flash temperature uses the mean coefficient of ISO/TR 13989-1, and the losses use Schlenk's coefficient.
+
+    If `lubrication` is "closed_form", only the formulas of Blok and of Dowson and Higginson are evaluated. If
+    `lubrication` is "thermal_ehl", the thermal EHL contact under the local load is also solved, with the options in
+    `film`.
+
+    `line` is "flank" to check the whole flank, or "feature_line" to check only the paper's diagonal from A1 to E2.
+    Every checked line has `path_points` equidistant points. `cooling` is only used if the bulk temperature follows from
+    the heat balance.
     """
 
     distribution: LoadDistributionInputs

@@ -1,14 +1,18 @@
 """Load balance over the contact lines: the approach TE of the flanks at every roll position, and the loads at this TE.
 
-Every line is cut into slices of the length dl = dy / cos beta_b. The line load, which is the load per length of contact
-line, is computed at the middle of every slice. This load is w = k max(TE - Delta, 0), where k is the stiffness of a
-pair of teeth and Delta is the gap. The sum of w dl over the slices is F_bn (Eq. 9 with one TE for all points of a roll
-position). If a line is loaded over a part of its length only, the part that is loaded at the last TE is cut into slices
-again, until TE no longer changes. The slices then cover exactly the contact, even if the contact is small. If TE is not
-linear between two roll positions, further roll positions are added between these two. The paper's iteration (Eq. 10)
-converges only if the mean relief in contact is below TE/2. This module uses Newton's method instead, because the force
-F(TE) is convex and increasing. With linear contact, Newton's method reaches the exact solution in a finite number of
-steps.
+TE is the transmission error. Every line is cut into slices of the length dl = dy / cos beta_b. The line load, which is
+the load per length of contact line, is computed at the middle of every slice. This load is w = k max(TE - Delta, 0),
+where k is the stiffness of a pair of teeth and Delta is the gap. The sum of w dl over the slices is F_bn (Eq. 9 with
+one TE for all points of a roll position).
+
+If a line is loaded over a part of its length only, only the loaded part is cut into slices. This part depends on TE.
+The cutting and the balance are therefore repeated until TE no longer changes. The slices then cover exactly the
+contact, even if the contact is small. If TE is not linear between two roll positions, further roll positions are added
+between these two.
+
+The paper's iteration (Eq. 10) converges only if the mean relief in contact is below TE/2. This module uses Newton's
+method instead, because the force F(TE) is convex and increasing. With linear contact, Newton's method reaches the exact
+solution in a finite number of steps.
 """
 
 from dataclasses import dataclass, replace
@@ -42,10 +46,10 @@ NEAR_ROUNDING = 1e-12  # relative residual of the force that is accepted if a st
 TOLERANCE = 1e-10  # largest relative residual of the force in a solution
 MAX_COVERS = 20  # number of times that the lines of one roll position are cut into slices
 SETTLED = 1e-6  # relative change of the approach; if two covers differ by less, the last cover is accepted
-STRAIGHT = 2e-3  # share of the approach; TE is linear if its distance from the line between neighbours is smaller
+STRAIGHT = 2e-3  # share of the approach; TE is linear if it deviates less from the line between its neighbours
 MAX_HALVINGS = 8  # largest number of times that a step between roll positions is halved
 MOST_ADDED = 1000  # largest number of roll positions that are added per halving
-LEAST_LINE_LOAD = 0.1  # N/m, mean line load; below this load the approach is as small as the rounding of large gaps
+LEAST_LINE_LOAD = 0.1  # N/m, mean line load; at lower loads the approach is as small as the rounding errors of gaps
 LEAST_SPREAD = 1e-12  # m; a smaller range of the kinematic error is replaced by this value
 BESIDE = 1e-12  # distance between a load jump and the points just before and behind the jump, as share of the path
 
@@ -56,11 +60,12 @@ Start = tuple[FloatArray, FloatArray]
 
 @kernel
 def _secant_start(table: Slices, count: int, logarithmic: float, force: float) -> float:
-    """Solve exactly the linear problem in which half-spaces have the secant compliance at the mean load; return TE [m].
+    """Compute a start value of TE [m] from a balance with linear compliances.
 
-    The first step treats all slices as if they were in contact and could also pull. The TE of this step is too large,
-    because slices that pull reduce the force. The next steps of Newton's method reduce TE, with fewer and fewer slices
-    in contact.
+    If the contact is a half-space, every slice has the secant compliance at the mean line load. Newton's method solves
+    this linear balance exactly. The first step treats all slices as if they were in contact and could also pull. The TE
+    of this step is too large, because slices that pull reduce the force. Every further step reduces TE, and fewer
+    slices are in contact.
     """
     log_mean = 0.0
     if logarithmic > 0.0:
@@ -87,12 +92,12 @@ def _secant_start(table: Slices, count: int, logarithmic: float, force: float) -
 
 @kernel
 def _press(table: Slices, count: int, logarithmic: float, error: float) -> tuple[float, float, float, float]:
-    """Take one iteration step of every slice towards the load of the slice at the approach `error` [m].
+    """Take one iteration step for the load of every slice, at the transmission error `error` [m].
 
-    Returns four values: the force [N], the derivative of the force with respect to the approach [N/m], the error of the
-    force that remains because the loads of slices have not converged [N], and the distance of the approach from the
-    nearest kink [m]. The load of a slice, as a function of the approach, has two kinks: one where the slice comes into
-    contact, and one where the compliance of the slice begins to be held constant.
+    Returns four values: the force [N]; the derivative of the force with respect to `error` [N/m]; an estimate of the
+    error of the force [N], because the loads of the slices have not converged; and the distance of `error` from the
+    nearest kink [m]. The load of a slice, as a function of `error`, has two kinks. At one kink the slice comes into
+    contact. At the other kink the compliance of the slice begins to be held constant.
     """
     force, slope, unsettled, nearest = 0.0, 0.0, 0.0, np.inf
     for i in range(count):
@@ -112,7 +117,7 @@ def _press(table: Slices, count: int, logarithmic: float, error: float) -> tuple
 
 @kernel
 def _follow(table: Slices, count: int, change: float) -> float:
-    """Change every load by its derivative times `change`, which is a change of TE [m], and return the force [N]."""
+    """Change every load by its derivative times `change`; return the force [N]. `change` [m] is a change of TE."""
     force = 0.0
     for i in range(count):
         table.load[i] += table.stiffness[i] * change
@@ -133,7 +138,7 @@ def newton(table: Slices, count: int, logarithmic: float, force: float, error: f
     logarithmic : float
         Logarithmic part of the compliance [1/Pa].
     force : float
-        Force in the balance [N].
+        Force that the slices carry together [N].
     error : float
         Start value of the approach TE [m].
 
@@ -142,16 +147,17 @@ def newton(table: Slices, count: int, logarithmic: float, force: float, error: f
     error : float
         Approach TE [m].
     residual : float
-        Residual divided by the force [-].
+        Residual of the force divided by the force [-].
     steps : float
         Number of steps.
 
     Notes
     -----
-    Eq. L13. TE and the loads of the slices are iterated together: with every step of TE, every slice takes one step
-    towards its load. The square of a step estimates the error after the step. The iteration ends after a step if the
-    step crosses no kink and this estimate is below rounding. In this last step, every load changes by its derivative
-    times the step of TE. With linear contact every step that crosses no kink is the last step.
+    Eq. L13. TE and the loads of the slices are iterated together: after every step of TE, the load of every slice takes
+    one step of its own iteration. The error after a step of TE is estimated by the square of the relative residual
+    before this step. A step is the last step if it crosses no kink and if this estimate is below rounding. In the last
+    step, the loads are not iterated: every load changes by its derivative times the step of TE. With linear contact
+    every step that crosses no kink is the last step.
     """
     residual, steps = np.inf, 0.0
     while steps < MAX_STEPS:
@@ -178,9 +184,9 @@ def solve_position(table: Slices, count: int, logarithmic: float, force: float) 
 def solve_near(table: Slices, count: int, logarithmic: float, force: float, error: float) -> tuple[float, float, float]:
     """Solve the balance of one roll position from the start values of a similar position.
 
-    The start values are `error`, which is the TE [m] of the similar position, and ln w in the table. If `error` is NaN,
-    or if the iteration from these start values fails, the balance is solved without start values. Returns the values
-    that `newton` returns.
+    The start values are `error`, the TE [m] of the similar position, and `table.log_load`, the ln w of the similar
+    position. If `error` is NaN, or if the iteration from these start values fails, the balance is solved without start
+    values. Returns the values that `newton` returns.
     """
     if not np.isnan(error):
         error, residual, steps = newton(table, count, logarithmic, force, error)
@@ -193,10 +199,11 @@ def solve_near(table: Slices, count: int, logarithmic: float, force: float, erro
 class LoadBalance:
     """Loaded state of a mesh over one base pitch; arrays over the roll positions.
 
-    `force` is the force in the balance [N], 0 without load. `transmission_error` is TE. `unloaded_error` is TE without
-    load, and equals the least gap over the lines. Both are measured along the transverse line of action [m]. `residual`
-    is the residual of the balance divided by the force, and `steps` is the number of iterations. `bent_steps` is the
-    number of steps between roll positions across which TE is not linear.
+    `force` is the force [N] that the contact lines carry together; it is 0 without load. `transmission_error` is TE.
+    `unloaded_error` is TE without load; this value equals the least gap over the lines. Both errors are measured along
+    the transverse line of action [m]. `residual` is the residual of the load balance divided by the force. `steps` is
+    the number of Newton steps. `bent_steps` is the number of steps between neighbouring roll positions over which TE is
+    still not linear.
     """
 
     mesh: Mesh
@@ -222,11 +229,12 @@ def balance_load(
     rolls : RollPositions
         Roll positions of one base pitch.
     force : float
-        Force in the balance [N]; treated as 0 if the mean line load is below `LEAST_LINE_LOAD`.
+        Force that the contact lines carry together [N]. If the mean line load is below `LEAST_LINE_LOAD`, the force is
+        replaced by 0.
     slices : int
         Number of slices per line.
     start : tuple, optional
-        Start values: TE and ln w of the slices of the same mesh under a similar gap.
+        Start values: TE and ln w of the slices, from a balance of the same mesh under a similar gap.
 
     Returns
     -------
@@ -257,7 +265,7 @@ def balance_load(
 
 
 def _nothing(rolls: RollPositions) -> Start:
-    """Return start values that are missing (NaN) at every roll position."""
+    """Return NaN as the start value at every roll position; NaN means that there is no start value."""
     return np.full(rolls.phase.size, np.nan), np.zeros((rolls.phase.size, 0))
 
 
@@ -270,10 +278,11 @@ def _balanced(mesh: Mesh, rolls: RollPositions, force: float, slices: int, start
 
 
 def _bent_steps(balance: LoadBalance) -> IntArray:
-    """Return the indices of the steps between roll positions across which TE is not linear, in ascending order.
+    """Return the indices of the steps over which TE is not linear, in ascending order.
 
-    TE is linear at a position if TE is close to the straight line through TE at both neighbouring positions. Corners
-    are not tested.
+    A step lies between two neighbouring roll positions. At every roll position, TE is compared with the straight line
+    through TE at both neighbouring positions. If TE is not close to this line, TE is not linear over the steps on both
+    sides of the position. Corners are not tested.
     """
     phase, error = balance.rolls.phase, balance.transmission_error
     spread = np.full(error.size, max(float(np.ptp(error)), LEAST_SPREAD))
@@ -288,10 +297,13 @@ def _bent_steps(balance: LoadBalance) -> IntArray:
 
 
 def _merged(balance: LoadBalance, added: LoadBalance, places: IntArray) -> LoadBalance:
-    """Merge two balances of one mesh; `places` are the indices before which the added roll positions are inserted."""
+    """Insert the roll positions of `added` into `balance`; both are balances of the same mesh.
+
+    For every added roll position, `places` contains the index of the roll position in `balance` that follows it.
+    """
 
     def together(old: Any, new: Any) -> Any:
-        """Merge two arrays over the roll positions, or tuples of such arrays."""
+        """Merge two arrays over the roll positions, or two tuples of such arrays."""
         if isinstance(old, tuple):
             return type(old)(*map(together, old, new))
         return np.insert(old, places, new, axis=0)
@@ -312,12 +324,13 @@ def _merged(balance: LoadBalance, added: LoadBalance, places: IntArray) -> LoadB
 def _settle(
     mesh: Mesh, at: tuple[float, float], slices: int, force: float, least: float, error: float, table: Slices
 ) -> tuple[Cover, float, float, float]:
-    """Solve a roll position (phase, side) at which lines are loaded over a part of their length only.
+    """Solve the balance of a roll position at which lines are loaded over a part of their length only.
 
-    The iteration starts from `error`, which is TE [m] of slices that cover whole lines. Every step cuts the parts that
-    are loaded at the last TE into slices and solves the balance again. The load is zero at the ends of the loaded
-    parts; an error of TE therefore changes the next TE in second order only. Returns the cover, TE [m], the relative
-    residual and the number of steps.
+    `at` contains phase and side of the roll position. The start value `error` is the TE [m] of slices that cover whole
+    lines. Every pass cuts those parts of the lines that are loaded at the TE of the previous pass into slices, and
+    solves the balance again. The load is zero at the ends of a loaded part. An error of TE in one pass therefore causes
+    only a second-order error in the next pass. Returns the cover, TE [m], the relative residual, and the number of
+    steps.
     """
     covers, steps, settled = 0, 0.0, False
     phase, side = at
@@ -334,7 +347,11 @@ def _settle(
 def _balance(
     mesh: Mesh, phase: FloatArray, side: FloatArray, force: float, slices: int, start: FloatArray, log_load: FloatArray
 ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray, Survey]:
-    """Return TE, least gap, residual and steps at every roll position, and the survey of the loaded lines."""
+    """Balance the load at every roll position.
+
+    Returns TE [m], the least gap [m], the relative residual and the number of steps at every roll position, and the
+    survey of the loaded lines.
+    """
     error, unloaded = np.empty(phase.size), np.empty(phase.size)
     residual, steps = np.zeros(phase.size), np.zeros(phase.size)
     survey = empty_survey(mesh, phase.size)
@@ -363,10 +380,11 @@ def _balance(
 def error_at(
     plane: ContactPlane, phase: FloatArray, error: FloatArray, x: float, y: float, index: int
 ) -> tuple[float, int]:
-    """Return TE at the roll position whose line passes through (x, y), and the index of the step at this position.
+    """Return TE at the roll position at which a contact line passes through (x, y), and the index of the step there.
 
-    A step lies between two neighbouring roll positions of the balance. The search starts from step `index`. At the end
-    of the path, TE is the value just before the line leaves the path.
+    A step lies between two neighbouring roll positions of the balance; within a step, TE is interpolated linearly. The
+    search for the step begins at the step `index`. At the end of the path, TE is the value just before the line leaves
+    the path.
     """
     line = min(x, plane.path_length * (1.0 - BESIDE)) + y * plane.tan_base_helix
     position = line - int(line / plane.base_pitch) * plane.base_pitch
@@ -389,7 +407,7 @@ def loads_at(mesh: Mesh, phase: FloatArray, error: FloatArray, x: FloatArray, y:
 
 
 def line_loads(balance: LoadBalance, x: FloatArray, y: FloatArray) -> FloatArray:
-    """Return the line load w [N/m] at points x, y [m] of the plane of action; 0 where the flanks are apart.
+    """Return the line load w [N/m] at points x, y [m] of the plane of action; 0 at points where the flanks are apart.
 
     x and y are arrays of one shape.
     """

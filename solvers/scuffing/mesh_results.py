@@ -1,7 +1,7 @@
 """Results for the mesh from the balanced load: load sharing, stiffness, transmission error, friction loss.
 
-Eq. 15 is given in the paper. The load sharing X_Gamma and the buttressing factor X_but follow general knowledge of
-ISO/TR 13989-1 and were not compared with the text of this standard.
+Eq. 15 is an equation of the paper. The formulas for the load sharing X_Gamma and the buttressing factor X_but are
+general knowledge about ISO/TR 13989-1. They were not compared with the text of this standard.
 """
 
 from dataclasses import dataclass
@@ -26,11 +26,11 @@ HARMONICS = 5  # number of harmonics, chosen
 
 
 def iso_load_sharing(path: PathOfContact, x: FloatArray) -> FloatArray | None:
-    """Return the load sharing X_Gamma X_but at distances x [m] from A; None if the standard has no diagram.
+    """Return the load sharing at distances x [m] from A, or None if ISO/TR 13989-1 has no diagram for the pair.
 
-    X_Gamma is the load sharing factor, and X_but is the buttressing factor. Narrow gears (eps_gamma < 2) have the load
-    sharing of spur gears of quality 7 or better. Wide gears have the load sharing 1 / eps_alpha. The standard has no
-    diagram for eps_alpha < 1, and no diagram for spur gears with eps_alpha >= 2.
+    The load sharing is the load sharing factor X_Gamma times the buttressing factor X_but. Narrow gears
+    (eps_gamma < 2) have the X_Gamma of spur gears of quality 7 or better. For wide gears X_Gamma is 1 / eps_alpha. The
+    standard has no diagram for eps_alpha < 1, and no diagram for spur gears with eps_alpha >= 2.
     """
     ratio = path.transverse_contact_ratio
     if ratio < 1.0 or (path.overlap_ratio == 0.0 and ratio >= 2.0):
@@ -43,17 +43,22 @@ def iso_load_sharing(path: PathOfContact, x: FloatArray) -> FloatArray | None:
 
 
 def _narrow(x: FloatArray, length: float, double: float) -> FloatArray:
-    """Return the load sharing of narrow gears: 1/3 at A to 2/3 at B, 1 between B and D, 2/3 at D to 1/3 at E."""
+    """Return the load sharing factor of narrow gears.
+
+    The factor rises from 1/3 at A to 2/3 at B, is 1 between B and D, and falls from 2/3 at D to 1/3 at E. The distance
+    from A to B is `double` [m].
+    """
     from_end = np.minimum(x, length - x)
     with_mate = 1 / 3 + from_end / (3 * double) if double > 0.0 else np.ones_like(x)
     return np.where(from_end < double, with_mate, 1.0)
 
 
 def _buttressing(path: PathOfContact, x: FloatArray) -> FloatArray:
-    """Return the factor by which helical teeth carry more load near the ends of the path; 1 for spur gears.
+    """Return the buttressing factor of helical teeth; the factor is 1 for spur gears.
 
-    The factor is 1 + 0.3 min(eps_beta, 1) at A and E. Towards the middle of the path, the factor falls to 1 while the
-    profile parameter Gamma changes by 0.2 sin beta_b (Eq. 15).
+    Helical teeth carry more load near the ends of the path than in the middle. The factor is 1 + 0.3 min(eps_beta, 1)
+    at A and E. From A and from E towards the middle of the path, the factor falls linearly to 1. It reaches 1 where the
+    profile parameter Gamma differs by 0.2 sin beta_b from its value at A or E (Eq. 15).
     """
     plane = path.plane
     ramp = 0.2 * plane.tan_base_helix * plane.cos_base_helix * path.pitch_point
@@ -65,7 +70,11 @@ def _buttressing(path: PathOfContact, x: FloatArray) -> FloatArray:
 
 @dataclass(frozen=True, slots=True)
 class StandardStiffness:
-    """Stiffness by ISO 6336-1, method B [Pa]: c'_th, c', c_gamma_alpha and c_gamma_beta, in this order."""
+    """Stiffness by ISO 6336-1, method B [Pa].
+
+    `theoretical` is c'_th, the theoretical stiffness of one pair of teeth, and `single` is c', the stiffness of one
+    pair of teeth. `mesh` is c_gamma_alpha and `mesh_bending` is c_gamma_beta, both of them stiffnesses of the mesh.
+    """
 
     theoretical: float
     single: float
@@ -99,10 +108,10 @@ def standard_stiffness(
     1/c'_th = 0.04723 + 0.15551/z_n1 + 0.25791/z_n2 - 0.00635 x1 - 0.11654 x1/z_n1 - 0.00193 x2 - 0.24188 x2/z_n2
               + 0.00529 x1^2 + 0.00182 x2^2 [mm um/N].
 
-    C_M is the ratio of measured to theoretical stiffness, C_R the factor of the gear disc and C_B the factor of the
-    basic rack. Gear 1 is the gear with fewer teeth, even if the other gear drives. If both gears have the same number
-    of teeth, gear 1 is the gear with the larger profile shift (our choice). For materials other than steel, c' is
-    multiplied by E/206 GPa. Below a line load of 100 N/mm, c' falls with the fourth root of the line load.
+    C_M is the ratio of measured to theoretical stiffness, C_R is the factor of the gear disc, and C_B is the factor of
+    the basic rack. Gear 1 is the gear with fewer teeth, even if the other gear drives. If both gears have the same
+    number of teeth, gear 1 is the gear with the larger profile shift (our choice). For materials other than steel, c'
+    is multiplied by E/206 GPa. At line loads below 100 N/mm, c' is proportional to the fourth root of the line load.
     """
     inputs = path.pair.inputs
     virtual = cos(path.pair.base_helix_angle) ** 2 * cos(inputs.helix_angle)
@@ -130,7 +139,10 @@ def _standard_line_load(path: PathOfContact, load: Load) -> float:
 
 
 def _rack_factor(pair: GearPair) -> float:
-    """Return C_B = [1 + 0.5 (1.2 - h_fP)][1 - 0.02 (20 - alpha_n)]; h_fP is the mean dedendum of both gears."""
+    """Return C_B = [1 + 0.5 (1.2 - h_fP)][1 - 0.02 (20 - alpha_n)].
+
+    h_fP is the mean of the dedenda of both gears, in normal modules. alpha_n is the normal pressure angle in degrees.
+    """
     dedendum = (pair.inputs.pinion.dedendum + pair.inputs.wheel.dedendum) / 2
     return (1 + 0.5 * (1.2 - dedendum)) * (1 - 0.02 * (20 - degrees(pair.inputs.normal_pressure_angle)))
 
@@ -204,9 +216,9 @@ def transmission_error(balance: LoadBalance) -> TransmissionError:
 
     Notes
     -----
-    Eq. L18. Mean and harmonics are integrals by the trapezoidal rule over the roll positions. Jumps of spur gears cause
-    no error of the integrals, because a roll position with a jump occurs twice: with the value before the jump and with
-    the value after the jump.
+    Eq. L18. Mean and harmonics are integrals by the trapezoidal rule over the roll positions. If the transmission error
+    of a spur gear jumps at a roll position, the position occurs twice: with the value before the jump and with the
+    value after the jump. Jumps therefore cause no error of the integrals.
     """
     error, phase = balance.transmission_error, balance.rolls.phase
     return TransmissionError(
@@ -226,7 +238,7 @@ def period_mean(values: FloatArray, phase: FloatArray) -> float:
 
 def _fourier(values: FloatArray, phase: FloatArray) -> NDArray[np.complex128]:
     """Return the complex Fourier coefficients c_1, c_2, ... of a function of the roll position."""
-    # Wave k is the first wave raised to the power k.
+    # The wave of order k is the wave of order 1 raised to the power k.
     waves = np.cumprod(np.tile(np.exp(-2j * np.pi * phase / phase[-1]), (HARMONICS, 1)), axis=0)
     return np.asarray(np.trapezoid((values - values.mean()) * waves, phase) / phase[-1])
 
@@ -256,8 +268,9 @@ def friction_loss(
     Notes
     -----
     Eq. L19: P_V = f/p_bt int sum_j int w |u1 - u2| dl dphase with u1 - u2 = (omega_1 + omega_2)(s - s_C), and
-    H_V = P_V / (f P). Friction power and efficiency are computed without load factors, because load factors raise
-    only the load of the contacts and not the transmitted power.
+    H_V = P_V / (f P). The sum is taken over the contact lines j, and P is the transmitted power. The load factors are
+    not used for friction power and efficiency, because they raise only the load of the contacts, not the transmitted
+    power.
     """
     if balance.force == 0.0:
         return FrictionLoss(friction_coefficient, loss_factor=None, power=0.0, efficiency=None)

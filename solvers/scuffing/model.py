@@ -33,10 +33,10 @@ from solvers.scuffing.tooth_stiffness import pair_compliance
 
 @dataclass(frozen=True, slots=True)
 class PreparedMesh:
-    """Values of a mesh before the load balance: path of contact, lengths of the contact lines, roll positions, forces.
+    """Values of a mesh that the load balance needs: path of contact, contact lengths, roll positions and forces.
 
-    `mesh` contains the gap that follows from the inputs; the other values do not depend on the gap. `tangential_force`
-    is F_bt [N]. `force` is the force [N] that the load balance distributes over the contact lines.
+    `mesh` contains the gap that follows from the inputs. `tangential_force` is F_bt [N]. `force` is the force [N] that
+    the load balance distributes over the contact lines.
     """
 
     path: PathOfContact
@@ -63,8 +63,8 @@ def mesh_of(inputs: LoadDistributionInputs) -> PreparedMesh:
     Raises
     ------
     InvalidInput
-        If the pair cannot mesh (see `gear_pair`, `path_of_contact`, `contact_lengths`), or if two options exclude each
-        other (see `pair_compliance`).
+        If the pair cannot mesh (see the errors of `gear_pair`, `path_of_contact` and `contact_lengths`), or if two
+        options exclude each other (see the errors of `pair_compliance`).
 
     Notes
     -----
@@ -113,7 +113,10 @@ def solve(inputs: LoadDistributionInputs) -> LoadDistribution:
 
 
 def distribution(inputs: LoadDistributionInputs, prepared: PreparedMesh, balance: LoadBalance) -> LoadDistribution:
-    """Return the results of a load balance; the gap of the balance may differ from the gap of the inputs."""
+    """Compute the results of a load distribution from the balanced mesh.
+
+    The gap in `balance` is used. This gap may differ from the gap that follows from the inputs.
+    """
     path, lengths, resolution = prepared.path, prepared.lengths, inputs.resolution
     modulus = reduced_modulus(inputs.pinion_material, inputs.wheel_material)
     tangential_force = prepared.tangential_force
@@ -164,7 +167,7 @@ def _geometry(path: PathOfContact) -> Geometry:
 
 
 def _derived(path: PathOfContact, form: Gap, load: Load) -> Derived:
-    """Return the values that follow from the inputs, including defaults of inputs that are not given."""
+    """Return the values that follow from the inputs; for an input that is not given, return the value that is used."""
     pair = path.pair.inputs
     return Derived(
         pinion_torque=load.torque,
@@ -178,7 +181,10 @@ def _derived(path: PathOfContact, form: Gap, load: Load) -> Derived:
 
 
 def _contact_lines(lengths: ContactLengths, balance: LoadBalance) -> ContactLines:
-    """Return extremes and mean of the total contact length in closed form, and the length at the roll positions."""
+    """Return the results on the total contact length: least, largest and mean length, and a curve.
+
+    The curve contains the total length at every roll position. The other values are computed in closed form.
+    """
     phase = balance.rolls.phase
     return ContactLines(
         min_length=lengths.minimum,
@@ -190,7 +196,7 @@ def _contact_lines(lengths: ContactLengths, balance: LoadBalance) -> ContactLine
 
 
 def _load_on_flank(path: PathOfContact, balance: LoadBalance, load: Load, tangential_force: float) -> LoadOnFlank:
-    """Return the forces, the largest line load over all roll positions, and the loaded share of the flank."""
+    """Return the forces, the largest line load of all roll positions, and the loaded share of the contact length."""
     peak = largest(balance.survey.peak_load)
     phase, loaded, length = balance.rolls.phase, balance.survey.loaded_length, balance.survey.length
     return LoadOnFlank(
@@ -208,7 +214,7 @@ def _load_on_flank(path: PathOfContact, balance: LoadBalance, load: Load, tangen
 
 
 def _pressure(path: PathOfContact, balance: LoadBalance, modulus: float) -> Pressure:
-    """Return the largest p_H = sqrt(E' w / (2 pi R_n)) over all roll positions."""
+    """Return the largest p_H = sqrt(E' w / (2 pi R_n)) of all roll positions, and its place."""
     if reaches_base_circle(balance.survey):
         return Pressure(None, None)
     peak = largest(balance.survey.peak_pressure)

@@ -17,7 +17,7 @@ MOST_EDGES = 6  # largest number of edges: two ends of the line, two end reliefs
 
 @kernel
 def place_of(x: float, points_per_metre: float, points: int) -> tuple[int, float]:
-    """Return the index of the point before x, and the distance of x from this point as a share of the step.
+    """Return the index of the last point before x, and the distance from this point to x as a share of the step.
 
     The points are equidistant and start at 0; the step is the distance between neighbouring points.
     """
@@ -28,14 +28,14 @@ def place_of(x: float, points_per_metre: float, points: int) -> tuple[int, float
 
 @kernel
 def interpolated(table: FloatArray, place: tuple[int, float]) -> float:
-    """Interpolate linearly at a place among the points of the table."""
+    """Interpolate linearly in the table, whose values belong to equidistant points; `place` comes from `place_of`."""
     index, share = place
     low, high = float(table[index]), float(table[index + 1])
     return low + share * (high - low)
 
 
 class Gap(NamedTuple):
-    """Gap Delta(x, y) along the transverse line of action; amplitudes and lengths [m] are numbers, never None.
+    """Gap Delta(x, y) along the transverse line of action; amplitudes and lengths in [m].
 
     `lead` is the gap [m] of the lead curve at equidistant points of the face, from end to end.
     """
@@ -57,11 +57,11 @@ class Gap(NamedTuple):
 
 
 def gap(modifications: Modifications, path: PathOfContact) -> Gap:
-    """Return the gap, with default lengths for reliefs whose length is not given.
+    """Return the gap that the modifications cause; a relief without a given length gets a default length.
 
-    The paper gives no lengths. By default tip and root relief are g_alpha - p_bt long, so that the tip relief ends at D
-    and the root relief at B (long relief). This length is at least a tenth of the path and at most half of the path;
-    values outside this range are replaced by the nearest limit. By default the end relief is a tenth of the face long.
+    The paper states no lengths. By default tip and root relief are g_alpha - p_bt long, so that the tip relief ends at
+    D, and the root relief ends at B (long relief). But a default length is never less than a tenth of the path, and
+    never more than half of the path. The default length of the end relief is a tenth of the face width.
     """
     width = path.pair.inputs.face_width
     long_relief = min(max(path.length - path.pair.transverse_base_pitch, 0.1 * path.length), 0.5 * path.length)
@@ -88,8 +88,8 @@ def gap(modifications: Modifications, path: PathOfContact) -> Gap:
 def lead_table(curve: LeadCurve, face_width: float) -> FloatArray:
     """Return the gap of a lead curve at equidistant points of the face [m].
 
-    Raises InvalidInput lead_curve if the curve has fewer than two points, if the number of gaps differs from the number
-    of positions, or if the positions do not ascend within the face.
+    Raises InvalidInput (`lead_curve`) if the curve has fewer than two points, if the number of gaps differs from the
+    number of positions, or if the positions are not in ascending order from 0 to the face width.
     """
     position, value = np.asarray(curve.position), np.asarray(curve.gap)
     rising = position.size >= 2 and bool(np.all(np.diff(position) > 0.0))
@@ -112,7 +112,10 @@ def kinks_along_path(form: Gap) -> tuple[float, ...]:
 
 
 def kinks_along_face(form: Gap) -> tuple[float, ...]:
-    """Return the distances from the end that meshes first [m] at which end reliefs begin, or meet each other."""
+    """Return the distances [m] from the end that meshes first at which an end relief begins.
+
+    If both end reliefs meet at the middle of the face, return this place.
+    """
     if form.end_relief == 0.0:
         return ()
     length = min(form.end_relief_length, form.face_width / 2)
@@ -240,10 +243,11 @@ def _insert(edges: FloatArray, count: int, y: float) -> int:
 
 @kernel
 def smooth_parts(form: Gap, line: float, tan_base_helix: float, ends: tuple[float, float], edges: FloatArray) -> int:
-    """Write y of the ends and of the kinks of a contact line to `edges`, in ascending order.
+    """Divide a contact line into parts on which the gap is smooth.
 
-    The contact line is x = line - y tan_base_helix. A kink is a place at which a relief begins, or at which both end
-    reliefs meet. The kinks at the points of a lead curve are left out. Returns the number of edges, which is at most
+    The contact line is x = line - y tan_base_helix. `edges` receives, in ascending order, the y [m] of both ends of the
+    line and of every kink between these ends. A kink is a place at which a relief begins, or at which both end reliefs
+    meet. The kinks at the points of a lead curve are left out. Returns the number of edges, which is at most
     `MOST_EDGES`.
     """
     length = min(form.end_relief_length, 0.5 * form.face_width)

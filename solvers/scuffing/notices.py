@@ -28,7 +28,11 @@ LEAST_LENGTH_RATIO = 0.2  # chosen: at lower ratios the total length of the line
 
 
 def geometry_notices(path: PathOfContact, lengths: ContactLengths) -> list[Notice]:
-    """Return warnings about the pair, the ranges of the model, the pitch point and uneven contact length."""
+    """Return warnings about the geometry of the pair.
+
+    These warnings concern values outside the ranges of the model, a pitch point outside the path of contact, and an
+    uneven contact length.
+    """
     notices = [*pair_notices(path), *_range_notices(path.pair.inputs)]
     if not path.start <= path.pitch_point <= path.end:
         notices.append(
@@ -115,7 +119,7 @@ def relief_notices(path: PathOfContact, modifications: Modifications) -> list[No
 
 
 def load_notices(balance: LoadBalance) -> list[Notice]:
-    """Return warnings about a missing or light load, a contact that is too wide, and a pressure without a limit."""
+    """Return warnings if the load is missing or light, if the contact is too wide, or if the pressure has no limit."""
     notices = []
     if balance.force == 0.0:
         message = "no torque presses the flanks together; only the kinematic transmission error is computed"
@@ -176,7 +180,7 @@ def unusual_modifications(modifications: Modifications) -> Iterator[Notice]:
 
 
 def unusual_temperatures(temperatures: Temperatures) -> Iterator[Notice]:
-    """Warn if the oil temperature, or a given bulk temperature, does not occur in service."""
+    """Warn if the oil temperature or a given bulk temperature is unusual for gears in service."""
     yield from oil_temperature(temperatures.oil)
     if temperatures.bulk_method == "given":
         yield from tooth_temperature(temperatures.bulk)

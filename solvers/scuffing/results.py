@@ -18,9 +18,10 @@ from solvers.sources import ISO_6336, SCHLENK, XUE
 
 @record
 class Place:
-    """A point of the flank: profile parameter, fraction of the path from A, fraction of the face.
+    """A point of the flank.
 
-    The face is measured from the end that meshes first.
+    The point is given by the profile parameter or the fraction of the path from A, and by the fraction of the face from
+    the end that meshes first.
     """
 
     gamma: float = quantity("profile parameter", "Γ", text="profile parameter, 0 at the pitch point")
@@ -86,9 +87,10 @@ class StiffnessCurves:
 class Stiffness:
     """Stiffness per face width [Pa] of one pair of teeth and of the mesh.
 
-    The stiffness of one pair is the secant stiffness at the line load `secant_load` [N/m]. `pitch` is None if the pitch
-    point lies outside the path. `mean_mesh` is None without load. `standard_single` and `standard_mesh` follow
-    ISO 6336-1, method B.
+    The stiffness of one pair is the secant stiffness at the line load `secant_load` [N/m]. `approach`, `pitch` and
+    `recess` are the stiffnesses of one pair at A, at the pitch point and at E. `pitch` is None if the pitch point lies
+    outside the path. `mean_mesh` is None without load. `standard_single` and `standard_mesh` follow ISO 6336-1,
+    method B.
     """
 
     max: float = quantity("largest stiffness of one pair", "k_max", f"{XUE}, Fig. 8", unit="n_per_mm_um")
@@ -163,9 +165,9 @@ class TransmissionError:
 class LoadOnFlank:
     """Forces [N], torque [N m], largest line load [N/m] and its place, and loaded share of the contact length.
 
-    `pinion_torque` is the transmitted torque; the forces follow from this torque times `contact_factor`. `normal_force`
-    is the force in the balance; `tangential_force` is always F_bt. `pair_share` [line, roll position] is the force on a
-    line divided by the force in the balance.
+    `pinion_torque` is the transmitted torque; the forces follow from this torque times `contact_factor`.
+    `tangential_force` is F_bt. `normal_force` is the force that the load balance distributes over the contact lines.
+    `pair_share` [line, roll position] is the force on a line divided by `normal_force`.
     """
 
     pinion_torque: float = quantity("pinion torque", "T_1", unit="n_m", text="the transmitted one")
@@ -235,7 +237,10 @@ class FrictionLoss:
 
 @dataclass(frozen=True, slots=True)
 class ContactPoints:
-    """Contacts at points of the flank: line load [N/m], half width and reduced radius [m], surface speeds [m/s]."""
+    """Contacts at points of the flank.
+
+    The fields are arrays over the points: line load [N/m], half width [m], reduced radius [m], surface speeds [m/s].
+    """
 
     line_load: FloatArray
     half_width: FloatArray
@@ -245,7 +250,10 @@ class ContactPoints:
 
     @property
     def in_contact(self) -> BoolArray:
-        """True at points at which the flanks touch and move; film and flash temperature have a meaning only there."""
+        """True at points at which the flanks touch and move.
+
+        Film and flash temperature have a meaning only at these points.
+        """
         return (self.line_load > 0.0) & (self.half_width > 0.0) & (self.pinion_speed + self.wheel_speed > 0.0)
 
     @property
@@ -261,7 +269,7 @@ class ContactPoints:
 class FeatureLine:
     """Points along the feature line.
 
-    `load_sharing` is None without load. `iso_load_sharing` is None if the standard has no diagram for the pair. The
+    `load_sharing` is None without load. `iso_load_sharing` is None if ISO/TR 13989-1 has no diagram for the pair. The
     pressure is NaN at points where the reduced radius vanishes.
     """
 
@@ -366,7 +374,9 @@ class Derived:
 
 @record(slots=False)
 class LoadDistribution:
-    """Load distribution of a pair of gears; further checks use `path_of_contact` and `balance`.
+    """Load distribution of a pair of gears.
+
+    `path_of_contact` and `balance` are intermediate results, which further checks of the pair use.
 
     `feature` is the function that computes the curves along the feature line, and `maps` is the function that computes
     the maps over the flank. Each of the two functions is called when its result is first used.

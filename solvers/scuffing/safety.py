@@ -77,10 +77,10 @@ def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
     Raises
     ------
     InvalidInput
-        `exclusive` if a bulk temperature is given and `bulk_method` is "estimated"; the errors of `model.solve` and
-        `in_force`; the error of the thermal EHL solver if the solver refuses every point.
+        `exclusive` if a bulk temperature is given although `bulk_method` is "estimated"; the errors of `model.solve`
+        and of `in_force`; the error of the thermal EHL solver if this solver refuses every point.
     NoSolution
-        The errors of `model.solve` and `in_force`.
+        The errors of `model.solve` and of `in_force`.
 
     Notes
     -----
@@ -147,7 +147,7 @@ def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
 
 
 class _Line(NamedTuple):
-    """Points of a line over the flank, with Blok's flash temperature [K] and the film of the formula [m].
+    """Points of a line over the flank, with Blok's flash temperature [K] and Dowson and Higginson's film [m].
 
     `psi` is the fraction of the path from A, and `face` is the distance from the end that meshes first [m].
     """
@@ -176,12 +176,14 @@ def _line_at(
 def _lines(
     inputs: ScuffingInputs, distribution: LoadDistribution, hottest: Peak | None, film_at: ContactFunction
 ) -> tuple[list[_Line], _Line | None]:
-    """Return the lines to check, and the profile line through the hottest point even if this line is not checked.
+    """Return the list of lines to check, and the profile line through the hottest point.
 
-    The feature line is always checked. The profile line is checked if it is clearly hotter than the feature line
-    (`AS_HOT`). The points of a line are equidistant. The hottest point of each line is added; on the feature line, the
-    point with the thinnest film of the formula is also added. Without these points, the largest flash temperature and
-    the thinnest film would depend on the number of points. The profile line is None if `hottest` is None.
+    The feature line is always in the list. The profile line is in the list only if it is clearly hotter than the
+    feature line (`AS_HOT`). The second result is the profile line in both cases; it is None if `hottest` is None.
+
+    The points of a line are equidistant. The hottest point of each line is added to them. The point with the thinnest
+    film (Dowson and Higginson) is also added to the feature line. Without the added points, the largest flash
+    temperature and the thinnest film would depend on the number of points.
     """
     line_at = partial(_line_at, inputs.distribution, distribution, film_at)
     even = np.linspace(0.0, 1.0, inputs.path_points)
@@ -206,11 +208,11 @@ def _lines(
 
 
 def _or_along(distribution: LoadDistribution, line: _Line, thinnest: Peak) -> Peak:
-    """Return `thinnest`, or the thinnest film of the formula on a profile line if this film is thinner.
+    """Return `thinnest`, or the thinnest film on the profile line `line` if this film is thinner.
 
-    A spur pair and its mirror image have different feature lines, so that the profile line may be checked for only one
-    of the two pairs. This function therefore always takes the points of the profile line into account. The pair and its
-    mirror image then have the same thinnest film.
+    Both are films of Dowson and Higginson. A spur pair and its mirror image have different feature lines. The profile
+    line may therefore be checked for only one of the two pairs. This function is called even if the profile line is not
+    checked, so that the pair and its mirror image have the same thinnest film.
     """
     if np.isnan(line.film).all():
         return thinnest
@@ -220,16 +222,17 @@ def _or_along(distribution: LoadDistribution, line: _Line, thinnest: Peak) -> Pe
 
 
 def _surfaces(temperatures: Temperatures, line: _Line) -> FloatArray:
-    """Return the bulk temperatures at the points of a line [K], one row for the pinion and one for the wheel."""
+    """Return the bulk temperatures [K] at the points of a line; row 0 is the pinion, and row 1 is the wheel."""
     return np.broadcast_to(np.array(temperatures.surfaces)[:, None], (2, line.face.size))
 
 
 def _contact_temperature(
     temperatures: Temperatures, bulk: float, flash: Flash, lines: Sequence[CheckedLine]
 ) -> ContactTemperature:
-    """Add the largest flash temperatures to the bulk temperature [K].
+    """Return the largest contact temperatures [K], which are sums of bulk and flash temperature.
 
-    A flash temperature by thermal EHL is added to the bulk temperature of the same surface.
+    Blok's flash temperature is added to the mean bulk temperature `bulk`. A flash temperature by thermal EHL belongs to
+    one of both surfaces, and is added to the bulk temperature of this surface.
     """
     thermal = None
     if flash.thermal_ehl_max is not None:
@@ -244,7 +247,7 @@ def _contact_temperature(
 def _with_band(
     temperatures: Temperatures, heat: Heat, flash: Flash, safety: Safety | None
 ) -> tuple[Heat, Safety | None]:
-    """Add the range of the safety factor to the band of `heat`; base the verdict on the smallest safety factor."""
+    """Add the range of the safety factor to the band of `heat`, and base the verdict on the smallest safety factor."""
     if safety is None or safety.blok_factor is None or flash.blok_max is None or heat.band is None:
         return heat, safety
     contacts = [sum(flanks) / 2 + flash.blok_max for flanks in heat.flank_cases]
@@ -318,8 +321,8 @@ def _safety(temperatures: Temperatures, contact: ContactTemperature, flash: Flas
 def _closed_form_path(inputs: ScuffingInputs, line: _Line) -> ScuffingPath:
     """Return flash temperature (Eq. 25) and film (Eqs. 27, 28) along a line.
 
-    A loaded point that is too near a base circle has neither flash temperature nor film; its status is "refused".
-    Without an oil there is no film.
+    If a loaded point is too near a base circle, it has no flash temperature and no film, and its status is "refused".
+    If no oil is given, no point has a film.
     """
     pinion, wheel, points = inputs.distribution.pinion_material, inputs.distribution.wheel_material, line.points
     return ScuffingPath(

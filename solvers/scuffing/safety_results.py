@@ -22,9 +22,9 @@ class Flash:
     """Largest flash temperatures [K] and their places.
 
     The places are None without load. The values by thermal EHL are None if only the closed-form formulas are evaluated.
-    `..._at_psi` is the place of the largest value on the feature line; `..._at_profile` and `..._at_face` [m] are the
-    place of the largest value on the flank. A maximum and its places are None if the hottest point may be a loaded
-    point that has no flash temperature.
+    Fields that end in `_at_psi` state the place of the largest value on the feature line. Fields that end in
+    `_at_profile` and `_at_face` [m] state the place of the largest value on the flank. If a loaded point without a
+    flash temperature may be the hottest point, the largest value and its places are None.
     """
 
     blok_max: float | None = quantity(
@@ -95,8 +95,8 @@ class Flash:
 class ContactTemperature:
     """Bulk temperature t_M and largest contact temperature t_B = t_M + t_f [K] (Eq. 16).
 
-    t_f is the flash temperature; t_B is None if t_f is None. A t_f by thermal EHL is added to the bulk temperature of
-    the same surface, because a heat balance gives pinion and wheel different bulk temperatures.
+    t_f is the flash temperature; t_B is None if t_f is None. A heat balance gives pinion and wheel different bulk
+    temperatures. A flash temperature by thermal EHL is therefore added to the bulk temperature of the same surface.
     """
 
     bulk: float = quantity(
@@ -126,12 +126,15 @@ class ContactTemperature:
 class Film:
     """Thinnest film [m], its place and its ratio to the roughness.
 
-    All values are None if no point is loaded. `dowson_higginson_min` is the thinnest film of the formula over the
-    flank. `thermal_ehl_min` is the thinnest film by thermal EHL on the solved lines. If an unsolved point may have the
-    thinnest film, only `dowson_higginson_min` is stated. If `thermal_ehl_min` is stated, place, ratio and regime belong
-    to this film, even if the film of the formula is thinner; otherwise they belong to the film of the formula.
-    `min_at_psi` is the place of the thinnest film on the feature line. `min_at_profile` and `min_at_face` [m] are the
-    place of `thermal_ehl_min` if this film is stated, otherwise the place of `dowson_higginson_min`.
+    All values are None if no point is loaded, or if the loaded path reaches a base circle. `dowson_higginson_min` is
+    the thinnest film over the flank by the formula of Dowson and Higginson. `thermal_ehl_min` is the thinnest film by
+    thermal EHL on the solved lines. If an unsolved point may have the thinnest film, all values except
+    `dowson_higginson_min` are None.
+
+    Place, ratio and regime belong to one of the two films. If `thermal_ehl_min` is stated, they belong to
+    `thermal_ehl_min`, even if `dowson_higginson_min` is thinner. Otherwise they belong to `dowson_higginson_min`.
+    `min_at_profile` and `min_at_face` [m] are the place of this film. `min_at_psi` is the place of the thinnest film on
+    the feature line.
     """
 
     dowson_higginson_min: float | None = quantity(
@@ -176,7 +179,8 @@ class Film:
 class Safety:
     """Safety factors against scuffing (Eq. 26); a factor is None if the teeth are not hotter than the oil.
 
-    `scuffing` is the scuffing temperature [K]. `verdict` is the risk class of the standard for Blok's factor.
+    `scuffing` is the scuffing temperature [K]. `verdict` is the risk class by ISO/TR 13989-1 for Blok's factor, or for
+    the smallest factor in the band if there is a band.
     """
 
     scuffing: float = quantity("scuffing temperature used", "θ_S", unit="c", text="given or by the scuffing test")
@@ -213,8 +217,8 @@ class Safety:
 class ScuffingDerived:
     """Values of mesh, oil and cooling that follow from the inputs; `oil` is the oil at the bulk temperature.
 
-    `kinematic_viscosity_100` [m^2/s] and `density_15` [kg/m^3] are None unless the oil is given by a grade or a data
-    sheet.
+    `kinematic_viscosity_100` [m^2/s] and `density_15` [kg/m^3] are stated only if the oil is given by a grade or a data
+    sheet; otherwise they are None.
     """
 
     mesh: Derived
@@ -235,10 +239,10 @@ class ScuffingDerived:
 class ThermalPath:
     """The thermal EHL solution at the points of a line; temperatures [K], films [m], pressure [Pa], friction [-].
 
-    The values are NaN at unsolved points. A point that the solver refuses because its load is too light has bounds
-    instead. `flash_bound` [K] and `film_bound` [m] are the flash temperature and the film of this point under the
-    lightest load that the solver accepts. The real flash temperature of the point is not higher than `flash_bound`, and
-    the real film is not thinner than `film_bound`.
+    The values are NaN at unsolved points. If the solver refuses a point because its load is too light, the point is
+    solved under the lightest load that the solver accepts. `flash_bound` [K] and `film_bound` [m] are the flash
+    temperature and the film of the point under this load. The real flash temperature of the point is not higher than
+    `flash_bound`, and the real film is not thinner than `film_bound`.
     """
 
     status: tuple[PointStatus, ...]
@@ -262,13 +266,16 @@ class ScuffingPath:
     """Results along a line from A to E: Blok's flash temperature [K], film [m] and ratio of the film to the roughness.
 
     The feature line is the diagonal y = psi b; the profile line lies at the face position of the hottest point. The
-    points of a line are equidistant. Further points are added at the places where Blok's flash temperature is largest
-    and where the film of the formula is thinnest. A point without load or motion has the status "unloaded"; its film
-    and its ratio are NaN, and its flash temperature by Blok is 0. A loaded point at which the reduced radius vanishes
-    has the status "refused"; all its values are NaN. `thermal` is None if only the closed-form formulas are evaluated.
-    Otherwise, points that the thermal EHL solver could not solve have the status "no_solution", and points that the
-    solver does not accept have the status "refused". The thickness ratio is computed from the film by thermal EHL, or
-    from the film of the formula if `thermal` is None.
+    points of a line are equidistant. The point with the largest flash temperature by Blok is added to them. On the
+    feature line, the point with the thinnest film by Dowson and Higginson is also added.
+
+    A point without load or motion has the status "unloaded"; its film and its ratio are NaN, and its flash temperature
+    by Blok is 0. A loaded point at which the reduced radius vanishes has the status "refused"; all its values are NaN.
+
+    `thermal` is the thermal EHL solution, or None if only the closed-form formulas are evaluated. A point that the
+    thermal EHL solver accepts but cannot solve has the status "no_solution". A point that this solver does not accept
+    has the status "refused". The thickness ratio is computed from the film by thermal EHL, or from the film by Dowson
+    and Higginson if `thermal` is None.
     """
 
     psi: FloatArray = quantity(

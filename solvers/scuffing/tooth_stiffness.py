@@ -4,9 +4,9 @@ At a slice of a contact line, the flanks approach each other by delta along the 
 line load w. There are two contact models:
     linear contact      delta = C w
     half-space contact  delta = a w omega,  omega = A/a - ln w      (w in N/m)
-The half-space contact has the closed form w = delta / (a omega). Here omega is the solution of
-omega - ln omega = A/a + ln(a / delta), which is a branch of Lambert's function. `PairCompliance` contains a, and C or A
-at points of the path of contact.
+The load of a half-space contact is w = delta / (a omega). Here omega is the solution of
+omega - ln omega = A/a + ln(a / delta), which is a branch of Lambert's function. C, A and a are compliances [1/Pa]. a is
+the same at all points of the path of contact; C and A depend on the point. `PairCompliance` contains these compliances.
 """
 
 from dataclasses import dataclass, replace
@@ -31,8 +31,8 @@ TABLE_POINTS = 801  # one point per 0.125 % of the path, chosen
 LEAST_RADIUS = 1e-6  # normal modules; on a base circle the reduced radius and the half width would be 0
 SHALLOWEST = 2.0  # least ratio of the depth of the half-space to the half width of the contact
 OMEGA_STEPS = 12  # largest number of iterations for the branch of Lambert's function
-# Lower limit of a guess of omega. The true omega exceeds this limit unless the compliance is held constant. Values of
-# omega below 1 have no meaning.
+# A guess of omega below this limit is raised to the limit. The true omega is larger than this limit, except where the
+# compliance is held constant. Values of omega below 1 have no meaning.
 LEAST_OMEGA = 2.0
 # Relative step of omega at which the iteration ends. The error after a smaller step is below a tenth of the fourth
 # power of this step, so that the next step would change only rounding errors.
@@ -43,8 +43,9 @@ LAST_STEP = 1e-3
 class LoadPoints:
     """Points at which a tooth is loaded; the fields are arrays over these points.
 
-    `height` is the height above the root chord [m], `angle` is the angle between the load and the normal of the centre
-    line [rad], and `depth` is the distance from the flank to the centre line along the load [m].
+    `height` is the height of the point above the root chord [m]. `angle` is the angle between the load and the normal
+    of the tooth's centre line [rad]. `depth` is the distance from the flank to the centre line, measured along the load
+    [m].
     """
 
     height: FloatArray
@@ -66,10 +67,10 @@ class ToothShape:
 
 
 def section_gear(pair: GearPair, gear: Gear, teeth: GearTeeth, section: Literal["normal", "transverse"]) -> Gear:
-    """Return the gear whose teeth are used to compute the bending.
+    """Return the gear whose tooth shape is used to compute the bending.
 
-    For the transverse section, the gear itself is returned. For the normal section, the virtual spur gear with
-    z / (cos^2 beta_b cos beta) teeth is returned.
+    For the transverse section, this is the gear itself. For the normal section, this is the virtual spur gear, which
+    has z / (cos^2 beta_b cos beta) teeth.
     """
     return gear if section == "transverse" else virtual_gear(pair.inputs, teeth, pair.base_helix_angle)
 
@@ -77,10 +78,10 @@ def section_gear(pair: GearPair, gear: Gear, teeth: GearTeeth, section: Literal[
 def tooth_shape(gear: Gear) -> ToothShape:
     """Return the rectangle and the trapezium of a tooth.
 
-    Heights are measured along the centre line from the root chord, which is the chord of width S_F on the root circle.
-    A tooth that is at least as wide at the tip as at the root is a single rectangle. Raises InvalidInput pointed_tooth
-    if the tooth ends in a point. The virtual tooth of the normal section may end in a point even if the tooth itself
-    does not.
+    Heights are measured along the tooth's centre line from the root chord, which is the chord of width S_F on the root
+    circle. If a tooth is at least as wide at the tip as at the root, its shape is a single rectangle. Raises
+    InvalidInput (`pointed_tooth`) if the tooth ends in a point. In the normal section, the tooth of the virtual gear
+    may end in a point even if the tooth of the gear itself does not.
     """
     root_angle, tip_angle = gear.half_tooth_angle(gear.form_radius), gear.half_tooth_angle(gear.tip_radius)
     root_width = 2 * gear.form_radius * sin(root_angle)
@@ -101,10 +102,11 @@ def tooth_shape(gear: Gear) -> ToothShape:
 
 
 def load_points(gear: Gear, radius: FloatArray) -> LoadPoints:
-    """Return the load points at radii [m].
+    """Return the load points of a tooth at the given radii [m].
 
-    The load angle is alpha_x - g_x, which is the pressure angle of the flank minus the half tooth angle. The paper
-    calls this angle a pressure angle; but the arm of the bending moment depends on the load angle.
+    The load angle is alpha_x - g_x: the pressure angle of the flank minus half the angle that the tooth fills at this
+    radius. The paper calls the load angle a pressure angle. But the arm of the bending moment depends on the load
+    angle, not on the pressure angle.
     """
     pressure_angle = np.arccos(np.minimum(gear.base_radius / radius, 1.0))
     half_angle = gear.reference_half_angle + gear.reference_involute - np.tan(pressure_angle) + pressure_angle
@@ -120,7 +122,7 @@ def load_points(gear: Gear, radius: FloatArray) -> LoadPoints:
 def _chord_height(gear: Gear, root_width: float) -> float:
     """Return the distance of the root chord from the gear's axis [m].
 
-    Raises InvalidInput root_circle if the chord does not fit into the root circle.
+    Raises InvalidInput (`root_circle`) if the chord does not fit into the root circle.
     """
     if gear.root_radius <= root_width / 2:
         message = (
@@ -178,8 +180,10 @@ def bending_trapezium(shape: ToothShape, points: LoadPoints, material: Solid) ->
     Notes
     -----
     Eq. L5: delta_Bt / w = 6 cos^2 omega_x / (E S_F^3) [q (4 - q) - 2 ln q - 3] (h_i - h_r)^3 with
-    q = (h_i - h_x)/(h_i - h_r) and the load angle omega_x. The sign of the logarithm is right as printed; with the
-    other sign the compliance would be negative. E is the modulus of the gear itself; the paper prints E_1.
+    q = (h_i - h_x)/(h_i - h_r) and the load angle omega_x. h_i is the height at which the sides of the trapezium meet,
+    h_r is the height of the rectangle, h_x is the height of the load point, and S_F is the width of the rectangle. The
+    sign of the logarithm is right as printed; with the other sign the compliance would be negative. E is the modulus of
+    the gear itself; the paper prints E_1.
     """
     if shape.tip_width == shape.root_width:
         return np.zeros_like(points.height)
@@ -208,7 +212,7 @@ def shear(shape: ToothShape, points: LoadPoints, material: Solid) -> FloatArray:
     Notes
     -----
     Eq. L6: delta_S / w = 2 (1 + nu) cos^2 omega_x / (E S_F) [h_r + (h_i - h_r) ln(1/q)], with the load angle omega_x
-    and a shear factor of 1.
+    and a shear factor of 1. The other symbols are those of `bending_trapezium`.
     """
     length = np.minimum(shape.rectangle_height, points.height)
     if shape.tip_width < shape.root_width:
@@ -237,9 +241,10 @@ def root_rotation(shape: ToothShape, points: LoadPoints, material: Solid) -> Flo
 
     Notes
     -----
-    Eq. L7: delta_G / w = 24 h_x^2 cos^2 omega_x / (pi E S_F^2), with the load angle omega_x. The paper
-    prints h_x instead of h_x^2. The rotation is proportional to M/(E S_F^2), and M contains the arm h_x. The rotation
-    times the arm h_x therefore gives h_x^2, and only h_x^2 gives the right unit.
+    Eq. L7: delta_G / w = 24 h_x^2 cos^2 omega_x / (pi E S_F^2), with the load angle omega_x. The paper prints h_x
+    instead of h_x^2. The bending moment M is proportional to the arm h_x, and the rotation is proportional to
+    M/(E S_F^2). The deflection is the rotation times the arm h_x, and is therefore proportional to h_x^2. Only h_x^2
+    gives the right unit.
     """
     arm = points.height * np.cos(points.angle)
     return np.asarray(24 * arm**2 / (pi * material.youngs_modulus * shape.root_width**2))
@@ -277,17 +282,17 @@ def _apex_height(shape: ToothShape) -> float:
 
 
 def _apex_fraction(shape: ToothShape, points: LoadPoints) -> FloatArray:
-    """Return q = (h_i - h_x) / (h_i - h_r); 1 within the rectangle."""
+    """Return q = (h_i - h_x) / (h_i - h_r); return 1 for load points on the rectangle."""
     apex = _apex_height(shape)
     return np.minimum((apex - points.height) / (apex - shape.rectangle_height), 1.0)
 
 
 class PairCompliance(NamedTuple):
-    """Compliance over equidistant points from A to E.
+    """Compliance of a pair of teeth at equidistant points from A to E.
 
     For linear contact, `constant` [1/Pa] is C and `logarithmic` [1/Pa] is 0. For half-spaces, `constant` is A and
-    `logarithmic` is a. At the approach `limit` [m], the half width of the contact reaches half the depth of the
-    half-space. Beyond this approach the compliance is held constant.
+    `logarithmic` is a. When the approach of the flanks reaches `limit` [m], the half width of the contact is half the
+    depth of the half-space. At larger approaches the compliance is held constant.
     """
 
     constant: FloatArray
@@ -298,7 +303,11 @@ class PairCompliance(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Member:
-    """One gear of the pair; loaded radii [m] and bending compliance [1/Pa] are arrays over the table points."""
+    """One gear of the pair.
+
+    `radius` [m] and `bending` [1/Pa] are arrays over the points of the compliance table. `radius` is the radius at
+    which the tooth is loaded, and `bending` is the bending compliance of the tooth under this load.
+    """
 
     gear: Gear
     material: Solid
@@ -330,7 +339,7 @@ def pair_compliance(path: PathOfContact, pinion: Solid, wheel: Solid, model: Mod
     Raises
     ------
     InvalidInput
-        `contact_law` if the parabola is combined with the half-space, because the parabola is scaled to linear contact.
+        `contact_law` if the parabola is combined with the half-space; the parabola is defined only for linear contact.
 
     Notes
     -----
@@ -354,9 +363,9 @@ def _pair_compliance(path: PathOfContact, pinion: Solid, wheel: Solid, model: Mo
         _member(gear, section_gear(path.pair, gear, one, model.section), roll, material)
         for gear, one, roll, material in zip(gears, teeth, roll_lengths, (pinion, wheel), strict=True)
     ]
-    # In the transverse plane a slice dy carries w dl cos(beta_b) = w dy. If the tooth bends in this plane, the load is
-    # therefore w itself. The contact, and a tooth that bends in its normal section, deflect along the normal. Along the
-    # transverse line of action this deflection is larger by the factor 1 / cos(beta_b).
+    # In the transverse plane a slice dy carries w dl cos(beta_b) = w dy. If the tooth bends in this plane, the load per
+    # width is therefore w itself. The contact deflects along the normal of the flank, and so does a tooth that bends in
+    # its normal section. Along the transverse line of action this deflection is larger by the factor 1 / cos(beta_b).
     inclination = cos(path.pair.base_helix_angle)
     bending = (members[0].bending + members[1].bending) / (inclination if model.section == "normal" else 1.0)
     points_per_metre = (TABLE_POINTS - 1) / path.length
@@ -395,9 +404,10 @@ def linear_contact_compliance(pinion: Solid, wheel: Solid) -> float:
 
 
 def _member(gear: Gear, section: Gear, roll_length: FloatArray, material: Solid) -> Member:
-    """Return a gear of the pair with the bending compliance of its section.
+    """Return a gear of the pair, with the bending compliance of the tooth in the selected section.
 
-    A load point has the same height above the reference circle in the section as in the gear itself.
+    `section` is the gear that `section_gear` returns. In this gear, a load point has the same height above the
+    reference circle as in the gear itself.
     """
     radius = np.hypot(gear.base_radius, roll_length)
     points = load_points(section, section.reference_radius + radius - gear.reference_radius)
@@ -405,11 +415,13 @@ def _member(gear: Gear, section: Gear, roll_length: FloatArray, material: Solid)
 
 
 def _half_space(path: PathOfContact, x: FloatArray, members: list[Member]) -> tuple[FloatArray, float, float]:
-    """Return offset [1/Pa] and slope [1/Pa] of the half-space compliance, and the contact's part of omega at the limit.
+    """Return three values of the half-space contact: offset [1/Pa], slope [1/Pa] and least omega of the contact.
 
-    At the limit, the half width of the contact is half the depth of the half-space. For lighter loads omega is larger.
     The compliance of the half-spaces is (Johnson 1985; Weber)
     delta_H / w = sum_i (1 - nu_i^2)/(pi E_i) [2 ln(2 d_i / b_H) - nu_i/(1 - nu_i)],  b_H^2 = 8 w R_n/(pi E').
+    As a function of the load, delta_H / w is offset - slope ln w. The contact therefore contributes the part
+    offset / slope - ln w to omega. This part decreases as the load increases. The third value is this part under the
+    load at which the half width b_H is half the depth d_i of the half-space.
     """
     modulus = reduced_modulus(members[0].material, members[1].material)
     radius = np.maximum(reduced_radius(path.plane, x), LEAST_RADIUS * path.pair.inputs.normal_module)
@@ -426,7 +438,11 @@ def _half_space(path: PathOfContact, x: FloatArray, members: list[Member]) -> tu
 
 
 def _parabola(fraction: FloatArray, end_ratio: float) -> FloatArray:
-    """Return 1 - (1 - r)(2 xi - 1)^2; r = 0.757 is calibrated to the paper's load maxima."""
+    """Return the ratio of the stiffness to its maximum, 1 - (1 - r)(2 xi - 1)^2.
+
+    r is `end_ratio`, and xi is `fraction`, the fraction of the path from A. With r = 0.757 the loads agree with the
+    paper's load maxima.
+    """
     return np.asarray(1 - (1 - end_ratio) * (2 * fraction - 1) ** 2)
 
 
@@ -485,10 +501,10 @@ def line_load_near(
     """Take one step of omega from the guess `log_load`; return the values of `line_load` and the relative step.
 
     The equation omega - ln omega = A/a + ln(a / delta) is solved by the iteration of Fritsch, Shafer and Crowley (1973)
-    for Lambert's function. This iteration takes one logarithm per step and converges from any guess. After a step, the
+    for Lambert's function. This iteration needs one logarithm per step and converges from any guess. After a step, the
     error of omega is of the order of the fourth power of the step. The derivative is dw/d(delta) = 1 / (a (omega - 1)).
-    The guess is passed as ln w, because ln w changes less than omega from one position to the next. The returned ln w
-    is at most the ln w at the limit.
+    The guess is given as ln w, because from one roll position to the next ln w changes less than omega. If `approach`
+    exceeds `limit`, the returned ln w belongs to `limit`.
     """
     if approach <= 0.0:
         return 0.0, 0.0, log_load, 0.0
@@ -508,7 +524,10 @@ def line_load_near(
 
 @kernel
 def _secants(constant: FloatArray, limit: FloatArray, logarithmic: float, load: float) -> FloatArray:
-    """Return 1 / (a omega) at a line load [N/m]; above the load at the limit, omega keeps its value at the limit."""
+    """Return the stiffness 1 / (a omega) [Pa] at every table point under the line load `load` [N/m].
+
+    If the load is larger than the load at the approach `limit`, omega has its value at `limit`.
+    """
     stiffness = np.empty(constant.size)
     for i in range(constant.size):
         _, _, log_limit = line_load(limit[i], constant[i], logarithmic, limit[i], np.log(load))
@@ -517,7 +536,7 @@ def _secants(constant: FloatArray, limit: FloatArray, logarithmic: float, load: 
 
 
 def single_stiffness(compliance: PairCompliance, load: float) -> FloatArray:
-    """Return the secant stiffness w / delta [Pa] of one pair at the table points under a line load [N/m]."""
+    """Return the secant stiffness w / delta [Pa] of one pair of teeth at the table points, under a line load [N/m]."""
     if compliance.logarithmic == 0.0:
         return np.asarray(1 / compliance.constant)
     return _secants(compliance.constant, compliance.limit, compliance.logarithmic, load)

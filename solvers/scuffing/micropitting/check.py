@@ -28,9 +28,10 @@ LIKELY_BELOW, UNLIKELY_ABOVE = 1.0, 2.0  # limits of the safety factor, from com
 
 @dataclass(frozen=True, slots=True)
 class CheckedFlank:
-    """Answer of a check, film of the flank, and film ratio at the points of the flank's maps.
+    """Results of a check of the flank.
 
-    Unknown values are None.
+    `answer` contains the results for the user. `film` computes the film ratio at any point of the flank. `ratio` is the
+    film ratio at the points of the flank's maps. Unknown values are None.
     """
 
     answer: Micropitting | None = None
@@ -46,12 +47,12 @@ def check_micropitting(
     thermal_film: float | None,
     bulk: FaceFunction | None = None,
 ) -> CheckedFlank:
-    """Compare the film over the flank with the permissible film from the oil's micropitting test.
+    """Compare the film ratio over the flank with the permissible film ratio.
 
     Parameters
     ----------
     inputs : ScuffingInputs
-        Inputs of the scuffing check. Estimates of friction, temperatures and oil are already replaced by numbers.
+        Inputs of the scuffing check. Friction, temperatures and oil must be numbers; estimates are already computed.
     distribution : LoadDistribution
         Load distribution of the pair.
     grid : FlashMap
@@ -112,7 +113,7 @@ def _local(
 def _local_points(
     distribution: LoadDistribution, film: FlankFilm | None, permissible: float | None
 ) -> list[LocalPoint]:
-    """Return the film at the characteristic points of the feature line that lie on the path of contact."""
+    """Return the film at those characteristic points (A, B, C and so on) that lie on the path of contact."""
     path = distribution.path_of_contact
     places = {name: x / path.length for name, x in characteristic_points(path).items() if 0.0 <= x <= path.length}
     psi = np.array([*places.values()])

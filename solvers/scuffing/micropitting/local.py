@@ -25,7 +25,7 @@ LEAST = 1e-9  # film ratio; smaller film ratios are treated as equal to this val
 
 @dataclass(frozen=True, slots=True)
 class FlankFilm:
-    """Values on which the film ratio over the flank depends.
+    """Values from which the film ratio at any point of the flank is computed.
 
     `bulk` is a function that returns the bulk temperature along the face. If `bulk` is None, the bulk temperature of
     `conditions` is used everywhere. The oil enters the contact at the bulk temperature.
@@ -51,7 +51,7 @@ class FlankFilm:
         return self.ratio(contact_at_points(self.inputs.distribution, self.distribution, x, y), y)
 
     def over(self, grid: FlashMap) -> FloatArray:
-        """Compute the film ratio over the grid of the flash temperature."""
+        """Compute the film ratio at the points of the grid."""
         x = np.broadcast_to(grid.x[:, None], grid.load.shape)
         return self.ratio(contacts_under_load(self.inputs.distribution, self.distribution, x, grid.load), grid.y)
 
@@ -68,7 +68,7 @@ def contacts_of(points: ContactPoints, modulus: float) -> Contacts:
 def flank_film(
     inputs: ScuffingInputs, distribution: LoadDistribution, bulk: FaceFunction | None = None
 ) -> FlankFilm | None:
-    """Return the values for the film of a flank; None if oil, bulk temperature, load or speed is missing."""
+    """Collect the values for the film of a flank; return None if oil, bulk temperature, load or speed is missing."""
     given, temperatures, oil = inputs.distribution, inputs.temperatures, inputs.known_oil
     if oil is None or temperatures.bulk is None or distribution.balance.force == 0.0 or given.load.pinion_speed == 0.0:
         return None

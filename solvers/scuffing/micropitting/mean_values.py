@@ -13,7 +13,9 @@ MM = 1e-3  # m
 
 
 def helical_load_factor(total_contact_ratio: float) -> float:
-    """Compute the factor that increases the line load in the mean coefficient of friction of helical gears.
+    """Compute the helical load factor.
+
+    In the formula of the mean coefficient of friction, the line load of helical gears is multiplied by this factor.
 
     Parameters
     ----------

@@ -1,7 +1,7 @@
 """Viscosity and pressure-viscosity coefficient of an oil for the film of ISO/TR 15144-1.
 
-The film needs both values at the temperature of each contact. For an oil given by its data sheet, both are therefore
-computed from the laws of the oil at each temperature; coefficients at a single temperature would not be enough.
+The film depends on both values at the temperature of each contact, and this temperature differs between contacts. If
+the oil is given by its data sheet, the laws of the oil therefore give both values at any temperature.
 """
 
 from math import log10
@@ -73,7 +73,8 @@ def viscosity(oil: OilSheet | Lubricant, temperature: Real) -> Real:
     Raises
     ------
     InvalidInput
-        `viscosity_range` if the oil is given by its viscosity and its law yields a viscosity that no oil has.
+        `viscosity_range` if the oil is given by its viscosity, and if the law of this oil gives a viscosity that is too
+        high for any oil.
 
     Notes
     -----
@@ -112,8 +113,8 @@ def pressure_viscosity(oil: OilSheet | Lubricant, temperature: Real) -> Real:
 
     Notes
     -----
-    Eq. M3 of the chapter on micropitting. A given coefficient is used at every temperature. Above 510 C the law
-    would give a negative coefficient; the coefficient and the film are then 0.
+    Eq. M3 of the chapter on micropitting. If the coefficient is given, this value is used at every temperature. At
+    temperatures above 510 C the law would give a negative coefficient; the coefficient and the film are then 0.
     """
     if oil.pressure_viscosity is not None:
         return cast("Real", np.full(np.shape(temperature), oil.pressure_viscosity))

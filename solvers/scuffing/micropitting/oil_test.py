@@ -38,7 +38,7 @@ SURFACE_FACTOR: dict[FlankSurface, float] = {
 
 
 def _teeth(count: int, tip_diameter: float, profile_shift: float) -> GearTeeth:
-    """Return a test gear of module 4.5 mm with a given tip diameter [mm]."""
+    """Return the teeth of a test gear with a given tip diameter [mm]; the module is 4.5 mm."""
     return GearTeeth(count, profile_shift, (tip_diameter - 4.5 * count) / 9.0 - profile_shift)
 
 
@@ -54,7 +54,7 @@ GEARS = GearPairInputs(
 
 @cache
 def film_of_test(oil: OilSheet | Lubricant, stage: int) -> FilmOfTest:
-    """Compute the film of the test gears in an oil, at the load stage at which the oil fails.
+    """Compute the film between the test gears, for a given oil and the load stage at which this oil fails.
 
     Parameters
     ----------
@@ -66,7 +66,8 @@ def film_of_test(oil: OilSheet | Lubricant, stage: int) -> FilmOfTest:
     Returns
     -------
     FilmOfTest
-        The least film ratio and its place; torque, coefficient of friction and bulk temperature of the test.
+        The least film ratio and the point of the path at which it occurs; torque, coefficient of friction and bulk
+        temperature of the test.
     """
     torque = STAGE_TORQUE[stage]
     given = LoadDistributionInputs(GEARS, Load(torque, SPEED), pinion_material=STEEL, wheel_material=STEEL)
@@ -95,8 +96,8 @@ def permissible_ratio(check: MicropittingCheck, test: FilmOfTest | None) -> floa
     Returns
     -------
     float or None
-        Permissible film ratio [-]. With a test, the ratio follows from the film in the test. Without a test, the
-        ratio is the given ratio, or None if no ratio is given.
+        Permissible film ratio [-]. If `test` is given, the ratio follows from the film in the test. Otherwise the ratio
+        is the permissible ratio in `check`, which may be None.
 
     Notes
     -----

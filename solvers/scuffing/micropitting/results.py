@@ -12,7 +12,7 @@ Verdict = Literal["micropitting is likely", "limited margin", "micropitting is u
 
 @record
 class FilmOfTest:
-    """The film of the test gears C-GF in the oil of the pair, at the load stage at which the oil fails."""
+    """The film between the test gears C-GF with the oil of the pair, at the load stage at which this oil fails."""
 
     ratio: float = quantity(
         "specific film thickness of the micropitting test",
@@ -28,7 +28,10 @@ class FilmOfTest:
 
 @record
 class LocalPoint:
-    """The film at a point of the feature line; ratio and safety factor are None if the flanks do not touch there."""
+    """The film at a point of the feature line.
+
+    If the flanks do not touch at this point, film ratio and safety factor are None.
+    """
 
     point: PointName = quantity("point of the feature line")
     psi: float = quantity("position of the point", "Ψ", text="fraction of the path, and of the feature line")
@@ -42,7 +45,7 @@ class LocalPoint:
 
 @record
 class LocalFilm:
-    """Film over the flank under the computed load distribution (method A). Unknown values are None."""
+    """Film over the flank by method A, under the computed load distribution. Unknown values are None."""
 
     safety: float | None = quantity(
         "safety factor against micropitting",

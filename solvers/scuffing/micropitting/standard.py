@@ -22,9 +22,10 @@ BEST_GRADE = 7  # better quality grades have the load sharing of this grade
 
 @dataclass(frozen=True, slots=True)
 class StandardFilms:
-    """Friction, bulk temperature [K] and loss factor by method B, and the values at the points of the path.
+    """Results of method B: values of the whole pair, and values at the points of the path.
 
-    The values at the points are the load sharing factors X (`force_ratio`), the contacts and the films.
+    The coefficient of friction, the bulk temperature `bulk` [K] and the loss factor belong to the whole pair. The load
+    sharing factors X (`force_ratio`), the contacts and the films belong to the points.
     """
 
     friction: float
@@ -36,9 +37,9 @@ class StandardFilms:
 
 
 def characteristic_points(path: PathOfContact) -> dict[PointName, float]:
-    """Return the points A, AB, B, C, D, DE and E of the path with their distances from A [m].
+    """Return the distances [m] from A of the points A, AB, B, C, D, DE and E of the path.
 
-    Only A, C and E are defined if more than two pairs of teeth, or no pair, are in contact at some roll positions.
+    The points AB, B, D and DE are only returned if the transverse contact ratio is from 1 to 2.
     """
     length, pitch = path.length, path.plane.base_pitch
     at_pitch = path.pitch_point - path.start
@@ -59,7 +60,11 @@ def has_relief(given: LoadDistributionInputs) -> bool:
 
 
 def has_standard_film(given: LoadDistributionInputs, path: PathOfContact) -> bool:
-    """Return True if method B has load sharing factors for the pair and no point of the path is near a base circle."""
+    """Return True if method B can be used for the pair.
+
+    Method B needs a spur pair without relief and with a transverse contact ratio from 1 to 2. No point of the path may
+    be too near a base circle.
+    """
     plane = path.plane
     ends = reduced_radius(plane, np.array([0.0, path.length]))
     unmodified_spur = plane.tan_base_helix == 0.0 and not has_relief(given)

@@ -12,7 +12,10 @@ from solvers.scuffing.results import LoadDistribution
 
 
 class WearDepths(NamedTuple):
-    """Maps [profile, face] of the depth of wear of each gear per revolution of the gear [m]; NaN near a base circle."""
+    """Depth of wear of pinion and wheel per revolution of the gear [m]: two maps [profile, face].
+
+    The depth is NaN near a base circle.
+    """
 
     pinion: FloatArray
     wheel: FloatArray
@@ -75,7 +78,7 @@ def solve_wear(coefficient: float, distribution: LoadDistribution) -> Wear:
         wheel_at_psi=wheel.psi,
         wheel_at_face=wheel.face,
         psi=distribution.flank.profile_fraction,
-        pinion=frozen(depths.pinion.max(axis=1)),  # in each row either every value is NaN or no value is NaN
+        pinion=frozen(depths.pinion.max(axis=1)),  # in a row, either all values are NaN or none is
         wheel=frozen(depths.wheel.max(axis=1)),
         pinion_map=frozen(depths.pinion),
         wheel_map=frozen(depths.wheel),
@@ -83,9 +86,10 @@ def solve_wear(coefficient: float, distribution: LoadDistribution) -> Wear:
 
 
 class _Largest(NamedTuple):
-    """Largest depth of wear [m] and its place, as fraction of the path and as distance on the face [m].
+    """Largest depth of wear [m] on a flank, and the place of this depth.
 
-    All values are None if the depth has no limit.
+    `psi` is the fraction of the path from A, and `face` is the distance from the end that meshes first [m]. All values
+    are None if the depth has no limit.
     """
 
     value: float | None

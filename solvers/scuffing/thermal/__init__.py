@@ -1,4 +1,5 @@
 """Temperatures of the contact.
 
-The calculation uses the main modules in this order: practice and blok; temperatures; thermal_path; verdict.
+The calculation uses the modules in this order: practice, blok and flank; pair_heat; temperatures; thermal_path;
+verdict.
 """

@@ -21,8 +21,8 @@ def blok_flash(given: LoadDistributionInputs, points: ContactPoints) -> FloatArr
     Returns
     -------
     ndarray
-        Flash temperature [K]; 0 at points without contact or motion. NaN at loaded points that are too near a base
-        circle. NaN at every point in contact if the coefficient of friction is None.
+        Flash temperature [K]. It is 0 at points without contact or motion. It is NaN at loaded points that are too near
+        a base circle. If the coefficient of friction is None, it is NaN at every point in contact.
 
     Notes
     -----

@@ -1,10 +1,10 @@
-"""Flash temperature (Blok) and film (Dowson and Higginson) over the flank, with the hottest point and thinnest film.
+"""Flash temperature (Blok) and film (Dowson and Higginson) over the flank: search for the hottest and thinnest points.
 
 The feature line of the paper is a diagonal of the flank. If the load is carried at one end of the face, the feature
 line misses the hot corner of the flank. If the flank is crowned, the feature line crosses the loaded middle of the face
-only near the pitch point, where the flanks do not slide. The search for the largest value therefore covers the whole
-flank. Contacts at one place along the path differ only in their load. The search takes the largest value over the face
-at every place along the path, and then continues on finer grids around the places with the highest of these values.
+only near the pitch point, where the flanks do not slide. The search therefore covers the whole flank. It first takes
+the largest value over the face at every place along the path. It then continues on finer grids around the places at
+which these values are highest.
 """
 
 from collections.abc import Callable
@@ -24,7 +24,7 @@ from solvers.scuffing.results import ContactPoints, LoadDistribution
 from solvers.scuffing.thermal.blok import blok_flash
 
 SURVEY_POINTS = 4001  # points of the feature line at which the formulas are evaluated to find extreme values
-REACHES = (2, 1, 1)  # steps of the previous grid that each zoom covers on both sides; the step is divided by 2, 4 and 4
+REACHES = (2, 1, 1)  # per zoom: steps of the previous grid that are covered on each side; steps shrink by 2, 4 and 4
 ZOOM_POINTS = 9  # number of points of a zoom, both along the path and across the face
 ZOOM_FRACTIONS = np.linspace(0.0, 1.0, ZOOM_POINTS)
 
@@ -40,12 +40,13 @@ ContactFunction = Callable[[ContactPoints], FloatArray]
 
 @dataclass(frozen=True, slots=True)
 class FlashMap:
-    """Blok's flash temperature `flash` [K] over a grid of the flank; NaN where the flash temperature has no limit.
+    """Blok's flash temperature `flash` [K] over a grid of the flank; NaN at points where it has no limit.
 
     The grid has the coordinates x (n,) along the path and y (m,) along the face [m]. Values over the grid have the
-    shape (n, m); a row contains the points with the same x. `load` is the line load [N/m]. `heaviest` contains, for
-    every row, the contact under the largest load of the row. `mapped` is True for the rows that the flank's maps
-    contain. The other rows are added where the load jumps along the path: one row on each side of a jump.
+    shape (n, m); a row contains the points with the same x. `load` is the line load [N/m]. `heaviest` contains one
+    contact for every row: the contact with the largest load in this row. `mapped` is True for the rows that the flank's
+    maps contain. At every x at which the load jumps, two more rows are added: one just before and one just behind the
+    jump. For these rows `mapped` is False.
     """
 
     x: FloatArray
@@ -74,9 +75,10 @@ def contacts_under_load(
 def map_flash(given: LoadDistributionInputs, distribution: LoadDistribution) -> FlashMap:
     """Compute Blok's flash temperature at the points of the flank's maps, and on both sides of every load jump.
 
-    At one place along the path the flash temperature is proportional to the load divided by the square root of the
-    half-width. The half-width is proportional to the square root of the load. The flash temperature therefore grows
-    with the load to the power 3/4.
+    Blok's formula is evaluated only once per row, for the contact with the largest load. In a row, the contacts differ
+    only in their load, and the flash temperature is proportional to the load to the power 3/4. (The flash temperature
+    is proportional to the load divided by the square root of the half-width, and the half-width is proportional to the
+    square root of the load.)
     """
     plane, flank = distribution.path_of_contact.plane, distribution.flank
     x, y = flank.profile_fraction * plane.path_length, flank.face_fraction * plane.face_width
@@ -113,7 +115,7 @@ def _jumps(balance: LoadBalance) -> FloatArray:
 
 
 def mean_flash(flash: FlashMap) -> float | None:
-    """Return the mean flash temperature over the flank [K]; None if any value is not a number."""
+    """Return the mean flash temperature over the flank [K]; return None if the flash temperature of a point is NaN."""
     if np.isnan(flash.flash).any():
         return None
     over_face = np.trapezoid(flash.flash, flash.y, axis=1) / flash.y[-1]
@@ -137,14 +139,14 @@ def find_hottest(
     flash : FlashMap
         The result of `map_flash` for the pair and its load distribution.
     bulk : callable, optional
-        Function that returns the bulk temperature [K] at distances y [m] from the end that meshes first. If the
-        function is given, the largest sum of bulk and flash temperature is determined, otherwise the largest flash
-        temperature.
+        Function that returns the bulk temperature [K] at distances y [m] from the end that meshes first. If `bulk` is
+        given, the largest sum of bulk and flash temperature is searched. Otherwise the largest flash temperature is
+        searched.
 
     Returns
     -------
     Peak or None
-        Largest value [K] and its place [m]; None if the flash temperature of any point is not a number.
+        Largest value [K] and its place [m]; None if the flash temperature of a point is NaN.
     """
     if np.isnan(flash.flash).any():
         return None
@@ -171,7 +173,7 @@ def find_thinnest(
     flash : FlashMap
         The result of `map_flash` for the pair and its load distribution.
     film_at : callable
-        Function that returns the film [m] at contacts, as made by `formula_film`.
+        Function that returns the film [m] of contacts; `formula_film` makes such a function.
 
     Returns
     -------
@@ -195,10 +197,10 @@ def find_thinnest(
 
 
 def formula_film(inputs: ScuffingInputs) -> ContactFunction:
-    """Return a function that computes the minimum film [m] at contacts by the formula of Dowson and Higginson.
+    """Return a function that computes the minimum film [m] of contacts by the formula of Dowson and Higginson.
 
-    The film is NaN at points that are not in contact. The film is NaN at all points if the oil or the bulk temperature
-    is unknown.
+    The film is NaN at points that are not in contact. If the oil or the bulk temperature is unknown, the film is NaN at
+    all points.
     """
     lubricant, bulk = inputs.lubricant, inputs.temperatures.bulk
     if lubricant is None or bulk is None:
@@ -222,17 +224,20 @@ def formula_film(inputs: ScuffingInputs) -> ContactFunction:
 
 
 def on_diagonals(distribution: LoadDistribution, peak: Peak, function: FlankFunction) -> Peak:
-    """Return the given peak, or a higher peak on the feature line or on the lines that `_or_beside` searches."""
+    """Return `peak`, or a higher value on certain lines of the flank.
+
+    These lines are the feature line of the pair and the lines that `_or_beside` searches.
+    """
     along_feature_line = _peak_along(distribution, function, mirrored=False)
     return _or_beside(distribution, max(peak, along_feature_line, key=_height), function)
 
 
 def _or_beside(distribution: LoadDistribution, peak: Peak, function: FlankFunction) -> Peak:
-    """Return the given peak, or a higher peak on the profile line through the given peak.
+    """Return `peak`, or a higher value on certain lines of the flank.
 
-    The feature line is one diagonal of the flank, and the largest value over the flank must not be below a value on the
-    feature line. For spur pairs, the function also searches the other diagonal, because the other diagonal is the
-    feature line of the mirror image of the pair. A pair and its mirror image therefore have the same largest value.
+    The profile line through `peak` is searched. For spur pairs, one diagonal of the flank is also searched: the feature
+    line of the mirror image of the pair. The feature line of the pair itself is searched elsewhere. A pair and its
+    mirror image therefore have the same largest value.
     """
     peak = max(peak, _peak_at_kinks(distribution, function, peak), key=_height)
     if distribution.path_of_contact.plane.tan_base_helix > 0.0:
@@ -241,10 +246,11 @@ def _or_beside(distribution: LoadDistribution, peak: Peak, function: FlankFuncti
 
 
 def _peak_at_kinks(distribution: LoadDistribution, function: FlankFunction, peak: Peak) -> Peak:
-    """Find the largest value at the points where contact lines of the roll positions cross the profile line of `peak`.
+    """Find the largest value on the profile line through `peak`, at the roll positions of the load balance.
 
-    Between roll positions, the approach is linear. The load has a maximum where another pair of teeth begins to carry
-    load. This maximum therefore lies at a roll position. The search over the grid can miss this maximum, because roll
+    At every roll position, the contact lines cross the profile line at certain points; these points are searched. Where
+    another pair of teeth begins to carry load, the load has a sharp maximum. This maximum lies at a roll position,
+    because the approach is linear between roll positions. The search over the grid can miss this maximum, because roll
     positions may lie closer together than the points of the grid.
     """
     plane, rolls = distribution.path_of_contact.plane, distribution.balance.rolls
@@ -274,9 +280,9 @@ def _height(peak: Peak) -> float:
 def find_largest(grid: FlashMap, values: FloatArray, function: FlankFunction) -> Peak:
     """Find the largest value of a function over the flank, starting from the function's `values` (n, m) on the grid.
 
-    The largest values of the rows form a ridge along the path. Around the highest tops of the ridge, the function is
-    evaluated on finer and finer grids. Every grid contains the place of the previous grid's largest value, so that this
-    value is not lost.
+    The largest value of every row is taken first; these values are a function of x with several local maxima. Around
+    the highest local maxima, `function` is evaluated on finer and finer grids. Every finer grid contains the point with
+    the largest value of the previous grid, so that this value is not lost.
     """
     across = np.argmax(values, axis=1)
     highest = np.array(tops(values[np.arange(grid.x.size), across])[-TOPS:])
@@ -292,10 +298,11 @@ def find_largest(grid: FlashMap, values: FloatArray, function: FlankFunction) ->
 
 
 def _around(places: FloatArray, top: IntArray, reach: int) -> FloatArray:
-    """Return equidistant places around the place with the index `top` of every row.
+    """Return a finer row of equidistant places for every row of `places`.
 
-    These places extend over `reach` steps of the row to both sides. The place with the index `top` replaces the nearest
-    of the equidistant places.
+    `top` contains, for every row, the index of one place, which is the centre of the finer row. The finer row extends
+    over `reach` steps of the old row on both sides of the centre. In the finer row, the place that is nearest to the
+    centre is replaced by the centre.
     """
     row, last = np.arange(top.size), places.shape[1] - 1
     centre = places[row, top]

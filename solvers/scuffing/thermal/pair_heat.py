@@ -19,9 +19,10 @@ STEEL_EXPANSION = 12e-6  # 1/K, thermal expansion of gears and casing
 
 
 def is_beyond_the_estimate(gears: GearPairInputs, pinion_speed: float) -> bool:
-    """Return True if the pitch-line velocity of a pair exceeds 60 m/s at a given speed of the pinion [rad/s].
+    """Return True if the bulk temperature of ISO/TR 13989-1 would be too low, because the flanks are not flooded.
 
-    Raises the errors of `gear_pair`.
+    This is the case if the pitch-line velocity exceeds 60 m/s. `pinion_speed` is in rad/s. Raises the errors of
+    `gear_pair`.
     """
     return pinion_speed * gear_pair(gears).pinion_working_radius > FLOODED_UP_TO
 
@@ -90,7 +91,7 @@ def with_flanks(inputs: ScuffingInputs, heat: Heat) -> ScuffingInputs:
 
 
 def gear_geometries(given: LoadDistributionInputs, path: PathOfContact) -> tuple[GearGeometry, GearGeometry]:
-    """Return the geometry of both gears for the heat balance; the shafts of the gears are left out."""
+    """Return the geometry of both gears for the heat balance, without their shafts."""
     pair, speed = path.pair, abs(given.load.pinion_speed)
     speeds = (speed, speed * pair.pinion.teeth / pair.wheel.teeth)
     pinion, wheel = (
@@ -111,9 +112,10 @@ def gear_geometries(given: LoadDistributionInputs, path: PathOfContact) -> tuple
 
 
 def mesh_heat(inputs: ScuffingInputs, distribution: LoadDistribution) -> MeshHeat:
-    """Return the friction loss of the mesh.
+    """Return the friction of the mesh in the form that the heat balance uses.
 
-    The loss depends on the oil temperature, unless the user gives the coefficient of friction.
+    In the heat balance, the friction depends on the viscosity of the oil, and therefore on the temperature. But if the
+    user gives the coefficient of friction, the friction is constant.
     """
     return MeshHeat(
         power=distribution.friction_loss.power or 0.0,

@@ -25,7 +25,7 @@ HIGH_RISK_BELOW, LOW_RISK_ABOVE = 1.0, 2.0  # limits of the safety factor; quote
 
 
 def lubricant_factor(viscosity: float, kind: OilKind) -> float:
-    """Compute the lubricant factor of the coefficient of friction that is used for the flash temperature.
+    """Compute the lubricant factor in the formula of the mean coefficient of friction for the flash temperature.
 
     Parameters
     ----------
@@ -41,14 +41,14 @@ def lubricant_factor(viscosity: float, kind: OilKind) -> float:
 
     Notes
     -----
-    X_L = eta_oil^-0.05 with eta_oil in mPa s, times 0.8 for polyalphaolefins and 0.7 for polyglycols (Eq. R6). No
-    factor is known for esters; they are treated as mineral oils.
+    X_L = eta_oil^-0.05 with eta_oil in mPa s (Eq. R6). For polyalphaolefins this value is multiplied by 0.8, and for
+    polyglycols by 0.7. No such number is known for esters; esters are treated as mineral oils.
     """
     return float(OIL_KIND_FACTOR[kind] * (viscosity * 1e3) ** -0.05)
 
 
 def roughness_factor(roughness_1: float, roughness_2: float) -> float:
-    """Compute the roughness factor of the mean coefficient of friction.
+    """Compute the roughness factor in the formula of the mean coefficient of friction.
 
     Parameters
     ----------
@@ -94,8 +94,9 @@ def mean_friction(inputs: LoadDistributionInputs, path: PathOfContact, factor: f
     Notes
     -----
     mu = 0.060 [w_Bt/(v_SigmaC rho_relC)]^0.2 X_L X_R (Eq. R5), with w_Bt = K_A K_v K_gamma K_Hbeta K_Halpha F_t/b.
-    A value of w_Bt below 150 N/mm is raised to 150 N/mm. F_t acts at the reference circle; the transverse load factor
-    K_Halpha is 1.
+    A value of w_Bt below 150 N/mm is raised to 150 N/mm. v_SigmaC is the sum of the tangential speeds at the pitch
+    point, and rho_relC is the reduced radius at the pitch point. F_t acts at the reference circle; the transverse load
+    factor K_Halpha is 1.
     """
     load, width = inputs.load, inputs.gears.face_width
     line_load = face_load_factor * load.contact_factor * load.torque / path.pair.pinion.reference_radius / width
@@ -125,7 +126,8 @@ def loss_friction(inputs: LoadDistributionInputs, path: PathOfContact, viscosity
     -----
     mu = 0.048 [w_bt/(v_SigmaC rho_redC)]^0.2 eta_oil^-0.05 Ra^0.25 X_L (Eq. R10). Here w_bt = F_bt/b follows from the
     transmitted torque; values below 150 N/mm are raised to 150 N/mm. F_bt acts at the base circle and does not contain
-    load factors. X_L is 1 for mineral oils, 0.8 for polyalphaolefins and 0.7 for polyglycols; for esters 0.8 is
+    load factors. v_SigmaC is the sum of the tangential speeds at the pitch point, and rho_redC is the reduced radius at
+    the pitch point. X_L is 1 for mineral oils, 0.8 for polyalphaolefins and 0.7 for polyglycols; for esters 0.8 is
     assumed.
     """
     line_load = inputs.load.torque / path.pair.pinion.base_radius / inputs.gears.face_width
@@ -200,7 +202,7 @@ def bulk_temperature(oil: float, supply: OilSupply, mean_flash: float) -> float:
 
 
 def scuffing_risk(safety: float) -> ScuffingRisk:
-    """Return the risk class of the standard for a safety factor that is computed with Blok's flash temperature.
+    """Return the risk class by ISO/TR 13989-1 for a safety factor that was computed with Blok's flash temperature.
 
     The risk is high below 1, low above 2, and moderate in between. These limits are quoted from a secondary source.
     """

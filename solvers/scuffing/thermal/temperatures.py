@@ -1,9 +1,10 @@
 """Values of a scuffing check that are estimated if they are not given.
 
 These values are the coefficient of friction, the bulk temperature, the properties of the oil at the bulk temperature,
-and the scuffing temperature. No iteration is needed, because friction uses the viscosity at the oil temperature, and
-only the film uses the viscosity at the bulk temperature. The heat balance computes the bulk temperature from the
-losses. In the heat balance, the coefficient of friction for the losses depends on the oil temperature.
+and the scuffing temperature. The bulk temperature depends on the friction. But the friction does not depend on the bulk
+temperature, because the friction uses the viscosity at the oil temperature. No iteration is therefore needed. Only the
+film uses the viscosity at the bulk temperature. If a heat balance is solved, this heat balance adapts the friction loss
+to the temperature of the flanks, within its own iteration.
 """
 
 from collections.abc import Iterator
@@ -55,11 +56,13 @@ class InForce(NamedTuple):
 
 
 def in_force(inputs: ScuffingInputs, distribution: LoadDistribution) -> InForce:
-    """Return inputs and load distribution with numbers for friction, temperatures and oil.
+    """Replace every estimate in the inputs and in the load distribution by a number.
 
-    The heat balance is solved only if the flank temperatures are not given. The flank temperatures are given if the
-    pair belongs to a gear unit, because the heat balance of the unit is solved before the pair is checked. Raises the
-    errors of `with_friction`, `pair_heat` and `with_temperatures`.
+    Estimates are made for the friction, the temperatures and the oil. If `bulk_method` is "heat_balance", the heat
+    balance of the pair is solved, except in two cases. If no oil is given, it cannot be solved. If the flank
+    temperatures are given, it is not needed: they are given for a pair in a gear unit, because the heat balance of the
+    unit is solved before the pair is checked. Raises the errors of `with_friction`, `pair_heat` and
+    `with_temperatures`.
     """
     inputs, distribution = with_friction(inputs, distribution)
     flash = map_flash(inputs.distribution, distribution)
@@ -72,7 +75,10 @@ def in_force(inputs: ScuffingInputs, distribution: LoadDistribution) -> InForce:
 
 
 def with_friction(inputs: ScuffingInputs, distribution: LoadDistribution) -> tuple[ScuffingInputs, LoadDistribution]:
-    """Return the inputs with the friction for the flash temperature, and the load distribution with the friction loss.
+    """Return the inputs and the load distribution, with coefficients of friction for flash temperature and losses.
+
+    The returned inputs contain the coefficient for the flash temperature. The returned load distribution contains the
+    friction loss.
 
     A given coefficient of friction is used for flash temperature and losses. Otherwise the flash temperature uses the
     coefficient of ISO/TR 13989-1, which is on the safe side for scuffing. The losses use Schlenk's coefficient, which
@@ -96,15 +102,15 @@ def with_friction(inputs: ScuffingInputs, distribution: LoadDistribution) -> tup
 def with_temperatures(inputs: ScuffingInputs, distribution: LoadDistribution, flash: FlashMap) -> ScuffingInputs:
     """Return the inputs with numbers for bulk and scuffing temperature, and with the oil at the bulk temperature.
 
-    Bulk temperature and lubricant are None if there is no oil. Both are also None if the bulk temperature cannot be
-    estimated because the flash temperature has no mean.
+    If no oil is given, the bulk temperature and the lubricant are None. Both are also None if the bulk temperature
+    cannot be estimated, because the flash temperature is NaN at some point and therefore has no mean.
 
     Raises
     ------
     InvalidInput
-        `missing_bulk` if the bulk temperature is neither given nor estimated, `oil_temperature` if the bulk temperature
-        is outside the range of an oil that is given by its data sheet, `scuffing_temperature` if the oil is not cooler
-        than the scuffing temperature.
+        `missing_bulk` if the bulk temperature is neither given nor estimated; `oil_temperature` if the oil is given by
+        its data sheet and the bulk temperature is outside the range of such oils; `scuffing_temperature` if the
+        scuffing temperature is not above the oil temperature.
     """
     temperatures, oil = inputs.temperatures, inputs.known_oil
     if oil is None:
@@ -169,7 +175,7 @@ def oil_notices(inputs: ScuffingInputs, path: PathOfContact) -> Iterator[Notice]
 
 
 def _material_notices(inputs: ScuffingInputs) -> Iterator[Notice]:
-    """Warn of estimates by formulas that were made for steel gears, if a gear is of another material."""
+    """Warn if a gear is not made of steel, but estimates use formulas for steel gears."""
     estimates = {
         "the coefficient of friction": inputs.friction == "iso_tr_13989",
         "the bulk temperature": inputs.temperatures.bulk_method == "estimated",
@@ -193,11 +199,11 @@ def _oil_factor(oil: OilSheet | Lubricant, temperature: float) -> float:
 
 
 def estimated_bulk(inputs: ScuffingInputs, distribution: LoadDistribution, flash: FlashMap) -> float | None:
-    """Return the bulk temperature [K] from the mean flash temperature; None if the mean is not defined.
+    """Estimate the bulk temperature [K] from the mean flash temperature; return None if the mean is not defined.
 
-    The mean is taken over the part that is checked, which is the flank or the feature line. The bulk temperature must
-    be the same for a pair and its mirror image. The mean over the flank meets this condition; the mean along the
-    feature line does not.
+    If the whole flank is checked, the mean over the flank is used. This mean is the same for a pair and its mirror
+    image. If only the feature line is checked, the mean along the feature line is used. That mean may differ between a
+    pair and its mirror image.
     """
     given = inputs.distribution
     if inputs.line == "flank":

@@ -60,10 +60,11 @@ def thermal_paths(
 def _solve_line(
     points: ContactPoints, contacts: dict[int, ehl.LineContactInputs], refusals: dict[int, InvalidInput]
 ) -> tuple[ThermalPath, list[ehl.LineContactResult]]:
-    """Solve one line; return the path of the line, and the results of the points solved under their own load.
+    """Solve the points of one line.
 
-    If a point is refused because its load is too light, the point is solved under the lightest load that the solver
-    accepts. This solution gives bounds for flash temperature and film.
+    If the solver refuses a point because its load is too light, the point is solved under the lightest load that the
+    solver accepts. This solution gives bounds for flash temperature and film. The function returns the `ThermalPath` of
+    the line, and a list of results. The list contains only points that were solved under their own load.
     """
     light = {point: ehl.lightest(contacts[point]) for point, why in refusals.items() if why.code == "load_range"}
     solvable = {
@@ -118,7 +119,7 @@ def _refusal(contact: ehl.LineContactInputs) -> InvalidInput | None:
 
 
 def _values(result: ehl.LineContactResult) -> dict[str, float | None]:
-    """Return the values of a solved point under the names of the curves."""
+    """Return the values of a solved point; a key is the name of a curve in `ThermalPath`."""
     assert result.temperature is not None
     assert result.pressure is not None
     assert result.friction is not None
@@ -134,7 +135,7 @@ def _values(result: ehl.LineContactResult) -> dict[str, float | None]:
 
 
 def _bounds(result: ehl.LineContactResult) -> dict[str, float | None]:
-    """Return bounds for a point whose load is too light, from the solution under the lightest load of the solver."""
+    """Return bounds for a point whose load is too light; `result` is the solution under the lightest accepted load."""
     assert result.temperature is not None
     flash = max(result.temperature.surface_1_flash, result.temperature.surface_2_flash)
     return {"flash_bound": flash, "film_bound": result.film.minimum}
@@ -157,5 +158,5 @@ def _notices(results: Sequence[ehl.LineContactResult], refusals: Sequence[Invali
 
 
 def _field(of_contact: str | None) -> str | None:
-    """Return the scuffing input that determines an input of the line contact."""
+    """Return the name of the scuffing input that determines the input `of_contact` of the line contact."""
     return None if of_contact is None else FIELDS.get(of_contact, of_contact)

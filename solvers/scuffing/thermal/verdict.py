@@ -1,7 +1,8 @@
-"""Largest flash temperature and thinnest film of the lines and of the flank, or the reason why they are not stated.
+"""Largest flash temperature and thinnest film of the lines and of the flank, and warnings if they are not stated.
 
-Both values are stated only if bounds show that no unsolved point is hotter and that no unsolved point has a thinner
-film.
+If a point is unsolved, bounds may show that this point is not hotter than the hottest solved point and that its film is
+not thinner than the thinnest solved film. The two values by thermal EHL are stated only if the bounds show this for
+every unsolved point.
 """
 
 from collections.abc import Sequence
@@ -28,10 +29,10 @@ class CheckedLine(NamedTuple):
 
 
 def unknown_points(paths: Sequence[ThermalPath], bulks: Sequence[FloatArray]) -> int:
-    """Count the unsolved points that may be hotter than all solved points, or may have a thinner film.
+    """Count the unsolved points that may be hotter, or may have a thinner film, than every solved point.
 
-    `bulks` contains the bulk temperatures [K] at the points of every path. The array of a path has either one row for
-    both gears, or two rows for pinion and wheel.
+    `bulks` contains one array for every path: the bulk temperatures [K] at the points of the path. Such an array has
+    either one row for both gears, or two rows for pinion and wheel.
     """
     status = np.concatenate([path.status for path in paths])
     film, film_bound, flank, flash_bound = (
@@ -63,7 +64,8 @@ def hotter_surface(path: ThermalPath, bulk: FloatArray) -> FloatArray:
 def largest_flash(lines: Sequence[CheckedLine], hottest: Peak | None, path_length: float) -> Flash:
     """Return the largest flash temperature by Blok, and the largest flash temperature by thermal EHL.
 
-    At each point, the thermal EHL solution gives a flash temperature for each surface. The larger value is used.
+    At each point, the thermal EHL solution gives two flash temperatures: one for the pinion and one for the wheel. The
+    larger of the two is used.
 
     Parameters
     ----------
@@ -105,14 +107,15 @@ def thinnest_film(
 ) -> Film:
     """Return the thinnest film and its ratio to the roughness.
 
-    The ratio is computed with the film by thermal EHL if this film is solved, else with the film of the formula.
+    If the thermal EHL contact is solved, the ratio is computed with the film by thermal EHL. Otherwise the ratio is
+    computed with the film by Dowson and Higginson.
 
     Parameters
     ----------
     lines : sequence of CheckedLine
         The feature line, and the profile line if it was checked.
     thinnest : Peak or None
-        Thinnest film of the formula over the flank [m]; None if the flank was not checked.
+        Thinnest film over the flank by Dowson and Higginson [m]; None if the flank was not checked.
     path_length : float
         Length of the path of contact [m].
     given : LoadDistributionInputs
@@ -143,7 +146,7 @@ def thinnest_film(
 
 
 def without_thermal(flash: Flash, film: Film) -> tuple[Flash, Film]:
-    """Remove the values by thermal EHL from flash temperature and film; the values of the formulas remain."""
+    """Remove all values by thermal EHL; the values by Blok and by Dowson and Higginson remain."""
     by_formula = replace(
         flash, thermal_ehl_max=None, thermal_ehl_at_psi=None, thermal_ehl_at_profile=None, thermal_ehl_at_face=None
     )
@@ -153,9 +156,10 @@ def without_thermal(flash: Flash, film: Film) -> tuple[Flash, Film]:
 def _extreme(
     lines: Sequence[CheckedLine], curves: Sequence[FloatArray], *, largest: bool
 ) -> tuple[float, float, float] | None:
-    """Return the extreme value of all lines, and its profile position (fraction of the path) and face position [m].
+    """Return the largest or smallest value of all lines, and the place of this value.
 
-    The result is None if the lines have no value.
+    The place is stated by the fraction of the path and by the distance on the face [m]. The result is None if all
+    values are NaN.
     """
     values = np.concatenate(curves)
     if not _any_number(values):
@@ -178,7 +182,10 @@ def _any_number(values: FloatArray) -> bool:
 
 
 def _what_leaves_no_film(distribution: LoadDistribution) -> str:
-    """Return the input that causes points without a film: torque or speed if its value is 0, else the modifications."""
+    """Return the name of the input that causes points without a film.
+
+    This input is the torque or the speed if its value is 0. Otherwise the modifications are the cause.
+    """
     if distribution.balance.force == 0.0:
         return "pinion_torque"
     return "modifications" if np.any(distribution.feature_line.pinion_speed > 0.0) else "pinion_speed"
@@ -193,8 +200,8 @@ def path_notices(
 ) -> tuple[Notice, ...]:
     """List warnings about points without a film, about unsolved points, and about a meaningless safety factor.
 
-    `unknown` is the number of unsolved points at which an extreme value may lie. A note is added if the risk class of
-    the feature line alone differs from the risk class of the flank.
+    `unknown` is the number of unsolved points that may be the hottest, or may have the thinnest film. If the feature
+    line alone would give another risk class than the whole flank, a note says so.
     """
     notices = []
     status = [outcome for path in paths for outcome in path.status]
