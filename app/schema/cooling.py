@@ -34,10 +34,10 @@ class GearCooling(Section, of=si.Cooling):
     """The supply of oil to the teeth, further losses that heat the oil, and measured temperatures."""
 
     def unused(self) -> dict[str, bool]:
-        """Mark fields whose values follow from other given values as unused.
+        """Mark a field as unused if another given value determines its value.
 
-        These are the rise of the oil temperature (if the oil flow is given), the wetting share (if the temperature of a
-        gear is measured) and the other losses (if the temperature of the drained oil is measured).
+        The oil flow determines the rise of the oil temperature. The measured temperature of a gear determines the
+        wetting share. The measured temperature of the drained oil determines the other losses.
         """
         measured = self.measured
         return {
@@ -69,7 +69,7 @@ class HeatLosses(Group, of=results.HeatLosses):
 
 
 class HeatSuppliedRemoved(Group, of=results.Balance):
-    """The supplied heat, the removed heat, and the ratio of their difference to the supplied heat."""
+    """The supplied heat, the removed heat, and the difference of the two divided by the supplied heat."""
 
 
 class BulkByStandards(Group, of=results.BulkEstimates):
@@ -77,7 +77,7 @@ class BulkByStandards(Group, of=results.BulkEstimates):
 
 
 class BandOfHeat(Group, of=results.HeatBand):
-    """Ranges of the flank temperatures and of the safety, because the cooling is uncertain.
+    """Ranges in which the flank temperatures and the safety factor lie, because the cooling is uncertain.
 
     The ranges state no probability.
     """
@@ -88,4 +88,4 @@ class HeatBalanceResult(Group, of=results.Heat):
 
 
 class CoolingInForce(Group, of=results.CoolingInForce):
-    """The values that the calculation uses for inputs of the cooling that a request may leave out."""
+    """The values that the calculation uses for cooling inputs that a request may leave out."""

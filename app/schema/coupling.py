@@ -114,7 +114,7 @@ class CouplingFriction(Section, of=si.Friction):
 
 
 class CouplingModel(Section, of=si.ModelOptions):
-    """Choices in the coupling model that the paper leaves open."""
+    """Choices that the paper leaves open in the coupling model."""
 
 
 class _CouplingRequest(Request):
@@ -168,7 +168,7 @@ class SleeveOrbitRequest(CouplingRequest):
         return {"kinematics": self.model.kinematics, "sleeve": "floating"}
 
     def unused(self) -> dict[str, bool]:
-        """Mark the sections `lubricant`, `friction` and `model` as unused, and four fields of the coupling.
+        """Mark the sections `lubricant`, `friction` and `model` and four fields of the coupling as unused.
 
         These four fields describe the contact and the second mesh. Mark Young's modulus as unused if the tooth
         stiffness is given.
@@ -185,7 +185,7 @@ class RecommendationRequest(_CouplingRequest):
     operation: Annotated[CouplingOperationRange, Input("operating point", text="with a range of misalignment")]
 
     def unused(self) -> dict[str, bool]:
-        """Mark the same inputs as the base class as unused, and two further inputs.
+        """Mark two inputs as unused in addition to the inputs that the base class marks.
 
         The two inputs are the factor of the simple thrust model and the coefficient of friction at rest. Both only
         affect results at a single operating point.
@@ -304,7 +304,7 @@ def _used(name: str, title: str) -> Output:
 
 
 class ProportionsInForce(Group):
-    """The face width, the tooth height and the tooth stiffness of a coupling that the calculation uses."""
+    """Face width, tooth height and tooth stiffness that the calculation uses for a coupling."""
 
     face_width_mm: Annotated[float, _used("face_width", "face width used")]
     tooth_height_mm: Annotated[float, _used("tooth_height", "tooth height used")]
@@ -312,14 +312,14 @@ class ProportionsInForce(Group):
 
 
 class CouplingProportions(ProportionsInForce, Derived):
-    """The face width, the tooth height and the tooth stiffness that the calculation uses.
+    """Face width, tooth height and tooth stiffness that the calculation uses.
 
     If the request omits one of these values, the default of this value is used.
     """
 
 
 class CouplingDerived(CouplingProportions, of=results.Derived):
-    """The face width, tooth height, tooth stiffness and oil viscosity that the calculation uses.
+    """Face width, tooth height, tooth stiffness and oil viscosity that the calculation uses.
 
     If the request omits one of these values, the default of this value is used.
     """

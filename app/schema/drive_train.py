@@ -55,7 +55,7 @@ class TrainGears(BacklashGears, of=si.Arrangement, only=("hand",)):
     def pair(self, rack_tip_radius: float) -> GearPairInputs:
         """Return the solver's gear pair.
 
-        `rack_tip_radius` is the tip radius coefficient of the rack that is used if the request gives none.
+        If the request gives no tip radius coefficient of the rack, `rack_tip_radius` is used.
         """
         own = self.rack_tip_radius
         return self.si(GearPairInputs, rack_tip_radius=rack_tip_radius if own is None else own)
@@ -68,7 +68,7 @@ class TrainOperation(ScuffingLoad, of=si.Arrangement, without=("hand",)):
 
 
 class GroundCurve(Section, of=mesh.LeadCurve):
-    """A gap along the face that is ground in addition to the named modifications.
+    """A gap along the face, ground in addition to the named modifications.
 
     The gap may have any shape. Empty lists mean that there is no such gap.
     """
@@ -79,7 +79,7 @@ class TrainModifications(FlankModifications, of=mesh.Modifications):
 
 
 class TrainModel(MeshModel, PumpingOptions, of=si.DriveTrainInputs, only=("face_stations", "coupling_friction")):
-    """Choices in the models that the papers leave open, and the numerical resolution."""
+    """Choices that the papers leave open in the models, and the numerical resolution."""
 
 
 def _isotropic(value: Any) -> Any:
@@ -391,7 +391,7 @@ class DriveTrainRequest(MeshInOil):
         return super().options() | {"slices": self.model.si(pumping.PumpingModel).slice_count}
 
     def unused(self) -> dict[str, bool]:
-        """Mark the same inputs as the base class as unused, and further inputs.
+        """Mark further inputs as unused in addition to the inputs that the base class marks.
 
         The further inputs are inputs of effects that are switched off, inputs that the heat balance replaces, and two
         inputs of the cooling.
@@ -461,7 +461,7 @@ class SectionInForce(Group, of=derived.DerivedSection):
 
 
 class ShaftInForce(Group, of=derived.DerivedShaft):
-    """The values that the calculation uses for inputs of a shaft that a request may leave out."""
+    """The values that the calculation uses for shaft inputs that a request may leave out."""
 
 
 class HeatInForce(Group, of=derived.DerivedHeat):
@@ -526,11 +526,11 @@ class ShaftSummary(Group, of=results.ShaftResult, without=("curves",)):
 
 
 class ShaftState(ShaftSummary, of=results.ShaftResult):
-    """Results of the bearings of a shaft, the axial forces on the shaft, and its displaced axis."""
+    """Results of the bearings of a shaft, the axial forces on the shaft, and the displaced axis of the shaft."""
 
 
 class CouplingInForce(Group, of=derived.DerivedCoupling):
-    """The values that the calculation uses for inputs of a coupling that a request may leave out."""
+    """The values that the calculation uses for coupling inputs that a request may leave out."""
 
     coupling: ProportionsInForce
 

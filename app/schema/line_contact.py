@@ -88,7 +88,7 @@ class ContactNumbers(Group, of=results.Dimensionless):
 
 
 class FilmThickness(Group, of=results.FilmThickness):
-    """Film thickness, computed and by the formula of Dowson and Higginson.
+    """Film thickness of the solution, and minimum film thickness by the formula of Dowson and Higginson.
 
     If there is no solution, only the value by the formula is given. The other values are then null.
     """
@@ -121,7 +121,7 @@ class ContactConvergence(Group, of=results.Convergence):
 
 
 class MeshErrors(Group, of=results.MeshError):
-    """Estimated relative errors of the results, which the numerical grid causes.
+    """Estimated relative errors of the results due to the numerical grid.
 
     If a coefficient of friction is below 0.001, its error is relative to 0.001. If a flash temperature is below 25 K,
     its error is relative to 25 K.

@@ -1,7 +1,7 @@
 """Models of requests and responses, filled from the dataclasses of the solvers.
 
     class CouplingModel(Section, of=si.ModelOptions):
-    \"\"\"Choices in the coupling model that the paper leaves open.\"\"\"
+    \"\"\"Choices that the paper leaves open in the coupling model.\"\"\"
 
 This class gets one field for each field that `si.ModelOptions` declares. If the quantity has a unit, the name of the
 field ends with the unit. Solvers append an underscore to a name that is a keyword of Python (`from_`). The field of the

@@ -25,7 +25,7 @@ RARELY = "by the kind of oil; a data sheet rarely gives it"
 
 
 def _of_a_sheet(name: str, ge: float, le: float, text: str, assumed: str | None = None) -> Input:
-    """Return the declaration of an oil property that follows from a grade or data sheet if one of them is given."""
+    """Return the declaration of an oil property that follows from the grade or data sheet if the oil has one."""
     return Input.of(
         Lubricant,
         name,
@@ -189,7 +189,7 @@ class Oil(SheetOil, of=Lubricant):
     @model_validator(mode="before")
     @classmethod
     def properties_follow_the_sheet(cls, given: Any) -> Any:
-        """Set properties that the request does not give to null, unless the viscosity alone describes the oil.
+        """Use null as the default of the properties, unless the viscosity alone describes the oil.
 
         If a grade or data sheet is given, the null properties follow from the grade or data sheet.
         """
@@ -270,7 +270,7 @@ class CouplingLubricant(SheetOil):
         return self
 
     def at_teeth(self) -> OilAtTeeth:
-        """Return the solver's oil. If a grade or data sheet is given, the viscosity follows from it."""
+        """Return the solver's oil. A grade or data sheet takes precedence over a given viscosity."""
         sheet = self.sheet()
         if sheet is None:
             return self.si(OilAtTeeth, temperature=None)

@@ -28,7 +28,7 @@ class Mist(Section, of=si.Ambient):
 
 
 class PumpingOptions(Section, of=si.PumpingModel):
-    """Choices in the pumping model that the paper leaves open."""
+    """Choices that the paper leaves open in the pumping model."""
 
     def unused(self) -> dict[str, bool]:
         """Mark options as unused if the chosen flow model does not have them.
@@ -137,7 +137,7 @@ class LeadCurves(Group, of=lead_correction.LeadCurves):
 
 
 class PumpingLeadCorrection(Group, of=lead_correction.LeadCorrection):
-    """Lead correction of the pinion, which compensates for the thermal growth of the pinion.
+    """The lead correction that compensates for the thermal growth of the pinion.
 
     The growth is computed as if the metal warmed as much as the gas.
     """
@@ -148,7 +148,7 @@ class PumpingPulsation(Group, of=pulsation.Pulsation):
 
 
 class PumpingResolution(Group, of=results.Resolution):
-    """Relative uncertainties of the results, which the limited resolution causes.
+    """Relative uncertainties of the results due to the limited resolution.
 
     The resolution is the number of slices, steps or positions. The results are also computed with a half and with a
     quarter of this number. The uncertainties follow from the differences.

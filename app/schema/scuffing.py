@@ -52,7 +52,7 @@ class ScuffingLoad(Section, of=si.Load):
 
 
 class LoadDistributionModel(Section, of=(si.Model, si.Resolution)):
-    """Choices in the model of the load distribution that the paper leaves open."""
+    """Choices that the paper leaves open in the model of the load distribution."""
 
 
 class GearPairRequest(Request):
@@ -420,7 +420,7 @@ class MeshInOil(Request):
     @model_validator(mode="before")
     @classmethod
     def methods_of_given_values(cls, sent: Any) -> Any:
-        """Set a method to "given" if the request gives one of its values and does not give the method."""
+        """Set a method to "given" if the request gives a value for the method, but not the method itself."""
         for method, values in cls.methods.items() if isinstance(sent, dict) else ():
             section, name = method.split(".")
             held = sent.get(section, {})
@@ -559,7 +559,7 @@ class ScuffingRequest(MeshInOil, GearPairRequest):
         return self.gears.si(GearPairInputs), self.load.si(si.Load)
 
     def unused(self) -> dict[str, bool]:
-        """Mark the same inputs as the base class as unused, and two further inputs.
+        """Mark two inputs as unused in addition to the inputs that the base class marks.
 
         The two inputs are the film share of the bearings and the mass of the casing. Only gear units use these inputs.
         """
@@ -573,7 +573,7 @@ class ScuffingRequest(MeshInOil, GearPairRequest):
 class ScuffingOilDerived(ScuffingDerived, of=(safety_results.ScuffingDerived, OilInUse)):
     """The torque, the power and the lengths that the calculation uses, and properties of the oil.
 
-    The oil properties are properties at the reference temperature.
+    The properties of the oil hold at the reference temperature of the oil.
     """
 
 
