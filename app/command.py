@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from app.settings import MEBIBYTE, Settings, settings
+from app.settings import Settings, settings
 
 PROGRESS_S = 1.0  # time between two lines that report progress
 EXIT_STATUS = {"ok": 0, "ok_with_warnings": 3, "no_solution": 4}  # status 1: no answer, 2: wrong arguments
@@ -52,7 +52,7 @@ def print_unit(file: Path) -> None:
     from app.rexs.answer import unit_of  # noqa: PLC0415
 
     try:
-        unit = unit_of(file.read_bytes(), settings().rexs_mb * MEBIBYTE)
+        unit = unit_of(file.read_bytes(), settings().rexs_bytes)
     except OSError as error:
         sys.exit(f"tribodrive: {file}: {error.strerror}")
     except Unprocessable as error:

@@ -78,6 +78,11 @@ class Settings(BaseSettings):
         return [name.strip() for name in names.split(",") if name.strip()] if isinstance(names, str) else names
 
     @property
+    def rexs_bytes(self) -> int:
+        """Largest gear unit from a file, unpacked, in bytes."""
+        return self.rexs_mb * MEBIBYTE
+
+    @property
     def most_study_points(self) -> int:
         """Largest number of points of one study.
 

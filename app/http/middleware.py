@@ -27,12 +27,6 @@ SECURITY_HEADERS = (
     (b"cache-control", b"no-store"),
     (b"content-security-policy", CONTENT_POLICY),
 )
-# A format string is faster than json.dumps. Only the address of the client needs escaping, because it may be a text
-# from a proxy.
-LOG_LINE = (
-    '{"time": %.3f, "request_id": "%s", "client": %s, "method": "%s", "endpoint": "%s", "status": %d, '
-    '"duration_ms": %.3f}'
-)
 CLIENT_GONE = 499  # nginx's status for a client that closed the connection; this status appears only in the log
 
 logger = logging.getLogger(REQUEST_LOG)
@@ -45,7 +39,7 @@ class Protection:
         self._app = app
         self._settings = settings
         # Files of gear units are larger than requests.
-        self._most_bytes = dict.fromkeys(("/v1/rexs", "/v1/rexs/results", "/rexs"), (settings.rexs_mb + 1) * MEBIBYTE)
+        self._most_bytes = dict.fromkeys(("/v1/rexs", "/v1/rexs/results", "/rexs"), settings.rexs_bytes + MEBIBYTE)
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Answer a request even if the application fails; log and count the request."""
@@ -95,8 +89,9 @@ class Protection:
             REQUESTS.labels(endpoint, status).inc()
             DURATION.labels(endpoint).observe(seconds)
             address = scope["client"][0] if self._settings.log_clients and scope.get("client") else None
-            line = (time.time(), identifier, json.dumps(address), scope["method"], endpoint, status, seconds * 1e3)
-            logger.info(LOG_LINE, *line)
+            line = {"time": round(time.time(), 3), "request_id": identifier, "client": address}
+            line |= {"method": scope["method"], "endpoint": endpoint, "status": status}
+            logger.info(json.dumps(line | {"duration_ms": round(seconds * 1e3, 3)}))
 
     def _inner(self, scope: Scope, identifier: str) -> Scope:
         """Return the scope for the application.

@@ -11,7 +11,7 @@ from pydantic import BaseModel
 from pydantic.json_schema import models_json_schema
 from starlette.exceptions import HTTPException
 
-from app.errors import PROBLEMS, Fault, InvalidBody, Unprocessable, faults_of, kind_of, pointer
+from app.errors import PROBLEMS, Fault, InvalidBody, Kind, Unprocessable, faults_of, kind_of, pointer
 from app.schema.quantities import Output
 from app.schema.reading import MOST_FAULTS
 
@@ -75,32 +75,11 @@ def install(app: FastAPI) -> None:
     app.openapi = with_problems  # type: ignore[method-assign]
 
 
-def problem(
-    instance: str,
-    status: int,
-    code: str,
-    title: str,
-    *,
-    detail: str = "",
-    errors: list[dict[str, str]] | None = None,
-    headers: dict[str, str] | None = None,
-) -> JSONResponse:
-    """Return a response with a problem document."""
-    document: dict[str, Any] = {
-        "type": f"urn:tribodrive:problem:{code}",
-        "title": title,
-        "status": status,
-        "detail": detail or title,
-        "instance": instance,
-    }
-    if errors is not None:
-        document["errors"] = errors
-    return JSONResponse(document, status, headers, media_type=MEDIA_TYPE)
-
-
-def code_of(phrase: str) -> str:
-    """Return a code made from the phrase of an HTTP status, for a problem that has no code of its own."""
-    return phrase.lower().replace(" ", "_").replace("-", "_")
+def problem(instance: str, kind: Kind, detail: str = "", **more: Any) -> JSONResponse:
+    """Return a response with a problem document. `more` holds further members of the document."""
+    name, detail = f"urn:tribodrive:problem:{kind.code}", detail or kind.title
+    document = Problem(type=name, title=kind.title, status=kind.status, detail=detail, instance=instance, **more)
+    return JSONResponse(document.model_dump(exclude_none=True), kind.status, kind.headers, media_type=MEDIA_TYPE)
 
 
 def answer(request: Request, error: Exception) -> JSONResponse:
@@ -115,17 +94,15 @@ def answer(request: Request, error: Exception) -> JSONResponse:
             code = error.code if isinstance(error, Unprocessable) else "invalid_request"
             errors = faults_of(error)
             detail = f"{errors[0]['pointer'] or 'request'}: {errors[0]['message']}"
-            return problem(instance, 422, code, "The input cannot be computed", detail=detail, errors=errors)
+            return problem(instance, Kind(422, code, "The input cannot be computed"), detail, errors=errors)
         case HTTPException():
             phrase = HTTPStatus(error.status_code).phrase
-            headers = dict(error.headers or {})
-            return problem(
-                instance, error.status_code, code_of(phrase), phrase, detail=str(error.detail), headers=headers
-            )
+            code = phrase.lower().replace(" ", "_").replace("-", "_")
+            response = problem(instance, Kind(error.status_code, code, phrase), error.detail)
+            response.headers.update(error.headers or {})
+            return response
         case _:
-            kind = kind_of(error)
-            detail = getattr(error, "detail", "")
-            return problem(instance, kind.status, kind.code, kind.title, detail=detail, headers=kind.headers)
+            return problem(instance, kind_of(error), getattr(error, "detail", ""))
 
 
 def _message(item: dict[str, Any]) -> str:
@@ -137,4 +114,4 @@ def _message(item: dict[str, Any]) -> str:
 def internal_error(instance: str, error: Exception) -> JSONResponse:
     """Log an unexpected exception and return its problem document."""
     logger.error("request %s failed", instance, exc_info=error)
-    return problem(instance, 500, "internal_error", "Something went wrong in the service; the log has the cause")
+    return problem(instance, Kind(500, "internal_error", "Something went wrong in the service; the log has the cause"))

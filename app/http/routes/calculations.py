@@ -14,12 +14,11 @@ from app.figures import MEDIA_TYPES, Format
 from app.figures.data import ThemeName
 from app.http.json_route import JsonRoute
 from app.http.problems import documented
+from app.http.routes.pages import DOCUMENT_POLICY
 from app.schema.model import Request as Model
 from app.schema.quantities import Output
 
 FORMATS: tuple[Format, ...] = tuple(MEDIA_TYPES)
-# A figure needs no script and no other address, because it contains its styles and images.
-ALONE = "default-src 'none'; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'"
 REFUSALS = documented(400, 413, 415, 422, 500, 503, 504)
 
 router = APIRouter(route_class=JsonRoute, responses=REFUSALS)
@@ -101,7 +100,7 @@ def _add_figures(calculation: Calculation) -> None:
     ) -> Response:
         image = cast("Format", image_format)
         content = await calculated(http, calculation.path, partial(figure_of, name, image, theme), body)
-        return Response(content, headers={"Content-Security-Policy": ALONE}, media_type=MEDIA_TYPES[image])
+        return Response(content, headers={"Content-Security-Policy": DOCUMENT_POLICY}, media_type=MEDIA_TYPES[image])
 
     show.__annotations__["body"] = _body_of(calculation)
     images = {media: {"schema": {"type": "string", "format": "binary"}} for media in MEDIA_TYPES.values()}

@@ -25,7 +25,6 @@ from app.pages.manual import chapter_page, contents_page, functions_page
 from app.pages.overview import start_page
 from app.pages.query import link
 from app.pages.templating import ASSETS, page_path, rendered
-from app.settings import Settings
 from app.sources import SHORT_SOURCES
 
 PAGE_POLICY = "default-src 'self'; img-src 'self' data:; base-uri 'none'; form-action 'self'; frame-ancestors 'none'"
@@ -244,13 +243,8 @@ def printed_host(http: Request) -> str:
     The host is printed if it is in the settings or is this computer. Any other host comes from the client alone and
     could lead the reader of a report to another service.
     """
-    limits: Settings = http.app.state.settings
-    is_trusted = http.url.netloc in limits.hosts or http.url.hostname in {
-        *limits.hosts,
-        "localhost",
-        "127.0.0.1",
-        "::1",
-    }
+    trusted = {*http.app.state.settings.hosts, "localhost", "127.0.0.1", "::1"}
+    is_trusted = http.url.netloc in trusted or http.url.hostname in trusted
     return f"{http.url.scheme}://{http.url.netloc}" if is_trusted else ""
 
 

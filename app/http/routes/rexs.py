@@ -13,7 +13,6 @@ from app.http.routes.pages import html, problem_page, root_of
 from app.pages.query import REPORT_NAMES
 from app.rexs import answer
 from app.rexs.document import File
-from app.settings import MEBIBYTE, Settings
 
 DOCUMENTED_TYPES = ("application/xml", "application/json", "application/zip")
 TYPES = (*DOCUMENTED_TYPES, "text/xml", "application/x-zip-compressed", "application/octet-stream")
@@ -24,12 +23,8 @@ FILE = {"type": "string", "format": "binary"}
 
 def _body(types: tuple[str, ...], **form: dict[str, str]) -> dict[str, Any]:
     """Describe the body of an operation: a file of one of the `types`, or a form with the file and the parts `form`."""
-    schema = {
-        "type": "object",
-        "required": ["file"],
-        "additionalProperties": False,
-        "properties": {"file": FILE, **form},
-    }
+    properties = {"file": FILE, **form}
+    schema = {"type": "object", "required": ["file"], "additionalProperties": False, "properties": properties}
     content = {**{media_type: {"schema": FILE} for media_type in types}, FORM: {"schema": schema}}
     return {"requestBody": {"required": True, "content": content}}
 
@@ -62,8 +57,8 @@ async def read_unit(http: Request) -> Response:
 
     The answer also lists the values that are missing, assumed, unused or wrong.
     """
-    upload = await _upload(http)
-    unit = await http.app.state.pool.calculate(http, answer.unit_json, upload.content, _most_bytes(http))
+    state, upload = http.app.state, await _upload(http)
+    unit = await state.pool.calculate(http, answer.unit_json, upload.content, state.settings.rexs_bytes)
     return Response(unit, media_type="application/json")
 
 
@@ -83,10 +78,9 @@ async def write_results(
     A result for which the standard has an attribute is written to this attribute. Any other result is written to an
     attribute whose name begins with `custom_tribodrive_`. The rest of the file is unchanged.
     """
-    upload = await _upload(http)
-    limits: Settings = http.app.state.settings
-    arguments = (upload.content, _most_bytes(http), stage, upload.request, limits.deadline_s)
-    file: File = await http.app.state.pool.calculate(http, answer.with_results, *arguments)
+    state, upload = http.app.state, await _upload(http)
+    arguments = (upload.content, state.settings.rexs_bytes, stage, upload.request, state.settings.deadline_s)
+    file: File = await state.pool.calculate(http, answer.with_results, *arguments)
     headers = {"Content-Disposition": f'attachment; filename="results{file.suffix}"'}
     return Response(file.content, media_type=file.media_type, headers=headers)
 
@@ -106,7 +100,7 @@ async def open_unit(http: Request) -> Response:
     root = root_of(http)
     try:
         upload = await _upload(http)
-        arguments = (upload.content, _most_bytes(http), upload.name)
+        arguments = (upload.content, http.app.state.settings.rexs_bytes, upload.name)
         shown = await http.app.state.pool.calculate(http, answer.unit_html, root, *arguments)
     except Unprocessable as error:
         return problem_page(http, 422, "The file cannot be read", error.message)
@@ -142,14 +136,9 @@ async def _upload(http: Request) -> Upload:
         return Upload(await http.body())
     if media_type != FORM:
         raise HTTPException(415, f"send the file as {', '.join(DOCUMENTED_TYPES)} or as {FORM}")
-    async with http.form(max_files=2, max_fields=2, max_part_size=_most_bytes(http)) as form:
+    async with http.form(max_files=2, max_fields=2, max_part_size=http.app.state.settings.rexs_bytes) as form:
         parts = {name: await part.read() if not isinstance(part, str) else part.encode() for name, part in form.items()}
         name = getattr(form.get("file"), "filename", None) or ""
     if "file" not in parts:
         raise Unprocessable("missing", "the form needs a part with the name 'file'", "file")
     return Upload(parts["file"], PurePath(name).name[: REPORT_NAMES["rexs_file"]], parts.get("request") or None)
-
-
-def _most_bytes(http: Request) -> int:
-    limits: Settings = http.app.state.settings
-    return limits.rexs_mb * MEBIBYTE

@@ -12,8 +12,6 @@ from app.http.problems import documented
 from app.http.routes.pages import HTML, root_of
 from app.pages.templating import rendered
 from app.schema.quantities import Output
-from app.workers.pool import Pool
-from app.workers.start_up import StartUp
 
 DOCS_ASSETS = "/static-offline-docs"  # of Swagger's page, from the package fastapi-offline
 
@@ -43,10 +41,9 @@ async def list_examples() -> list[ExampleSummary]:
 @router.get("/v1/examples/{name}", responses=documented(404, 422))
 async def show_example(name: Annotated[str, Path(description="name of the example", max_length=100)]) -> Example:
     """Return an example with its request."""
-    try:
-        return examples()[name]
-    except KeyError:
-        raise HTTPException(404, "There is no example of this name; GET /v1/examples lists them") from None
+    if name not in examples():
+        raise HTTPException(404, "There is no example of this name; GET /v1/examples lists them")
+    return examples()[name]
 
 
 @router.get("/healthz")
@@ -58,8 +55,7 @@ async def healthz() -> Health:
 @router.get("/readyz", responses=documented(503))
 async def readyz(http: Request) -> Readiness:
     """Return `ok` if all calculations are ready, else 503 with the progress of the warm-up, without waiting."""
-    start_up: StartUp = http.app.state.start_up
-    pool: Pool = http.app.state.pool
+    start_up, pool = http.app.state.start_up, http.app.state.pool
     start_up.require_all()
     if pool.alive <= 0:
         raise WorkerLost
@@ -69,9 +65,8 @@ async def readyz(http: Request) -> Readiness:
 @router.get("/docs", include_in_schema=False)
 async def docs(http: Request) -> Response:
     """Show the OpenAPI document on Swagger's page."""
-    return Response(
-        rendered("docs.html", root_of(http), assets=DOCS_ASSETS, description=http.app.description), media_type=HTML
-    )
+    page = rendered("docs.html", root_of(http), assets=DOCS_ASSETS, description=http.app.description)
+    return Response(page, media_type=HTML)
 
 
 @router.get("/metrics", response_class=Response, include_in_schema=False)
