@@ -8,7 +8,8 @@ STAGES = (COUPLING, SLEEVE, LOADS, PUMPING, DRIVE_TRAIN, LINE_CONTACT)
 BESIDE = LINE_CONTACT
 """The stage that is compiled beside the other stages, because it takes as long as all other stages together.
 
-Of the kernels of the other stages, this stage needs only the kernels of the load distribution, and only near the end of its own compilation.
+Of the kernels of the other stages, this stage needs only the kernels of the load distribution, and needs them only near
+the end of its own compilation.
 """
 
 

@@ -13,7 +13,7 @@ from app.http.routes.pages import HTML, root_of
 from app.pages.templating import rendered
 from app.schema.quantities import Output
 
-DOCS_ASSETS = "/static-offline-docs"  # address of the assets of Swagger's page; the package fastapi-offline contains them
+DOCS_ASSETS = "/static-offline-docs"  # assets of Swagger's page; the package fastapi-offline contains them
 
 router = APIRouter(tags=["service"])
 
