@@ -18,7 +18,7 @@ def main() -> None:
     """
     # Ctrl-C must not raise an exception: a module that is being imported could lose the exception or change its type.
     signal.signal(signal.SIGINT, lambda *_: os._exit(INTERRUPTED))
-    gc.disable()  # imports leave no garbage, but the search for garbage takes a third of their time
+    gc.disable()  # imports leave no garbage, and searching for garbage would take a third of the time
     from app.command import main as run_command  # noqa: PLC0415
 
     run_command()

@@ -51,7 +51,7 @@ class Stage:
 class Calculation:
     """One endpoint.
 
-    The endpoint answers as soon as the kernels of its `stage` are compiled. `figures` are the figures that show its
+    The endpoint answers as soon as the kernels of its `stage` are compiled. `figures` are the figures that show the
     answers. `cost` estimates the time of a request. `cost` is None if no permissible request takes too long.
     """
 

@@ -26,7 +26,7 @@ def pointer(location: Iterable[str | int]) -> str:
 
 
 def printable(name: str | int) -> str:
-    """Return a name from the request as valid text of limited length."""
+    """Return a name from the request as valid text of at most `LONGEST_POINTER_PART` characters."""
     return str(name).encode(errors="replace").decode()[:LONGEST_POINTER_PART]
 
 

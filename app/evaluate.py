@@ -223,9 +223,9 @@ def case_of(endpoint: str, inputs: dict[str, Any], sources: str) -> str:
 def _assumptions(
     section: Section, derived: dict[str, Any], prefix: str = "", unused: frozenset[str] = frozenset()
 ) -> Iterator[dict[str, Any]]:
-    """Yield the assumed defaults on which the result depends: the field, the value used and the reason.
+    """Yield the field, the value used and the reason for each assumed default on which the result depends.
 
-    `derived` holds the values that the calculation used. The keys are the names of the fields; groups and lists in
+    `derived` holds the values that the calculation used. The keys are the names of the fields. Groups and lists in
     `derived` are named like the sections of the request. `unused` holds the dotted names of fields that the sections
     around this section mark as unused.
     """

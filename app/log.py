@@ -51,7 +51,7 @@ class _Writer(logging.Handler):
     """
 
     def handle(self, record: logging.LogRecord) -> bool:
-        """Write a record. If this fails, count the record as dropped, so that the thread continues."""
+        """Write a record. If writing fails, count the record as dropped, so that the thread continues."""
         try:
             stream = sys.stdout if record.name == REQUEST_LOG else sys.stderr
             line = f"{record.getMessage()}\n".encode(errors="replace")

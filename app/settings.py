@@ -79,7 +79,7 @@ class Settings(BaseSettings):
 
     @property
     def rexs_bytes(self) -> int:
-        """Largest gear unit from a file, unpacked, in bytes."""
+        """Largest permissible size of the unpacked file of a gear unit [bytes]."""
         return self.rexs_mb * MEBIBYTE
 
     @property

@@ -1,4 +1,4 @@
-"""Conversion of rows into CSV, in which spreadsheets take no cell for a formula."""
+"""Conversion of rows into CSV whose cells spreadsheets do not take for formulas."""
 
 import csv
 import re

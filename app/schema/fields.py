@@ -1,7 +1,7 @@
 """The fields of requests and responses as a tree of sections, for forms, tables, files, studies and tests.
 
-Errors and warnings of a solver name an input by the solver's own name. `field_path` returns the request field that
-belongs to this name.
+A solver's errors and warnings contain the solver's own names of inputs. `field_path` returns the request field that
+belongs to such a name.
 """
 
 from collections import defaultdict
@@ -94,8 +94,9 @@ class Branch:
 def tree(model: type[Documented]) -> Branch:
     """Return the whole request or response as one section without a name.
 
-    If several leaves are declared with the same title, the title of a section is added to each of these titles. This
-    section is the nearest section around the leaf whose title belongs to no section around the other leaves.
+    If several leaves are declared with the same title, a section title is added to the title of each of these leaves.
+    The sections around the leaf are searched from the innermost to the outermost. The first section title that does not
+    occur around the other leaves is added.
     """
     namesakes: dict[str, dict[str, list[str]]] = defaultdict(dict)
     for way in _ways(model):
@@ -181,7 +182,10 @@ def _path(way: _Way) -> str:
 
 
 def _below(model: type[Documented], above: _Way, titles: dict[str, str]) -> tuple[Leaf | Branch, ...]:
-    """Return the fields and sections of a model; `above` is the way to the model, `titles` are the titles by path."""
+    """Return the fields and sections of a model.
+
+    `above` is the way to the model. `titles` maps the paths of leaves to their titles.
+    """
     below: list[Leaf | Branch] = []
     for member in members(model):
         way = (*above, member)

@@ -1,7 +1,7 @@
 """Models of requests and responses, filled from the dataclasses of the solvers.
 
     class CouplingModel(Section, of=si.ModelOptions):
-    \"\"\"Choices that the paper leaves open in the coupling model.\"\"\"
+        \"\"\"Choices that the paper leaves open in the coupling model.\"\"\"
 
 This class gets one field for each field that `si.ModelOptions` declares. If the quantity has a unit, the name of the
 field ends with the unit. Solvers append an underscore to a name that is a keyword of Python (`from_`). The field of the
@@ -246,7 +246,7 @@ def _record_in(hint: Any) -> Any:
 
 
 def _in_si(value: Any, unit: Unit | None, record: Any) -> Any:
-    """Return a value of a request in SI. A section is converted into the dataclass `record`."""
+    """Convert a value of a request into SI. A section is converted into the dataclass `record`."""
     inside = None if record is None else lambda section: section.si(record)
     return converted(value, unit.to_si if unit else _unchanged, inside)
 
@@ -306,8 +306,8 @@ class Section(Documented):
 
     A section refuses unknown fields. A section also refuses numbers that are sent as text, are infinite or are out of
     range. `choice_code` is the code of the error if a request gives two fields of a group in `exclusive`.
-    `choice_missing` is the code of the error if a request gives no field of a group. If `choice_missing` is None, a
-    request may give no field of a group.
+    `choice_missing` is the code of the error if a request gives no field of a group. If `choice_missing` is None,
+    leaving out all fields of a group is not an error.
     """
 
     model_config = ConfigDict(extra="forbid", frozen=True, json_schema_extra=_with_choices)
@@ -350,7 +350,7 @@ class Section(Documented):
         return kind(**self.filling(kind, *others, **values))
 
     def filling(self, kind: type[Any], /, *others: "Section", **values: Any) -> dict[str, Any]:
-        """Return the values with which `si` fills the dataclass. The keys are the names of the dataclass's fields."""
+        """Return the values with which `si` fills the dataclass. The keys are the names of the fields."""
         given: dict[str, Any] = {}
         record: Any = kind
         for section in reversed((self, *others)):

@@ -32,12 +32,15 @@ class _Declaration(Quantity):
 
     @classmethod
     def of(cls, record: type, name: str, **changes: Any) -> Self:
-        """Copy the declaration of the field `name` of a solver's dataclass, with `changes` to its attributes."""
+        """Return the declaration of the field `name` of a solver's dataclass.
+
+        `changes` replace attributes of this declaration.
+        """
         return cls(**vars(quantities(record)[name]) | {"origin": (record, name)} | changes)
 
     @property
     def description(self) -> str:
-        """The text, or the title if there is no text. If `default_text` is given, it follows as the meaning of null."""
+        """The text, or the title if there is no text. The meaning of null (`default_text`) is added if it is given."""
         text = self.text or self.title
         return f"{text}; null: {self.default_text}" if self.default_text else text
 
@@ -143,7 +146,7 @@ def meaning_of(metadata: Iterable[Any]) -> Input | Output | None:
 def split_unit(name: str) -> tuple[str, Unit | None]:
     """Split a field name into the name without unit and the unit.
 
-    The unit is the longest suffix that names a unit. It is None if no suffix names a unit.
+    The unit is the longest suffix that names a unit. If no suffix names a unit, the unit is None.
     """
     words = name.split("_")
     for start in range(1, len(words)):
