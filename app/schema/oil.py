@@ -25,7 +25,7 @@ RARELY = "by the kind of oil; a data sheet rarely gives it"
 
 
 def _of_a_sheet(name: str, ge: float, le: float, text: str, assumed: str | None = None) -> Input:
-    """Return the declaration of an oil property that follows from the grade or data sheet if the oil has one."""
+    """Return the declaration of an oil property. The property follows from the grade or data sheet if one is given."""
     return Input.of(
         Lubricant,
         name,
@@ -127,7 +127,7 @@ class SheetOil(Section):
         return sheet.reference_density if sheet and name == "density_15_kg_per_m3" else None
 
     def unused(self) -> dict[str, bool]:
-        """Mark further fields of a data sheet as unused if neither a grade nor a viscosity at 40 °C is given.
+        """Mark the fields that supplement a grade or data sheet as unused if neither of the two is given.
 
         Otherwise, mark the viscosity at 100 °C as unused if the viscosity index is given.
         """

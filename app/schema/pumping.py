@@ -165,7 +165,7 @@ class ChokingCurves(Group, of=results.ChokingCurves):
 
 
 class PumpingDerived(Derived, of=results.Derived):
-    """The centre distance, the number of slices and the tip radius of the rack that the calculation uses."""
+    """The values used for the centre distance, the number of slices and the tip radius of the rack."""
 
 
 class PumpingResponse(Response, of=results.PumpingResult):

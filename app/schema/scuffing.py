@@ -258,14 +258,14 @@ class ScuffingPathCurves(Group, of=(safety_results.ScuffingPath, safety_results.
 
 
 class MeshDerived(Derived, of=results.Derived, without=("rack_tip_radius",)):
-    """The torque, the power and the lengths that the calculation uses.
+    """The values used for the torque, the power and the lengths.
 
     If the request leaves one of these values open, the value is computed.
     """
 
 
 class ScuffingDerived(MeshDerived, of=results.Derived):
-    """The torque, the power, the lengths and the tip radius of the rack that the calculation uses.
+    """The values used for the torque, the power, the lengths and the tip radius of the rack.
 
     If the request leaves one of these values open, the value is computed.
     """
@@ -407,8 +407,8 @@ def _is_given(sent: Any, path: str) -> bool:
 class MeshInOil(Request):
     """The parts that requests about scuffing have in common: a loaded pair, an oil, temperatures, a law of friction.
 
-    `methods` maps the name of a method field to the names of value fields. If a request gives a value in one of the
-    value fields and does not give the method, the method is "given".
+    `methods` maps the name of a method field, such as `model.friction`, to the names of value fields. If a request
+    gives a value in one of the value fields and does not give the method, the method is "given".
     """
 
     balance_is_default: ClassVar = False  # whether the heat balance is the default at low speeds, too
@@ -571,7 +571,7 @@ class ScuffingRequest(MeshInOil, GearPairRequest):
 
 
 class ScuffingOilDerived(ScuffingDerived, of=(safety_results.ScuffingDerived, OilInUse)):
-    """The torque, the power and the lengths that the calculation uses, and properties of the oil.
+    """The values used for the torque, the power and the lengths, and the properties of the oil.
 
     The properties of the oil hold at the reference temperature of the oil.
     """
