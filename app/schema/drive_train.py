@@ -626,6 +626,6 @@ class DriveTrainResponse(Response, of=results.DriveTrainResult):
     def remarks(self) -> dict[str, str]:
         """Return the remark about the uncertainty of the flank temperatures.
 
-        There is no remark if a temperature was measured, or if the flank temperatures do not come from a heat balance.
+        There is no remark if a gear temperature was measured, or if there is no heat balance.
         """
         return how_well_known(self, "heat.pinion.flank_c", "heat.wheel.flank_c")

@@ -580,7 +580,7 @@ class ScuffingOilDerived(ScuffingDerived, of=(safety_results.ScuffingDerived, Oi
 def how_well_known(response: Response, *paths: str) -> dict[str, str]:
     """Return the remark about the uncertainty of temperatures, for each of the `paths`.
 
-    There is no remark if a temperature was measured, or if the temperatures do not come from a heat balance.
+    There is no remark if a gear temperature was measured, or if there is no heat balance.
     """
     return dict.fromkeys(paths, KNOWN) if NOT_VALIDATED in {notice.code for notice in response.warnings} else {}
 
@@ -601,6 +601,6 @@ class ScuffingResponse(LoadDistributionResponse, of=safety_results.Scuffing):
     def remarks(self) -> dict[str, str]:
         """Return the remark about the uncertainty of the bulk temperature.
 
-        There is no remark if a temperature was measured, or if the bulk temperature does not come from a heat balance.
+        There is no remark if a gear temperature was measured, or if there is no heat balance.
         """
         return how_well_known(self, "contact_temperature.bulk_c")
