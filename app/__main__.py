@@ -7,17 +7,18 @@ import gc
 import os
 import signal
 
-INTERRUPTED = 130  # exit status that shells give to a process ended by Ctrl-C
+INTERRUPTED = 130  # exit status that shells report if Ctrl-C has ended a process
 
 
 def main() -> None:
     """Run the command line.
 
-    While uvicorn serves, uvicorn handles Ctrl-C. After uvicorn has stopped serving, it sends the signal again.
+    While uvicorn serves, uvicorn itself handles Ctrl-C. When uvicorn has stopped serving, it sends the signal to this
+    process once more.
     """
     # Ctrl-C must not raise an exception: a module that is being imported could lose the exception or change its type.
     signal.signal(signal.SIGINT, lambda *_: os._exit(INTERRUPTED))
-    gc.disable()  # imports leave no garbage, and the search for garbage takes a third of the time of the imports
+    gc.disable()  # imports leave no garbage, and searching for garbage would take a third of the time
     from app.command import main as run_command  # noqa: PLC0415
 
     run_command()

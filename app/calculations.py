@@ -1,4 +1,4 @@
-"""The table of calculations. Each row, together with the solver that it names, makes an endpoint."""
+"""The table of calculations. Each row describes one endpoint and names the solver of this endpoint."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -24,7 +24,10 @@ from solvers.contact.ehl.continuation import Resolution, price
 
 
 class Cost(NamedTuple):
-    """Estimated time on one core [s], and the field whose value the user should reduce if the time is too long."""
+    """Estimated time of a calculation on one core [s], and the request field on which this time depends.
+
+    If the time is too long, the user should reduce the value of this field.
+    """
 
     seconds: float
     field: str
@@ -32,10 +35,11 @@ class Cost(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Stage:
-    """Kernels that are compiled and loaded together. Endpoints that need these kernels answer only afterwards.
+    """A group of kernels (functions compiled by numba) that are compiled and loaded together.
 
-    The `examples` together call all kernels of these endpoints, except kernels that an earlier stage has compiled.
-    `kernels` is the approximate number of kernels in the stage.
+    Endpoints that need these kernels answer only after the stage is ready. Together, the `examples` call all kernels
+    that these endpoints need, except kernels of earlier stages. `kernels` is the approximate number of kernels in the
+    stage.
     """
 
     name: str
@@ -47,8 +51,8 @@ class Stage:
 class Calculation:
     """One endpoint.
 
-    The endpoint answers as soon as the kernels of its `stage` are compiled. `figures` are the figures that show its
-    answers. If the schema allows requests that take too long, `cost` estimates the time of a request.
+    The endpoint answers as soon as the kernels of its `stage` are compiled. `figures` are the figures that show the
+    answers. `cost` estimates the time of a request. `cost` is None if no permissible request takes too long.
     """
 
     path: str
@@ -64,10 +68,10 @@ class Calculation:
 
 
 def _thermal_path(request: Any) -> Cost:
-    """Estimate the time to solve the contacts along the path.
+    """Estimate the time to solve the contacts along the path of contact.
 
     A contact with 121 x 21 nodes takes 4 to 8 ms. A contact with a Newtonian film takes up to 20 ms. The estimate uses
-    the shortest time, so that the service does not reject a request that could finish in time.
+    the shortest of these times, so that the service does not reject a request that could finish in time.
     """
     model = request.model
     if model.lubrication == "closed_form":
@@ -83,16 +87,16 @@ def _checked_lines(request: Any) -> Cost:
 
 
 def _two_thermal_paths(request: Any) -> Cost:
-    """Estimate the time to solve the contacts of a drive train along two lines in all requested states."""
+    """Estimate the time to solve the contacts of a gear unit along two lines, in each of the requested states."""
     path = _thermal_path(request)
     return Cost(2 * len({*request.states}) * path.seconds, path.field)
 
 
 def _choking_search(request: Any) -> Cost:
-    """Estimate the time of the search for choking speeds with a pocket chain in the tooth spaces of both gears.
+    """Estimate the time of the search for choking speeds with the pocket-chain model.
 
-    The search took 0.7, 2.6, 6.2 and 16 s with 10, 40, 80 and 160 pockets. The model of gas dynamics needs no estimate,
-    because this model itself limits the number of steps.
+    For the tooth spaces of both gears, the search took 0.7, 2.6, 6.2 and 16 s with 10, 40, 80 and 160 pockets. The
+    gas-dynamics model needs no estimate, because this model itself limits the number of its steps.
     """
     pockets = request.model.slices or 0
     if request.model.flow != "pocket_chain":

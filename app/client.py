@@ -6,9 +6,9 @@
     answer = service.coupling({"coupling": {...}, "operation": {...}})
     table = service.sweep({"endpoint": "/v1/coupling", "request": {...}, "vary": [...]}).frame()
 
-Requests and answers are the JSON of the interface as dictionaries. `AsyncTribodrive` has the same methods as
-coroutines. If the service is too busy to answer a request, the client repeats the request after the time that the
-service states in `Retry-After`.
+Requests and answers are dictionaries with the content of the JSON bodies. `AsyncTribodrive` has the same methods for
+asyncio. If the service is too busy to answer a request, the client repeats the request after the time that the service
+states in `Retry-After`.
 """
 
 import asyncio
@@ -32,15 +32,15 @@ Http = TypeVar("Http", bound=httpx.Client | httpx.AsyncClient)
 
 ADDRESS = "http://127.0.0.1:8000"
 OPTIONS: dict[str, Any] = {
-    "timeout": 60.0,  # s: longer than the default deadline of a calculation, which is 30 s
-    "limits": httpx.Limits(keepalive_expiry=3.0),  # s: the service closes idle connections after 5 s
+    "timeout": 60.0,  # s; longer than the default deadline of a calculation, which is 30 s
+    "limits": httpx.Limits(keepalive_expiry=3.0),  # s; the service closes idle connections after 5 s
 }
-PATIENCE_S = 120.0  # longest wait for an answer; chosen: four times the service's deadline
-LEAST_WAIT_S = 0.25  # chosen; shortest wait before a busy service is asked again
+PATIENCE_S = 120.0  # s; default of `patience_s`; chosen: four times the service's deadline
+LEAST_WAIT_S = 0.25  # s; shortest wait before a busy service is asked again; chosen
 
 
 class ServiceError(Exception):
-    """No valid answer: the service reports a problem, a study ended early, or the answer does not fit the interface."""
+    """No valid answer: the service reports a problem, a study ended early, or the answer has the wrong form."""
 
 
 class ProblemError(ServiceError):
@@ -51,7 +51,7 @@ class ProblemError(ServiceError):
     status : int
         HTTP status.
     code : str
-        Stable name of the problem, the last part of its type.
+        Stable name of the problem. It is the last part of `type` in the answer.
     errors : list of dict
         Errors of the fields, with `pointer` (JSON Pointer into the request), `code` and `message`.
     """
@@ -59,7 +59,7 @@ class ProblemError(ServiceError):
     def __init__(self, response: httpx.Response) -> None:
         try:
             document = _json_of(response)
-        except ServiceError:  # the answer comes not from the service, but from a proxy
+        except ServiceError:  # the answer comes from a proxy and not from the service
             document = {}
         self.status = response.status_code
         self.code = str(document.get("type", "")).rpartition(":")[2]
@@ -76,7 +76,7 @@ class StudyError(ServiceError):
 
 
 class _Endpoints(ABC, Generic[Answer, Stream]):
-    """One method per endpoint; `request` is the body that the interface describes."""
+    """The methods of both clients, with one method per endpoint. `request` is the body of the request."""
 
     @abstractmethod
     def solve(self, endpoint: str, request: Json) -> Answer:
@@ -116,7 +116,7 @@ class _Endpoints(ABC, Generic[Answer, Stream]):
         Returns
         -------
         Study or AsyncStudy
-            The study; iterate over its results, or ask for its table.
+            The study. Iterate over the study to get its results, or call its method `frame` to get a table.
         """
 
     def coupling(self, request: Json) -> Answer:
@@ -164,7 +164,7 @@ class _Endpoints(ABC, Generic[Answer, Stream]):
         return self.study("/v1/sweep", request, progress=progress)
 
     def spectrum(self, request: Json, *, progress: bool = False) -> Stream:
-        """Solve a machine with its tolerances over its load spectrum; the last line has the probabilities."""
+        """Solve a machine, including its tolerances, over a load spectrum. The last line states the probabilities."""
         return self.study("/v1/spectrum", request, progress=progress)
 
     def sensitivity(self, request: Json, *, progress: bool = False) -> Stream:
@@ -181,7 +181,7 @@ class _Endpoints(ABC, Generic[Answer, Stream]):
 
 
 class _Study(Generic[Http]):
-    """Reader of the lines of a study: header, results, progress and end."""
+    """Reader of the lines of a study. The lines are a header, results, reports of progress and an end."""
 
     def __init__(self, http: Http, endpoint: str, request: Json, patience_s: float, *, progress: bool) -> None:
         self.header: Json = {}
@@ -203,7 +203,10 @@ class _Study(Generic[Http]):
         return time.monotonic() + self._patience_s
 
     def _results(self, text: str) -> Iterator[Json]:
-        """Yield the line if it is a result. Raises `StudyError` if the line is an error or not a line of a study."""
+        """Process a line of the study, and yield the line if it is a result.
+
+        Raises `StudyError` if the line reports an error, or if the line does not belong to a study.
+        """
         try:
             yield from self._process(json.loads(text))
         except (ValueError, LookupError, TypeError) as error:
@@ -253,16 +256,17 @@ class _Study(Generic[Http]):
 class Study(_Study[httpx.Client]):
     """A study. Iterate over its results, or call `frame` for a table of all results.
 
-    `header` and `end` are the first and the last line of the study. Both are empty until these lines have been read.
+    `header` is the first line of the study, and `end` is the last line. Each of them is empty until the line has been
+    read.
     """
 
     def __iter__(self) -> Iterator[Json]:
-        """Run the study and yield its results as they come.
+        """Run the study and yield its results as they arrive.
 
         Yields
         ------
         dict
-            A line of the study.
+            A line of the study that is a result.
 
         Raises
         ------
@@ -288,8 +292,8 @@ class Study(_Study[httpx.Client]):
         Returns
         -------
         pandas.DataFrame
-            One row per result. A sweep has one column per input and output. A spectrum has one row per case, unless the
-            request asks for its points.
+            One row per result. The table of a sweep has one column per varied input and one column per output. The
+            table of a spectrum has one row per load case, or one row per point if the request asks for the points.
         """
         return self._table(list(self))
 
@@ -298,12 +302,12 @@ class AsyncStudy(_Study[httpx.AsyncClient]):
     """A study. Iterate over its results with `async for`, or await `frame` for a table of all results."""
 
     async def __aiter__(self) -> AsyncIterator[Json]:
-        """Run the study and yield its results as they come.
+        """Run the study and yield its results as they arrive.
 
         Yields
         ------
         dict
-            A line of the study.
+            A line of the study that is a result.
 
         Raises
         ------
@@ -337,14 +341,14 @@ class AsyncStudy(_Study[httpx.AsyncClient]):
 
 
 class Tribodrive(_Endpoints[Json, Study]):
-    """The service at `url`.
+    """A client of the service at `url`.
 
     Parameters
     ----------
     url : str
-        Address of the service, with its path prefix if it has one.
+        Address of the service. If the service has a path prefix, the address includes the prefix.
     patience_s : float
-        Longest time for repeated requests while the service is busy or warming up [s].
+        Longest time during which a request is repeated because the service is busy or warming up [s].
     **options : Any
         Options of `httpx.Client`, such as `auth`, `headers`, `verify`, `timeout` or `transport`.
     """
@@ -393,7 +397,7 @@ class Tribodrive(_Endpoints[Json, Study]):
 
 
 class AsyncTribodrive(_Endpoints[Awaitable[Json], AsyncStudy]):
-    """The service at `url` for asyncio; the parameters are those of `Tribodrive`."""
+    """A client of the service at `url` for asyncio, with the parameters of `Tribodrive`."""
 
     def __init__(self, url: str = ADDRESS, *, patience_s: float = PATIENCE_S, **options: Any) -> None:
         self._http = httpx.AsyncClient(base_url=url, **OPTIONS | options)
@@ -468,7 +472,7 @@ def _request_of(example: httpx.Response) -> Json:
 
 
 def _wait_s(response: httpx.Response, give_up: float) -> float:
-    """Return the time [s] to wait before a busy service is asked again.
+    """Return the time [s] to wait before the client asks a busy service again.
 
     Raises `ProblemError` if the answer has no `Retry-After`, or if the wait would end after the time `give_up` [s].
     """

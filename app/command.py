@@ -12,8 +12,8 @@ from typing import Any
 
 from app.settings import Settings, settings
 
-PROGRESS_S = 1.0  # time between two lines of progress
-EXIT_STATUS = {"ok": 0, "ok_with_warnings": 3, "no_solution": 4}  # 1: no answer, 2: wrong arguments
+PROGRESS_S = 1.0  # time between two lines that report progress
+EXIT_STATUS = {"ok": 0, "ok_with_warnings": 3, "no_solution": 4}  # status 1: no answer, 2: wrong arguments
 
 
 def main() -> None:
@@ -63,8 +63,8 @@ def print_unit(file: Path) -> None:
 def print_answer(endpoint: str, file: Path) -> None:
     """Print the answer of an endpoint to the request in a file.
 
-    The exit status is the number in `EXIT_STATUS` for the status of the answer. If the request is rejected, exit with
-    the reason.
+    The exit status is the number that `EXIT_STATUS` has for the status of the answer. If the service rejects the
+    request, print the reason and exit with status 1.
     """
     from app.calculations import BY_PATH  # noqa: PLC0415
     from app.errors import InvalidBody, Unprocessable, Unreadable, faults_of  # noqa: PLC0415
@@ -88,7 +88,10 @@ def print_answer(endpoint: str, file: Path) -> None:
 
 
 def compile_kernels(names: Sequence[str]) -> None:
-    """Compile stages, by default all stages. Print the progress every second; a stage at 100 % is stored on disk."""
+    """Compile the kernels of the stages `names`, or of all stages if `names` is empty.
+
+    Print the progress every second. At 100 %, the kernels of the stage are stored on disk.
+    """
     from numba.core import event  # noqa: PLC0415
 
     from app.workers.stages import STAGES, warm  # noqa: PLC0415
@@ -102,7 +105,7 @@ def compile_kernels(names: Sequence[str]) -> None:
         sys.exit("tribodrive: the folder for compiled kernels cannot be written")
     for stage in [stages[name] for name in names or stages]:
         done = threading.Event()
-        with event.install_recorder("numba:compile") as recorder:  # records an event at each begin and end
+        with event.install_recorder("numba:compile") as recorder:  # records when a compilation begins and ends
             arguments = (stage.name, stage.kernels, recorder.buffer, done)
             showing = threading.Thread(target=_show, args=arguments, daemon=True)
             showing.start()
@@ -110,7 +113,7 @@ def compile_kernels(names: Sequence[str]) -> None:
             done.set()
             showing.join()
         _tell(stage.name, 100)
-    os._exit(0)  # the usual end of a process with all kernels would take a second
+    os._exit(0)  # a normal exit would take a second, because of the many kernels
 
 
 def _show(name: str, kernels: int, events: Sequence[object], done: threading.Event) -> None:
@@ -127,7 +130,10 @@ def _tell(name: str, percent: int) -> None:
 
 
 def _print_json(content: dict[str, Any]) -> None:
-    """Print JSON, with escapes if the standard output cannot encode a character. Exit if the output fails."""
+    """Print JSON. Use escapes if the standard output cannot encode a character.
+
+    If printing fails, exit with the reason. If the reader of a pipe has closed the pipe, continue instead.
+    """
     text = json.dumps(content, indent=1, ensure_ascii=False)
     try:
         text.encode(sys.stdout.encoding)
@@ -136,8 +142,8 @@ def _print_json(content: dict[str, Any]) -> None:
     try:
         print(text, flush=True)  # noqa: T201  a command's output
     except OSError as error:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # the flush at the end must not fail
-        if not isinstance(error, BrokenPipeError):  # the reader of a pipe has closed the pipe
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # the flush at exit must not fail
+        if not isinstance(error, BrokenPipeError):  # BrokenPipeError: the pipe has been closed
             sys.exit(f"tribodrive: cannot write the answer: {error.strerror}")
 
 
@@ -162,7 +168,10 @@ def serve(application: str) -> None:
 
 
 def open_standard_streams() -> None:
-    """Open the null device in place of closed standard streams, so that no socket gets the number of such a stream."""
+    """Replace closed standard streams by the null device.
+
+    Otherwise a socket could get the file number of a closed stream.
+    """
     for name in ("stdin", "stdout", "stderr"):
         if getattr(sys, name) is None:
             stream = Path(os.devnull).open("r+")  # noqa: SIM115  gets the lowest free number, 0 to 2

@@ -1,6 +1,6 @@
 """The exceptions of the service: reasons why a request has no answer.
 
-The table `PROBLEMS` gives status, code and title of each exception.
+The table `PROBLEMS` states HTTP status, code and title for all exceptions except `InvalidBody` and `Unprocessable`.
 """
 
 from collections.abc import Iterable
@@ -10,7 +10,10 @@ LONGEST_POINTER_PART = 100  # characters; the names of all fields are shorter
 
 
 class Fault(NamedTuple):
-    """The error of one field: JSON Pointer into the request, stable code, and a message on what to change."""
+    """An error in one field of the request.
+
+    `pointer` is the JSON Pointer to the field. `code` is a stable name of the error. `message` says what to change.
+    """
 
     pointer: str
     code: str
@@ -23,12 +26,12 @@ def pointer(location: Iterable[str | int]) -> str:
 
 
 def printable(name: str | int) -> str:
-    """Return a name of the request as text that can be sent and read, even if the name is very long or not valid."""
+    """Return a name from the request as valid text of at most `LONGEST_POINTER_PART` characters."""
     return str(name).encode(errors="replace").decode()[:LONGEST_POINTER_PART]
 
 
 class ServiceError(Exception):
-    """Base class of exceptions in `PROBLEMS`. `detail` says more about the present case; it may be empty."""
+    """Base class of the exceptions in `PROBLEMS`. `detail` explains the individual case; it may be empty."""
 
     def __init__(self, detail: str = "") -> None:
         super().__init__(detail)
@@ -52,7 +55,10 @@ class InvalidBody(Exception):
 
 
 class Unprocessable(Exception):
-    """Input that the schema allows but that is physically impossible; `path` is the dotted path of the field."""
+    """A valid request that the service cannot process, for example because the input is physically impossible.
+
+    `path` is the dotted path of the field that causes the error.
+    """
 
     def __init__(self, code: str, message: str, path: str | None = None) -> None:
         super().__init__(code, message, path)
@@ -62,7 +68,7 @@ class Unprocessable(Exception):
 
 
 def faults_of(error: InvalidBody | Unprocessable) -> list[dict[str, str]]:
-    """Return pointer, code and message of every error."""
+    """Return pointer, code and message of every fault in the exception."""
     if isinstance(error, Unprocessable):
         parts = error.path.split(".") if error.path else ()
         return [{"pointer": pointer(parts), "code": error.code, "message": error.message}]
@@ -106,7 +112,10 @@ class ClientGone(ServiceError):
 
 
 class Kind(NamedTuple):
-    """Status, code and title of a problem, and the time [s] after which the client should try again."""
+    """Status, code and title of a problem, and the time [s] after which the client should try again.
+
+    The time is None if the client should not try again.
+    """
 
     status: int
     code: str
@@ -115,7 +124,7 @@ class Kind(NamedTuple):
 
     @property
     def headers(self) -> dict[str, str]:
-        """Headers that state when to try again."""
+        """HTTP headers that tell the client when to try again; empty if the client should not try again."""
         return {} if self.retry_after_s is None else {"Retry-After": str(self.retry_after_s)}
 
 
@@ -140,8 +149,8 @@ PROBLEMS: dict[type[Exception], Kind] = {
 
 
 def kind_of(error: Exception) -> Kind:
-    """Return the kind of problem that belongs to an exception.
+    """Return the row of `PROBLEMS` that belongs to an exception.
 
-    The table `PROBLEMS` contains the class of the exception or one of its base classes.
+    The class of the exception, or one of its base classes, must be in the table.
     """
     return next(PROBLEMS[base] for base in type(error).__mro__ if base in PROBLEMS)

@@ -1,4 +1,4 @@
-"""Functions that read and solve requests and write answers. JSON, pages, figures and studies use these functions."""
+"""Functions that read and solve requests and write answers, for JSON, pages, figures and studies."""
 
 import json
 from collections import Counter
@@ -53,7 +53,7 @@ def content_of(body: bytes) -> Any:
     except json.JSONDecodeError as error:
         message = f"the body is not valid JSON: {error.msg} at position {error.pos}"
         raise InvalidBody([Fault("", "json_invalid", message)]) from None
-    except (ValueError, RecursionError):  # not UTF-8, a number with too many digits, too many brackets
+    except (ValueError, RecursionError):  # not UTF-8, too many digits in a number, or too many brackets
         raise Unreadable("The body cannot be read as JSON") from None
 
 
@@ -108,18 +108,24 @@ def answer(endpoint: str, request: dict[str, Any]) -> dict[str, Any]:
 
 
 def answer_of(path: str, request: Request) -> bytes:
-    """Return the answer of an endpoint to a request as JSON. This function runs in a worker process."""
+    """Solve a request to the endpoint `path` and return the answer as JSON.
+
+    This function runs in a worker process.
+    """
     return json_answer(BY_PATH[path], request)
 
 
 def figure_of(name: str, image_format: figures.Format, theme: ThemeName, path: str, request: Request) -> bytes:
-    """Return a figure of a case. This function runs in a worker process."""
+    """Solve a request to the endpoint `path` and return the figure `name` of the result.
+
+    This function runs in a worker process.
+    """
     declaration = next(figure for figure in BY_PATH[path].figures if figure.name == name)
     return draw_figure(BY_PATH[path], declaration, request, image_format, theme)
 
 
 def json_answer(calculation: Calculation, request: Request) -> bytes:
-    """Solve a request and return its answer as JSON.
+    """Solve a request and return the answer as JSON.
 
     This function runs in a worker process. Raises the errors of `evaluate`.
     """
@@ -127,7 +133,7 @@ def json_answer(calculation: Calculation, request: Request) -> bytes:
 
 
 def written(response: Response) -> bytes:
-    """Return a response as JSON without the fields that are not set."""
+    """Return a response as JSON. Fields that are not set are left out."""
     return response.model_dump_json(exclude_unset=True).encode()
 
 
@@ -138,9 +144,9 @@ def draw_figure(
     image_format: figures.Format,
     theme: ThemeName,
 ) -> bytes:
-    """Solve a request and return a figure.
+    """Solve a request and return a figure of the result.
 
-    Raises the errors of `evaluate`, and NoFigure if this figure cannot be drawn from the result.
+    Raises the errors of `evaluate`. Raises NoFigure if this figure cannot be drawn from the result.
     """
     summary = request.model_copy(update={"detail": "summary"})
     figure = declaration.figure(summary, evaluate(calculation, summary))
@@ -156,7 +162,7 @@ def evaluate(calculation: Calculation, request: Request) -> Response:
 
 
 def solve(calculation: Calculation, request: Request) -> Any:
-    """Return the solver's result, or the NoSolution that the solver raised.
+    """Return the solver's result. If the solver raises NoSolution, return this exception.
 
     Raises Unprocessable if the solver rejects the input.
     """
@@ -170,7 +176,10 @@ def solve(calculation: Calculation, request: Request) -> Any:
 
 
 def response_to(calculation: Calculation, request: Request, result: Any) -> Response:
-    """Return the response to a result or a NoSolution. Raises a validation error if a number is not finite."""
+    """Return the response for a solver's result, or for a NoSolution that the solver raised.
+
+    Raises a validation error if a number in the result is not finite.
+    """
     content: dict[str, Any]
     if isinstance(result, NoSolution):
         warning = {"rank": "invalid", "code": result.code, "message": result.message}
@@ -204,8 +213,8 @@ def response_to(calculation: Calculation, request: Request, result: Any) -> Resp
 def case_of(endpoint: str, inputs: dict[str, Any], sources: str) -> str:
     """Return the SHA-256 of a case as hexadecimal digits.
 
-    The hashed text is the case as JSON in UTF-8, with sorted keys, without blanks, and with floats in their shortest
-    form.
+    A case consists of the endpoint, the inputs and the hash of the solvers' sources. The hashed text is the case as
+    JSON in UTF-8, with sorted keys, without blanks, and with floats in their shortest form.
     """
     content = {"endpoint": endpoint, "inputs": inputs, "sources": sources}
     return sha256(_CANONICAL.encode(content).encode()).hexdigest()
@@ -214,10 +223,11 @@ def case_of(endpoint: str, inputs: dict[str, Any], sources: str) -> str:
 def _assumptions(
     section: Section, derived: dict[str, Any], prefix: str = "", unused: frozenset[str] = frozenset()
 ) -> Iterator[dict[str, Any]]:
-    """Yield the fields for which the result depends on an assumed default, with the values used.
+    """Yield the field, the value used and the reason for each assumed default on which the result depends.
 
-    `derived` holds these values under the names of the fields, nested in groups and lists named like the sections.
-    `unused` holds the dotted names of fields that are unused according to the sections around this section.
+    `derived` holds the values that the calculation used. The keys are the names of the fields. Groups and lists in
+    `derived` are named like the sections of the request. `unused` holds the dotted names of fields that the sections
+    around this section mark as unused.
     """
     unused |= {prefix + name for name, left_out in section.unused().items() if left_out}
     for member in members(type(section)):

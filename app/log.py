@@ -1,8 +1,8 @@
 """Log and metrics of the service.
 
-A separate thread writes the log, so that requests are not delayed if the reader of the log stops reading. Lines that do
-not fit into the queue of this thread are dropped and counted. Lines about answered requests go to the standard output,
-all other lines to the standard error.
+A separate thread writes the log. If the reader of the log stops reading, requests are therefore not delayed. Lines that
+do not fit into the queue of this thread are dropped and counted. Lines about answered requests go to the standard
+output. All other lines go to the standard error.
 """
 
 import logging
@@ -16,11 +16,11 @@ from logging.handlers import QueueHandler, QueueListener
 
 from prometheus_client import Counter, Gauge, Histogram
 
-LINES_KEPT = 10_000  # lines kept while the reader of the log stalls; further lines are dropped and counted
+LINES_KEPT = 10_000  # most lines in the queue; further lines are dropped and counted
 LAST_LINES_S = 1.0  # longest time to write the remaining lines when the service stops
 REQUEST_LOG = "tribodrive.requests"
 
-# At /metrics, in the Prometheus text format.
+# The address /metrics shows these metrics in the Prometheus text format.
 REQUESTS = Counter("tribodrive_requests", "Requests answered", ["endpoint", "status"])
 DURATION = Histogram("tribodrive_request_duration_seconds", "From first byte to last", ["endpoint"])
 CALCULATIONS = Gauge("tribodrive_calculations", "Calculations running or waiting")
@@ -34,7 +34,10 @@ LINES_DROPPED = Counter("tribodrive_log_lines_dropped", "Log lines dropped becau
 
 
 class _Handler(QueueHandler):
-    """Handler that puts records into the queue. Records that do not fit or have a wrong format are counted."""
+    """Handler that puts log records into the queue.
+
+    A record is counted as dropped if it does not fit into the queue or cannot be formatted.
+    """
 
     def handleError(self, record: logging.LogRecord) -> None:  # noqa: N802  logging's name
         del record
@@ -42,10 +45,13 @@ class _Handler(QueueHandler):
 
 
 class _Writer(logging.Handler):
-    """Handler that writes records without the locks of `logging`, which could delay the end of the process."""
+    """Handler that writes log records without the locks of `logging`.
+
+    Such a lock could delay the end of the process.
+    """
 
     def handle(self, record: logging.LogRecord) -> bool:
-        """Write a record. A failure does not end the thread."""
+        """Write a record. If writing fails, count the record as dropped, so that the thread continues."""
         try:
             stream = sys.stdout if record.name == REQUEST_LOG else sys.stderr
             line = f"{record.getMessage()}\n".encode(errors="replace")
@@ -63,7 +69,7 @@ class _Writer(logging.Handler):
 def running(level: str) -> Iterator[None]:
     """Send log records through the queue while the context is open.
 
-    The root logger is left alone if it has handlers.
+    The root logger is not changed if it already has handlers.
     """
     lines: queue.Queue[logging.LogRecord] = queue.Queue(LINES_KEPT)
     handler, listener = _Handler(lines), QueueListener(lines, _Writer())

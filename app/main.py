@@ -29,8 +29,8 @@ Units are in the field names; every example below runs as it stands."""
 
 MODULES = ("app.pages.views", "app.pages.studies.page", "app.rexs.answer")
 """Modules that workers load when they start."""
-COMPRESSED_FROM = 4096  # bytes
-# Media types that are already compressed, and media types of studies, whose lines have to arrive one by one.
+COMPRESSED_FROM = 4096  # bytes; smaller answers are not compressed
+# Media types that are already compressed, and media types of studies. The lines of a study must arrive one by one.
 NOT_COMPRESSED = (*DEFAULT_EXCLUDED_CONTENT_TYPES, "application/pdf", "application/x-ndjson", "text/csv")
 
 logger = logging.getLogger("tribodrive")
@@ -42,7 +42,7 @@ def create_app() -> FastAPI:
 
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
-        gc.freeze()  # imported objects stay in memory, so the garbage collector need not examine them
+        gc.freeze()  # the garbage collector then ignores the imported objects, which stay in memory
         gc.enable()
         app.state.settings = limits
         app.state.pool = pool = Pool(limits, MODULES)

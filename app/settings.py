@@ -15,14 +15,14 @@ from pydantic_core import ErrorDetails
 from pydantic_settings import BaseSettings, NoDecode, SettingsConfigDict
 
 MEBIBYTE = 2**20  # bytes
-CLUSTER_POINTS = 100_000  # chosen; largest number of points of a study that a cluster solves
+CLUSTER_POINTS = 100_000  # largest number of points of a study if a cluster solves it; chosen
 
 
 def _share_of_cores() -> int:
     """Return the number of cores that each process of the server may use.
 
-    The number of processes is read from the command-line argument or the environment variable from which uvicorn and
-    gunicorn read it.
+    The server (uvicorn or gunicorn) reads its number of processes from a command-line argument or an environment
+    variable. This function reads the same argument and the same variable.
     """
     number = ArgumentParser(add_help=False, allow_abbrev=False)
     number.add_argument("-w", "--workers", type=int, default=os.environ.get("WEB_CONCURRENCY", "1"))
@@ -31,7 +31,7 @@ def _share_of_cores() -> int:
 
 
 class Settings(BaseSettings):
-    """Limits and addresses; the description of a field is its documentation."""
+    """The settings of the service. The command line shows the `description` of each field."""
 
     model_config = SettingsConfigDict(env_prefix="TRIBODRIVE_", frozen=True)
 
@@ -79,18 +79,22 @@ class Settings(BaseSettings):
 
     @property
     def rexs_bytes(self) -> int:
-        """Largest gear unit from a file, unpacked, in bytes."""
+        """Largest permissible size of the unpacked file of a gear unit [bytes]."""
         return self.rexs_mb * MEBIBYTE
 
     @property
     def most_study_points(self) -> int:
-        """Largest number of points of one study: the setting, or a larger default if a cluster solves the studies."""
+        """Largest number of points of one study.
+
+        If a cluster solves the studies and `study_points` is not set, this number is `CLUSTER_POINTS`. Otherwise this
+        number is `study_points`.
+        """
         return CLUSTER_POINTS if self.scheduler and "study_points" not in self.model_fields_set else self.study_points
 
 
 @lru_cache(maxsize=1)
 def settings() -> Settings:
-    """Return the settings of this process, which are read from the environment only once.
+    """Return the settings of this process. They are read from the environment only once.
 
     If settings are wrong, print a line for each wrong setting and end the process.
     """
@@ -101,7 +105,7 @@ def settings() -> Settings:
 
 
 def unknown_variables() -> list[str]:
-    """Return a line for each variable of the environment that looks like a setting but is not one."""
+    """Return a message for each environment variable that has the prefix of a setting but is not a setting."""
     variables = [f"TRIBODRIVE_{name.upper()}" for name in Settings.model_fields]
     lines = []
     for name in sorted(os.environ):

@@ -1,4 +1,4 @@
-"""The hash of the sources of the solvers, and the changelog entries about changed results."""
+"""The hash of the solvers' sources, and the entries of the changelog about changed results."""
 
 import re
 from importlib.resources import files
@@ -7,16 +7,17 @@ from solvers.digest import package_digest
 
 
 def changes_since(sources: str) -> list[str]:
-    """Return the newest entries of the changelog if other sources calculated the results, else an empty list.
+    """Return the newest entries of the changelog if the solvers have changed since a calculation.
 
-    `sources` is the hash, or the beginning of the hash, of the sources that calculated the results. If this hash is not
-    known, `sources` is empty.
+    `sources` is the hash of the solvers' sources at the time of the calculation, or the beginning of this hash. If the
+    present sources have the same hash, the list is empty. If `sources` is empty because the hash is not known, the list
+    is empty, too.
     """
     return [] if SOURCES.startswith(sources) else recent_changes()
 
 
 def recent_changes() -> list[str]:
-    """Return the entries of the newest section of the changelog, newest first. Hashes in the entries are left out."""
+    """Return the entries of the newest section of the changelog, newest first. Hashes in the text are left out."""
     section = files("app").joinpath("CHANGELOG.md").read_text("utf-8").split("\n## ")[1]
     entries = re.split(r"^\* ", section, flags=re.MULTILINE)[1:]
     return [" ".join(re.sub(r"`[0-9a-f]{64}`", "", entry).replace("`", "").split()) for entry in reversed(entries)]

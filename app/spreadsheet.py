@@ -1,4 +1,4 @@
-"""Conversion of rows into CSV. Spreadsheets do not take any cell of this CSV for a formula."""
+"""Conversion of rows into CSV whose cells spreadsheets do not take for formulas."""
 
 import csv
 import re
@@ -13,7 +13,8 @@ _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)  # a nu
 def csv_of(rows: Iterable[Iterable[Any]], digits: int | None = None) -> bytes:
     """Return rows as comma-separated values.
 
-    None is an empty cell. Numbers have `digits` significant digits, or all digits if `digits` is None.
+    None becomes an empty cell. Floats are written with `digits` significant digits, or with all digits if `digits` is
+    None.
     """
     text = StringIO(newline="")
     csv.writer(text).writerows([_cell(cell, digits) for cell in row] for row in rows)
@@ -21,7 +22,7 @@ def csv_of(rows: Iterable[Iterable[Any]], digits: int | None = None) -> bytes:
 
 
 def _cell(value: Any, digits: int | None) -> Any:
-    """Return a cell that spreadsheets do not take for a formula."""
+    """Return a value as a cell that spreadsheets do not take for a formula."""
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, float) and digits is not None:

@@ -1,4 +1,4 @@
-"""The examples that come with the service: one JSON file a case, named after it."""
+"""The examples that come with the service. Each JSON file holds one case and has the name of this case."""
 
 import json
 from functools import lru_cache
@@ -23,7 +23,7 @@ class ExampleSummary(BaseModel):
 
     @property
     def starter(self) -> bool:
-        """Whether it is a task of practice to start from."""
+        """Whether the example is a practical task from which users can start."""
         return self.name.startswith(STARTER)
 
 
@@ -35,7 +35,11 @@ class Example(ExampleSummary):
 
 @lru_cache(maxsize=1)
 def examples() -> dict[str, Example]:
-    """Every example by name: starters, starters outside the limits, the others; each in alphabetical order."""
+    """Return all examples. The keys are the names of the examples.
+
+    Starters come first, then starters outside the limits of their models, then all other examples. Each of these groups
+    is in alphabetical order.
+    """
     stored = [path for path in files("app.examples").iterdir() if path.name.endswith(".json")]
     texts = {path.name.removesuffix(".json"): path.read_text("utf-8") for path in stored}
     read = [Example(name=name, **json.loads(text)) for name, text in sorted(texts.items())]

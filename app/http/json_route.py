@@ -26,8 +26,8 @@ class _ReadRequest(Request):
 class JsonRoute(APIRoute):
     """A route with a JSON body.
 
-    The route answers 415 to media types other than JSON, and 400 if a name occurs twice in one object. `schema.reading`
-    words the messages.
+    The route answers 415 to media types other than JSON. It answers 400 if a name occurs twice in one object. The
+    messages come from `app.schema.reading`.
     """
 
     def get_route_handler(self) -> Callable[[Request], Coroutine[Any, Any, Response]]:

@@ -8,18 +8,18 @@ from solvers.heat_balance import results
 
 
 class CasingOfGears(Section, of=si.Casing):
-    """The casing in the heat balance. If no area is given, the balance leaves the casing out."""
+    """The casing of the gears. If no area is given, the heat balance leaves the casing out."""
 
     def unused(self) -> dict[str, bool]:
-        """Mark all other fields as unused if the area of the casing is not given."""
+        """Mark all fields except the area as unused if the area is not given."""
         return dict.fromkeys(type(self).model_fields, self.area_m2 is None) | {"area_m2": False}
 
 
 class MeasuredTemperatures(Section, of=si.Measured):
     """Temperatures measured in operation.
 
-    The measured temperature of a gear determines the wetting share. The measured drain temperature determines the other
-    losses.
+    If the temperature of a gear is given, the wetting share follows from this temperature. If the temperature of the
+    drained oil is given, the other losses follow from this temperature.
     """
 
     exclusive: ClassVar = (("pinion_flank_c", "pinion_body_c"), ("wheel_flank_c", "wheel_body_c"))
@@ -34,7 +34,11 @@ class GearCooling(Section, of=si.Cooling):
     """The supply of oil to the teeth, further losses that heat the oil, and measured temperatures."""
 
     def unused(self) -> dict[str, bool]:
-        """Mark fields as unused if a measured temperature or a given oil flow replaces the values of these fields."""
+        """Mark a field as unused if another given value determines its value.
+
+        The oil flow determines the rise of the oil temperature. The measured temperature of a gear determines the
+        wetting share. The measured temperature of the drained oil determines the other losses.
+        """
         measured = self.measured
         return {
             "flow_rise_k": self.gear_flow_l_per_min is not None,
@@ -49,15 +53,15 @@ class GearCooling(Section, of=si.Cooling):
 
 
 class GearHeat(Group, of=results.GearTemperatures):
-    """Temperatures of a gear in the heat balance, its frictional heat, and its cooling by the oil film."""
+    """Temperatures of a gear, the frictional heat that enters the gear, and the cooling by the oil film."""
 
 
 class BearingHeatBalance(Group, of=results.BearingHeat):
-    """Temperatures, oil flow and friction of a plain bearing in the heat balance."""
+    """Temperatures, oil flow and friction of a plain bearing, as computed by the heat balance."""
 
 
 class FlowOfHeat(Group, of=results.HeatFlow):
-    """A heat flow from one place in the network of the heat balance to another."""
+    """A heat flow in the network of the heat balance, from one node to another."""
 
 
 class HeatLosses(Group, of=results.HeatLosses):
@@ -65,15 +69,18 @@ class HeatLosses(Group, of=results.HeatLosses):
 
 
 class HeatSuppliedRemoved(Group, of=results.Balance):
-    """The heat that is supplied, the heat that is removed, and the relative difference between the two."""
+    """The supplied heat, the removed heat, and the difference of the two divided by the supplied heat."""
 
 
 class BulkByStandards(Group, of=results.BulkEstimates):
-    """Bulk temperatures by the rules of two standards, for comparison with the heat balance."""
+    """Bulk temperatures by ISO/TR 13989-1 and ISO/TS 6336-22, for comparison with the heat balance."""
 
 
 class BandOfHeat(Group, of=results.HeatBand):
-    """Range of results that the uncertainty of the cooling allows; it states no probability."""
+    """Ranges in which the flank temperatures and the safety factor lie, because the cooling is uncertain.
+
+    The ranges state no probability.
+    """
 
 
 class HeatBalanceResult(Group, of=results.Heat):
@@ -81,4 +88,4 @@ class HeatBalanceResult(Group, of=results.Heat):
 
 
 class CoolingInForce(Group, of=results.CoolingInForce):
-    """Values used for the inputs of the cooling that the request left open."""
+    """The values that the calculation uses for cooling inputs that a request may leave out."""

@@ -1,4 +1,4 @@
-"""Gear couplings: requests and answers of /v1/coupling and its two companions."""
+"""Requests and answers of /v1/coupling, /v1/coupling/sleeve-orbit and /v1/coupling/recommendation."""
 
 from typing import Annotated, Any, ClassVar
 
@@ -23,7 +23,10 @@ class CouplingDesign(Section, of=si.Coupling, without=("crowning_ratio",)):
     tooth_stiffness_n_per_um: float | None
 
     def stands_for_null(self, name: str) -> Any:
-        """Return the tooth stiffness that follows from the material; not every answer contains this stiffness."""
+        """Return the tooth stiffness that follows from the material, or None if `name` is another field.
+
+        This value is needed because some answers do not contain the tooth stiffness.
+        """
         return self.si(si.Coupling).tooth_stiffness * 1e-6 if name == STIFFNESS else None
 
 
@@ -32,11 +35,11 @@ class CrownedCoupling(CouplingDesign, of=si.Coupling):
 
 
 class CouplingLoad(Section, of=si.Operation, without=("misalignment",)):
-    """Torque and speed of the coupling, and its arrangement."""
+    """Torque, speed and arrangement of the coupling."""
 
 
 class CouplingOperation(CouplingLoad):
-    """The operating point. The tilt is either given or follows from the parallel offset of the shafts."""
+    """The operating point. Either the tilt or the parallel offset of the shafts is given."""
 
     exclusive: ClassVar = (("misalignment_deg", "parallel_offset_mm"),)
     choice_missing: ClassVar = "misalignment_or_offset"
@@ -58,7 +61,7 @@ class CouplingOperation(CouplingLoad):
     ] = None
 
     def operation(self, hub_distance: float) -> si.Operation:
-        """Return the operating point of the solver; `hub_distance` [m] is the distance between the tooth planes."""
+        """Return the solver's operating point; `hub_distance` [m] is the distance between the two tooth planes."""
         if self.parallel_offset_mm is None:
             return self.si(si.Operation)
         offset = UNITS["mm"].to_si(self.parallel_offset_mm)
@@ -84,17 +87,17 @@ class CouplingOperationRange(CouplingLoad):
 
 
 class MixedFrictionTable(Section, of=si.MixedFrictionTable):
-    """Measured coefficients of mixed friction at rising sliding velocities.
+    """Measured coefficients of mixed friction, in the order of increasing sliding velocity.
 
-    Below the first and above the last velocity, the coefficient stays constant. A table with a single point means a
-    constant coefficient.
+    Below the first velocity and above the last velocity, the coefficient is constant. A table with a single point means
+    a constant coefficient.
     """
 
 
 class MixedFrictionCurve(Section, of=si.MixedFrictionCurve):
-    """A law of mixed friction that comes from this project and not from the paper.
+    """A law of mixed friction. The law comes from this project and not from the paper.
 
-    The coefficient falls to its lowest value at one sliding velocity, and rises again at higher velocities.
+    With increasing sliding velocity, the coefficient first falls to its lowest value and then rises again.
     """
 
 
@@ -102,7 +105,7 @@ class CouplingFriction(Section, of=si.Friction):
     """Friction between the teeth."""
 
     def unused(self) -> dict[str, bool]:
-        """Mark the curve as unused if a coefficient or a table is given.
+        """Mark the friction curve as unused if a coefficient or a table is given.
 
         Mark the coefficient at rest as unused if a coefficient is given.
         """
@@ -111,7 +114,7 @@ class CouplingFriction(Section, of=si.Friction):
 
 
 class CouplingModel(Section, of=si.ModelOptions):
-    """Options of the model at points that the paper leaves open."""
+    """Choices that the paper leaves open in the coupling model."""
 
 
 class _CouplingRequest(Request):
@@ -126,7 +129,12 @@ class _CouplingRequest(Request):
     )
 
     def unused(self) -> dict[str, bool]:
-        """Mark inputs as unused if other given values replace them, or if they do not apply to the arrangement."""
+        """Mark inputs as unused if other inputs make them ineffective.
+
+        If the inlet length is given, the limit of the oil inlet is ineffective. In the arrangement `single`, the
+        distance between the hubs is ineffective, unless a parallel offset is given. In arrangements other than
+        `parallel_offset`, the factor of the simple thrust model is ineffective.
+        """
         arrangement, offset = self.operation.arrangement, getattr(self.operation, "parallel_offset_mm", None)
         return {
             "model.inlet": self.model.inlet_length_mm is not None,
@@ -151,18 +159,19 @@ class CouplingRequest(_CouplingRequest):
 class SleeveOrbitRequest(CouplingRequest):
     """A gear coupling whose floating sleeve is followed over one revolution.
 
-    The calculation models the teeth as springs and the sleeve as a mass. Oil, friction and the shape of the contact may
-    be given, but are not used.
+    The calculation models the teeth as springs and the sleeve as a mass. The request may give oil, friction and the
+    shape of the contact, but the calculation does not use them.
     """
 
     def options(self) -> dict[str, Any]:
-        """Return the options in force: the chosen kinematics, and a floating sleeve in every case."""
+        """Return the options that the calculation uses: the chosen kinematics, and always a floating sleeve."""
         return {"kinematics": self.model.kinematics, "sleeve": "floating"}
 
     def unused(self) -> dict[str, bool]:
-        """Mark the inputs of contact, film, friction and the second mesh as unused.
+        """Mark the sections `lubricant`, `friction` and `model` and four fields of the coupling as unused.
 
-        Mark Young's modulus as unused if the tooth stiffness is given.
+        These four fields describe the contact and the second mesh. Mark Young's modulus as unused if the tooth
+        stiffness is given.
         """
         contact = ("face_width_mm", "tooth_height_mm", "poisson_ratio", "hub_distance_mm")
         unused = dict.fromkeys(("lubricant", "friction", "model", *(f"coupling.{name}" for name in contact)), True)
@@ -176,9 +185,10 @@ class RecommendationRequest(_CouplingRequest):
     operation: Annotated[CouplingOperationRange, Input("operating point", text="with a range of misalignment")]
 
     def unused(self) -> dict[str, bool]:
-        """Also mark inputs as unused if they only affect results at a single operating point.
+        """Mark two inputs as unused in addition to the inputs that the base class marks.
 
-        These results are the thrust with one pair of teeth, and the friction at rest.
+        The two inputs are the factor of the simple thrust model and the coefficient of friction at rest. Both only
+        affect results at a single operating point.
         """
         return super().unused() | {"model.simple_thrust_factor": True, "friction.static_coefficient": True}
 
@@ -209,20 +219,21 @@ class CouplingLoadCurves(Group, of=results.LoadCurves):
 
 
 class CouplingLoadDistribution(Group, of=results.LoadDistribution):
-    """The load on the teeth of the mesh in which the hub drives the sleeve, at the requested rotor angle."""
+    """The load on the teeth at the requested rotor angle, for the mesh in which the hub drives the sleeve."""
 
 
 class FrictionRegime(Group, of=results.Regime):
-    """An area of the map of friction conditions, with its friction band.
+    """An area of the paper's map of friction conditions, and the friction band of this area.
 
-    If the paper states no lower or no upper end of the band, this end is null.
+    The band has a lower and an upper end. An end that the paper does not state is null.
     """
 
 
 class CouplingLubrication(Group, of=results.Lubrication):
-    """Contact and film of the most heavily loaded tooth while one tooth is in the tilt position.
+    """Contact and film of the most heavily loaded tooth.
 
-    If there are pitch deviations, this is the most heavily loaded tooth in a whole revolution.
+    This is the tooth with the largest load while one of the teeth is in the tilt position. If there are pitch
+    deviations, it is the tooth with the largest load in a whole revolution.
     """
 
     views: ClassVar = {
@@ -233,11 +244,14 @@ class CouplingLubrication(Group, of=results.Lubrication):
 
 
 class SelfInducedThrust(Group, of=results.SelfInducedThrust):
-    """The axial thrust that two meshes cause without axial motion."""
+    """The axial thrust that two meshes cause even if the shafts do not move axially."""
 
 
 class CouplingThrust(Group, of=results.AxialThrust):
-    """Mean axial thrust over one tooth pitch or, if there are pitch deviations, over one revolution."""
+    """Axial thrust, as a mean over one tooth pitch.
+
+    If there are pitch deviations, the mean is taken over one revolution.
+    """
 
     views: ClassVar = {
         "design_force": View(headline=1),
@@ -247,11 +261,11 @@ class CouplingThrust(Group, of=results.AxialThrust):
 
 
 class CouplingLosses(Group, of=results.Losses):
-    """Friction losses and moments of the mesh in which the hub drives the sleeve."""
+    """Friction power and moments of the mesh in which the hub drives the sleeve."""
 
 
 class CouplingLimits(Group, of=results.Limits):
-    """Limits of the operation of the coupling, and the stiffnesses of one mesh."""
+    """Limits for the operation of the coupling, and the stiffnesses of one mesh."""
 
     views: ClassVar = {"allowable_misalignment": View(headline=4)}
 
@@ -265,7 +279,7 @@ class SleeveInertia(Group, of=results.InertiaForce):
 
 
 class RecommendedPoint(Group, of=crowning.RecommendedPoint):
-    """Results of the recommended coupling at one end of the range of misalignment."""
+    """Results with the recommended crowning, at one end of the range of misalignment."""
 
     views: ClassVar = {
         "contact_overlap": View(limit=1.0, bound="upper"),
@@ -274,19 +288,23 @@ class RecommendedPoint(Group, of=crowning.RecommendedPoint):
 
 
 class CrowningScan(Group, of=crowning.CrowningScan):
-    """Smallest load capacity and largest contact overlap in the range of misalignment, over the crowning ratio."""
+    """Curves over the crowning ratio.
+
+    For each crowning ratio, the curves state the smallest load capacity and the largest contact overlap in the range of
+    misalignment.
+    """
 
     views: ClassVar = {"max_contact_overlap": View(limit=1.0)}
 
 
 def _used(name: str, title: str) -> Output:
-    """Return the declaration of a property of the coupling that a request may omit."""
+    """Return the declaration of the answer field that states the value used for a property of the coupling."""
     declared = quantities(si.Coupling)[name]
     return Output(title, declared.symbol, unit=declared.unit, origin=(si.Coupling, name))
 
 
 class ProportionsInForce(Group):
-    """The proportions of a coupling and the stiffness of its teeth, as used."""
+    """Face width, tooth height and tooth stiffness that the calculation uses for a coupling."""
 
     face_width_mm: Annotated[float, _used("face_width", "face width used")]
     tooth_height_mm: Annotated[float, _used("tooth_height", "tooth height used")]
@@ -294,16 +312,16 @@ class ProportionsInForce(Group):
 
 
 class CouplingProportions(ProportionsInForce, Derived):
-    """The proportions of the coupling and the stiffness of its teeth, as used.
+    """Face width, tooth height and tooth stiffness that the calculation uses.
 
-    If the request omits one of these values, the default is used.
+    If the request omits one of these values, the default of this value is used.
     """
 
 
 class CouplingDerived(CouplingProportions, of=results.Derived):
-    """The proportions of the coupling, the stiffness of its teeth and the viscosity of the oil, as used.
+    """Face width, tooth height, tooth stiffness and oil viscosity that the calculation uses.
 
-    If the request omits one of these values, the default is used.
+    If the request omits one of these values, the default of this value is used.
     """
 
 
@@ -317,7 +335,7 @@ class CouplingResponse(Response, of=results.CouplingResult):
 
 
 class SleeveOrbitDerived(Derived, of=results.Geometry, only=("pitch_radius",)):
-    """The radius of the circle on which the teeth stand."""
+    """The pitch radius of the coupling."""
 
 
 class SleeveOrbitResponse(Response, of=results.OrbitResult):
@@ -329,7 +347,11 @@ class SleeveOrbitResponse(Response, of=results.OrbitResult):
 
 
 class RecommendationResponse(Response, of=crowning.Recommendation):
-    """The crowning ratio with the largest load capacity over a range of misalignment."""
+    """The recommended crowning ratio for a range of misalignment.
+
+    Of all permissible crowning ratios, this ratio has the largest load capacity. The load capacity of a ratio is the
+    smallest value in the range.
+    """
 
     derived: CouplingDerived
 

@@ -1,4 +1,4 @@
-"""A complete gear unit: request and answer of /v1/drive-train."""
+"""Requests and answers for a complete gear unit: /v1/drive-train and /v1/drive-train/warm-up."""
 
 from collections.abc import Iterator
 from functools import partial
@@ -39,7 +39,7 @@ from solvers.scuffing import inputs as mesh
 
 
 class TrainGears(BacklashGears, of=si.Arrangement, only=("hand",)):
-    """The gear pair with its backlash and the hand of its helix."""
+    """The gear pair, with its backlash and the hand of the helix."""
 
     rack_tip_radius: Annotated[
         float | None,
@@ -53,33 +53,39 @@ class TrainGears(BacklashGears, of=si.Arrangement, only=("hand",)):
     ] = None
 
     def pair(self, rack_tip_radius: float) -> GearPairInputs:
-        """Return the solver's pair; `rack_tip_radius` is the tip radius coefficient if the request has none."""
+        """Return the solver's gear pair.
+
+        If the request gives no tip radius coefficient of the rack, `rack_tip_radius` is used.
+        """
         own = self.rack_tip_radius
         return self.si(GearPairInputs, rack_tip_radius=rack_tip_radius if own is None else own)
 
 
 class TrainOperation(ScuffingLoad, of=si.Arrangement, without=("hand",)):
-    """Torque or power, speed, sense of rotation, and the position of the unit in space."""
+    """Torque or power, speed, sense of rotation and orientation of the unit."""
 
     choice_missing: ClassVar = "load_missing"
 
 
 class GroundCurve(Section, of=mesh.LeadCurve):
-    """A gap of any shape along the face, in addition to the named modifications; empty lists mean no gap."""
+    """A gap along the face, ground in addition to the named modifications.
+
+    The gap may have any shape. Empty lists mean that there is no such gap.
+    """
 
 
 class TrainModifications(FlankModifications, of=mesh.Modifications):
-    """The modifications as they are ground; a gap is positive where material is missing."""
+    """The modifications that are ground. A gap is positive where material is missing."""
 
 
 class TrainModel(MeshModel, PumpingOptions, of=si.DriveTrainInputs, only=("face_stations", "coupling_friction")):
-    """Options of the model at points that the papers leave open, and the resolution."""
+    """Choices that the papers leave open in the models, and the numerical resolution."""
 
 
 def _isotropic(value: Any) -> Any:
-    """Return the matrix of a bearing with the same stiffness in every direction if the value is a number.
+    """Return a stiffness matrix of a bearing if the value is a single number.
 
-    Return any other value unchanged.
+    The matrix has this stiffness in every direction. A value that is not a number is returned unchanged.
     """
     if isinstance(value, int | float) and not isinstance(value, bool):
         return [[value, 0.0], [0.0, value]]
@@ -156,14 +162,14 @@ class ShaftBearing(Section):
     ] = None
 
     def unused(self) -> dict[str, bool]:
-        """Mark clearance and viscosity as unused unless the bearing is a plain bearing."""
+        """Mark clearance and viscosity as unused if the bearing is not a plain bearing."""
         return dict.fromkeys(("radial_clearance_um", "viscosity_pa_s"), self.type != "journal")
 
     def bearing(self, scuffing: mesh.ScuffingInputs) -> si.Bearing:
-        """Return the solver's bearing; a plain bearing for which no viscosity is given runs in the gears' oil.
+        """Return the solver's bearing. If a plain bearing has no given viscosity, the oil of the gears is used.
 
-        Raises InvalidInput `no_oil` if neither the viscosity of a plain bearing nor the gears' oil is given, and
-        `bearing_data` if data that the type of bearing requires are missing.
+        Raises InvalidInput `no_oil` if a plain bearing has no given viscosity and the gears have no oil. Raises
+        InvalidInput `bearing_data` if data that this type of bearing requires are missing.
         """
         if self.type == "rigid":
             return self.si(si.RigidBearing)
@@ -188,13 +194,13 @@ class ShaftBearing(Section):
 
 
 class ThrustBearing(Section):
-    """The thrust bearing, which holds a shaft axially."""
+    """The bearing that holds a shaft in the axial direction."""
 
     ultimate_load_n: Annotated[float | None, Input.of(si.Shaft, "ultimate_thrust")] = None
 
 
 class UnitShaft(Section, of=si.Shaft, without=("ultimate_thrust",)):
-    """A shaft in two bearings."""
+    """A shaft of the unit, with two radial bearings and a thrust bearing."""
 
     bearings: list[ShaftBearing]
     thrust_bearing: Annotated[ThrustBearing, Input("thrust bearing")] = ThrustBearing()
@@ -202,7 +208,7 @@ class UnitShaft(Section, of=si.Shaft, without=("ultimate_thrust",)):
     def shaft(self, name: str, scuffing: mesh.ScuffingInputs, face_start: float) -> si.Shaft:
         """Return the solver's shaft.
 
-        `name` is "pinion_shaft" or "wheel_shaft", and `face_start` [m] is the position at which the face starts. If a
+        `name` is "pinion_shaft" or "wheel_shaft". `face_start` [m] is the position at which the face starts. If a
         section or a bearing is invalid, raises InvalidInput with the full name of the wrong field.
         """
         sections = tuple(self._sections(name, scuffing.distribution.gears, face_start))
@@ -215,10 +221,10 @@ class UnitShaft(Section, of=si.Shaft, without=("ultimate_thrust",)):
         return self.si(si.Shaft, self.thrust_bearing, bearings=tuple(bearings), sections=sections)
 
     def _sections(self, name: str, gears: GearPairInputs, face_start: float) -> Iterator[si.ShaftSection]:
-        """Yield the solver's sections.
+        """Yield the solver's sections of the shaft.
 
-        If a section under the teeth has no diameter, the section has the diameter that carries the torsion. Raises
-        InvalidInput `section_diameter` if a section that is not under the teeth has no diameter.
+        If a section under the teeth has no diameter, the diameter that carries the torsion is used. Raises InvalidInput
+        `section_diameter` if a section has no diameter and is not under the teeth.
         """
         teeth = gears.pinion if name == "pinion_shaft" else gears.wheel
         position = UNITS["mm"].to_si(self.start_mm)
@@ -236,9 +242,9 @@ class UnitShaft(Section, of=si.Shaft, without=("ultimate_thrust",)):
 
 
 class ShaftAlignment(Section, of=si.Alignment):
-    """The growth of the unit and of the machine as they warm up.
+    """Data of the thermal growth of the unit and of the machine: shaft heights and temperature rises.
 
-    If the growth is given, the offset of the machine's hub is the offset in the cold state.
+    If these data are given, the `offset` of the coupling is the offset of the machine's hub in the cold state.
     """
 
 
@@ -249,7 +255,7 @@ class UnitCoupling(Section, of=si.UnitCoupling):
     lubricant: CouplingLubricant
 
     def unused(self) -> dict[str, bool]:
-        """Mark friction at rest as unused, because the shaft rotates.
+        """Mark the coefficient of friction at rest as unused, because the shaft rotates.
 
         Mark the oil as unused if a coefficient of friction is given.
         """
@@ -257,11 +263,14 @@ class UnitCoupling(Section, of=si.UnitCoupling):
 
 
 class ToothHeat(Section, of=si.Heat):
-    """Temperatures of the teeth, and the ratio of the rise in tooth temperature to the rise in gas temperature."""
+    """Temperatures of the teeth, and the wall responses of both gears.
+
+    The wall response is the temperature rise of the metal divided by the temperature rise of the pumped gas.
+    """
 
 
 class TrainTemperatures(ContactTemperatures, of=si.DriveTrainInputs, only=("local_bulk",)):
-    """Temperatures of the contact and the oil."""
+    """Temperatures of the contact and of the oil."""
 
     bulk_c: Annotated[
         float | None,
@@ -324,9 +333,10 @@ class DriveTrainRequest(MeshInOil):
 
     @model_validator(mode="after")
     def bodies_hold_the_pumped_heat(self) -> Self:
-        """Include the pumped heat in the tooth temperatures if these temperatures come from the heat balance.
+        """Set `thermal.bulk_includes_pumping` if the bulk temperature comes from the heat balance.
 
-        The heat balance computes the temperatures of the gear bodies, which take up the pumped heat.
+        The heat of pumping is already part of the heat balance. A request that sets the field to false is therefore
+        refused.
         """
         if not self.is_balanced:
             return self
@@ -346,7 +356,7 @@ class DriveTrainRequest(MeshInOil):
     def inputs(self) -> si.DriveTrainInputs:
         """Return the solver's inputs.
 
-        Raises InvalidInput `no_oil` if neither the viscosity of a plain bearing nor the gears' oil is given.
+        Raises InvalidInput `no_oil` if a plain bearing has no given viscosity and the gears have no oil.
         """
         scuffing, face_start = self.scuffing_inputs(*self.running()), UNITS["mm"].to_si(self.face_start_mm)
         return self.si(
@@ -366,7 +376,8 @@ class DriveTrainRequest(MeshInOil):
     def _couplings(self) -> Iterator[si.UnitCoupling]:
         """Yield the solver's couplings.
 
-        Raises InvalidInput with the full name of the wrong field if the oil of a coupling is impossible.
+        Raises InvalidInput with the full name of the wrong field if no oil can have the properties given for a
+        coupling.
         """
         for k, unit in enumerate(self.couplings):
             try:
@@ -376,11 +387,15 @@ class DriveTrainRequest(MeshInOil):
             yield unit.si(si.UnitCoupling, lubricant=lubricant)
 
     def options(self) -> dict[str, Any]:
-        """Return the options of the model section with the number of slices that is used."""
+        """Return the model options, with the number of slices that the calculation uses."""
         return super().options() | {"slices": self.model.si(pumping.PumpingModel).slice_count}
 
     def unused(self) -> dict[str, bool]:
-        """Also mark as unused the inputs of switched-off effects, and the inputs that a heat balance replaces."""
+        """Mark further inputs as unused in addition to the inputs that the base class marks.
+
+        The further inputs are inputs of effects that are switched off, inputs that the heat balance replaces, and two
+        inputs of the cooling.
+        """
         coupled = self.couplings and self.effects.shafts and self.effects.coupling
         return (
             super().unused()
@@ -392,13 +407,13 @@ class DriveTrainRequest(MeshInOil):
 
 
 class WarmUpRequest(DriveTrainRequest, of=warm_up.WarmUpInputs):
-    """A gear unit that starts and warms up; its bulk temperature comes from the heat balance."""
+    """A gear unit that starts and warms up. The bulk temperature comes from the heat balance."""
 
     balance_is_default: ClassVar = True
 
     @model_validator(mode="after")
     def with_a_balance(self) -> Self:
-        """Refuse a bulk temperature that is given or estimated."""
+        """Refuse a bulk temperature that is given or estimated, because a warm-up needs the heat balance."""
         if self.lubricant.known and not self.is_balanced:
             raise PydanticCustomError(
                 "not_asked",
@@ -408,7 +423,7 @@ class WarmUpRequest(DriveTrainRequest, of=warm_up.WarmUpInputs):
         return self
 
     def unused(self) -> dict[str, bool]:
-        """Mark the mass of the casing as used, and the states as unused."""
+        """Mark the mass of the casing as used, and the list of states as unused."""
         return super().unused() | {"cooling.casing.mass_kg": False, "states": True}
 
     def inputs(self) -> warm_up.WarmUpInputs:  # type: ignore[override]
@@ -422,8 +437,8 @@ class BearingLoad(Group, of=results.BearingResult):
 class ShaftThrust(Group, of=thrust_budget.Thrust):
     """Axial forces on a shaft, positive towards +Z.
 
-    Only the limit of the friction in the couplings is known. The load on the thrust bearing therefore lies between the
-    two bounds `lower_n` and `upper_n`.
+    Of the axial friction force in the couplings, only the limit is known. The load on the thrust bearing therefore lies
+    between the two bounds `lower_n` and `upper_n`.
     """
 
     views: ClassVar = {"use": View(limit=1.0)}
@@ -434,23 +449,23 @@ class ShaftLine(Group, of=results.ShaftCurves):
 
 
 class UnitCouplingState(Group, of=results.CouplingResult):
-    """Tilts and friction of both hubs of a coupling, and the loads of the coupling on the unit's hub."""
+    """Tilts and friction of both hubs of a coupling, and the force and the moment on the hub of the unit."""
 
 
 class BearingInForce(Group, of=derived.DerivedBearing):
-    """Clearance and oil viscosity used for a plain bearing; both are null for other bearings."""
+    """The clearance and the oil viscosity that are used for a plain bearing; both are null for other bearings."""
 
 
 class SectionInForce(Group, of=derived.DerivedSection):
-    """The outer diameter used for a section of a shaft."""
+    """The outer diameter that is used for a section of a shaft."""
 
 
 class ShaftInForce(Group, of=derived.DerivedShaft):
-    """Values used for the inputs of a shaft that the request left open."""
+    """The values that the calculation uses for shaft inputs that a request may leave out."""
 
 
 class HeatInForce(Group, of=derived.DerivedHeat):
-    """The wall responses used for both gears."""
+    """The wall responses that are used for both gears."""
 
 
 class TemperaturesInForce(Group, of=derived.DerivedTemperatures):
@@ -458,7 +473,10 @@ class TemperaturesInForce(Group, of=derived.DerivedTemperatures):
 
 
 class GapCurves(Group, of=results.GapCurves):
-    """Gaps and force over the face; a gap is positive where the flanks move apart."""
+    """Gaps between the flanks, and the force on the flanks, over the face.
+
+    A gap is positive where the flanks move apart.
+    """
 
 
 class TrainLoad(Group, of=results.FaceLoad):
@@ -470,8 +488,8 @@ class TrainLoad(Group, of=results.FaceLoad):
 class TrainSafety(Group, of=results.TrainSafety):
     """Safety factors against scuffing.
 
-    The factors by thermal EHL are null if `model.lubrication` is `closed_form`, or if the value at one of their points
-    is not known.
+    The factors by thermal EHL are null if `model.lubrication` is `closed_form`. Such a factor is also null if the
+    temperature at one of the points on its line is not known.
     """
 
     views: ClassVar = {
@@ -484,7 +502,7 @@ class TrainSafety(Group, of=results.TrainSafety):
 
 
 class TrainFlash(Group, of=results.FlashPlaces):
-    """Largest flash temperatures and largest contact temperature by Blok."""
+    """Largest flash temperatures and largest contact temperature, all by Blok's formula."""
 
 
 class TrainLosses(Group, of=results.TrainLosses):
@@ -492,47 +510,50 @@ class TrainLosses(Group, of=results.TrainLosses):
 
 
 class TrainBalance(Group, of=results.ForceBalance):
-    """Remaining errors in the balance of forces and moments on the shafts; null without load."""
+    """Remaining errors in the balance of forces and moments on the shafts; null if the unit has no load."""
 
 
 class TrainConvergence(Group, of=results.Convergence):
-    """Number of steps and last residual of the iteration between the calculations of shafts and mesh."""
+    """The end of the iteration between the shafts and the mesh: the number of steps and the last residual."""
 
 
 class TrainMaps(Group, of=results.FlankMaps):
-    """Maps of the flank, indexed `[profile][face]`."""
+    """Maps of load, pressure, temperature and film over the flank, indexed `[profile][face]`."""
 
 
 class ShaftSummary(Group, of=results.ShaftResult, without=("curves",)):
-    """Bearings and thrust of a shaft."""
+    """Results of the bearings of a shaft, and the axial forces on the shaft."""
 
 
 class ShaftState(ShaftSummary, of=results.ShaftResult):
-    """Bearings, thrust and displaced axis of a shaft."""
+    """Results of the bearings of a shaft, the axial forces on the shaft, and the displaced axis of the shaft."""
 
 
 class CouplingInForce(Group, of=derived.DerivedCoupling):
-    """Values used for the inputs of a coupling that the request left open."""
+    """The values that the calculation uses for coupling inputs that a request may leave out."""
 
     coupling: ProportionsInForce
 
 
 class OilInForce(Group, of=OilInUse, stands=False):
-    """Properties of the gears' oil at the place where the oil enters the contact."""
+    """Properties of the gears' oil at the reference temperature."""
 
 
 class StateDerived(Group, of=derived.Derived, only=("temperatures",)):
-    """Values that this state of the unit uses for inputs that the request left open."""
+    """The temperatures and the lubricant factor that are used for this state of the unit."""
 
 
 class DriveTrainDerived(MeshDerived, of=derived.Derived):
-    """Values used for inputs that the request left open, in groups with the names of the request's sections."""
+    """The values that the calculation uses for inputs that a request may leave out.
+
+    The groups of values have the names of the request's sections.
+    """
 
     lubricant: OilInForce | None
 
 
 class MisalignmentParts(Group, of=results.Parts):
-    """Slope of the shafts' gap over the face, split by cause.
+    """Slope of the gap that the shafts cause over the face, with one part per cause.
 
     The parts are computed for the load distribution at the end of the iteration between shafts and mesh.
     """
@@ -541,7 +562,7 @@ class MisalignmentParts(Group, of=results.Parts):
 
 
 class MisalignmentSummary(Group, of=results.Misalignment, without=("curves",)):
-    """The gap over the face that the shafts and the heat cause.
+    """The gap that the shafts and the heat cause over the face.
 
     A negative slope means that the gap opens towards the end that meshes first. This end then carries less load.
     """
@@ -550,14 +571,14 @@ class MisalignmentSummary(Group, of=results.Misalignment, without=("curves",)):
 
 
 class MisalignmentState(MisalignmentSummary, of=results.Misalignment):
-    """The gap over the face that the shafts and the heat cause, with its curves.
+    """The gap that the shafts and the heat cause over the face, with curves.
 
     A negative slope means that the gap opens towards the end that meshes first. This end then carries less load.
     """
 
 
 class TrainSummary(Group, of=results.DriveTrainResult, without=("flank", "states", "heat")):
-    """A summary of the results of the unit in another state."""
+    """A summary of the results of the unit in a state other than the hot state."""
 
     misalignment: MisalignmentSummary
     shafts: list[ShaftSummary]
@@ -565,13 +586,13 @@ class TrainSummary(Group, of=results.DriveTrainResult, without=("flank", "states
 
 
 class TrainStates(Group, of=results.States):
-    """The unit in states other than the state that the request describes."""
+    """Results of the unit in states other than the hot state."""
 
     cold: TrainSummary | None
 
 
 class WarmUpCurves(Group, of=CurvesOfNodes):
-    """Temperatures over time."""
+    """Temperatures of the nodes of the heat balance, over time."""
 
 
 class WarmUpOfNodes(Group, of=WarmUp):
@@ -581,7 +602,7 @@ class WarmUpOfNodes(Group, of=WarmUp):
 
 
 class AlignmentAtTimes(Group, of=warm_up.AlignmentOverTime):
-    """Load, safety and slope at five points in time of the warm-up."""
+    """Face load factor, safety factor and slope of the gap at five points in time of the warm-up."""
 
 
 class WarmUpResponse(Response, of=warm_up.UnitWarmUp):
@@ -603,5 +624,8 @@ class DriveTrainResponse(Response, of=results.DriveTrainResult):
     """
 
     def remarks(self) -> dict[str, str]:
-        """Return the uncertainty of the flank temperatures of a heat balance without measured temperatures."""
+        """Return the remark about the uncertainty of the flank temperatures.
+
+        There is no remark if a gear temperature was measured, or if there is no heat balance.
+        """
         return how_well_known(self, "heat.pinion.flank_c", "heat.wheel.flank_c")

@@ -1,6 +1,7 @@
-"""The fields of a request or response in their sections, for forms, tables, files, studies and tests.
+"""The fields of requests and responses as a tree of sections, for forms, tables, files, studies and tests.
 
-If an error of a solver names an input of the solver, `field_path` returns the corresponding field of the request.
+A solver's errors and warnings contain the solver's own names of inputs. `field_path` returns the request field that
+belongs to such a name.
 """
 
 from collections import defaultdict
@@ -25,10 +26,10 @@ ITEM = "*"
 class Leaf:
     """A field that holds values and is not a section of further fields.
 
-    `declared` says what the field means, and `view` says how a result is judged. `title` is unique within the request
-    or answer: if fields of several sections have the same title, the name of the section is added to each title.
-    `dimensions` is 0 for a scalar, 1 for a list and 2 for a matrix. `axes` holds the full paths of the axes, one for
-    each dimension, or is empty.
+    `declared` says what the field means. `view` says how a result in this field is judged. `title` is unique within the
+    request or answer: if fields of several sections are declared with the same title, each `title` also names a
+    section. `dimensions` is 0 for a scalar, 1 for a list and 2 for a matrix. `axes` holds the full paths of the fields
+    that are the axes, one path per dimension. `axes` is empty if the field has no axes.
     """
 
     path: str
@@ -58,8 +59,8 @@ class Leaf:
 class Branch:
     """A section of fields.
 
-    A `repeated` section is a list of sections; an `optional` section may be null. In `path`, `*` stands for the index
-    of a list item.
+    If `repeated` is set, the field holds a list of such sections. If `optional` is set, the section may be null. In
+    `path`, `*` stands for the index of a list item.
     """
 
     path: str
@@ -83,7 +84,7 @@ class Branch:
 
     @property
     def required(self) -> bool:
-        """Whether a field of the section must be given."""
+        """Whether a request must give at least one field of the section."""
         return any(leaf.required for leaf in self.leaves) or any(
             branch.required for branch in self.branches if not branch.repeated and not branch.optional
         )
@@ -93,9 +94,9 @@ class Branch:
 def tree(model: type[Documented]) -> Branch:
     """Return the whole request or response as one section without a name.
 
-    If several leaves have the same title, the title of a section is added to the title of every one of these leaves.
-    For each leaf, this section is the nearest section around the leaf with a title that no section around the other
-    leaves has.
+    If several leaves are declared with the same title, a section title is added to the title of each of these leaves.
+    The sections around the leaf are searched from the innermost to the outermost. The first section title that does not
+    occur around the other leaves is added.
     """
     namesakes: dict[str, dict[str, list[str]]] = defaultdict(dict)
     for way in _ways(model):
@@ -124,7 +125,10 @@ def leaves(model: type[Documented]) -> tuple[Leaf, ...]:
 
 
 def leaf_at(model: type[Documented], path: str) -> Leaf | None:
-    """Return the leaf at a dotted path, or None. Indices of lists may be numbers or `*`."""
+    """Return the leaf at a dotted path, or None if there is no such leaf.
+
+    In the path, the index of a list item may be a number or `*`.
+    """
     wanted = ".".join(ITEM if part.isdecimal() else part for part in path.split("."))
     return next((leaf for leaf in leaves(model) if leaf.path == wanted), None)
 
@@ -133,7 +137,7 @@ def leaf_at(model: type[Documented], path: str) -> Leaf | None:
 def headlines(response: type[Documented]) -> tuple[Leaf, ...]:
     """Return the headline numbers of an answer, the most important first.
 
-    If the class of the answer extends another class of answers, only headline numbers among the added fields are
+    If the class of the answer extends the class of another answer, only headline numbers in the added fields are
     returned.
     """
     added = response.__annotations__
@@ -142,7 +146,7 @@ def headlines(response: type[Documented]) -> tuple[Leaf, ...]:
 
 
 def _all(member: Leaf | Branch) -> Iterator[Leaf | Branch]:
-    """Yield a member and, if the member is a section, all members below it."""
+    """Yield a member. If the member is a section, also yield all members below the section."""
     yield member
     if isinstance(member, Branch):
         for inner in member.members:
@@ -154,9 +158,9 @@ _Names = tuple[str, ...]
 
 
 def _ways(model: type[Documented], above: _Way = ()) -> Iterator[_Way]:
-    """Yield the way to every field and section of a model.
+    """Yield the way to every field and section of a model. `above` is the way to the model itself.
 
-    A way lists the sections around the field, the outermost first, and then the field itself.
+    A way lists the sections around a field, the outermost first. The last item of the way is the field itself.
     """
     for member in members(model):
         yield (*above, member)
@@ -165,9 +169,9 @@ def _ways(model: type[Documented], above: _Way = ()) -> Iterator[_Way]:
 
 
 def _names(way: _Way, *, solvers: bool = False) -> _Names:
-    """Return the names along a way, with `*` after the name of a list.
+    """Return the names of the members along a way. After the name of a list, `*` stands for the index.
 
-    If `solvers` is set, these are the names in the solver, else the names in the interface.
+    If `solvers` is set, the names are those of the solver, otherwise the names are those of the interface.
     """
     names = ((member.solver_name if solvers else member.name, member.dimensions) for member in way)
     return tuple(part for name, dimensions in names for part in ((name, ITEM) if dimensions else (name,)))
@@ -178,7 +182,10 @@ def _path(way: _Way) -> str:
 
 
 def _below(model: type[Documented], above: _Way, titles: dict[str, str]) -> tuple[Leaf | Branch, ...]:
-    """Return the fields and sections of a model; `above` is the way to the model."""
+    """Return the fields and sections of a model.
+
+    `above` is the way to the model. `titles` maps the paths of leaves to their titles.
+    """
     below: list[Leaf | Branch] = []
     for member in members(model):
         way = (*above, member)
@@ -203,8 +210,8 @@ def _below(model: type[Documented], above: _Way, titles: dict[str, str]) -> tupl
 def _leaf(model: type[Documented], way: _Way, titles: dict[str, str]) -> Leaf:
     """Return the leaf at the end of a way.
 
-    If the field declares a level of detail other than `summary`, the leaf has this level. Otherwise the leaf has the
-    level of the nearest section that declares a level other than `summary`.
+    If the field declares a level of detail other than `summary`, the leaf has this level. Otherwise the nearest section
+    that declares another level than `summary` gives the level. If there is no such section, the level is `summary`.
     """
     member, path = way[-1], _path(way)
     info, meaning, prefix = member.info, member.meaning, path.rpartition(".")[0]
@@ -232,12 +239,15 @@ def _leaf(model: type[Documented], way: _Way, titles: dict[str, str]) -> Leaf:
 
 
 def _absolute(name: str, prefix: str) -> str:
-    """Return the full path of a field in the section `prefix`. A name with a dot is already a full path."""
+    """Return the full path of a field.
+
+    A `name` without a dot is a field in the section `prefix`. A `name` with a dot is already a full path.
+    """
     return name if "." in name or not prefix else f"{prefix}.{name}"
 
 
 def _options(allowed: tuple[Any, ...]) -> tuple[Any, ...]:
-    """Return the words of a choice; empty if the types allow no choice of words."""
+    """Return the permissible words if one of the `allowed` types is a choice of words, otherwise an empty tuple."""
     for kind in allowed:
         if get_origin(kind) is Literal:
             return get_args(kind)
@@ -247,11 +257,11 @@ def _options(allowed: tuple[Any, ...]) -> tuple[Any, ...]:
 
 
 def field_path(request: Documented, name: str) -> str | None:
-    """Return the dotted path of the request field that a solver means by the dotted `name`, or None.
+    """Return the dotted path of the request field that a solver calls `name`, or None if no field matches.
 
-    The outer sections may be missing from `name`. If several fields match, return the outermost field. If fields
-    exclude one another, return the field that was sent. If a list item lacks the field that the solver names, return
-    the list item.
+    `name` is a dotted name of the solver, in which outer sections may be missing. If several fields match, return the
+    path of the outermost field. If fields exclude one another, return the path of the field that was sent. If a list
+    item lacks the field that the solver names, return the path of the list item.
     """
     indices = [part for part in name.split(".") if part.isdecimal()]
     wanted = tuple(ITEM if part.isdecimal() else part for part in name.split("."))
@@ -265,10 +275,11 @@ def field_path(request: Documented, name: str) -> str | None:
 
 @cache
 def _meant(model: type[Documented], wanted: _Names) -> _Names | None:
-    """Return the names on the way to the outermost field or list item that a solver means by these names.
+    """Return the interface names on the way to the field or list item that a solver calls `wanted`.
 
-    The solver may leave out sections, but not lists. The names may begin with parts of the solver's inputs that the
-    request does not have. The first name after these parts must then be at the root of the request.
+    If several ways match, return the shortest way. If no way matches, return None. `wanted` may leave out sections, but
+    not lists. `wanted` may begin with parts of the solver's inputs that the request does not have. The name after these
+    parts must then be at the root of the request.
     """
     request_names: dict[_Names, _Names] = {}
     for way in _ways(model):
@@ -280,7 +291,7 @@ def _meant(model: type[Documented], wanted: _Names) -> _Names | None:
             if (
                 theirs[-1] == wanted[-1]
                 and theirs.count(ITEM) == wanted.count(ITEM)
-                and all(name in rest for name in wanted[start:])  # occur in the order of `wanted`
+                and all(name in rest for name in wanted[start:])  # these names occur in `theirs` in the same order
                 and (start == 0 or theirs[0] == wanted[start])
             ):
                 return request_names[theirs]
@@ -288,9 +299,10 @@ def _meant(model: type[Documented], wanted: _Names) -> _Names | None:
 
 
 def _sent(request: Documented, path: _Names, indices: Iterator[str]) -> str | None:
-    """Return the path in this request; None if a section or an item is missing.
+    """Return the dotted path of a field in this request, or None if a section or a list item is missing.
 
-    If fields exclude each other, the path contains the field that was sent.
+    `path` has `*` at each list; `indices` yields the numbers that replace the `*`. If fields exclude each other, the
+    result contains the field that was sent.
     """
     here: Any = request
     taken: list[str] = []

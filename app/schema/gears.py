@@ -12,7 +12,7 @@ from solvers.pumping.inputs import PumpingSetup
 
 
 class GearMember(Section, of=GearTeeth):
-    """One gear of the pair; its coefficients are in normal modules."""
+    """One gear of the pair. Coefficients, such as the addendum, are multiples of the normal module."""
 
     exclusive: ClassVar = (("addendum", "tip_diameter_mm"),)
     choice_missing: ClassVar = "missing_property"
@@ -20,20 +20,20 @@ class GearMember(Section, of=GearTeeth):
     @model_validator(mode="before")
     @classmethod
     def addendum_follows_the_tip_diameter(cls, given: Any) -> Any:
-        """Leave the default addendum out if a tip diameter is given."""
+        """Set the addendum to null if the request gives a tip diameter but no addendum."""
         by_diameter = isinstance(given, dict) and given.get("tip_diameter_mm") is not None
         return {"addendum": None} | given if by_diameter else given
 
 
 class Gears(Section, of=GearPairInputs, without=("rack_tip_radius",)):
-    """An external gear pair with parallel axes, spur or helical; the pinion drives.
+    """An external gear pair, spur or helical, with parallel axes. The pinion drives.
 
-    Each model adds `rack_tip_radius` with its own default.
+    Subclasses add `rack_tip_radius`, because the default of this field depends on the calculation.
     """
 
 
 class ScuffingGears(Gears):
-    """The gear pair."""
+    """The gear pair of the scuffing calculations."""
 
     rack_tip_radius: Annotated[
         float,
@@ -51,13 +51,13 @@ class BacklashGears(Gears, of=PumpingSetup, only=("normal_backlash",)):
 
 
 class PumpingGears(BacklashGears):
-    """The gear pair."""
+    """The gear pair of the pumping calculations."""
 
     rack_tip_radius: Annotated[float, Input.of(GearPairInputs, "rack_tip_radius")] = GROUND_FILLET
 
 
 class Surface(Section, of=Solid, without=("roughness",)):
-    """The material under one surface; the default is steel."""
+    """The material of a surface; the default is steel."""
 
 
 class GearMaterial(Surface, of=Solid):

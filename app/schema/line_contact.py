@@ -21,7 +21,7 @@ class LineContactTemperatures(Section, of=ehl.Temperatures):
 
 
 class FilmModel(Section, of=ehl.Model, without=("thermal",)):
-    """Physical model and numerical resolution of the film."""
+    """Physical model of the film, and numerical resolution."""
 
     def unused(self) -> dict[str, bool]:
         """Mark the Eyring stress as unused if the film is Newtonian."""
@@ -29,7 +29,7 @@ class FilmModel(Section, of=ehl.Model, without=("thermal",)):
 
 
 class LineContactModel(FilmModel, of=ehl.Model):
-    """Physical model and numerical resolution of the contact."""
+    """Physical model of the contact, and numerical resolution."""
 
 
 class LineContactRequest(Request):
@@ -47,7 +47,7 @@ class LineContactRequest(Request):
     )
 
     def options(self) -> dict[str, Any]:
-        """Return the options of the model section and the laws of the oil."""
+        """Return the model options, and the chosen laws of the oil."""
         laws = self.lubricant.model_dump(include={"pressure_viscosity_law", "compressible"})
         return super().options() | laws
 
@@ -62,7 +62,7 @@ class LineContactRequest(Request):
     def inputs(self) -> ehl.LineContactInputs:
         """Return the solver's inputs.
 
-        If the oil is given by its data sheet, the properties of the oil are taken at the inlet temperature. Raises
+        If a grade or data sheet describes the oil, the properties of the oil are taken at the inlet temperature. Raises
         InvalidInput `no_oil` if no oil is given.
         """
         oil = self.lubricant.resolve()
@@ -88,7 +88,10 @@ class ContactNumbers(Group, of=results.Dimensionless):
 
 
 class FilmThickness(Group, of=results.FilmThickness):
-    """Film thickness. Without a solution, only the value by formula is given; the other values are null."""
+    """Film thickness of the solution, and minimum film thickness by the formula of Dowson and Higginson.
+
+    If there is no solution, only the value by the formula is given. The other values are then null.
+    """
 
     views: ClassVar = {"minimum": View(headline=1)}
 
@@ -110,18 +113,18 @@ class FilmFriction(Group, of=results.ContactFriction):
 
 
 class FilmHeat(Group, of=results.ContactHeat):
-    """Heat per length of contact; heat that enters a surface or leaves with the oil is positive."""
+    """Heat per length of contact. Heat that enters a surface is positive. Heat that leaves with the oil is positive."""
 
 
 class ContactConvergence(Group, of=results.Convergence):
-    """How the iteration ended."""
+    """The end of the iteration: number of Newton steps, last changes and remaining errors."""
 
 
 class MeshErrors(Group, of=results.MeshError):
-    """Estimated relative errors that the numerical grid causes.
+    """Estimated relative errors of the results due to the numerical grid.
 
-    The error of a coefficient of friction below 0.001 is relative to 0.001. The error of a flash temperature below 25 K
-    is relative to 25 K.
+    If a coefficient of friction is below 0.001, its error is relative to 0.001. If a flash temperature is below 25 K,
+    its error is relative to 25 K.
     """
 
 
@@ -130,8 +133,11 @@ class ContactCurves(Group, of=results.ContactCurves):
 
 
 class ContactField(Group, of=results.ContactField):
-    """Temperature in the film, indexed [x][film fraction]."""
+    """Temperature in the film, indexed [x][film fraction].
+
+    x is the position along the flow. The film fraction is the height above surface 1 divided by the film thickness.
+    """
 
 
 class LineContactResponse(Response, of=results.LineContactResult):
-    """Results of a lubricated line contact; values that were not solved are null."""
+    """Results of a lubricated line contact; a value is null if there is no solution for it."""

@@ -1,17 +1,19 @@
 """Models of requests and responses, filled from the dataclasses of the solvers.
 
     class CouplingModel(Section, of=si.ModelOptions):
-        \"\"\"Options of the model at points that the paper leaves open.\"\"\"
+        \"\"\"Choices that the paper leaves open in the coupling model.\"\"\"
 
-has a field for each declaration of `si.ModelOptions`. If the quantity has a unit, the name of the field ends with the
-unit. A trailing underscore, which keeps a solver's name from being a word of Python (`from_`), is dropped.
+This class gets one field for each field that `si.ModelOptions` declares. If the quantity has a unit, the name of the
+field ends with the unit. Solvers append an underscore to a name that is a keyword of Python (`from_`). The field of the
+model does not have this underscore.
 
-The class body may declare ordinary fields of pydantic. A field that has the name of a filled field changes the type or
-the default of the filled field. If the new type is annotated with an `Input` or `Output`, this annotation replaces the
-declaration of the solver; `Input.of(Record, "field", text=...)` replaces only a part of the declaration.
+The class body may declare fields of pydantic, too. If such a field has the same name as a filled field, the type in the
+class body replaces the type of the filled field. A default in the class body replaces the default of the filled field.
+If the type in the class body is annotated with an `Input` or `Output`, this annotation replaces the declaration of the
+solver. `Input.of(Record, "field", text=...)` copies the declaration of the solver and replaces only its text.
 
-`Section.si` converts a request into the solver's dataclasses in SI, and `from_si` reads a response from the solver's
-result. Both use the names and units of `members`, which are looked up once per model.
+`Section.si` converts a request into the solver's dataclasses in SI. `from_si` reads a response from the solver's
+result. Both functions take names and units from `members`, which collects them once per model.
 """
 
 from abc import abstractmethod
@@ -51,19 +53,20 @@ MODEL_VERSION = version("tribodrive")
 
 
 class Documented(BaseModel):
-    """A model with fields for the declarations of dataclasses.
+    """A model whose fields are filled from the declarations of dataclasses.
 
-    `exclusive` lists groups of fields; at most one field of each group may be given. `member_unit` is the unit of all
-    fields whose own names do not state a unit. For example, the group `mass_flow_g_per_s` states the unit of its
-    members. `views` maps the solver's names of outputs to the ways in which the outputs are judged.
+    `exclusive` lists groups of field names. At most one field of each group may be given. `member_unit` is the unit of
+    all fields whose own names state no unit. For example, the fields of the section `mass_flow_g_per_s` are in g/s,
+    because the name of the section states this unit. `views` says how outputs are judged. The keys of `views` are the
+    solver's names of the outputs.
     """
 
     exclusive: ClassVar[tuple[tuple[str, ...], ...]] = ()
     member_unit: ClassVar[str | None] = None
     views: ClassVar[dict[str, View]] = {}
     _declares: ClassVar[type[Input] | type[Output]] = Input
-    _stands: ClassVar[bool] = True  # whether the model is used for its dataclass inside other models
-    _optional: ClassVar[bool] = False  # whether filled fields may be missing; they are missing if there is no solution
+    _stands: ClassVar[bool] = True  # whether the model may represent its dataclass in other models
+    _optional: ClassVar[bool] = False  # whether filled fields may be missing, because there may be no solution
 
     if TYPE_CHECKING:
 
@@ -79,32 +82,39 @@ class Documented(BaseModel):
         stands: bool = True,
         **config: Any,
     ) -> None:
-        """Fill the model from the declarations of the dataclasses `of`.
+        """Add the fields that the dataclasses `of` declare.
 
-        If `only` is given, only the fields in `only` are filled. Fields in `without` are not filled. If `of` has
-        several dataclasses, the first is the solver's result. The others are the types of members of the result; these
-        members may be None. Fields that a base class has remain unchanged. If a model `stands` for its whole dataclass,
-        other models use this model for the dataclass. Raises TypeError if two models stand for one dataclass, or if
-        `only` or `views` has a name that is not declared.
+        If `only` names fields, only these fields are added. Fields in `without` are not added. If a base class already
+        has a field, the field is not changed, unless the class body declares it again.
+
+        `of` may list several dataclasses. A request section fills all of them. In a response, the solver's result is an
+        instance of the first dataclass, and members of the result are instances of the other dataclasses. Such a member
+        may be None; its fields are then null.
+
+        If `stands` is set and neither `only` nor `without` is given, the model represents its first dataclass: other
+        models use this model wherever the dataclass occurs.
+
+        Raises TypeError if two models represent the same dataclass, or if `only` or `views` names a field that is not
+        declared.
         """
         super().__init_subclass__(**config)
         records: tuple[Any, ...] = of if isinstance(of, tuple) else (of,)
         declared = {name: (record, quantity) for record in records for name, quantity in quantities(record).items()}
         if unknown := {*only, *vars(cls).get("views", {})} - {*declared}:
             raise TypeError(f"{cls.__name__} names fields that are not declared: {', '.join(sorted(unknown))}")
-        names = {  # names in the interface
+        names = {  # the names in the interface, by the names of the solver
             name: name.rstrip("_") if quantity.unit in {None, cls.member_unit} else f"{name}_{quantity.unit}"
             for name, (_, quantity) in declared.items()
         }
         inherited = {member.name for base in cls.__bases__ for member in members(base) if member.record}
-        own = get_annotations(cls)  # types that replace the type of a filled field, and types of further fields
+        own = get_annotations(cls)  # types of fields that the class body declares
         filled: dict[str, Any] = {}
         for name in only or declared:
             (record, quantity), field = declared[name], names[name]
             if name in without or (field in inherited and field not in own):
                 continue
             kind = own.get(field) or _published(type_of(record, name), quantity, cls._declares)
-            if meaning_of(getattr(kind, "__metadata__", ())):  # keeps its own declaration
+            if meaning_of(getattr(kind, "__metadata__", ())):  # the class body gives its own declaration
                 filled[field] = kind
                 continue
             filled[field], default = cls._filled(kind, record, name, names, nullable=record is not records[0])
@@ -119,15 +129,22 @@ class Documented(BaseModel):
     @classmethod
     @abstractmethod
     def _filled(cls, kind: Any, record: Any, name: str, names: dict[str, str], *, nullable: bool) -> tuple[Any, Any]:
-        """Return the type and the default of a field; `names` maps the solver's names to names in the interface."""
+        """Return the type and the default of the field that the dataclass `record` declares under `name`.
+
+        `names` maps the solver's names to names in the interface. If `nullable` is set, the value of an answer field
+        may be null.
+        """
 
 
 _MODELS: dict[tuple[type, type], type[Documented]] = {}
-"""The models that other models use for a dataclass; the keys are `Input` or `Output`, and the dataclass."""
+"""The model that represents a dataclass in other models. The keys are pairs of `Input` or `Output` and a dataclass."""
 
 
 def _published(hint: Any, declared: Quantity, declares: type) -> Any:
-    """Return the type of a field in the interface, with models for dataclasses and lists for tuples and arrays."""
+    """Return the type that a field has in the interface.
+
+    Dataclasses become models, and tuples and arrays become lists.
+    """
     alias = getattr(get_origin(hint), "__value__", None)  # since numpy 2.5, NDArray[...] is an alias
     hint = hint if alias is None else alias[get_args(hint)]
     origin, arguments = get_origin(hint), get_args(hint)
@@ -148,7 +165,10 @@ def _published(hint: Any, declared: Quantity, declares: type) -> Any:
 
 
 def kinds(annotation: Any, lists: int = 0) -> Iterator[tuple[Any, int]]:
-    """Yield each type of a single value that an annotation allows, with the number of lists around the type."""
+    """Yield the types of single values that an annotation contains.
+
+    Each type comes with the number of lists around the type. For example, `list[float] | None` yields `(float, 1)`.
+    """
     origin = get_origin(annotation)
     if origin is Annotated:
         yield from kinds(get_args(annotation)[0], lists)
@@ -161,12 +181,13 @@ def kinds(annotation: Any, lists: int = 0) -> Iterator[tuple[Any, int]]:
 
 @dataclass(frozen=True, slots=True)
 class Member:
-    """A field of a model: its meaning, its types, and the corresponding field of a solver's dataclass.
+    """A field of a model, with its declaration, its types and the corresponding field of a solver's dataclass.
 
-    `record` is the dataclass, and `solver_name` is the name of the field there. If the declaration is not taken from a
-    dataclass, `record` is None, and `solver_name` is the name of the field without its unit. `kinds` are the types of
-    single values. `group` is the section or group among these types, or None. `dimensions` is 0 for a scalar, 1 for a
-    list, 2 for a matrix.
+    `meaning` is the declaration. `record` is the dataclass from which the declaration was taken, and `solver_name` is
+    the name of the field in this dataclass. If the declaration was not taken from a dataclass, `record` is None, and
+    `solver_name` is `name` without the unit. `kinds` are the types that a single value of the field may have. If one of
+    these types is a model, the field is a section, and `group` is this model. Otherwise `group` is None. `dimensions`
+    is 0 for a scalar, 1 for a list, 2 for a matrix.
     """
 
     name: str
@@ -197,10 +218,11 @@ def members(model: type[BaseModel]) -> tuple[Member, ...]:
 
 @cache
 def _fillings(model: type[Documented], record: Any) -> tuple[tuple[str, Member, Any], ...]:
-    """Return the fields of a dataclass that a section fills.
+    """Return the fields of the dataclass `record` that the section `model` fills.
 
-    Each item has the name of the field, the member of the section that fills the field, and the dataclass in the type
-    of the field, or None if there is no dataclass in the type.
+    Each item has three parts. The first part is the name of the field. The second part is the member of the section
+    that fills the field. The third part is the dataclass that the type of the field contains, or None if the type
+    contains no dataclass.
     """
     by_solver_name = {
         member.solver_name: member
@@ -216,15 +238,15 @@ def _fillings(model: type[Documented], record: Any) -> tuple[tuple[str, Member, 
 
 
 def _record_in(hint: Any) -> Any:
-    """Return the dataclass in a type: the type itself, the type beside None, or the type of the items of a tuple.
+    """Return the dataclass that a type contains, or None if the type contains no dataclass.
 
-    Return None if the type contains no dataclass.
+    The type may be the dataclass itself, the dataclass or None, or a tuple of dataclasses.
     """
     return next((kind for kind, _ in kinds(hint) if is_dataclass(kind)), None)
 
 
 def _in_si(value: Any, unit: Unit | None, record: Any) -> Any:
-    """Return a value of a request in SI; if the value is a section, it fills the dataclass `record`."""
+    """Convert a value of a request into SI. A section is converted into the dataclass `record`."""
     inside = None if record is None else lambda section: section.si(record)
     return converted(value, unit.to_si if unit else _unchanged, inside)
 
@@ -234,9 +256,9 @@ def _unchanged(value: Any) -> Any:
 
 
 def from_si(group: type[Documented], result: Any, detail: Detail) -> dict[str, Any]:
-    """Return the fields of a response group that are read from a solver's result, in the units of their names.
+    """Return the values of a response group that are read from a solver's result. The keys are the names of the fields.
 
-    Fields above the level of detail are left out.
+    Each value is in the unit that the name of its field states. Fields above the level of detail are left out.
     """
     content: dict[str, Any] = {}
     kind: Any = type(result)
@@ -249,9 +271,10 @@ def from_si(group: type[Documented], result: Any, detail: Detail) -> dict[str, A
 
 @cache
 def _sources(group: type[Documented], record: Any, detail: Detail) -> tuple[tuple[Member, str | None], ...]:
-    """Return the filled fields of a group at a level of detail, each with its holder.
+    """Return the fields of a response group that are read from a solver's result of the type `record`.
 
-    The holder is the name of the part of the result that has the field, or None if the result itself has the field.
+    Fields above the level of detail are left out. Each field comes with the name of the member of the result that holds
+    the field. This name is None if the result itself holds the field.
     """
     held = {name: inner for name, hint in get_type_hints(record).items() if (inner := _record_in(hint))}
     sources = []
@@ -273,16 +296,18 @@ def _displayed(value: Any, member: Member, detail: Detail) -> Any:
 
 
 def _with_choices(document: dict[str, Any], section: type[Any]) -> None:
-    """Add the groups of fields that exclude each other to the JSON schema, as `x-exclusive`."""
+    """Add `x-exclusive` to the JSON schema: the groups of fields that exclude each other."""
     if section.exclusive:
         document["x-exclusive"] = [list(group) for group in section.exclusive]
 
 
 class Section(Documented):
-    """A part of a request; it refuses unknown fields, and numbers that are texts, infinite or out of range.
+    """A part of a request.
 
-    `choice_code` is the code of the error if two fields that exclude each other are given. `choice_missing` is the code
-    of the error if no field of such a group is given. If `choice_missing` is None, no field of the group is required.
+    A section refuses unknown fields. A section also refuses numbers that are sent as text, are infinite or are out of
+    range. `choice_code` is the code of the error if a request gives two fields of a group in `exclusive`.
+    `choice_missing` is the code of the error if a request gives no field of a group. If `choice_missing` is None,
+    leaving out all fields of a group is not an error.
     """
 
     model_config = ConfigDict(extra="forbid", frozen=True, json_schema_extra=_with_choices)
@@ -301,7 +326,10 @@ class Section(Documented):
 
     @model_validator(mode="after")
     def one_of_each_choice(self) -> Self:
-        """Refuse two given fields that exclude each other, and a group with no given field if one field is required."""
+        """Refuse two given fields of one group in `exclusive`.
+
+        If `choice_missing` is set, also refuse a group of which no field is given.
+        """
         for group in self.exclusive:
             given = [name for name in group if getattr(self, name) is not None]
             if len(given) > 1:
@@ -313,16 +341,16 @@ class Section(Documented):
         return self
 
     def si(self, kind: type[T], /, *others: "Section", **values: Any) -> T:
-        """Return the solver's dataclass `kind` in SI, filled from this section and from other sections.
+        """Return the solver's dataclass `kind` in SI, filled from this section and from the sections `others`.
 
-        If several sections have a field of the dataclass, the value of the first section is taken. A section inside a
-        section fills the dataclass in the corresponding field. `values` are values in SI that are taken unchanged; they
-        take precedence over the sections.
+        If several of these sections have a value for the same field, the value of the first section is used. A section
+        inside a section is converted into the dataclass that the corresponding field of `kind` holds. `values` are
+        values in SI that are used unchanged. They take precedence over values from the sections.
         """
         return kind(**self.filling(kind, *others, **values))
 
     def filling(self, kind: type[Any], /, *others: "Section", **values: Any) -> dict[str, Any]:
-        """Return the values that `si` gives to the dataclass. The keys are the names of the fields."""
+        """Return the values with which `si` fills the dataclass. The keys are the names of the fields."""
         given: dict[str, Any] = {}
         record: Any = kind
         for section in reversed((self, *others)):
@@ -332,26 +360,30 @@ class Section(Documented):
         return given | values
 
     def unused(self) -> dict[str, bool]:
-        """Return which fields and sections do not affect the result, because other values are given.
+        """Return which fields and sections have no effect on the result, given the values of the other fields.
 
-        The keys are dotted names below this section. True marks a field or section as unused.
+        The keys are dotted names that start below this section. The value True means that the field or section has no
+        effect.
         """
         return {}
 
     def stands_for_null(self, _name: str) -> Any:
-        """Return the value that is used for a field that is null, or None if the section does not know the value."""
+        """Return the value that the calculation uses if the field `_name` is null.
+
+        Return None if the section does not know this value.
+        """
         return None
 
 
 def _in_reading_order(document: dict[str, Any]) -> None:
-    """Sort the fields in the JSON schema for the docs page: required fields first, the level of detail last."""
+    """Sort the fields of the JSON schema as the docs page shows them: required fields first, `detail` last."""
     required, properties = document.get("required", ()), document["properties"]
     names = sorted(properties, key=lambda name: (name not in required, name == "detail"))
     document["properties"] = {name: properties[name] for name in names}
 
 
 class Request(Section):
-    """The body of a calculation."""
+    """The body of a request for a calculation."""
 
     detail: Annotated[
         Detail,
@@ -366,11 +398,14 @@ class Request(Section):
         """Return the solver's inputs in SI."""
 
     def options(self) -> dict[str, Any]:
-        """Return the options in force. The keys are the names of the options in the interface."""
+        """Return the model options that the calculation uses. The keys are the names in the interface."""
         return self.model.model_dump()  # type: ignore[no-any-return]
 
     def assumed_by_the_model(self) -> dict[str, str]:
-        """Return the reasons for assumptions that options in force imply. The keys are dotted names of the options."""
+        """Return the assumptions that the model makes with the options of this request.
+
+        The keys are dotted names of request fields. The values are the reasons for the assumptions.
+        """
         return {}
 
 
@@ -409,7 +444,7 @@ class Notice(Group):
 
 
 class Assumption(Group):
-    """A default used for this result that comes from this project and not from the paper."""
+    """A default that affects this result. This project chose the default; the paper does not state it."""
 
     field: Annotated[str, Output("assumed field", text="dotted name of the request field")]
     value: Annotated[Any, Output("assumed value", text="the value used")]
@@ -425,10 +460,7 @@ GROUNDS = frozenset({"assumptions", "model_version", "sources", "model", "derive
 
 
 class Response(Group):
-    """The part that all answers have in common: status, warnings and the basis of the results.
-
-    A subclass adds the results.
-    """
+    """An answer: status, warnings and the basis of the results. Subclasses add the results."""
 
     _optional: ClassVar = True
     _stands: ClassVar = False
@@ -459,21 +491,24 @@ class Response(Group):
 
     @property
     def result(self) -> Any:
-        """The solver's result in SI from which the response was read; None if there is no solution."""
+        """The solver's result in SI from which the response was read; None if the solver raised NoSolution."""
         return self._result
 
     def remarks(self) -> dict[str, str]:
-        """Return remarks on the accuracy of results, which pages show beside the results. The keys are paths."""
+        """Return remarks on the accuracy of results.
+
+        Pages show each remark beside the result. The keys are the dotted paths of the results.
+        """
         return {}
 
     def read_from(self, result: Any) -> Self:
-        """Keep the solver's result, which the figures need, and return the response."""
+        """Store the solver's result, which the figures need, and return this response."""
         self._result = result
         return self
 
     @classmethod
     def __pydantic_init_subclass__(cls, **_: Any) -> None:
-        """Move the fields in `GROUNDS` behind the results."""
+        """Move the fields in `GROUNDS` behind the fields with results."""
         by_name = cls.__pydantic_fields__
         cls.__pydantic_fields__ = {name: by_name[name] for name in sorted(by_name, key=lambda name: name in GROUNDS)}
         cls.model_rebuild(force=True)

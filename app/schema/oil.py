@@ -1,4 +1,4 @@
-"""Oils, described by grade, by data sheet, or by the viscosity at the place where the oil enters the contact."""
+"""Sections that describe an oil by its grade, by its data sheet, or by its viscosity."""
 
 from dataclasses import fields, replace
 from typing import Annotated, Any, ClassVar, Self
@@ -17,7 +17,7 @@ _PAPERS = Lubricant()
 
 
 def _names_a_sheet(given: dict[str, Any]) -> bool:
-    """Return whether a grade or a data sheet is among the fields that were sent for an oil."""
+    """Return whether the fields that were sent for an oil include a grade or a data sheet."""
     return given.get("iso_vg") is not None or given.get("kinematic_viscosity_40_mm2_per_s") is not None
 
 
@@ -25,7 +25,7 @@ RARELY = "by the kind of oil; a data sheet rarely gives it"
 
 
 def _of_a_sheet(name: str, ge: float, le: float, text: str, assumed: str | None = None) -> Input:
-    """Return the declaration of an oil's property. If a grade or data sheet is given, the property follows from it."""
+    """Return the declaration of an oil property. The property follows from the grade or data sheet if one is given."""
     return Input.of(
         Lubricant,
         name,
@@ -37,7 +37,11 @@ def _of_a_sheet(name: str, ge: float, le: float, text: str, assumed: str | None 
 
 
 class SheetOil(Section):
-    """An oil described by its ISO grade or viscosity at 40 °C, and by how its viscosity changes with temperature."""
+    """An oil that is described by its ISO grade or by its data sheet.
+
+    A data sheet states the viscosity at 40 °C. A second value may say how the viscosity changes with temperature: the
+    viscosity at 100 °C or the viscosity index.
+    """
 
     exclusive: ClassVar[tuple[tuple[str, ...], ...]] = (
         ("iso_vg", "viscosity_pa_s", "kinematic_viscosity_40_mm2_per_s"),
@@ -79,10 +83,10 @@ class SheetOil(Section):
 
     @model_validator(mode="after")
     def one_way(self) -> Self:
-        """Refuse incomplete data, and data that determine one property twice.
+        """Refuse incomplete data. Also refuse two values that both determine the same property.
 
-        A viscosity at 100 °C requires the viscosity at 40 °C and excludes the grade. A viscosity index requires the
-        viscosity at 40 °C or the grade.
+        If the viscosity at 100 °C is given, the viscosity at 40 °C must be given, and the grade must not be given. If
+        the viscosity index is given, the viscosity at 40 °C or the grade must be given.
         """
         thin = self.kinematic_viscosity_100_mm2_per_s
         if self.iso_vg is not None and thin is not None:
@@ -99,7 +103,7 @@ class SheetOil(Section):
         return self
 
     def sheet(self) -> OilSheet | None:
-        """Return the solver's oil by grade or data sheet, or None if neither is given.
+        """Return the oil that the grade or data sheet describes, or None if neither is given.
 
         Raises InvalidInput (`viscosity_order`, `viscosity_index`) if no oil can have these viscosities.
         """
@@ -113,16 +117,19 @@ class SheetOil(Section):
         return self.si(OilSheet)
 
     def stands_for_null(self, name: str) -> Any:
-        """Return the viscosity at 100 °C or the density at 15 °C that the grade or data sheet implies."""
+        """Return the viscosity at 100 °C or the density at 15 °C that follows from the grade or data sheet.
+
+        Return None for any other field. Also return None if neither a grade nor a data sheet is given.
+        """
         sheet = self.sheet()
         if sheet and name == "kinematic_viscosity_100_mm2_per_s":
             return sheet.kinematic_viscosity_100 / SQUARE_MILLIMETRE
         return sheet.reference_density if sheet and name == "density_15_kg_per_m3" else None
 
     def unused(self) -> dict[str, bool]:
-        """Mark the properties of grades and data sheets as unused if neither is given.
+        """Mark the fields that supplement a grade or data sheet as unused if neither of the two is given.
 
-        Mark the viscosity at 100 °C as unused if the viscosity index is given.
+        Otherwise, mark the viscosity at 100 °C as unused if the viscosity index is given.
         """
         of_a_sheet = ("kinematic_viscosity_100_mm2_per_s", "viscosity_index", "density_15_kg_per_m3")
         by_index = {"kinematic_viscosity_100_mm2_per_s": self.viscosity_index is not None}
@@ -132,7 +139,7 @@ class SheetOil(Section):
 class Oil(SheetOil, of=Lubricant):
     """The oil of a lubricated contact, described by its grade, its data sheet or its viscosity.
 
-    If none of these is given, the calculation has no oil.
+    If none of the three is given, the calculation has no oil.
     """
 
     exclusive: ClassVar = (
@@ -182,9 +189,9 @@ class Oil(SheetOil, of=Lubricant):
     @model_validator(mode="before")
     @classmethod
     def properties_follow_the_sheet(cls, given: Any) -> Any:
-        """Keep the defaults of the properties only if the oil is given by its viscosity, and drop them otherwise.
+        """Use null as the default of the properties, unless the viscosity alone describes the oil.
 
-        If a grade or data sheet is given, the properties follow from the grade or data sheet.
+        If a grade or data sheet is given, the null properties follow from the grade or data sheet.
         """
         if not isinstance(given, dict) or (given.get("viscosity_pa_s") is not None and not _names_a_sheet(given)):
             return given
@@ -192,7 +199,7 @@ class Oil(SheetOil, of=Lubricant):
 
     @model_validator(mode="after")
     def one_reference(self) -> Self:
-        """Refuse a density if a grade or data sheet is given, and a null property if a viscosity is given."""
+        """Refuse a density if a grade or data sheet is given. Refuse a null property if a viscosity is given."""
         if self.by_sheet and self.density_kg_per_m3 is not None:
             raise PydanticCustomError(
                 "exclusive", "density_kg_per_m3 and a grade or data sheet are both given; keep one"
@@ -205,7 +212,7 @@ class Oil(SheetOil, of=Lubricant):
         return self
 
     def resolve(self) -> OilSheet | Lubricant | None:
-        """Return the solver's oil, or None if no viscosity is given. Raises the errors of `sheet`."""
+        """Return the solver's oil, or None if the request describes no oil. Raises the errors of `sheet`."""
         sheet, properties = self.sheet(), self.filling(Lubricant, kind=self.kind)
         if sheet is not None:
             beyond = (field.name for field in fields(OilSheet) if field.name in properties)
@@ -218,9 +225,9 @@ class Oil(SheetOil, of=Lubricant):
         return self.by_sheet or self.viscosity_pa_s is not None
 
     def unused(self) -> dict[str, bool]:
-        """Mark reference temperature and density as unused if the oil is given by grade or data sheet.
+        """Mark reference temperature and density as unused if a grade or data sheet is given.
 
-        The request decides whether the kind of oil is used.
+        The kind of oil is not marked here, because its use depends on other sections of the request.
         """
         return super().unused() | dict.fromkeys(("reference_temperature_c", "density_kg_per_m3"), self.by_sheet)
 
@@ -263,7 +270,7 @@ class CouplingLubricant(SheetOil):
         return self
 
     def at_teeth(self) -> OilAtTeeth:
-        """Return the solver's oil; a grade or data sheet takes precedence over the viscosity."""
+        """Return the solver's oil. A grade or data sheet takes precedence over a given viscosity."""
         sheet = self.sheet()
         if sheet is None:
             return self.si(OilAtTeeth, temperature=None)
@@ -271,13 +278,16 @@ class CouplingLubricant(SheetOil):
         return self.si(OilAtTeeth, viscosity=viscosity, viscosity_index=sheet.viscosity_index)
 
     def unused(self) -> dict[str, bool]:
-        """Mark the viscosity as unused if a grade or data sheet is given; otherwise, mark the fields of data sheets."""
+        """Mark the viscosity as unused if a grade or data sheet is given.
+
+        If neither is given, mark the fields of grade and data sheet and the temperature as unused.
+        """
         of_a_sheet = () if self.by_sheet else (*SheetOil.model_fields, "temperature_c")
         return super().unused() | dict.fromkeys(of_a_sheet, True) | {"viscosity_pa_s": self.by_sheet}
 
 
 class OilDerived(Derived, of=OilInUse):
-    """Properties of the oil at its reference temperature; null if no oil is given.
+    """Properties of the oil at the reference temperature; all properties are null if no oil is given.
 
-    A property is either given or follows from the grade or data sheet.
+    Each property is either given in the request or follows from the grade or data sheet.
     """

@@ -1,4 +1,4 @@
-"""Pumping: requests and answers of /v1/pumping and /v1/pumping/choking-speed."""
+"""Requests and answers of the pumping calculations: /v1/pumping and /v1/pumping/choking-speed."""
 
 from typing import Annotated, Any, ClassVar
 
@@ -20,7 +20,7 @@ class GearGroove(Section, of=si.Groove):
 
 
 class PumpingOperation(Section, of=si.PumpingInputs):
-    """Operating point."""
+    """Operating point: the speed of the pinion."""
 
 
 class Mist(Section, of=si.Ambient):
@@ -28,13 +28,13 @@ class Mist(Section, of=si.Ambient):
 
 
 class PumpingOptions(Section, of=si.PumpingModel):
-    """Options of the model at points that the paper leaves open."""
+    """Choices that the paper leaves open in the pumping model."""
 
     def unused(self) -> dict[str, bool]:
         """Mark options as unused if the chosen flow model does not have them.
 
-        Only the pocket chain has the closure. Only gas dynamics with contact gaps has the wall transport. The pocket
-        chain and gas dynamics have slices.
+        Only the pocket chain uses `closure`. Only gas dynamics with contact gaps uses `wall_transport`. The
+        incompressible model does not use `slices`.
         """
         return super().unused() | {
             "closure": self.flow != "pocket_chain",
@@ -49,16 +49,19 @@ class _PumpingSetup(Request, of=si.PumpingSetup, without=("normal_backlash",)):
     gears: PumpingGears
 
     def options(self) -> dict[str, Any]:
-        """Return the options of the model section with the number of slices that is used."""
+        """Return the model options, with the number of slices that the calculation uses."""
         return super().options() | {"slices": self.model.si(si.PumpingModel).slice_count}
 
     def assumed_by_the_model(self) -> dict[str, str]:
-        """Return the assumption about the speed in the stagnation temperature, except for incompressible flow."""
+        """Return the assumption that the stagnation temperature counts the axial speed only.
+
+        The incompressible model does not make this assumption.
+        """
         return {} if self.model.flow == "incompressible" else {"model.flow": AXIAL_SPEED_ONLY}
 
 
 class PumpingRequest(_PumpingSetup):
-    """A gear pair that pumps the mist around it, at one speed."""
+    """A gear pair that pumps the mist around the mesh, at one speed."""
 
     operation: Annotated[PumpingOperation, Input("operating point")]
 
@@ -67,7 +70,7 @@ class PumpingRequest(_PumpingSetup):
 
 
 class ChokingSpeedRequest(_PumpingSetup, of=si.ChokingInputs):
-    """A gear pair whose choking speeds are sought."""
+    """A gear pair for which the choking speeds are sought."""
 
     def inputs(self) -> si.ChokingInputs:
         return self.si(si.ChokingInputs, setup=self.si(si.PumpingSetup, self.gears))
@@ -76,19 +79,23 @@ class ChokingSpeedRequest(_PumpingSetup, of=si.ChokingInputs):
 class PumpingMassFlow(Group, of=results.MassFlow):
     """Mass flow out of the tooth spaces of one gear.
 
-    `front`, `rear`, `radial`, `grooves` and `reset` are the net flows through the different exits; they add up to zero.
-    The other flows are the outflow and the inflow at each end of the face.
+    `front`, `rear`, `radial`, `grooves` and `reset` are the net flows through the different exits. These five flows add
+    up to zero. Fields that end in `_out` and `_in` are the outflow and the inflow at each end of the face. Fields that
+    end in `_uncertainty` are the uncertainties of net flows.
     """
 
     member_unit: ClassVar = "g_per_s"
 
 
 class StrokeCurves(Group, of=stroke.StrokeTable):
-    """Area and clearances of the tooth space over one stroke."""
+    """Area of a tooth space, and clearances at its two flanks, over one stroke."""
 
 
 class PumpingStroke(Group, of=results.Stroke):
-    """One stroke of a tooth space; angles are those of the space's gear, measured from the line of centres."""
+    """One stroke of a tooth space.
+
+    Angles are angles of the gear to which the space belongs. They are measured from the line of centres.
+    """
 
 
 class PumpingBalance(Group, of=results.Balance):
@@ -96,11 +103,11 @@ class PumpingBalance(Group, of=results.Balance):
 
 
 class PumpingProfile(Group, of=results.FaceProfile):
-    """Curves along the face, without the grooves."""
+    """Temperature rises and peak pressures along the face; the grooves are left out."""
 
 
 class PumpingField(Group, of=results.GasField):
-    """Fields over angle and position, indexed [angle][position]."""
+    """Fields of the gas over the angle of the gear and the position along the face, indexed [angle][position]."""
 
     views: ClassVar = {"axial_mach": View(limit=1.0)}
 
@@ -120,17 +127,20 @@ class PumpingGeometry(Group, of=results.MeshGeometry):
 
 
 class PumpingTotal(Group, of=results.Totals):
-    """Results of all tooth spaces that the request selects."""
+    """Results for all selected tooth spaces together."""
 
     views: ClassVar = {"pumping_power": View(headline=1)}
 
 
 class LeadCurves(Group, of=lead_correction.LeadCurves):
-    """Thermal growth and lead correction along the face of the pinion."""
+    """Thermal growth of the pinion, and lead correction of the pinion, along the face."""
 
 
 class PumpingLeadCorrection(Group, of=lead_correction.LeadCorrection):
-    """Lead correction of the pinion for its thermal growth, if the metal warms as much as the gas."""
+    """The lead correction that compensates for the thermal growth of the pinion.
+
+    The growth is computed as if the metal warmed as much as the gas.
+    """
 
 
 class PumpingPulsation(Group, of=pulsation.Pulsation):
@@ -138,21 +148,24 @@ class PumpingPulsation(Group, of=pulsation.Pulsation):
 
 
 class PumpingResolution(Group, of=results.Resolution):
-    """Relative uncertainties of the results that the resolution causes.
+    """Relative uncertainties of the results due to the limited resolution.
 
-    The uncertainties follow from the changes of the results with half and with a quarter of the slices, steps or
-    positions.
+    The resolution is the number of slices, steps or positions. The results are also computed with a half and with a
+    quarter of this number. The uncertainties follow from the differences.
     """
 
 
 class ChokingCurves(Group, of=results.ChokingCurves):
-    """Results of a coarse scan of the speed: the largest values over the selected tooth spaces."""
+    """Results of a coarse scan of the pinion speed.
+
+    At each speed, a curve states the largest value among the selected tooth spaces.
+    """
 
     views: ClassVar = {"exit_mach": View(limit=1.0)}
 
 
 class PumpingDerived(Derived, of=results.Derived):
-    """Centre distance, number of slices and tip radius of the rack, as used."""
+    """The values used for the centre distance, the number of slices and the tip radius of the rack."""
 
 
 class PumpingResponse(Response, of=results.PumpingResult):

@@ -1,4 +1,4 @@
-"""Declarations of the fields of requests and responses for pydantic: their checks and their part of the JSON schema.
+"""Declarations of request and response fields, from which pydantic takes the checks and the JSON schema.
 
 Names of fields contain the unit: `face_width_mm` is the face width in millimetres.
 """
@@ -21,9 +21,10 @@ Bound = Literal["upper", "lower"]
 class _Declaration(Quantity):
     """A declaration that documents its field in the JSON schema.
 
-    `origin` holds the solver's dataclass from which the declaration was taken, and the name of the field there. It is
-    None if the declaration was not taken from a dataclass. `in_schema` lists the attributes that the JSON schema
-    states, for example `default_text` as `x-default-text`.
+    `origin` is the pair of the solver's dataclass from which the declaration was taken and the name of the field in
+    this dataclass. `origin` is None if the declaration was not taken from a dataclass. `in_schema` lists the attributes
+    of the declaration that are written into the JSON schema. For example, `default_text` is written as
+    `x-default-text`.
     """
 
     origin: tuple[type, str] | None = None
@@ -31,17 +32,20 @@ class _Declaration(Quantity):
 
     @classmethod
     def of(cls, record: type, name: str, **changes: Any) -> Self:
-        """Return the declaration of a field of the solver's dataclass, with `changes` to its attributes."""
+        """Return the declaration of the field `name` of a solver's dataclass.
+
+        `changes` replace attributes of this declaration.
+        """
         return cls(**vars(quantities(record)[name]) | {"origin": (record, name)} | changes)
 
     @property
     def description(self) -> str:
-        """The text, or the title if there is no text, followed by the meaning of null if a meaning is declared."""
+        """The text, or the title if there is no text. The meaning of null (`default_text`) is added if it is given."""
         text = self.text or self.title
         return f"{text}; null: {self.default_text}" if self.default_text else text
 
     def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
-        """Add the meaning of the field to the JSON schema of its type."""
+        """Add title, description, unit and other attributes of the declaration to the JSON schema of the type."""
         document = {**handler(schema), "title": self.title, "description": self.description}
         for name in self.in_schema:
             value = getattr(self, name)
@@ -59,7 +63,7 @@ class Input(_Declaration):
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
         """Add the checks of the field.
 
-        Numbers must be finite and in range, and must not be text or booleans. Lists must have a permissible length.
+        Numbers must be finite and in range, and must not be text or booleans. The length of a list must be permissible.
         """
         return self._strict(handler(source))
 
@@ -78,7 +82,7 @@ class Input(_Declaration):
                 return core_schema.json_or_python_schema(core_schema.int_schema(strict=True, **bounds), whole)
             case "bool":
                 return core_schema.bool_schema(strict=True)
-            case "union":  # the choices of a union are schemas, alone or paired with a name
+            case "union":  # a choice is a schema, or a pair of a schema and a name
                 kinds = (choice[0] if isinstance(choice, tuple) else choice for choice in schema["choices"])
                 return core_schema.union_schema([self._strict(kind) for kind in kinds])
             case "list" if self.length:
@@ -95,13 +99,16 @@ class Input(_Declaration):
 class View:
     """The way in which a result is judged.
 
-    `headline` is the rank of the result among the headline numbers, from 1 to 4. `limit` is the number that bounds the
-    value, or the dotted field of the request or answer that holds this number. `bound` says on which side the value is
-    safe: below an upper limit, or above a lower limit. `needs` is the request field without which there is no value.
-    `verdict` is the field of the answer that judges the value in words, or as a boolean that is true if the value is
-    bad; a name that begins with a dot is a field in the same section as the value. `band` is the field of the answer
-    that holds the two ends of the value's range of uncertainty; the worse end is judged. If `percent` is set, the value
-    is a share that pages show in per cent.
+    `headline` is the rank of the result among the headline numbers, from 1 to 4. `limit` is the number with which the
+    value is compared. Instead of a number, `limit` may be the dotted name of the request or answer field that holds
+    this number. If `bound` is "upper", values below the limit are safe. If `bound` is "lower", values above the limit
+    are safe.
+
+    `needs` is the name of a request field. If this field is not given, the result has no value. `verdict` is the name
+    of the answer field that judges the value. The verdict is a word, or a boolean that is true if the value is bad. If
+    the name in `verdict` begins with a dot, the field is in the same section as the value. `band` is the name of the
+    answer field that holds the two ends of the value's range of uncertainty. Pages judge the worse end. If `percent` is
+    set, the value is a fraction that pages show in per cent.
     """
 
     headline: int | None = None
@@ -114,7 +121,7 @@ class View:
 
     @property
     def greatest_is_best(self) -> bool:
-        """Whether the limit is a lower limit, so that the least of several values is the worst."""
+        """Whether the limit is a lower limit, so that greater values are better."""
         return self.bound == "lower"
 
 
@@ -126,12 +133,12 @@ class Output(View, _Declaration):
 
     @property
     def axes(self) -> tuple[str, ...]:
-        """The fields that hold the axes, in the order of the dimensions."""
+        """Names of the fields that hold the axes, one name per dimension."""
         return (self.axis,) if isinstance(self.axis, str) else self.axis or ()
 
 
 def meaning_of(metadata: Iterable[Any]) -> Input | Output | None:
-    """Return the declaration among the metadata of a field's type, or None."""
+    """Return the `Input` or `Output` in the metadata of a field's type, or None if the metadata have neither."""
     return next((item for item in metadata if isinstance(item, Input | Output)), None)
 
 
@@ -139,7 +146,7 @@ def meaning_of(metadata: Iterable[Any]) -> Input | Output | None:
 def split_unit(name: str) -> tuple[str, Unit | None]:
     """Split a field name into the name without unit and the unit.
 
-    The unit is the longest suffix that names a unit.
+    The unit is the longest suffix that names a unit. If no suffix names a unit, the unit is None.
     """
     words = name.split("_")
     for start in range(1, len(words)):

@@ -1,6 +1,6 @@
-"""Validation of the content of bodies: the request, or the faults of the fields in plain words.
+"""Validation of request bodies. If a body is not valid, messages explain the faults in plain words.
 
-Messages repeat nothing of the input except numbers, texts that consist of a number, and field names of at most 40
+Messages repeat only three kinds of input: numbers, texts that consist of a number, and field names of at most 40
 characters.
 """
 
@@ -19,7 +19,7 @@ from solvers.quantity import UNITS, Quantity, advice, allowed
 
 M = TypeVar("M", bound=BaseModel)
 Models = tuple[type[BaseModel], ...]
-MOST_FAULTS = 100  # faults in one answer; chosen, because nobody corrects more at once
+MOST_FAULTS = 100  # largest number of faults in one answer; chosen: nobody corrects more at once
 _NAME = re.compile(r"[A-Za-z0-9_]{1,40}")
 _NUMBER = re.compile(r"[+-]?\d{1,20}([.,]\d{1,20})?")
 _RANGE_TYPES = {"greater_than", "greater_than_equal", "less_than", "less_than_equal"}
@@ -37,9 +37,9 @@ def validated(model: type[M], content: Any) -> M:
 
 
 def faults(model: type[BaseModel], items: Iterable[dict[str, Any]]) -> list[Fault]:
-    """Return at most a hundred faults that the validation of `model` reported.
+    """Return the faults that pydantic reported for a body, at most a hundred.
 
-    `items` are the errors of pydantic. Their locations begin at the model.
+    `items` are the errors of pydantic. The locations in these errors start at `model`.
     """
     field_faults = []
     for item in islice(items, MOST_FAULTS):
@@ -53,7 +53,8 @@ def faults(model: type[BaseModel], items: Iterable[dict[str, Any]]) -> list[Faul
 def _located(model: type[BaseModel], location: tuple[str | int, ...]) -> tuple[list[str | int], Models]:
     """Return the location of a fault, and the sections that may hold the field at this location.
 
-    The location lacks the names that pydantic adds for the alternative types of a value.
+    If a value may have several types, pydantic adds the name of a type to the location. The returned location does not
+    contain such names.
     """
     kept: list[str | int] = []
     here: Models = (model,)
@@ -105,7 +106,7 @@ def _message(location: list[str | int], sections: Models, item: dict[str, Any]) 
 
 
 def _unknown(name: str, sections: Models) -> str:
-    """Return the message about an unknown field, with the most similar name of a field if there is one."""
+    """Return the message about an unknown field. If a known field has a similar name, suggest this name."""
     if not _NAME.fullmatch(name):
         return "unknown field"
     near = get_close_matches(name, [field for section in sections for field in section.model_fields], n=1, cutoff=0.6)
@@ -117,7 +118,7 @@ def _no_number(value: Any) -> str:
         return "give a number, or leave the field out instead of null"
     if isinstance(value, bool):
         return "give a number, not true or false"
-    if isinstance(value, int):  # the whole number is larger than any float
+    if isinstance(value, int):  # this whole number is larger than any float
         return f"the number is {_figure(value)}"
     if isinstance(value, str) and _NUMBER.fullmatch(value):
         return f'give a number, not text: {value.replace(",", ".")} instead of "{value}"'
@@ -125,7 +126,7 @@ def _no_number(value: Any) -> str:
 
 
 def _figure(value: Any) -> str:
-    """Return a number as an engineer writes it, or words if the number is beyond the range of floats."""
+    """Return a number as an engineer writes it. If the number is beyond the range of floats, return words."""
     try:
         return f"{float(value):.12g}"
     except OverflowError:  # a whole number of more than three hundred digits
@@ -133,13 +134,13 @@ def _figure(value: Any) -> str:
 
 
 def _declared(sections: Models, name: str) -> Quantity | None:
-    """Return the declaration of a field, or None if no section has the field."""
+    """Return the declaration of the field `name`, or None if none of the sections has this field."""
     fields = (section.model_fields.get(name) for section in sections)
     return next((given for field in fields if field and (given := meaning_of(field.metadata))), None)
 
 
 def _allowed(sections: Models, name: str) -> str:
-    """Return the permissible range of a field with its unit."""
+    """Return the permissible range of a field, with the unit."""
     given = _declared(sections, name)
     if given is None:
         return "is another range"
@@ -147,6 +148,6 @@ def _allowed(sections: Models, name: str) -> str:
 
 
 def _advice(sections: Models, name: str, value: Any) -> str:
-    """Return advice on what to give instead of the value, or an empty text."""
+    """Return advice on what to give instead of `value`, or an empty text if there is no advice."""
     given = _declared(sections, name)
     return advice(given, value) if given else ""

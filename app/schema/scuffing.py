@@ -1,4 +1,4 @@
-"""Scuffing of a gear pair: requests and answers of /v1/scuffing and of its load distribution."""
+"""Requests and answers of /v1/scuffing and /v1/scuffing/load-distribution."""
 
 from abc import abstractmethod
 from dataclasses import replace
@@ -26,10 +26,16 @@ from solvers.scuffing.thermal.pair_heat import is_beyond_the_estimate
 
 
 class FlankModifications(Section, of=si.Modifications, without=("lead_curve",)):
-    """Gaps along the transverse line of action; a gap is positive where material is missing."""
+    """Gaps between the flanks because of modifications and misalignment.
+
+    The gaps are measured along the transverse line of action. A gap is positive where material is missing.
+    """
 
     def unused(self) -> dict[str, bool]:
-        """Mark the length of each relief of zero height as unused, and the exponent if all reliefs are zero."""
+        """Mark the length of a relief as unused if the height of this relief is zero.
+
+        Mark the exponent of the reliefs as unused if the heights of all reliefs are zero.
+        """
         amplitudes = {relief: getattr(self, f"{relief}_um") for relief in ("tip_relief", "root_relief", "end_relief")}
         lengths = {f"{relief}_length_mm": value == 0.0 for relief, value in amplitudes.items()}
         return lengths | {"relief_exponent": all(lengths.values())}
@@ -46,7 +52,7 @@ class ScuffingLoad(Section, of=si.Load):
 
 
 class LoadDistributionModel(Section, of=(si.Model, si.Resolution)):
-    """Options of the load distribution at points that the paper leaves open."""
+    """Choices that the paper leaves open in the model of the load distribution."""
 
 
 class GearPairRequest(Request):
@@ -61,7 +67,7 @@ class GearPairRequest(Request):
 
 
 def distribution_inputs(request: Request, gears: GearPairInputs, load: si.Load) -> si.LoadDistributionInputs:
-    """Return the solver's inputs for this pair and load.
+    """Return the solver's inputs for the load distribution of the pair `gears` under `load`.
 
     The modifications, the materials and the coefficient of friction are taken from the request.
     """
@@ -76,7 +82,7 @@ def distribution_inputs(request: Request, gears: GearPairInputs, load: si.Load) 
 
 
 class LoadDistributionRequest(GearPairRequest):
-    """A loaded gear pair with modifications and misalignment, and the friction between its flanks."""
+    """A loaded gear pair with modifications, misalignment and friction between the flanks."""
 
     friction_coefficient: Annotated[float, Input.of(si.LoadDistributionInputs, "friction_coefficient")] = 0.06
     model: Annotated[
@@ -87,7 +93,7 @@ class LoadDistributionRequest(GearPairRequest):
         return distribution_inputs(self, self.gears.si(GearPairInputs), self.load.si(si.Load))
 
     def unused(self) -> dict[str, bool]:
-        """Mark the roughness as unused, because the loads do not depend on it."""
+        """Mark the roughness as unused, because the loads do not depend on the roughness."""
         return {"materials.pinion.roughness_um": True, "materials.wheel.roughness_um": True}
 
 
@@ -95,7 +101,10 @@ FILM_SAFETY = View(limit=1.0, bound="lower")
 
 
 class MicropittingTestFilm(Group, of=film_results.FilmOfTest):
-    """The film of the test gears C-GF with this oil, at the load stage at which the oil fails."""
+    """The film of the test gears C-GF in the micropitting test of this oil.
+
+    The film is computed at the load stage at which the oil fails the test.
+    """
 
 
 class LocalFilmPoint(Group, of=film_results.LocalPoint):
@@ -123,11 +132,11 @@ class StandardFilm(Group, of=film_results.StandardFilm):
 
 
 class MicropittingResult(Group, of=film_results.Micropitting):
-    """The film over the flanks, compared with the film that the micropitting test of the oil requires."""
+    """The film on the flanks, compared with the film that the flanks need against micropitting."""
 
 
 class FlankWear(Group, of=film_results.Wear):
-    """Depth of mild wear of each gear per million revolutions of this gear."""
+    """Depth of mild wear of each gear. The depth of a gear is per million revolutions of this gear."""
 
 
 class ScuffingGeometry(Group, of=results.Geometry):
@@ -143,7 +152,7 @@ class ContactLengthCurves(Group, of=results.LengthCurves):
 
 
 class ContactLineLengths(Group, of=results.ContactLines):
-    """Extremes and mean of the total length of the contact lines."""
+    """Smallest, largest and mean total length of the contact lines."""
 
 
 class ToothStiffnessCurves(Group, of=results.StiffnessCurves):
@@ -151,7 +160,7 @@ class ToothStiffnessCurves(Group, of=results.StiffnessCurves):
 
 
 class ToothStiffness(Group, of=results.Stiffness):
-    """Stiffness of one pair of teeth and of the mesh, per face width."""
+    """Stiffness per face width, for one pair of teeth and for the mesh."""
 
 
 class TransmissionErrorCurves(Group, of=results.ErrorCurves):
@@ -180,31 +189,35 @@ class FlankPlace(Group, of=results.Place):
 
 
 class FlankPressure(Group, of=results.Pressure):
-    """Largest Hertzian pressure of the dry contact, and its place."""
+    """Largest Hertzian pressure of the dry contact, and the place where this pressure occurs."""
 
     views: ClassVar = {"max": View(headline=1)}
 
 
 class FeatureLineCurves(Group, of=results.FeatureLine):
-    """Curves along the feature line from A1 to E2.
+    """Curves along the feature line, a diagonal of the flank from A1 to E2.
 
-    The points A, C and E of the path of contact lie on this line.
+    A1 is point A of the path of contact at the end of the face that meshes first. E2 is point E at the other end. Point
+    C also lies on this line.
     """
 
 
 class FlankFields(Group, of=results.Flank):
-    """Maps of the flank, indexed `[profile][face]`."""
+    """Maps of modification, line load and pressure over the flank, indexed `[profile][face]`."""
 
 
 class FlashTemperature(Group, of=safety_results.Flash):
-    """Largest flash temperatures and their places.
+    """Largest flash temperatures, and the places where they occur.
 
-    Values by thermal EHL are null if `model.lubrication` is `closed_form`.
+    If `model.lubrication` is `closed_form`, the values by thermal EHL are null.
     """
 
 
 class ContactTemperatureResult(Group, of=safety_results.ContactTemperature):
-    """The bulk temperature, and the largest sum of bulk and flash temperature (contact temperature)."""
+    """The bulk temperature and the largest contact temperature.
+
+    The contact temperature is the sum of the bulk temperature and the flash temperature.
+    """
 
     views: ClassVar = {
         "blok_max": View(headline=2, limit="safety.scuffing_c", bound="upper"),
@@ -213,13 +226,13 @@ class ContactTemperatureResult(Group, of=safety_results.ContactTemperature):
 
 
 class ThinnestFilm(Group, of=safety_results.Film):
-    """The thinnest film and its place; null if no point of the flank carries load."""
+    """The thinnest film and its place; both are null if no point of the flank carries load."""
 
     views: ClassVar = {"thickness_ratio": View(headline=3, limit=1.0, bound="lower", verdict=".thickness_regime")}
 
 
 class ScuffingSafety(Group, of=safety_results.Safety):
-    """Safety factors against scuffing, with the scuffing temperature."""
+    """Safety factors against scuffing, and the scuffing temperature."""
 
     views: ClassVar = {
         "blok_factor": View(
@@ -236,7 +249,7 @@ class ScuffingSafety(Group, of=safety_results.Safety):
 
 
 class ScuffingPathCurves(Group, of=(safety_results.ScuffingPath, safety_results.ThermalPath)):
-    """Curves along a line from A to E.
+    """Curves along a line on the flank, from point A to point E of the path of contact.
 
     Values that only the thermal EHL solution provides are null if `model.lubrication` is `closed_form`.
     """
@@ -245,15 +258,21 @@ class ScuffingPathCurves(Group, of=(safety_results.ScuffingPath, safety_results.
 
 
 class MeshDerived(Derived, of=results.Derived, without=("rack_tip_radius",)):
-    """Load and lengths as used, including the values that the request left open."""
+    """The values used for the torque, the power and the lengths.
+
+    If the request leaves one of these values open, the value is computed.
+    """
 
 
 class ScuffingDerived(MeshDerived, of=results.Derived):
-    """Load, lengths and tip radius of the rack as used, including the values that the request left open."""
+    """The values used for the torque, the power, the lengths and the tip radius of the rack.
+
+    If the request leaves one of these values open, the value is computed.
+    """
 
 
 class FlankLoad(Group, of=results.LoadOnFlank):
-    """Load on the flank."""
+    """Forces and line loads on the flank."""
 
     views: ClassVar = {"face_load_factor": View(headline=2), "contact_fraction": View(percent=True)}
 
@@ -270,21 +289,23 @@ class LoadDistributionResponse(Response, of=results.LoadDistribution):
 class ScuffingTest(Section, of=si.ScuffingTest):
     """A scuffing test of the oil.
 
-    Only the test A/8.3/90 is accepted. In other tests, the same load stage corresponds to a different temperature.
+    The only test that the service accepts is A/8.3/90. In other tests, the same load stage corresponds to a different
+    temperature.
     """
 
 
 class ContactTemperatures(Section, of=si.Temperatures):
-    """Temperatures of the teeth and the oil.
+    """Temperatures of the teeth and of the oil.
 
-    The temperatures are given as numbers, or follow from the scuffing test and the oil supply by rules of practice.
+    The scuffing temperature is given as a number or follows from a scuffing test. The bulk temperature is given as a
+    number, estimated by a standard, or computed by the heat balance.
     """
 
     exclusive: ClassVar = (("scuffing_c", "scuffing_test"),)
 
     @model_validator(mode="after")
     def one_bulk(self) -> Self:
-        """Refuse a bulk temperature if the method is not `given`, and a heat balance if no jets supply the oil."""
+        """Refuse a bulk temperature if the method is not `given`. Refuse a heat balance without oil jets."""
         if self.bulk_method != "given" and self.bulk_c is not None:
             method = (
                 "an estimated bulk temperature"
@@ -301,30 +322,30 @@ class ContactTemperatures(Section, of=si.Temperatures):
         return self
 
     def unused(self) -> dict[str, bool]:
-        """Mark the bulk temperature as unused if it is estimated or computed by the heat balance."""
+        """Mark the bulk temperature as unused if the method is not `given`."""
         return {"bulk_c": self.bulk_method != "given"}
 
 
 class ScuffingTemperatures(ContactTemperatures):
-    """Temperatures of the teeth and the oil."""
+    """Temperatures of the teeth and of the oil, for a gear pair."""
 
     @model_validator(mode="after")
     def known_bulk(self) -> Self:
-        """Refuse the method `given` if no bulk temperature is given."""
+        """Refuse the method `given` if the request gives no bulk temperature."""
         if self.bulk_method == "given" and self.bulk_c is None:
             raise PydanticCustomError("missing_bulk", "give bulk_c, or set bulk_method to estimated or heat_balance")
         return self
 
 
 class Surfaces(Section, of=si.FlankSurfaces):
-    """How the flanks are hardened."""
+    """Hardening of the flanks."""
 
 
 class Micropitting(Section, of=si.MicropittingCheck):
     """Inputs of the checks against micropitting and wear.
 
-    The film that the flanks need is either given, or it follows from a micropitting test of the oil. The wear follows
-    from a wear coefficient.
+    The film that the flanks need is given, or it follows from a micropitting test of the oil. The wear follows from a
+    wear coefficient.
     """
 
     exclusive: ClassVar = (("failure_load_stage", "permissible_ratio"),)
@@ -332,8 +353,8 @@ class Micropitting(Section, of=si.MicropittingCheck):
     def unused(self) -> dict[str, bool]:
         """Mark the test of the oil and the material factor as unused if the permissible ratio is given.
 
-        Mark the surfaces as unused if the permissible ratio or the material factor is given, or if the test is not
-        given.
+        Mark the surfaces as unused in three cases: the permissible ratio is given, the material factor is given, or the
+        test is not given.
         """
         given = self.permissible_ratio is not None
         return dict.fromkeys(("failure_load_stage", "material_factor"), given) | {
@@ -342,11 +363,11 @@ class Micropitting(Section, of=si.MicropittingCheck):
 
 
 class MeshModel(LoadDistributionModel, FilmModel, of=si.ScuffingInputs, without=("line", "micropitting", "cooling")):
-    """Options of the load distribution and of the film."""
+    """Model options of the load distribution and of the film."""
 
 
 class ScuffingModel(MeshModel, of=si.ScuffingInputs, only=("line",)):
-    """Options of the load distribution and of the film, and the part of the flank that is checked."""
+    """Model options of the load distribution and of the film, and the choice of the lines that are checked."""
 
 
 PRACTICAL_FRICTION = Input.of(
@@ -377,7 +398,7 @@ SMOOTH_FILM = (
 
 
 def _is_given(sent: Any, path: str) -> bool:
-    """Return whether the body that was sent has a value other than null at a dotted path."""
+    """Return whether the body `sent` has a value other than null at a dotted path."""
     for name in path.split("."):
         sent = sent.get(name) if isinstance(sent, dict) else None
     return sent is not None
@@ -386,11 +407,11 @@ def _is_given(sent: Any, path: str) -> bool:
 class MeshInOil(Request):
     """The parts that requests about scuffing have in common: a loaded pair, an oil, temperatures, a law of friction.
 
-    `methods` maps the field of a method to fields of values: if one of the values is given, and the request does not
-    name the method, the method is "given".
+    `methods` maps the name of a method field, such as `model.friction`, to the names of value fields. If a request
+    gives a value in one of the value fields and does not give the method, the method is "given".
     """
 
-    balance_is_default: ClassVar = False  # whether the heat balance is the default at any speed
+    balance_is_default: ClassVar = False  # whether the heat balance is the default at low speeds, too
     methods: ClassVar[dict[str, tuple[str, ...]]] = {
         "model.friction": ("friction_coefficient",),
         "temperatures.bulk_method": ("temperatures.bulk_c",),
@@ -399,7 +420,7 @@ class MeshInOil(Request):
     @model_validator(mode="before")
     @classmethod
     def methods_of_given_values(cls, sent: Any) -> Any:
-        """Set a method that the request does not name to "given" if one of its values is given."""
+        """Set a method to "given" if the request gives a value for the method, but not the method itself."""
         for method, values in cls.methods.items() if isinstance(sent, dict) else ():
             section, name = method.split(".")
             held = sent.get(section, {})
@@ -409,7 +430,7 @@ class MeshInOil(Request):
 
     @model_validator(mode="after")
     def known_friction(self) -> Self:
-        """Refuse the method `given` of friction if no coefficient of friction is given."""
+        """Refuse the friction method `given` if the request gives no coefficient of friction."""
         if self.model.friction == "given" and self.friction_coefficient is None:
             raise PydanticCustomError(
                 "missing_friction", "give friction_coefficient, or set model.friction to iso_tr_13989"
@@ -418,10 +439,11 @@ class MeshInOil(Request):
 
     @model_validator(mode="after")
     def balance_where_the_estimate_ends(self) -> Self:
-        """Set the method of the bulk temperature to the heat balance if the request does not name a method.
+        """Choose the heat balance for the bulk temperature if the request gives no method and the balance fits.
 
-        The method is only set if an oil is given, jets supply the oil, and one of three conditions is met: the heat
-        balance is the default, the cooling is given, or the pair is too fast for the estimated bulk temperature.
+        The balance fits if an oil is given, jets supply the oil, and one of three conditions is met. The heat balance
+        is the default, or the request gives the cooling, or the pair is too fast for the estimate of the bulk
+        temperature.
         """
         temperatures = self.temperatures
         if "bulk_method" in temperatures.model_fields_set or temperatures.oil_supply != "spray":
@@ -430,7 +452,7 @@ class MeshInOil(Request):
         if not self.lubricant.known or not (asked or self._is_fast()):
             return self
         balanced = temperatures.model_copy(update={"bulk_method": "heat_balance"})
-        balanced.model_fields_set.discard("bulk_method")  # so that the method counts as a default
+        balanced.model_fields_set.discard("bulk_method")  # the method then counts as a default and not as a given value
         request = self.model_copy(update={"temperatures": balanced})
         if "temperatures" not in self.model_fields_set:
             request.model_fields_set.discard("temperatures")
@@ -438,10 +460,10 @@ class MeshInOil(Request):
 
     @abstractmethod
     def running(self) -> tuple[GearPairInputs, si.Load]:
-        """Return the pair and its load."""
+        """Return the solver's gear pair and load."""
 
     def _is_fast(self) -> bool:
-        """Return whether the pitch line velocity exceeds the validity of the estimated bulk temperature."""
+        """Return whether the pitch line velocity is too high for the estimate of the bulk temperature."""
         try:
             gears, load = self.running()
             return is_beyond_the_estimate(gears, load.pinion_speed)
@@ -449,7 +471,7 @@ class MeshInOil(Request):
             return False
 
     def scuffing_inputs(self, gears: GearPairInputs, load: si.Load) -> si.ScuffingInputs:
-        """Return the solver's inputs for this pair and load."""
+        """Return the solver's inputs for the pair `gears` under `load`."""
         return self.si(
             si.ScuffingInputs,
             self.model,
@@ -466,7 +488,7 @@ class MeshInOil(Request):
 
     @property
     def _lubricant_factor_asked(self) -> bool:
-        """Whether friction, scuffing temperature or micropitting film depends on the lubricant factor."""
+        """Whether the friction, the scuffing temperature or the micropitting film depends on the lubricant factor."""
         test = self.temperatures.scuffing_test
         by_test = test is not None and test.lubricant_factor is None
         asked = self.model.friction == "iso_tr_13989" or by_test or self.micropitting is not None
@@ -474,15 +496,15 @@ class MeshInOil(Request):
 
     @property
     def _standard_film_asked(self) -> bool:
-        """Whether micropitting is checked by the standard's film, which is valid for spur gears without relief."""
+        """Whether the film of the standard is computed. This film is only valid for spur gears without relief."""
         relief = self.modifications.tip_relief_um or self.modifications.root_relief_um
         return self.micropitting is not None and not relief and self.gears.helix_angle_deg == 0.0
 
     def unused(self) -> dict[str, bool]:
         """Mark inputs as unused if they have no effect in this case.
 
-        Some inputs have no effect if there is no oil, some if the film is computed in closed form, and some if the
-        standard's film is not computed.
+        Inputs can have no effect for four reasons: there is no oil, the film is computed in closed form, the film of
+        the standard is not computed, or the bulk temperature does not come from the heat balance.
         """
         dry, standard = not self.lubricant.known, self._standard_film_asked
         no_film = dry or self.model.lubrication == "closed_form"
@@ -499,7 +521,10 @@ class MeshInOil(Request):
         }
 
     def assumed_by_the_model(self) -> dict[str, str]:
-        """Return the assumptions about friction, oil, bulk temperature and film; empty if no oil is given."""
+        """Return the assumptions about friction, oil, bulk temperature and film.
+
+        If no oil is given, there are no such assumptions.
+        """
         reasons: dict[str, str] = {}
         if not self.lubricant.known:
             return reasons
@@ -534,7 +559,10 @@ class ScuffingRequest(MeshInOil, GearPairRequest):
         return self.gears.si(GearPairInputs), self.load.si(si.Load)
 
     def unused(self) -> dict[str, bool]:
-        """Also mark the inputs as unused that only a gear unit has: the bearings and the mass of the casing."""
+        """Mark two inputs as unused in addition to the inputs that the base class marks.
+
+        The two inputs are the film share of the bearings and the mass of the casing. Only gear units use these inputs.
+        """
         of_a_unit = ("cooling.bearing_film_share", "cooling.casing.mass_kg")
         return super().unused() | dict.fromkeys(of_a_unit, True)
 
@@ -543,16 +571,22 @@ class ScuffingRequest(MeshInOil, GearPairRequest):
 
 
 class ScuffingOilDerived(ScuffingDerived, of=(safety_results.ScuffingDerived, OilInUse)):
-    """Load and lengths as used, and properties of the oil at the place where the oil enters the contact."""
+    """The values used for the torque, the power and the lengths, and the properties of the oil.
+
+    The properties of the oil hold at the reference temperature of the oil.
+    """
 
 
 def how_well_known(response: Response, *paths: str) -> dict[str, str]:
-    """Return the uncertainty of the temperatures of a heat balance; empty if a temperature was measured."""
+    """Return the remark about the uncertainty of temperatures, for each of the `paths`.
+
+    There is no remark if a gear temperature was measured, or if there is no heat balance.
+    """
     return dict.fromkeys(paths, KNOWN) if NOT_VALIDATED in {notice.code for notice in response.warnings} else {}
 
 
 class HeatedFlankFields(Group, of=safety_results.HeatedFlank):
-    """Maps of the flank, indexed `[profile][face]`."""
+    """Maps of load distribution, flash temperature and film over the flank, indexed `[profile][face]`."""
 
 
 class ScuffingResponse(LoadDistributionResponse, of=safety_results.Scuffing):
@@ -565,5 +599,8 @@ class ScuffingResponse(LoadDistributionResponse, of=safety_results.Scuffing):
     derived: ScuffingOilDerived
 
     def remarks(self) -> dict[str, str]:
-        """Return the uncertainty of the bulk temperature of a heat balance without measured temperatures."""
+        """Return the remark about the uncertainty of the bulk temperature.
+
+        There is no remark if a gear temperature was measured, or if there is no heat balance.
+        """
         return how_well_known(self, "contact_temperature.bulk_c")

@@ -1,10 +1,13 @@
 """A fixed number of worker processes, and the queue of their calls.
 
 The owner of a call is a client or a study. A free worker gets a call of the owner with the fewest running calls. If
-several owners have the same number of running calls, the owner whose last call began longest ago is next. If the queue
-is full, the newest waiting call of the owner with the most calls, waiting or running, is rejected. If nobody waits for
-the result of a running call any more, the call may run for the further time `GRACE_S`. After this time the worker of
-the call is killed and replaced.
+several owners have the same number of running calls, the owner whose last call began longest ago is next.
+
+If the queue is full, a call is rejected. This is the newest waiting call of the owner with the most calls, where
+waiting and running calls count.
+
+If nobody waits for the result of a running call any more, the call may run for another `GRACE_S` seconds. After this
+time the worker of the call is killed and replaced.
 """
 
 import asyncio
@@ -64,8 +67,9 @@ class Pool:
     async def calculate(self, http: Request, function: Callable[..., Any], *arguments: Any) -> Any:
         """Run a call in a worker and return its result.
 
-        The owner is the name of the client in the header of the settings, or the address of the client. Raises the
-        errors of the call and the exceptions of PROBLEMS.
+        The settings may name a header in which a proxy names the client. The owner of the call is the client's name in
+        this header, or the address of the client if there is no such name. Raises the errors of the call and the
+        exceptions of PROBLEMS.
         """
         owner = http.headers.get(self._settings.client_header or "") or (http.client.host if http.client else "")
         self._admit(owner)
@@ -176,9 +180,10 @@ class Pool:
 
 
 async def unless_gone(http: Request, work: Outcome, deadline_s: float | None = None) -> Any:
-    """Return the result of some work.
+    """Wait for `work` and return its result.
 
-    If the client leaves or the deadline passes, cancel the work and raise ClientGone or DeadlineExceeded.
+    If the client leaves, cancel the work and raise ClientGone. If the deadline passes, cancel the work and raise
+    DeadlineExceeded.
     """
     departure = asyncio.create_task(_departure(http))
     try:

@@ -1,4 +1,4 @@
-"""The stages in which kernels are compiled: examples that together call all kernels."""
+"""The stages in which kernels are compiled. The examples of all stages together call all kernels."""
 
 from app.calculations import BY_PATH, COUPLING, DRIVE_TRAIN, LINE_CONTACT, LOADS, PUMPING, SLEEVE, Stage
 from app.evaluate import answer_of
@@ -8,7 +8,8 @@ STAGES = (COUPLING, SLEEVE, LOADS, PUMPING, DRIVE_TRAIN, LINE_CONTACT)
 BESIDE = LINE_CONTACT
 """The stage that is compiled beside the other stages, because it takes as long as all other stages together.
 
-Of the kernels of the other stages, this stage needs only the kernels of the load distribution, and only near its end.
+Of the kernels of the other stages, this stage needs only the kernels of the load distribution, and needs them only near
+the end of its own compilation.
 """
 
 

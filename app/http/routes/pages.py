@@ -1,4 +1,7 @@
-"""Start page, manual and pages of cases. The addresses of a case's other views have the same query as the page."""
+"""Start page, manual and pages of cases.
+
+The page of a case and the other views of this case have the same query in their addresses.
+"""
 
 import json
 from collections.abc import Callable
@@ -55,7 +58,10 @@ async def static(name: str) -> Response:
 
 @router.post("/case", response_class=HTMLResponse)
 async def open_case(http: Request) -> Response:
-    """Redirect to the page of a case in a file. If the case is too long for a link, send the page itself."""
+    """Read a case from a file, and redirect to the page of this case.
+
+    If the case is too long for a link, send the page itself.
+    """
     if not http.headers.get("content-type", "").startswith("multipart/form-data"):
         raise HTTPException(415, "Send the file of a case as multipart/form-data")
     async with http.form(max_files=1, max_fields=0) as form:
@@ -123,7 +129,10 @@ def _add(calculation: Calculation) -> None:
 
     @router.api_route(f"{path}/case.json", methods=METHODS)
     async def saved(http: Request) -> Response:
-        """Send the case as typed, even if it is not complete, as a JSON file of title, endpoint and request."""
+        """Send a JSON file with the title, the endpoint and the request of the case.
+
+        The request has the values as they were typed. Values may be missing.
+        """
         asked, _ = await asked_of(http, calculation)
         content = {"title": asked.title, "endpoint": calculation.path, "request": asked.body}
         name = "".join(sign for sign in asked.title if sign.isalnum() or sign in " -").strip() or PurePath(path).name
@@ -177,7 +186,10 @@ async def asked_of(http: Request, calculation: Calculation) -> tuple[Asked, bool
 
 
 def _kept(http: Request, path: str) -> Asked:
-    """Return the case and the variant that have the hashes in the query. Answer 410 if an answer is no longer kept."""
+    """Return the case and the variant whose hashes are in the query.
+
+    Answer 410 if the answer of the case or of the variant is no longer kept.
+    """
     query, answers = http.query_params, http.app.state.answers
     kept, kept_ref = (answers.get(key_of(path, [("case", query.get(name, ""))])) for name in ("case", "ref_case"))
     if kept is None or (query.get("ref_case") and kept_ref is None):
@@ -192,7 +204,7 @@ async def _shown(http: Request, asked: Asked, view: Callable[..., views.Shown], 
     """
     shown: views.Shown = await http.app.state.pool.calculate(http, view, asked, *arguments)
     for key, content in shown.keep.items():
-        with suppress(ValueError):  # the answers are larger than the space for kept answers
+        with suppress(ValueError):  # ValueError: the answer is larger than the space for all kept answers
             http.app.state.answers[key] = content
     return shown
 

@@ -73,10 +73,11 @@ async def read_unit(http: Request) -> Response:
 async def write_results(
     http: Request, stage: Annotated[int, Query(description="id of the stage's component")]
 ) -> Response:
-    """Write the numerical results of a stage into the file, as attributes of the component of the stage.
+    """Write the numerical results of a stage into the file.
 
-    A result for which the standard has an attribute is written to this attribute. Any other result is written to an
-    attribute whose name begins with `custom_tribodrive_`. The rest of the file is unchanged.
+    The results become attributes of the component that describes the stage. A result for which the standard has an
+    attribute is written to this attribute. Any other result is written to an attribute whose name begins with
+    `custom_tribodrive_`. The rest of the file is unchanged.
     """
     state, upload = http.app.state, await _upload(http)
     arguments = (upload.content, state.settings.rexs_bytes, stage, upload.request, state.settings.deadline_s)
@@ -87,15 +88,15 @@ async def write_results(
 
 @pages.get("/rexs")
 async def ask_for_unit(http: Request) -> Response:
-    """Redirect to the field for the file on the start page."""
+    """Redirect to the field of the start page in which a file can be chosen."""
     return RedirectResponse(f"{root_of(http)}/#rexs-file", 303)
 
 
 @pages.post("/rexs", response_class=HTMLResponse)
 async def open_unit(http: Request) -> Response:
-    """Redirect to the page of the unit, so that the back button returns to it.
+    """Redirect to the page of the unit, so that the back button of the browser returns to this page.
 
-    A page that is too large to keep is sent at once. A file that cannot be read is answered with the reason.
+    A page that is too large to keep is sent at once. If the file cannot be read, the answer states the reason.
     """
     root = root_of(http)
     try:
@@ -130,7 +131,10 @@ def _key(root: str, name: str) -> str:
 
 
 async def _upload(http: Request) -> Upload:
-    """Return the file. Raises HTTPException for an unknown media type, and Unprocessable for a form without a file."""
+    """Return the file that was sent.
+
+    Raises HTTPException if the media type is unknown. Raises Unprocessable if the body is a form without a file.
+    """
     media_type = http.headers.get("content-type", "").partition(";")[0].strip().lower()
     if media_type in TYPES:
         return Upload(await http.body())

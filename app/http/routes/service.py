@@ -13,7 +13,7 @@ from app.http.routes.pages import HTML, root_of
 from app.pages.templating import rendered
 from app.schema.quantities import Output
 
-DOCS_ASSETS = "/static-offline-docs"  # of Swagger's page, from the package fastapi-offline
+DOCS_ASSETS = "/static-offline-docs"  # assets of Swagger's page; the package fastapi-offline contains them
 
 router = APIRouter(tags=["service"])
 
@@ -54,7 +54,7 @@ async def healthz() -> Health:
 
 @router.get("/readyz", responses=documented(503))
 async def readyz(http: Request) -> Readiness:
-    """Return `ok` if all calculations are ready, else 503 with the progress of the warm-up, without waiting."""
+    """Return `ok` if all calculations are ready. Otherwise, answer 503 at once, with the progress of the warm-up."""
     start_up, pool = http.app.state.start_up, http.app.state.pool
     start_up.require_all()
     if pool.alive <= 0:

@@ -1,4 +1,4 @@
-"""Studies: one request at many points, answered as a stream."""
+"""Endpoints of studies. A study solves a request at many points and sends its results as a stream."""
 
 import asyncio
 import inspect
@@ -93,7 +93,10 @@ router = APIRouter(tags=["studies"], route_class=JsonRoute, responses=documented
 
 
 def _add(page: type[StudyPage]) -> None:
-    """Add the endpoint of a kind of study, with a choice of formats if its lines can be a table."""
+    """Add the endpoint of a kind of study.
+
+    If the lines of this kind of study can be a table, the endpoint offers a choice of formats.
+    """
     kind = page.plan
 
     async def lines(http: Request, body: Any) -> Response:
