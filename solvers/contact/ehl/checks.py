@@ -52,8 +52,8 @@ def lightest(inputs: LineContactInputs) -> LineContactInputs:
     Returns
     -------
     LineContactInputs
-        If the film is thin enough for `check`, the contact itself. Otherwise the contact with the smallest line load
-        for which the film is thin enough.
+        If the expected film is thin enough for `check`, the contact itself. Otherwise the contact with the smallest
+        line load for which the expected film is thin enough.
     """
 
     def excess(logarithm: float) -> float:
@@ -100,7 +100,8 @@ def _check_resolution(inputs: LineContactInputs) -> None:
 def _check_oil(inputs: LineContactInputs) -> None:
     """Check the viscosity and the temperatures.
 
-    In an isothermal film the bulk temperatures of the surfaces have no effect. They are then not checked.
+    In an isothermal film the bulk temperatures of the surfaces have no effect. The function then checks only the
+    temperature at the inlet.
     """
     oil, temperatures = inputs.lubricant, inputs.temperatures
     if oil.viscosity < LOWEST_VISCOSITY:

@@ -1,6 +1,6 @@
 """Solution of a single contact that starts from the dry contact.
 
-If the cheapest way to the solution fails, the module tries other ways, until a budget of Newton steps is used up.
+If the cheapest way to the solution fails, the module tries further ways, as long as the budget of Newton steps lasts.
 """
 
 from collections.abc import Iterator, Sequence
@@ -108,11 +108,9 @@ class Attempt:
     """Result of one attempt to solve a contact.
 
     `state` is the last state, and `grid` is its mesh. `converged` tells whether the state has converged. `stage` is the
-    stage that the solution reached.
-
-    An attempt may raise the Eyring stress in steps. If one of these steps failed, `eyring_stress` [Pa] is the last
-    stress at which the iteration converged, or 0 if it converged at no stress. In all other cases `eyring_stress` is
-    None.
+    stage that the solution reached. An attempt may raise the Eyring stress in steps. If one of these steps failed,
+    `eyring_stress` [Pa] is the last stress at which the iteration converged, or 0 if there was no such stress. In all
+    other cases `eyring_stress` is None.
     """
 
     grid: Grid
@@ -194,8 +192,8 @@ def _start(problem: Problem, resolution: Resolution, budget: Budget) -> Attempt:
 def _dry_state(grid: Grid, resolution: Resolution) -> State:
     """Return a state with Hertzian pressure and a film of the expected thickness.
 
-    The pressure is scaled so that it carries the load on this mesh. The pressure extends from the centre to the half
-    width b, or to the distance (2 R h)^1/2 if this distance is larger. Here R is the reduced radius, and h is the
+    The pressure is scaled so that it carries the load on this mesh. On both sides of the centre, the pressure extends
+    over the half width b, or over (2 R h)^1/2 if this length is larger. Here R is the reduced radius, and h is the
     expected film thickness.
     """
     width = max(1.0, sqrt(2.0 * resolution.gap))
@@ -269,7 +267,7 @@ def interpolate(state: State, x: FloatArray, onto: FloatArray) -> State:
 
 
 def _from_slow_film(problem: Problem, resolution: Resolution, budget: Budget) -> Attempt:
-    """Raise both speeds in steps to their given values on the coarsest mesh, then solve on the finer meshes.
+    """On the coarsest mesh, raise both speeds in steps to their given values; then solve on the finer meshes.
 
     At low speeds the film is thin, and the iteration for a thin film converges easily.
     """
@@ -290,7 +288,7 @@ def _from_slow_film(problem: Problem, resolution: Resolution, budget: Budget) ->
 
 
 def _from_soft_film(problem: Problem, resolution: Resolution, budget: Budget) -> Attempt:
-    """Raise the Eyring stress in steps to its given value on the coarsest mesh, then solve on the finer meshes."""
+    """On the coarsest mesh, raise the Eyring stress in steps to its given value; then solve on the finer meshes."""
     attempt: Attempt | None = None
     reached = 0.0
     for stress in SOFT_STRESSES:

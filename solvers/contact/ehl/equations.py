@@ -1,4 +1,6 @@
-"""Equations of the discrete line contact in plain NumPy, after the manual's chapter on the line contact.
+"""Equations of the line contact in plain NumPy, in the discrete form that the compiled kernels solve.
+
+The chapter on the line contact in the manual explains the equations.
 
 This module is the specification of the compiled kernels, which solve `residual` = 0. The formulas of this module are
 independent of the kernels, and are not written for speed. The tests compare the residual of the kernels with the
@@ -50,12 +52,8 @@ class Columns(NamedTuple):
 class Carried(NamedTuple):
     """Flow quantities in the heat balance. A Newton step holds these quantities fixed.
 
-    After the step the quantities are computed again.
-
-    After the step the quantities are computed again.
-
-    `psi` (n, k) is the stream function [kg/(s m)]. `vartheta` (n,) is the fraction of the gap that oil fills. `density`
-    (n, m) is the density in the heat of compression [kg/m^3].
+    After the step the quantities are computed again. `psi` (n, k) is the stream function [kg/(s m)]. `vartheta` (n,) is
+    the fraction of the gap that oil fills. `density` (n, m) is the density in the heat of compression [kg/m^3].
     """
 
     psi: Numbers
@@ -400,8 +398,6 @@ def carried_heat(
     problem: Problem, pressure: Numbers, film: Numbers, cavitated: BoolArray, flux: Numbers, at: Columns
 ) -> Carried:
     """Return the flow quantities in the heat balance (Eqs. E8.1, E8.2).
-
-    The mass flow is the same in all columns. It equals the flux at the largest pressure.
 
     The mass flow is the same in all columns. It equals the flux at the largest pressure.
 

@@ -1,4 +1,4 @@
-"""Heat in the film: balances of finite volumes, their linearisation, and the elimination of the columns.
+"""Heat in the film: heat balances of finite volumes, their derivatives, and the solution column by column.
 
 Two passes run over the columns: `balance_columns` computes the residuals, and `linearise_balances` computes their
 derivatives.
@@ -34,14 +34,13 @@ class Responses(NamedTuple):
 class ColumnSystem(NamedTuple):
     """Linear systems for the temperatures of all columns.
 
-    The matrix of a column is the sum of a tridiagonal part and a rank-one part.
-
-    `lower`, `pivot` and `upper` (n, k) are the tridiagonal part. `factor_columns` replaces `lower` and `upper` by
-    factors, and `pivot` by the inverse pivots. The rank-one part arises because the temperatures change the mid-film
-    stress, and this stress changes the heat. `sherman` (n,) is the factor 1/(1 + v x) of the Sherman-Morrison formula,
-    where v holds the derivatives of the mid-film stress with respect to the temperatures. x is the solution of the
-    tridiagonal system for the right-hand side `heating`. `residual` (n, k) is the residual of the heat balance.
-    `squeeze` (n, k) is the heat of compression per kelvin of temperature and per pascal of h dp/dx [W/(m^2 K Pa)].
+    The matrix of a column is the sum of a tridiagonal part and a rank-one part. `lower`, `pivot` and `upper` (n, k) are
+    the tridiagonal part. `factor_columns` replaces `lower` and `upper` by factors, and `pivot` by the inverse pivots.
+    The rank-one part arises because the temperatures change the mid-film stress, and this stress changes the generated
+    heat. `sherman` (n,) is the factor 1/(1 + v x) of the Sherman-Morrison formula. Here v holds the derivatives of the
+    mid-film stress with respect to the temperatures, and x is the solution of the tridiagonal system for the right-hand
+    side `heating`. `residual` (n, k) is the residual of the heat balance. `squeeze` (n, k) is the heat of compression
+    per kelvin of temperature and per pascal of h dp/dx [W/(m^2 K Pa)].
     """
 
     lower: FloatArray
@@ -291,11 +290,9 @@ def linearise_balances(
 ) -> None:
     """Compute the derivatives of the heat balances of columns start..stop.
 
-    `balance_columns` must have computed these columns before.
-
-    The results are the tridiagonal part of the systems, and the right-hand sides for the mid-film stress, p, G and h.
-    `damping` is an artificial heat capacity, divided by the heat conduction across the film. The damping makes the
-    temperature steps shorter.
+    `balance_columns` must have computed these columns before. The results are the tridiagonal part of the systems, and
+    the right-hand sides for the mid-film stress, p, G and h. `damping` is an artificial heat capacity, divided by the
+    heat conduction across the film. The damping makes the temperature steps shorter.
     """
     m = temperature.shape[1] - 1
     for i in range(start, stop):
@@ -371,7 +368,7 @@ def factor_columns(start: int, stop: int, film: Film, heat: Heat) -> None:
     Thomas' algorithm factors the tridiagonal part, and the Sherman-Morrison formula adds the rank-one part. All arrays
     are changed in place. `pivot` becomes the inverse pivots, `lower` becomes the factors of the forward substitution,
     and `upper` becomes the factors of the backward substitution. Warmer oil shears at a lower stress. In a sliding film
-    the rank-one part describes this effect, and it makes the system more stable.
+    the rank-one part describes this effect, which makes the system more stable.
     """
     column, by_temperature = heat.column, film.mid.by_temperature
     lower, pivot, upper, responses = column.lower, column.pivot, column.upper, column.responses

@@ -86,7 +86,7 @@ def uniform_film(problem: Problem, i: int, p: float, g: float, h: float, coeffic
 def evaluate_isothermal(problem: Problem, grid: Grid, state: State, work: Work) -> None:
     """Compute film thickness, stress and flow of all columns at the inlet temperature.
 
-    The last node joins the broken film if the film is broken at the last node but one.
+    The function copies the mark for broken film from the last node but one to the last node.
     """
     state.cavitated[-1] = state.cavitated[-2]
     film_shape(grid, state.pressure, state.separation[0], work.height)
@@ -225,8 +225,9 @@ def transport_response(
 
     The factored Jacobian contains the response of a column's temperatures to the pressure at this column. The Jacobian
     does not contain the transport of heat from column to column by oil and surfaces. The function computes the
-    residuals that this transport adds after the step. The function solves the factored system for these residuals, and
-    writes the solution to `change` (n + 1,). `given` and `step_t` (n, k) are work arrays for temperatures.
+    residuals that this transport adds if the step is taken. The function then solves the factored system for these
+    residuals, and writes the solution to `change` (n + 1,). `given` and `step_t` (n, k) are work arrays for
+    temperatures.
     """
     pressure_responses(problem, grid, work, cavitated, step, given)
     temperature_step(problem, grid, work.film, work.heat, given, 0.0, step_t)

@@ -1,10 +1,10 @@
 """Accuracy of a finished contact: estimated error due to the mesh, and independent check of the temperatures.
 
 The error due to the mesh is estimated from a solution on half as many nodes. The check of the temperatures has its own
-code. It uses reported values only: curves, field and inputs in SI units. The check has three parts. The temperature of
-each surface must equal the bulk temperature of the surface plus the rise due to the heat flux into the surface. Oil
-that enters must have the inlet temperature. The film may be colder than the lowest bulk or inlet temperature, but only
-by the amount that the decompression of the oil explains.
+code. This check uses reported values only: curves, field and inputs in SI units. The check has three parts. The
+temperature of each surface must equal the bulk temperature of the surface plus the rise due to the heat flux into the
+surface. Oil that enters must have the inlet temperature. The film may be colder than the lowest bulk or inlet
+temperature, but only by the amount that the decompression of the oil explains.
 """
 
 from dataclasses import dataclass, replace
@@ -47,7 +47,7 @@ LEAST = {
 
 
 def departure(inputs: LineContactInputs, curves: ContactCurves, field: ContactField) -> float:
-    """Return the largest difference [K] between the reported temperatures and the temperatures of the check."""
+    """Return the largest difference [K] between the reported temperatures and the values that the check requires."""
     contact, bulk = inputs.contact, inputs.temperatures
     t = field.temperature
     fluxes = (curves.surface_1_heat_flux, curves.surface_2_heat_flux)
@@ -135,8 +135,8 @@ def undercooling(inputs: LineContactInputs, curves: ContactCurves, t: FloatArray
 
     The cooling is the lowest bulk or inlet temperature minus the lowest temperature in `t` (n, k). Decompression takes
     up the heat q = 0.00065 T u |dp/dx| h per area. `surface_heating` with the flux q gives the amount by which this
-    heat cools the surfaces. The film is colder than the surfaces by a further q h/(8 lambda). The result is the rest of
-    the cooling, or 0 if there is no rest.
+    heat cools the surfaces. Between the surfaces, the film can be colder by a further q h/(8 lambda). The result is the
+    rest of the cooling, or 0 if there is no rest.
     """
     bulk, contact, oil = inputs.temperatures, inputs.contact, inputs.lubricant
     missing = min(bulk.surface_1, bulk.surface_2, bulk.inlet) - float(t.min())
@@ -155,9 +155,9 @@ def undercooling(inputs: LineContactInputs, curves: ContactCurves, t: FloatArray
 class Comparison:
     """Results of a contact (`fine`), and of the same contact on half as many nodes (`coarse`).
 
-    The keys are the names of the errors in `MeshError`. Each value is a tuple of parts; the sum of the parts is the
-    result of the contact. `fall` is the steepest fall of P from one node to the next. `kinks` holds the result of
-    `_kink` for each surface [K].
+    `fine` and `coarse` are dictionaries. Their keys are the names of the errors in `MeshError`. Each value is a tuple
+    of parts; the sum of the parts is the result of the contact. `fall` is the steepest fall of P from one node to the
+    next. `kinks` holds the result of `_kink` for each surface [K].
     """
 
     fine: dict[str, tuple[float, ...]]
@@ -194,11 +194,9 @@ def refine(
 ) -> tuple[Attempt, MeshError | None]:
     """Return a converged attempt on a sufficiently fine mesh, and the error of the results.
 
-    The error is None if it cannot be estimated.
-
-    The attempt stays on its mesh in four cases: the mesh is fine enough; it is the finest mesh; no refinement is
-    requested; or the solution on a finer mesh does not converge within the remaining steps. The decision depends on
-    the contact only, and not on how the contact was solved.
+    The error is None if it cannot be estimated. The attempt stays on its mesh in four cases: the mesh is fine enough;
+    it is the finest mesh; no refinement is requested; or the solution on a finer mesh does not converge within the
+    remaining steps. The decision depends on the contact only, and not on how the contact was solved.
     """
     comparison = compare(inputs, constants, resolution, attempt)
     while inputs.model.refine_mesh and not is_acceptable(comparison) and resolution.nodes < FINEST:
@@ -237,10 +235,9 @@ def compare(
 ) -> Comparison | None:
     """Compare a contact with the same contact on half as many nodes (Richardson).
 
-    Return None if the solution on half as many nodes fails.
-
-    The solution on half as many nodes starts from the contact's own solution. One Newton step is usually enough. A
-    spike or a hot film needs more steps, because the start contains the peak of the finer mesh.
+    Return None if the solution on half as many nodes fails. The solution on half as many nodes starts from the
+    contact's own solution. One Newton step is usually enough. A spike or a hot film needs more steps, because the start
+    contains the peak of the finer mesh.
     """
     grid = grid_for(resolution.gap, resolution.nodes // 2 + 1)
     state = interpolate(attempt.state, attempt.grid.x, grid.x)
@@ -263,10 +260,8 @@ def _steepest_fall(attempt: Attempt) -> float:
 def _kink(attempt: Attempt, surface: int) -> float:
     """Return the largest excess [K] of a surface temperature over the mean temperature of both neighbours.
 
-    Only nodes downstream of the centre are considered.
-
-    Such an excess arises if the heat of a pressure spike affects only one node. If this node lay nearer to the spike,
-    the excess could be twice as large.
+    Only nodes downstream of the centre are considered. Such an excess arises if the heat of a pressure spike affects
+    only one node. If this node lay nearer to the spike, its temperature would be higher by the same excess again.
     """
     t = attempt.state.temperature[attempt.grid.x > 0.0, surface]
     return float((t[1:-1] - 0.5 * (t[:-2] + t[2:])).max())

@@ -125,9 +125,9 @@ class ContactHeat:
 class MeshError:
     """Estimated relative errors of the results due to the mesh.
 
-    In an isothermal contact the errors of temperatures and heat are None. The error of a coefficient of friction below
-    0.001 is relative to 0.001, and the error of a flash temperature below 25 K is relative to 25 K. Local maxima (of
-    pressure, shear stress and film temperature) have no estimate, because no mesh resolves a sharp maximum.
+    In an isothermal contact the errors of temperatures and heat are None. If the coefficient of friction is below
+    0.001, its error is relative to 0.001. If a flash temperature is below 25 K, its error is relative to 25 K. Local
+    maxima (of pressure, shear stress and film temperature) have no estimate, because no mesh resolves a sharp maximum.
     """
 
     central_film: float = quantity("mesh error of the central film", text="of the film at x = 0")
@@ -160,10 +160,10 @@ class Convergence:
     """How the iteration ended: number of Newton steps, last changes of P and temperature [K], relative load error.
 
     `stage` is the stage at which the iteration ended. The iteration may raise the Eyring stress in steps. If one of
-    these steps failed, `eyring_stress` [Pa] is the last stress at which the iteration converged; otherwise
-    `eyring_stress` is None. Both changes are None if the budget allowed no step. The change of temperature is also None
-    if the contact is isothermal. `departure` [K] is the error of the temperatures in a finished thermal state, computed
-    by `refinement.departure`.
+    these steps failed, `eyring_stress` [Pa] is the last stress at which the iteration converged, or 0 if there was no
+    such stress. In all other cases `eyring_stress` is None. The changes of P and of temperature are None if the budget
+    allowed no step. The change of temperature is also None if the contact is isothermal. `departure` [K] is the error
+    of the temperatures in a finished thermal state, computed by `refinement.departure`.
     """
 
     iterations: int = quantity("Newton steps", text="Newton steps in all")
@@ -237,7 +237,7 @@ class ContactCurves:
 
 @record
 class ContactField:
-    """Temperature (n, k) over the position along the contact (n,) and over the height across the film (k,)."""
+    """Temperature (n, k) as a function of the position along the contact (n,) and the height in the film (k,)."""
 
     x: FloatArray = quantity("position along the flow", "x", unit="mm")
     film_fraction: FloatArray = quantity("height in the film", "z/h", text="height over film thickness from surface 1")

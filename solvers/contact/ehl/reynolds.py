@@ -227,10 +227,9 @@ def _flux_scales(problem: Problem) -> tuple[float, float]:
 def _upstream(x: FloatArray, i: int) -> tuple[int, float]:
     """Return the node upstream of node i, and the weight of this upstream node in an extrapolation.
 
-    The product B H is extrapolated from both nodes to the face on the right of node i.
-
-    The first face has only one node upstream. For this face the function returns the node downstream and the weight
-    0.5. The extrapolation then becomes the mean of both nodes.
+    The product B H is extrapolated from both nodes to the face on the right of node i. The first face has only one node
+    upstream. For this face the function returns the node downstream and the weight 0.5. The extrapolation then becomes
+    the mean of both nodes.
     """
     if i == 0:
         return 1, 0.5

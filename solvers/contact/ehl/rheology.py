@@ -5,7 +5,7 @@ Four functions contain all that depends on the law, and choose the law by `Probl
 
 limited_gradient  G, limited to values at which the law can be evaluated
 mid_film_stress   the shear stress half way across a column, for the sliding speed u2 - u1
-shear_rates       the shear rate of every interval at the given stress, and the derivative of this rate
+shear_rates       the shear rate of every interval at the given stress, and its derivative with respect to the stress
 uniform_shear     the flow and the mid-film stress in a film at one temperature
 
 A further law needs a name in `inputs.Rheology` and a branch in each of these four functions. In the module `equations`,
@@ -93,7 +93,7 @@ def _newtonian_mid_stress(problem: Problem, i: int, g: float, h: float, shear: S
 
 @inlined_kernel
 def _eyring_mid_stress(problem: Problem, i: int, g: float, h: float, shear: Shear) -> float:
-    """Compute tau_m = tau0 a, where e^a is the root of a quadratic equation.
+    """Compute tau_m = tau0 a, where e^a is the positive root of a quadratic equation.
 
     If u2 < u1, the conjugate form of the root avoids cancellation.
     """

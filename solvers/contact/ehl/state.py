@@ -154,7 +154,7 @@ def match_stream(problem: Problem, state: State, work: Work) -> None:
 def evaluate_state(problem: Problem, grid: Grid, state: State, work: Work) -> bool:
     """Compute the residuals of all columns and faces; return whether a pressure gradient had to be limited.
 
-    The last node joins the broken film if the film is broken at the last node but one.
+    The function copies the mark for broken film from the last node but one to the last node.
     """
     state.cavitated[-1] = state.cavitated[-2]
     limited = evaluate_flow(problem, grid, state, work)
