@@ -189,8 +189,8 @@ def simple_self_induced_thrust(coupling: Coupling, torque: float, friction: floa
     -----
     Fig. 13; Eq. C23. Each tooth carries T/(d_o cos alpha). The moment of friction is M_2 = 2 F_R d_o, where F_R is the
     friction of one tooth. This moment would overturn the sleeve. The lateral force F_1 = M_2/l_H at each mesh prevents
-    this. The lateral force changes the normal forces of the teeth: their difference is kappa F_1. The paper does not
-    state kappa.
+    this. Because of the lateral force, the normal forces of the two teeth of a mesh differ by kappa F_1. The paper does
+    not state kappa.
     """
     return 2.0 * factor * friction**2 * torque / (coupling.hub_distance * cos(coupling.pressure_angle))
 
@@ -253,9 +253,10 @@ def axial_thrust(inputs: CouplingInputs, geometry: Geometry, loaded: LoadedMesh,
 def self_induced_thrust(inputs: CouplingInputs, geometry: Geometry, friction: float) -> SelfInducedThrust:
     """Compute the thrust of two meshes without axial velocity, and the closed forms of this thrust.
 
-    The closed forms hold if each mesh has one tooth pair, or equal loads on all teeth. In the angular arrangement, the
-    moments of friction in the two meshes are then opposite, and the sleeve requires no lateral force at the teeth.
-    Therefore both closed forms are zero in this arrangement. The paper explains this only by "for reasons of symmetry".
+    One closed form holds for one tooth pair per mesh, the other for equal loads on all teeth. In both cases, the
+    moments of friction in the two meshes are opposite in the angular arrangement, and the sleeve requires no lateral
+    force at the teeth. Therefore both closed forms are zero in the angular arrangement. The paper explains this only by
+    "for reasons of symmetry".
     """
     coupling, torque = inputs.coupling, inputs.operation.torque
     equilibrium = sleeve_equilibrium(inputs, geometry, friction, 0.0)
@@ -359,11 +360,11 @@ def contact_shift_moment(inputs: CouplingInputs, geometry: Geometry, loaded: Loa
     -----
     Eq. C27. z_c is the axial position of the contact, and n_x is the x component of the flank normal n. Both are
     harmonics of phi; their product is a sum of terms in sin^2, sin cos and cos^2. With `tangential` kinematics z_c is
-    the contact position s_1 on the hub flank, and n_x contains only the tangential part of n; for equal loads the
-    moment is R_t delta T/(2 r_o). With `spatial` kinematics z_c = s_1 - delta r_o cos phi is the position of the
+    the contact position s_1 on the hub flank, and n_x contains only the tangential part of n. For equal loads the
+    moment is then R_t delta T/(2 r_o). With `spatial` kinematics z_c = s_1 - delta r_o cos phi is the position of the
     contact in the frame of the sleeve, and n_x contains the tangential and the radial part of n. With both kinematics
-    the moment equals sum F_t df_t/d delta. With `spatial` kinematics the y components of n cause a further moment T
-    delta/2 about the pivot direction. The power balance of the hub already contains this further moment.
+    the moment equals sum F_t df_t/d delta. With `spatial` kinematics the y components of n cause a further moment
+    T delta/2 about the pivot direction. The power balance of the hub already contains this further moment.
     """
     motion, sums = loaded.motion, loaded.sums
     arm_sin, arm_cos, normal_sin, normal_cos = motion.travel_sin, 0.0, -motion.side, 0.0

@@ -27,8 +27,8 @@ STEEL_TOOTH_STIFFNESS = 280e6  # N/m, of a pair of steel teeth
 class Coupling:
     """A gear coupling: a hub with crowned teeth in a sleeve with straight internal teeth.
 
-    If face width, tooth height or tooth pair stiffness is None, the default value replaces None when the coupling is
-    created.
+    If face width, tooth height or tooth pair stiffness is given as None, the new coupling has the default value
+    instead.
     """
 
     teeth: int = quantity("number of teeth", "z", PAHL, ge=6, le=400)

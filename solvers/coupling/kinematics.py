@@ -141,9 +141,10 @@ def mesh_motion(
     Notes
     -----
     Eqs. C3, C5. Here delta is the tilt angle, eps is the crowning ratio and n is the flank normal. With `spatial`
-    kinematics s_1 = R_e delta n_x. If `side` is +1, f_t = r_o delta^2/(2 cos alpha) sin(phi - alpha) [eps sin(phi -
-    alpha)/sin alpha + cos phi]. If `side` is -1, pi - phi takes the place of phi in this formula. The formulas are
-    exact to leading order in delta, as a numerical calculation with exact involutes has confirmed.
+    kinematics s_1 = R_e delta n_x. If `side` is +1,
+    f_t = r_o delta^2/(2 cos alpha) sin(phi - alpha) [eps sin(phi - alpha)/sin alpha + cos phi]. If `side` is -1,
+    pi - phi takes the place of phi in this formula. The formulas are exact to leading order in delta, as a numerical
+    calculation with exact involutes has confirmed.
 
     With `tangential` kinematics only the tilt is considered, without the pivot motion: s_1 = -side R_t delta sin phi
     and f_t = R_t delta^2/2 sin^2 phi. The paper describes the tangential model in words. In the tangential model the

@@ -171,10 +171,10 @@ def starved_load(inlet_ratio: float) -> float:
     Notes
     -----
     Eqs. C15, C16. The Reynolds equation for rigid surfaces and constant viscosity is solved in closed form. At the exit
-    x = tan(g) sqrt(2 R h_0), the pressure and its gradient are zero. This condition is [A2(g) + A2(g_B)] cos^2 g =
-    A4(g) + A4(g_B), where tan g_B = B. A2(g) and A4(g) are the integrals of cos^2 and cos^4 from zero to g. Bisection
-    finds g in (0, g_B). The load is W = (1 - H_m/H_B)^2/(4 H_m), where H_m and H_B are the gaps at exit and inlet,
-    divided by the smallest gap h_0.
+    x = tan(g) sqrt(2 R h_0), the pressure and its gradient are zero. This condition is
+    [A2(g) + A2(g_B)] cos^2 g = A4(g) + A4(g_B), where tan g_B = B. A2(g) and A4(g) are the integrals of cos^2 and cos^4
+    from zero to g. Bisection finds g in (0, g_B). The load is W = (1 - H_m/H_B)^2/(4 H_m), where H_m and H_B are the
+    gaps at exit and inlet, divided by the smallest gap h_0.
     """
     inlet = atan(inlet_ratio)
     a2 = inlet / 2.0 + sin(2.0 * inlet) / 4.0
@@ -443,9 +443,7 @@ def friction_coefficient(
 ) -> float:
     """Return the user's coefficient of friction if there is one.
 
-    Otherwise return the coefficient of the friction map.
-
-    `sliding_velocity` [m/s] is the largest sliding velocity.
+    Otherwise return the coefficient of the friction map. `sliding_velocity` [m/s] is the largest sliding velocity.
     """
     if friction.coefficient is not None:
         return friction.coefficient
@@ -457,8 +455,8 @@ def friction_coefficient(
 def static_friction(friction: Friction) -> float:
     """Return the coefficient of friction at rest.
 
-    The function returns the first of three values that exists: the user's static coefficient, the user's coefficient of
-    friction, and the coefficient of the friction map at rest without a film.
+    The function returns the user's static coefficient if there is one. If not, it returns the user's coefficient of
+    friction if there is one. If not, it returns the coefficient of the friction map at rest without a film.
     """
     if friction.static_coefficient is not None:
         return friction.static_coefficient

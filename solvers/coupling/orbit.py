@@ -32,10 +32,8 @@ class _SettledPath:
     """Path of the sleeve that no longer changes from sweep to sweep.
 
     `path` (rows, 2) [m] is the displacement of the sleeve, `force` (rows, 2) [N] is the inertia force on this path, and
-    `farthest` [m] is the largest displacement.
-
-    `sweeps` is the number of sweeps. `change` [m] is the change of the path in the last sweep. `fewest` is the smallest
-    number of loaded teeth at any rotor angle.
+    `farthest` [m] is the largest displacement. `sweeps` is the number of sweeps. `change` [m] is the change of the path
+    in the last sweep. `fewest` is the smallest number of loaded teeth at any rotor angle.
     """
 
     path: FloatArray

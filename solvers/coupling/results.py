@@ -399,10 +399,10 @@ class OrbitResult:
 
     `sweeps` is the number of sweeps over the revolution until the path settled, and `change` [m] is the change of the
     path in the last sweep. For the uncertainties, two further paths with twice as many orders are computed: one with
-    twice as many rotor angles, the other with three times as many. `displacement_uncertainty` [m] is the largest
-    difference between the largest displacements of these paths and of the settled path. `harmonics_uncertainty` [N] is
-    the largest such difference of a harmonic of the force. Both uncertainties are None if one of the further paths does
-    not settle. `derived` contains the radii of the teeth.
+    twice as many rotor angles, the other with three times as many. Each further path is compared with the settled path.
+    The largest displacements differ by at most `displacement_uncertainty` [m], and the harmonics of the force differ by
+    at most `harmonics_uncertainty` [N]. Both uncertainties are None if one of the further paths does not settle.
+    `derived` contains the radii of the teeth.
     """
 
     orbit: Orbit = quantity("path of the sleeve centre", detail="curves")

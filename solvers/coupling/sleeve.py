@@ -140,7 +140,7 @@ def balance_sleeve(
     interference : FloatArray
         Interference at rest, shape (2, teeth) [T/(r_o c_t)].
     normal : FloatArray
-        Flank normals over cos(alpha), shape (2, 2, teeth) [-].
+        Flank normals divided by cos(alpha), shape (2, 2, teeth) [-].
     arm : FloatArray
         Direction of friction times the tooth's position, shape (2, 2, teeth) [-].
     lever : float

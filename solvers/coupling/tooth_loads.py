@@ -127,9 +127,9 @@ def rotation_of_leads(ahead: FloatArray, highest: float, start: float) -> float:
     Eq. C8: sum max(0, psi + lead_i) = 1, where lead_i is w_i minus the largest of the leads. The sum is a convex and
     piecewise linear function of psi. From any positive start, the first step of Newton's method leads to the root or to
     a larger value. Each further step reduces psi and unloads at least one tooth, until the linear piece that contains
-    the root is reached. Sorting would give the same result: the leads are sorted in descending order, and psi_k = (1 -
-    sum_1..k lead)/k is the rotation if only the first k teeth are loaded. The root is psi_k for the largest k for which
-    psi_k loads tooth k.
+    the root is reached. Sorting would give the same result: the leads are sorted in descending order, and
+    psi_k = (1 - sum_1..k lead)/k is the rotation if only the first k teeth are loaded. The root is psi_k for the
+    largest k for which psi_k loads tooth k.
     """
     psi = _crossing(ahead, highest, start)
     following = _crossing(ahead, highest, psi)
@@ -243,11 +243,10 @@ def next_step(hessian: Hessian, missing: Motion) -> tuple[Motion, float]:
 def slope_along(ahead: FloatArray, change: FloatArray, start: float, length: float) -> tuple[float, float]:
     """Compute the first and the second derivative of the energy along a step, at one length of the step.
 
-    The energy is differentiated with respect to the length. A step of length 1 changes u_i by `change`.
-
-    `start` is the first derivative at length zero. The function computes how much the first derivative changes between
-    length zero and `length`, and adds this change to `start`. A direct sum of torque and tooth forces would lose its
-    digits by cancellation near the balance.
+    The energy is differentiated with respect to the length. A step of length 1 changes u_i by `change`. `start` is the
+    first derivative at length zero. The function computes how much the first derivative changes between length zero and
+    `length`, and adds this change to `start`. A direct sum of torque and tooth forces would lose its digits by
+    cancellation near the balance.
     """
     first, second = start, 0.0
     for i in range(ahead.size):
@@ -262,12 +261,10 @@ def slope_along(ahead: FloatArray, change: FloatArray, start: float, length: flo
 def length_to_lowest(ahead: FloatArray, change: FloatArray, start: float) -> float:
     """Find the length of a step at which the energy is lowest.
 
-    The result is LONGEST_STEP if the energy has no minimum.
-
-    The slope of the energy is negative at length zero, where it is `start`. The slope rises piecewise linearly with the
-    length. Newton's method finds the length at which the slope is zero. The iteration stays between two lengths, one
-    shorter and one longer than the length at which the energy is lowest. While no tooth resists, the length is doubled,
-    because the next tooth may be many steps away.
+    The result is LONGEST_STEP if the energy has no minimum. The slope of the energy is negative at length zero, where
+    it is `start`. The slope rises piecewise linearly with the length. Newton's method finds the length at which the
+    slope is zero. The iteration stays between two lengths, one shorter and one longer than the length at which the
+    energy is lowest. While no tooth resists, the length is doubled, because the next tooth may be many steps away.
     """
     before, behind, length = 0.0, LONGEST_STEP, 1.0
     while length < LONGEST_STEP:
@@ -298,7 +295,7 @@ def float_sleeve(
     interference : FloatArray
         Interference at rest (lead w_i) of each tooth, shape (teeth,) [T/(r_o c_t)].
     normal : FloatArray
-        Flank normals over cos(alpha), shape (2, teeth) [-].
+        Flank normals divided by cos(alpha), shape (2, teeth) [-].
     force : FloatArray
         External force on the sleeve, shape (2,) [T/r_o].
     places : Places

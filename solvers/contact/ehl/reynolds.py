@@ -181,9 +181,9 @@ def mass_flux_slopes(
 ) -> None:
     """Compute the derivatives of the mass fluxes with respect to the pressures and film thicknesses.
 
-    The flux through a face depends on P and H of the nodes around the face. B and ln A of a node depend on p, G = h
-    dp/dx and h of this node. First, B and ln A of each node are differentiated with respect to three quantities: P of
-    the node, P of the neighbouring nodes, and H of the node.
+    The flux through a face depends on P and H of the nodes around the face. B and ln A of a node depend on p,
+    G = h dp/dx and h of this node. First, B and ln A of each node are differentiated with respect to three quantities:
+    P of the node, P of the neighbouring nodes, and H of the node.
     """
     n, (couette_scale, _), b, log_a = grid.x.size, _flux_scales(problem), coefficients.b, coefficients.log_a
     slope = problem.maximum_pressure / problem.half_width

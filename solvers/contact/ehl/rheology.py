@@ -199,10 +199,11 @@ def uniform_shear(problem: Problem, log_eta: float, g: float, h: float) -> tuple
 
     Notes
     -----
-    Eq. E7.2. A Newtonian oil has A = rho/(12 eta). For a Ree-Eyring oil, s = G/(2 tau0) and sinh a = eta du s/(tau0 h
-    sinh s), where du is u2 - u1. Then tau_m = tau0 a, and 12 eta A/rho = 3 cosh(a) (s cosh s - sinh s)/s^3. In the
-    code, `sigma` is s/sinh s and `phi` is 3 (s cosh s - sinh s)/s^3. If s is small, both are computed by series.
-    `sigma_slope` and `phi_slope` are the derivatives of ln sigma and ln phi with respect to s.
+    Eq. E7.2. A Newtonian oil has A = rho/(12 eta). For a Ree-Eyring oil, s = G/(2 tau0) and
+    sinh a = eta du s/(tau0 h sinh s), where du is u2 - u1. Then tau_m = tau0 a, and
+    12 eta A/rho = 3 cosh(a) (s cosh s - sinh s)/s^3. In the code, `sigma` is s/sinh s and `phi` is
+    3 (s cosh s - sinh s)/s^3. If s is small, both are computed by series. `sigma_slope` and `phi_slope` are the
+    derivatives of ln sigma and ln phi with respect to s.
     """
     du = problem.speed_2 - problem.speed_1
     if problem.rheology == NEWTONIAN:
