@@ -167,7 +167,7 @@ def customary_thrust(operation: Operation) -> float | None:
 
 
 def simple_self_induced_thrust(coupling: Coupling, torque: float, friction: float, factor: float) -> float:
-    """Compute the self-induced thrust with a parallel offset and one tooth pair per mesh.
+    """Compute the self-induced thrust with a parallel offset and one pair of opposite teeth per mesh.
 
     Parameters
     ----------
@@ -187,10 +187,10 @@ def simple_self_induced_thrust(coupling: Coupling, torque: float, friction: floa
 
     Notes
     -----
-    Fig. 13; Eq. C23. Each tooth carries T/(d_o cos alpha). The moment of friction is M_2 = 2 F_R d_o, where F_R is the
-    friction of one tooth. This moment would overturn the sleeve. The lateral force F_1 = M_2/l_H at each mesh prevents
-    this. Because of the lateral force, the normal forces of the two teeth of a mesh differ by kappa F_1. The paper does
-    not state kappa.
+    Fig. 13; Eq. C23. Each of the two teeth of a mesh carries T/(d_o cos alpha). The moment of friction is M_2 = 2 F_R
+    d_o, where F_R is the friction of one tooth. This moment would overturn the sleeve. The lateral force F_1 = M_2/l_H
+    at each mesh prevents this. Because of the lateral force, the normal forces of the two teeth of a mesh differ by
+    kappa F_1. The paper does not state kappa.
     """
     return 2.0 * factor * friction**2 * torque / (coupling.hub_distance * cos(coupling.pressure_angle))
 
@@ -253,10 +253,10 @@ def axial_thrust(inputs: CouplingInputs, geometry: Geometry, loaded: LoadedMesh,
 def self_induced_thrust(inputs: CouplingInputs, geometry: Geometry, friction: float) -> SelfInducedThrust:
     """Compute the thrust of two meshes without axial velocity, and the closed forms of this thrust.
 
-    One closed form holds for one tooth pair per mesh, the other for equal loads on all teeth. In both cases, the
-    moments of friction in the two meshes are opposite in the angular arrangement, and the sleeve requires no lateral
-    force at the teeth. Therefore both closed forms are zero in the angular arrangement. The paper explains this only by
-    "for reasons of symmetry".
+    One closed form holds for one pair of opposite teeth per mesh, the other for equal loads on all teeth. In both
+    cases, the moments of friction in the two meshes are opposite in the angular arrangement, and the sleeve requires no
+    lateral force at the teeth. Therefore both closed forms are zero in the angular arrangement. The paper explains this
+    only by "for reasons of symmetry".
     """
     coupling, torque = inputs.coupling, inputs.operation.torque
     equilibrium = sleeve_equilibrium(inputs, geometry, friction, 0.0)
