@@ -205,9 +205,9 @@ def balance_rows(
 ) -> float:
     """Balance the sleeve at every rotor angle, and write the tooth forces to `share` (rows, 2, teeth).
 
-    The balance at each angle starts from the solution at the previous angle. If the iteration does not converge from
-    this start, it starts again from zero force and zero displacement. The function stops at the first angle without
-    balance. Returns the largest residual.
+    The balance at each angle starts from the solution at the previous angle. If the iteration from this start does not
+    converge, a second iteration starts from zero force and zero displacement. The function stops at the first angle
+    without balance. Returns the largest residual.
     """
     force, places = np.zeros(2), Places(np.zeros(2), np.zeros(2), np.zeros(2))
     largest = 0.0
@@ -282,8 +282,8 @@ def sleeve_equilibrium(
     Notes
     -----
     Eq. C22. Nothing slides if the axial velocity is zero and, in addition, the misalignment or the speed is zero. The
-    direction of friction is then undetermined. If mu d_o/l_H < cos(pi/z), an equilibrium always exists: every force g
-    that the teeth can hold leads to a force Phi(g) that they can also hold, and Brouwer's theorem applies.
+    direction of friction is then undetermined. If mu d_o/l_H < cos(pi/z), an equilibrium always exists: for every force
+    g that the teeth can hold, the teeth can also hold the force Phi(g), and Brouwer's theorem applies.
     """
     coupling, torque = inputs.coupling, inputs.operation.torque
     meshes = two_meshes(inputs, geometry)

@@ -50,7 +50,7 @@ FLAT = 1e-12
 """Largest ratio of the energy's slope along a step to the slope at the start that counts as zero slope."""
 
 LOADED = 1e-6
-"""Ratio of tooth force to mean tooth force above which a tooth counts as loaded."""
+"""Smallest ratio of a tooth's force to the mean tooth force at which the tooth counts as loaded."""
 SLIDING_VELOCITY_LIMIT = 0.12
 """Limit of steady sliding in gear couplings [m/s] (Tribology Handbook B4.6); 1.6 times as large for short tilts."""
 GRAVITY = 9.80665  # m/s^2, standard gravity (CGPM 1901)
@@ -261,10 +261,10 @@ def slope_along(ahead: FloatArray, change: FloatArray, start: float, length: flo
 def length_to_lowest(ahead: FloatArray, change: FloatArray, start: float) -> float:
     """Find the length of a step at which the energy is lowest.
 
-    The result is LONGEST_STEP if the energy has no minimum. The slope of the energy is negative at length zero, where
-    it is `start`. The slope rises piecewise linearly with the length. Newton's method finds the length at which the
-    slope is zero. The iteration stays between two lengths, one shorter and one longer than the length at which the
-    energy is lowest. While no tooth resists, the length is doubled, because the next tooth may be many steps away.
+    The result is LONGEST_STEP if the energy has no minimum. The slope of the energy has the negative value `start` at
+    length zero, and rises piecewise linearly with the length. Newton's method finds the length at which the slope is
+    zero. The iteration stays between two lengths, one shorter and one longer than the length at which the energy is
+    lowest. While no tooth resists, the length is doubled, because the next tooth may be many steps away.
     """
     before, behind, length = 0.0, LONGEST_STEP, 1.0
     while length < LONGEST_STEP:
@@ -369,9 +369,9 @@ def largest_value(angles: FloatArray, values_at: Callable[[FloatArray], FloatArr
     """Find the largest value at evenly spaced rotor angles [rad] and between these angles.
 
     `values_at` takes rotor angles (rows) and returns one value per angle. After the given angles, two searches follow.
-    The steps of each search are eight times finer than the steps before. A search covers the surroundings of certain
-    local maxima: those that would reach the largest value if they continued to rise for half a step. The searches are
-    necessary because with few loaded teeth a peak lasts only a fraction of a pitch, and each tooth has its own peak.
+    The steps of each search are eight times finer than the steps before. A local maximum is searched only if it would
+    reach the largest value by rising further for half a step. The searches are necessary because with few loaded teeth
+    a peak lasts only a fraction of a pitch, and each tooth has its own peak.
     """
     coarse, step = values_at(angles), angles[1] - angles[0]
     places = angles[:, None] + step * np.array([-1.0, 0.0, 1.0])

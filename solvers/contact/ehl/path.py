@@ -78,7 +78,7 @@ def solve_path(contacts: Sequence[LineContactInputs]) -> list[LineContactResult]
     Notes
     -----
     Every contact except the first starts from pressures, temperatures and separation that are extrapolated from the
-    contacts before it. If the contact does not converge from this start within a few steps, it is solved as if it
+    contacts before. If the contact does not converge from this start within a few steps, the contact is solved as if it
     were alone. If this fails as well, the contact has no result, and the next contacts are still solved. After many
     consecutive failures each contact is given fewer steps, until a contact converges again.
     """

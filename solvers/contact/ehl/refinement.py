@@ -195,8 +195,9 @@ def refine(
     """Return a converged attempt on a sufficiently fine mesh, and the error of the results.
 
     The error is None if it cannot be estimated. The attempt stays on its mesh in four cases: the mesh is fine enough;
-    it is the finest mesh; no refinement is requested; or the solution on a finer mesh does not converge within the
-    remaining steps. The decision depends on the contact only, and not on how the contact was solved.
+    the mesh has the largest number of nodes; no refinement is requested; or the solution on a finer mesh does not
+    converge within the remaining steps. The decision depends on the contact only, and not on how the contact was
+    solved.
     """
     comparison = compare(inputs, constants, resolution, attempt)
     while inputs.model.refine_mesh and not is_acceptable(comparison) and resolution.nodes < FINEST:
