@@ -1,1 +1,4 @@
-"""Line contacts: formulas for dry contact, film thickness and flash temperature; numerical solution in `ehl`."""
+"""Line contacts: formulas, and the numerical solution of a lubricated contact (package `ehl`).
+
+The formulas give the dry contact (`hertz`), the film thickness (`film`) and the flash temperature (`flash`).
+"""

@@ -1,4 +1,4 @@
-"""Warnings about the dry line contact, used by all models of line contacts."""
+"""Warnings about the dry line contact; every model of a line contact gives these warnings."""
 
 from collections.abc import Iterator
 

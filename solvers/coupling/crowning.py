@@ -1,4 +1,4 @@
-"""Recommendation of a crowning ratio for a coupling whose misalignment stays within a range.
+"""Recommendation of a crowning ratio for a coupling whose misalignment varies within a given range.
 
 The paper asks for a contact surface overlap below 1, and then for the largest possible load capacity. The overlap is
 largest at the smallest misalignment, and falls as the crowning ratio rises. The contact reaches farthest from the
@@ -182,7 +182,7 @@ def crowning_window(state: Callable[[float], CrowningState]) -> tuple[float, flo
     Parameters
     ----------
     state : Callable[[float], CrowningState]
-        Function that returns the state of a crowning ratio.
+        Function that takes a crowning ratio and returns the constraints and the load capacity at this ratio.
 
     Returns
     -------
@@ -195,8 +195,8 @@ def crowning_window(state: Callable[[float], CrowningState]) -> tuple[float, flo
 
     Notes
     -----
-    Eq. C32. Overlap, pressure and width each set a lower bound of the crowning ratio; the edge of the face sets the
-    upper bound.
+    Eq. C32. The limits of overlap, pressure and width each set a lower bound of the crowning ratio. The condition that
+    the contact stays on the face sets the upper bound.
     """
     low = MIN_CROWNING_RATIO
     for name, constraint in _LOWER_BOUNDS:
@@ -214,8 +214,8 @@ def crowning_window(state: Callable[[float], CrowningState]) -> tuple[float, flo
 def _root(state: Callable[[float], CrowningState], constraint: str) -> float:
     """Find the crowning ratio at which a constraint reaches 1.
 
-    If the constraint is on the same side of 1 over the whole range of ratios, return the end of the range at
-    which the constraint is nearer to 1.
+    If the constraint is below 1, or above 1, at every ratio between `MIN_CROWNING_RATIO` and `MAX_CROWNING_RATIO`,
+    return the end of this range at which the constraint is nearer to 1.
     """
 
     def excess(logarithm: float) -> float:
@@ -231,7 +231,7 @@ def _root(state: Callable[[float], CrowningState], constraint: str) -> float:
 
 
 def recommend(inputs: RecommendationInputs) -> Recommendation:
-    """Find the crowning ratio with the largest load capacity coefficient over the range of misalignment.
+    """Find the crowning ratio with the largest load capacity coefficient for a range of misalignment.
 
     Parameters
     ----------
@@ -252,11 +252,11 @@ def recommend(inputs: RecommendationInputs) -> Recommendation:
 
     Notes
     -----
-    Eq. C32. The load capacity coefficient is taken at the end of the range where it is smaller. There are three
-    constraints: the overlap is below 1 at both ends of the range, the contact stays on the face at the largest
-    misalignment, and the contact stays within the limits of Hertz's theory. If the range is a single value, the limit
-    of the sliding velocity is a fourth constraint; with a wider range, exceeding this limit only causes a warning. The
-    warnings include the warnings that `solve` gives at both ends of the range.
+    Eq. C32. The load capacity coefficient of a crowning ratio is the smaller of the coefficients at both ends of the
+    range. There are three constraints: the overlap is below 1 at both ends of the range, the contact stays on the face
+    at the largest misalignment, and the contact stays within the limits of Hertz's theory. If the range is a single
+    value, the limit of the sliding velocity is a fourth constraint. If the range is wider, a sliding velocity above
+    this limit only causes a warning. The warnings include the warnings that `solve` gives at both ends of the range.
     """
     _check(inputs)
     state = cache(partial(crowning_state, inputs))
@@ -285,9 +285,10 @@ def recommend(inputs: RecommendationInputs) -> Recommendation:
 
 
 def _best_ratio(state: Callable[[float], CrowningState], low: float, high: float) -> float:
-    """Find the crowning ratio with the largest load capacity in the window.
+    """Find the crowning ratio with the largest load capacity between `low` and `high`.
 
-    The search compares the points of a grid, and then refines the result between the neighbours of the best point.
+    The search compares a row of crowning ratios in this range. The search then refines the best of these ratios between
+    its neighbours.
     """
     grid = np.geomspace(low, high, _WINDOW_POINTS)
     capacity = [state(float(ratio)).load_capacity_coefficient for ratio in grid]
@@ -302,7 +303,10 @@ def _best_ratio(state: Callable[[float], CrowningState], low: float, high: float
 
 
 def _merged(notices: tuple[Notice, ...]) -> tuple[Notice, ...]:
-    """Return the first notice of each code, with `misalignment_range` in place of the field name `misalignment`."""
+    """Return the first notice of each code.
+
+    The field name `misalignment` becomes `misalignment_range`.
+    """
     first: dict[str, Notice] = {}
     for notice in notices:
         first.setdefault(notice.code, notice)

@@ -19,7 +19,7 @@ class CouplingDesign(Coupling):
     """Former name of `Coupling`."""
 
     def coupling(self) -> Coupling:
-        """Return the `Coupling` with these values."""
+        """Return a `Coupling` with the values of this design."""
         return Coupling(**{item.name: getattr(self, item.name) for item in fields(Coupling)})
 
 
@@ -40,7 +40,7 @@ class Load:
     )
 
     def at(self, misalignment: float) -> Operation:
-        """Return the operating point with this tilt [rad]."""
+        """Return this load as an `Operation` with the given misalignment [rad]."""
         return Operation(**{item.name: getattr(self, item.name) for item in fields(Load)}, misalignment=misalignment)
 
 
@@ -54,7 +54,7 @@ class OperatingPoint(Load):
     parallel_offset: float | None = described("Parallel offset of the shafts, used without a tilt [m].", default=None)
 
     def operation(self, hub_distance: float) -> Operation:
-        """Return the operating point; `hub_distance` [m] is the distance between the tooth planes.
+        """Return this operating point as an `Operation`; `hub_distance` [m] is the distance between the tooth planes.
 
         Raises InvalidInput (`misalignment_or_offset`) if both the misalignment and the parallel offset are None.
         """
@@ -75,7 +75,7 @@ class OperatingRange(Load):
     misalignment_range: tuple[float, float] = described("Smallest and largest tilt of the hub [rad].", kw_only=True)
 
     def operation(self) -> Operation:
-        """Return the operating point at the smallest misalignment."""
+        """Return this operating range as an `Operation` at the smallest misalignment."""
         return self.at(self.misalignment_range[0])
 
 

@@ -45,7 +45,7 @@ class ToothSums(NamedTuple):
 def tooth_sums(
     force: FloatArray, sine: FloatArray, cosine: FloatArray, weight: FloatArray, sliding: float, axial_velocity: float
 ) -> ToothSums:
-    """Compute the sums from the `force` and the tooth positions `sine` and `cosine` (rows, teeth).
+    """Compute the sums from the tooth forces `force` and the tooth positions `sine` and `cosine` (rows, teeth).
 
     `weight` (rows) holds the weights of the rotor angles. The relative velocity is v_r = v_ax + v_G sin(phi), where
     v_ax is `axial_velocity` and v_G is `sliding` [m/s].
@@ -98,7 +98,7 @@ def loaded_mesh(inputs: CouplingInputs, mesh: MeshMotion) -> LoadedMesh:
 
 
 def mesh_thrust(loaded: LoadedMesh, friction: float, axial_velocity: float) -> tuple[float, float]:
-    """Compute the axial thrust of one mesh and the slack of this thrust, both averaged over the rotor angles.
+    """Compute the axial thrust of one mesh, and the slack of this thrust.
 
     Parameters
     ----------
@@ -119,10 +119,10 @@ def mesh_thrust(loaded: LoadedMesh, friction: float, axial_velocity: float) -> t
 
     Notes
     -----
-    Eq. C19, the paper's general expression. A tooth without relative velocity may carry any friction between -mu F_n
-    and mu F_n. In the thrust this friction is zero; in the slack this friction is mu F_n. Without axial
-    velocity the thrust is zero, because half a turn later every tooth has the same load and slides in the opposite
-    direction.
+    Eq. C19, the paper's general expression. Thrust and slack are averaged over the rotor angles. A tooth without
+    relative velocity may carry any friction between -mu F_n and mu F_n. The thrust counts this friction as zero. The
+    slack is the sum of mu F_n over these teeth. Without axial velocity the thrust is zero, because half a turn later
+    every tooth has the same load and slides in the opposite direction.
     """
     scale, sums = friction / cos(loaded.motion.pressure_angle), loaded.sums
     force = without_rounding(sums.axial, sums.load) if axial_velocity != 0.0 else 0.0
@@ -161,13 +161,13 @@ def uniform_load_thrust(limit: float, axial_velocity: float, max_sliding_velocit
 def customary_thrust(operation: Operation) -> float | None:
     """Return the customary thrust 0.25 T/D [N], where D is the shaft diameter; return None if no diameter is given.
 
-    This rule is common practice with API 617 and 671. The rule is quoted from a secondary source.
+    This rule is common practice in designs after API 617 and API 671. The rule is quoted from a secondary source.
     """
     return None if operation.shaft_diameter is None else 0.25 * operation.torque / operation.shaft_diameter
 
 
 def simple_self_induced_thrust(coupling: Coupling, torque: float, friction: float, factor: float) -> float:
-    """Compute the self-induced thrust with a parallel offset and one tooth pair per mesh.
+    """Compute the self-induced thrust with a parallel offset and one pair of opposite teeth per mesh.
 
     Parameters
     ----------
@@ -178,7 +178,7 @@ def simple_self_induced_thrust(coupling: Coupling, torque: float, friction: floa
     friction : float
         Coefficient of friction [-].
     factor : float
-        Share kappa of the lateral force that becomes a difference of normal forces [-].
+        Ratio kappa of the difference of normal forces to the lateral force [-].
 
     Returns
     -------
@@ -187,9 +187,10 @@ def simple_self_induced_thrust(coupling: Coupling, torque: float, friction: floa
 
     Notes
     -----
-    Fig. 13; Eq. C23. Each tooth carries T/(d_o cos alpha). The moment of friction M_2 = 2 F_R d_o would overturn the
-    sleeve; the lateral force F_1 = M_2/l_H at each mesh holds the sleeve. The paper does not state the share kappa of
-    F_1.
+    Fig. 13; Eq. C23. Each of the two teeth of a mesh carries T/(d_o cos alpha). The moment of friction is M_2 = 2 F_R
+    d_o, where F_R is the friction of one tooth. This moment would overturn the sleeve. The lateral force F_1 = M_2/l_H
+    at each mesh prevents this. Because of the lateral force, the normal forces of the two teeth of a mesh differ by
+    kappa F_1. The paper does not state kappa.
     """
     return 2.0 * factor * friction**2 * torque / (coupling.hub_distance * cos(coupling.pressure_angle))
 
@@ -214,13 +215,16 @@ def uniform_self_induced_thrust(coupling: Coupling, torque: float, friction: flo
     Notes
     -----
     Eq. C24. The overturning moment is M_2 = (4/pi) mu T/cos alpha. If the tooth springs are equally stiff in all
-    lateral directions, the share kappa of `simple_self_induced_thrust` is (4/pi) sin alpha.
+    lateral directions, the ratio kappa of `simple_self_induced_thrust` is (4/pi) sin alpha.
     """
     return 16.0 / pi**2 * friction**2 * torque * tan(coupling.pressure_angle) / coupling.hub_distance
 
 
 def axial_thrust(inputs: CouplingInputs, geometry: Geometry, loaded: LoadedMesh, friction: float) -> AxialThrust:
-    """Compute the thrust of one mesh or of two meshes on one sleeve, and the limits and closed forms of this thrust."""
+    """Compute the axial thrust, its limits and its closed forms.
+
+    The thrust is that of one mesh, or that of two meshes on one sleeve.
+    """
     coupling, operation = inputs.coupling, inputs.operation
     limit = coaxial_limit(coupling, operation.torque, friction)
     force, slack = mesh_thrust(loaded, friction, operation.axial_velocity)
@@ -249,9 +253,10 @@ def axial_thrust(inputs: CouplingInputs, geometry: Geometry, loaded: LoadedMesh,
 def self_induced_thrust(inputs: CouplingInputs, geometry: Geometry, friction: float) -> SelfInducedThrust:
     """Compute the thrust of two meshes without axial velocity, and the closed forms of this thrust.
 
-    In the angular arrangement the closed forms are zero. If each mesh has one tooth pair, or equal loads on all teeth,
-    the moments of friction in the two meshes are opposite. The sleeve then requires no lateral force at the teeth. The
-    paper gives no explanation except "for reasons of symmetry".
+    One closed form holds for one pair of opposite teeth per mesh, the other for equal loads on all teeth. In both
+    cases, the moments of friction in the two meshes are opposite in the angular arrangement, and the sleeve requires no
+    lateral force at the teeth. Therefore both closed forms are zero in the angular arrangement. The paper explains this
+    only by "for reasons of symmetry".
     """
     coupling, torque = inputs.coupling, inputs.operation.torque
     equilibrium = sleeve_equilibrium(inputs, geometry, friction, 0.0)
@@ -289,9 +294,9 @@ def losses(inputs: CouplingInputs, geometry: Geometry, loaded: LoadedMesh, frict
     -----
     Eqs. C25, C28. The moment of friction M_f acts about the pivot direction, against the tilting motion. This moment is
     M_f = r_o sum mu F_n sgn(v_r) sgn(v_G1) sin phi, where v_G1 is the sliding velocity at 90 degrees. Hence the
-    friction power is P = M_f omega delta + F_ax v_ax. M_f is zero without a tilt, and undetermined if nothing slides at
-    all. According to the power balance, the part M_f - T delta/2 bends the driving hub, whatever the load distribution
-    is.
+    friction power is P = M_f omega delta + F_ax v_ax. M_f is zero without a tilt. M_f is undetermined if nothing slides
+    at all. The power balance shows that the difference M_f - T delta/2 bends the driving hub. This holds for every load
+    distribution.
     """
     operation, sums = inputs.operation, loaded.sums
     scale = friction / cos(inputs.coupling.pressure_angle)
@@ -335,7 +340,7 @@ def equal_loads_friction_moment(coaxial_limit: float, pitch_radius: float) -> fl
 
 
 def contact_shift_moment(inputs: CouplingInputs, geometry: Geometry, loaded: LoadedMesh) -> float:
-    """Compute the moment about the tilt axis that arises because tooth forces act off the middle of the face.
+    """Compute the moment about the tilt axis that tooth forces cause because they act off the middle of the face.
 
     Parameters
     ----------
@@ -353,12 +358,13 @@ def contact_shift_moment(inputs: CouplingInputs, geometry: Geometry, loaded: Loa
 
     Notes
     -----
-    Eq. C27. The factors z_c and n_x are harmonics of phi; their product is a sum of terms in sin^2, sin cos and cos^2.
-    With `tangential` kinematics z_c is s_1, and n_x contains only the tangential part of n; for equal loads the moment
-    is R_t delta T/(2 r_o). With `spatial` kinematics z_c = s_1 - delta r_o cos phi is the position of the contact in
-    the frame of the sleeve, and n_x contains the tangential and the radial part of n. With both kinematics the moment
-    equals sum F_t df_t/d delta. With `spatial` kinematics the y components of n cause a further moment T delta/2 about
-    the pivot direction. The power balance of the hub already contains this further moment.
+    Eq. C27. z_c is the axial position of the contact, and n_x is the x component of the flank normal n. Both are
+    harmonics of phi; their product is a sum of terms in sin^2, sin cos and cos^2. With `tangential` kinematics z_c is
+    the contact position s_1 on the hub flank, and n_x contains only the tangential part of n. For equal loads the
+    moment is then R_t delta T/(2 r_o). With `spatial` kinematics z_c = s_1 - delta r_o cos phi is the position of the
+    contact in the frame of the sleeve, and n_x contains the tangential and the radial part of n. With both kinematics
+    the moment equals sum F_t df_t/d delta. With `spatial` kinematics the y components of n cause a further moment
+    T delta/2 about the pivot direction. The power balance of the hub already contains this further moment.
     """
     motion, sums = loaded.motion, loaded.sums
     arm_sin, arm_cos, normal_sin, normal_cos = motion.travel_sin, 0.0, -motion.side, 0.0

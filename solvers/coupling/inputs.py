@@ -27,7 +27,8 @@ STEEL_TOOTH_STIFFNESS = 280e6  # N/m, of a pair of steel teeth
 class Coupling:
     """A gear coupling: a hub with crowned teeth in a sleeve with straight internal teeth.
 
-    If face width, tooth height or tooth pair stiffness is None, the new coupling gets the default value.
+    If face width, tooth height or tooth pair stiffness is given as None, the new coupling has the default value
+    instead.
     """
 
     teeth: int = quantity("number of teeth", "z", PAHL, ge=6, le=400)
@@ -246,8 +247,8 @@ class MixedFrictionCurve:
     """Our own law of mixed friction: the coefficient falls from `highest` at rest to `lowest` at `velocity` [m/s].
 
     The defaults of `highest` and `lowest` are the ends of the paper's friction band in area 1.1. The default of
-    `velocity` is chosen so that the friction of the heavily crowned coupling is lowest at 0.4 degrees and 200 rad/s.
-    The paper does not state the speed for Fig. 11.
+    `velocity` is chosen so that the friction of the heavily crowned coupling in Fig. 11 is lowest at 0.4 degrees and
+    200 rad/s. The paper does not state the speed of this coupling.
     """
 
     highest: float = quantity(
@@ -301,7 +302,7 @@ class MixedFrictionTable:
 
 @record
 class Friction:
-    """Friction between the teeth: either given coefficients, or the law of the friction regime."""
+    """Friction between the teeth: either coefficients that the user gives, or the law of the friction regime."""
 
     coefficient: float | None = quantity(
         "coefficient of friction",
@@ -428,9 +429,10 @@ class CouplingInputs:
 
 @record
 class RecommendationInputs:
-    """Inputs of the search for the best crowning ratio over a range of misalignment; 0 < minimum <= maximum.
+    """Inputs of the search for the best crowning ratio over a range of misalignment.
 
-    `design` contains all other inputs; the search ignores the crowning ratio and the misalignment of `design`.
+    The smallest misalignment must be above zero, and must not exceed the largest. `design` contains all other inputs.
+    The search ignores the crowning ratio and the misalignment of `design`.
     """
 
     design: CouplingInputs

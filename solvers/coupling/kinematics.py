@@ -95,7 +95,10 @@ def positions_per_pitch(teeth: int) -> int:
 
 
 def revolution(teeth: int, refinement: int = 1) -> FloatArray:
-    """Return rotor angles [rad] of one revolution in equal steps from zero up; a pitch is a whole number of steps."""
+    """Return rotor angles [rad] of one revolution in equal steps, beginning at zero.
+
+    A tooth pitch is a whole number of steps. `refinement` multiplies the number of steps.
+    """
     return np.linspace(0.0, 2.0 * pi, refinement * positions_per_pitch(teeth) * teeth, endpoint=False)
 
 
@@ -137,14 +140,15 @@ def mesh_motion(
 
     Notes
     -----
-    Eqs. C3, C5. Here delta is the tilt angle and n is the flank normal. With `spatial` kinematics s_1 = R_e delta n_x.
-    If `side` is +1, f_t = r_o delta^2/(2 cos alpha) sin(phi - alpha) [eps sin(phi - alpha)/sin alpha + cos phi]; this
-    is exact to first order, as a numerical calculation with exact involutes has confirmed. If `side` is -1, pi - phi
-    takes the place of phi in this formula.
+    Eqs. C3, C5. Here delta is the tilt angle, eps is the crowning ratio and n is the flank normal. With `spatial`
+    kinematics s_1 = R_e delta n_x. If `side` is +1,
+    f_t = r_o delta^2/(2 cos alpha) sin(phi - alpha) [eps sin(phi - alpha)/sin alpha + cos phi]. If `side` is -1,
+    pi - phi takes the place of phi in this formula. The formulas are exact to leading order in delta, as a numerical
+    calculation with exact involutes has confirmed.
 
     With `tangential` kinematics only the tilt is considered, without the pivot motion: s_1 = -side R_t delta sin phi
-    and f_t = R_t delta^2/2 sin^2 phi. The paper describes this model in words. In this model the sliding velocity and
-    the displacement are largest where the travel of the contact reverses.
+    and f_t = R_t delta^2/2 sin^2 phi. The paper describes the tangential model in words. In the tangential model the
+    sliding velocity and the displacement are largest where the travel of the contact reverses.
     """
     delta = tilt * operation.misalignment
     alpha, ratio, radius = coupling.pressure_angle, coupling.crowning_ratio, geometry.pitch_radius
@@ -262,7 +266,10 @@ def tangential_displacement(mesh: MeshMotion, teeth: ToothPositions) -> FloatArr
 
 
 def max_contact_travel(mesh: MeshMotion) -> float:
-    """Return the largest contact travel s_1max [m]: R_t |delta| if `tangential`, R_e |delta| if `spatial`."""
+    """Return the largest contact travel s_1max [m].
+
+    s_1max is R_t |delta| with tangential kinematics, and R_e |delta| with spatial kinematics.
+    """
     return hypot(mesh.travel_sin, mesh.travel_cos)
 
 
@@ -361,11 +368,11 @@ def friction_reversals(mesh: MeshMotion, axial_velocity: float) -> list[float]:
 
 
 def rotor_samples(coupling: Coupling, mesh: MeshMotion, axial_velocity: float) -> RotorSamples:
-    """Return Gauss points in the intervals between the rotor angles at which friction reverses at some tooth.
+    """Return Gauss points between the rotor angles at which the friction of some tooth reverses.
 
-    The friction of a tooth jumps where the relative velocity of the tooth changes sign. The pitch is divided at these
-    rotor angles. In each part, the integrand is therefore continuous, and has kinks only where a tooth comes under
-    load. A midpoint rule with several hundred points is not more accurate.
+    The friction of a tooth jumps if the relative velocity of the tooth changes sign. The rotor angles of these jumps
+    divide the pitch into parts. In each part the integrand is therefore continuous, and has kinks only where a tooth
+    comes under load. The Gauss points are at least as accurate as a midpoint rule with several hundred points.
     """
     uneven = coupling.pitch_errors is not None
     return _samples(coupling.teeth, uneven, tuple(friction_reversals(mesh, axial_velocity)))
@@ -373,10 +380,10 @@ def rotor_samples(coupling: Coupling, mesh: MeshMotion, axial_velocity: float) -
 
 @lru_cache(maxsize=4)
 def _samples(teeth: int, uneven: bool, reversals: tuple[float, ...]) -> RotorSamples:
-    """Return the quadrature of `rotor_samples`.
+    """Return the quadrature that `rotor_samples` describes, from a cache if possible.
 
-    The cache key contains the reversals instead of the misalignment, because without axial velocity the reversals are
-    the same at every misalignment.
+    The key of the cache contains the tooth angles `reversals` instead of the misalignment. Without axial velocity these
+    angles are the same at every misalignment, so that the cached quadrature can be used again.
     """
     pitch = 2.0 * pi / teeth
     breaks = [angle % pitch for angle in reversals]

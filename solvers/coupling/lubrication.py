@@ -78,11 +78,11 @@ class FilmState:
 
 
 def max_normal_force(inputs: CouplingInputs, mesh: MeshMotion) -> float:
-    """Compute the largest normal tooth force [N] at the rotor angle at which one tooth is at 90 degrees.
+    """Compute the largest normal tooth force [N] while one tooth is at 90 degrees, in the tilt position.
 
     If the pitch deviations of the teeth differ, the result is the largest force in a whole revolution. With `spatial`
-    kinematics the displacement of a tooth is largest beyond the tilt position. The tooth carries more there than in
-    the tilt position.
+    kinematics the displacement of a tooth is not largest in the tilt position, but somewhat beyond this position. A
+    tooth therefore carries more a little beyond the tilt position than in the tilt position.
     """
     if len(set(inputs.coupling.pitch_errors or ())) <= 1:
         return float(_largest_forces(inputs, mesh, _positions_at(pi / 2, inputs.coupling.teeth)).max())
@@ -108,7 +108,9 @@ def _largest_forces(inputs: CouplingInputs, mesh: MeshMotion, teeth: ToothPositi
 
 
 def hertz_contact(coupling: Coupling, geometry: Geometry, normal_force: float) -> tuple[float, float]:
-    """Compute the Hertzian contact between a plane and a cylinder of radius R_e that is as long as the tooth height.
+    """Compute the Hertzian contact between a plane and a cylinder of radius R_e.
+
+    The length of the cylinder is the tooth height.
 
     Parameters
     ----------
@@ -137,11 +139,11 @@ def hertz_contact(coupling: Coupling, geometry: Geometry, normal_force: float) -
 
 
 def inlet_length(model: ModelOptions, face_width: float, max_travel: float) -> float:
-    """Return the length b_I [m] of the converging gap ahead of the contact; the paper does not define b_I.
+    """Return the length b_I [m] of the converging gap ahead of the contact.
 
-    With the inlet model `face`, b_I is the part of the face that is ahead of the contact when the contact reverses;
-    according to the paper, the film is thickest at this reversal. If the contact has left the tooth, b_I is zero with
-    every inlet model.
+    The paper does not define b_I. With the inlet model `face`, b_I is the part of the face that is ahead of the contact
+    when the contact reverses; according to the paper, the film is thickest at this reversal. If the contact has left
+    the tooth, b_I is zero with every inlet model.
     """
     if max_travel >= face_width / 2.0:
         return 0.0
@@ -170,9 +172,9 @@ def starved_load(inlet_ratio: float) -> float:
     -----
     Eqs. C15, C16. The Reynolds equation for rigid surfaces and constant viscosity is solved in closed form. At the exit
     x = tan(g) sqrt(2 R h_0), the pressure and its gradient are zero. This condition is
-    [A2(g) + A2(g_B)] cos^2 g = A4(g) + A4(g_B), where tan g_B = B, and A2 and A4 are the integrals of cos^2 and cos^4
-    from zero. Bisection finds g in (0, g_B). The load is W = (1 - H_m/H_B)^2/(4 H_m), where H_m and H_B are the gaps at
-    exit and inlet, divided by h_0.
+    [A2(g) + A2(g_B)] cos^2 g = A4(g) + A4(g_B), where tan g_B = B. A2(g) and A4(g) are the integrals of cos^2 and cos^4
+    from zero to g. Bisection finds g in (0, g_B). The load is W = (1 - H_m/H_B)^2/(4 H_m), where H_m and H_B are the
+    gaps at exit and inlet, divided by the smallest gap h_0.
     """
     inlet = atan(inlet_ratio)
     a2 = inlet / 2.0 + sin(2.0 * inlet) / 4.0
@@ -332,7 +334,10 @@ def friction_regime(overlap: float, load_capacity_coefficient: float) -> Regime:
 
 
 def _distance_to_boundary(overlap: float, load_capacity_coefficient: float) -> float | None:
-    """Return the smallest |ln(coordinate/boundary)| over all boundaries on both axes; None if all values are inf."""
+    """Return the smallest |ln(coordinate/boundary)| over all boundaries on both axes.
+
+    Return None if all these values are inf.
+    """
     ratios = [overlap / boundary for boundary in OVERLAP_BOUNDARIES]
     ratios += [load_capacity_coefficient / boundary for boundary in CAPACITY_BOUNDARIES]
     return min((abs(log(ratio)) for ratio in ratios if 0.0 < ratio < inf), default=None)
@@ -378,8 +383,9 @@ def _interpolate_logarithm(x: float, points: tuple[tuple[float, float], ...]) ->
 def _well_supplied(load_capacity_coefficient: float, mixed: float, lowest: float) -> float:
     """Compute the coefficient of friction at an overlap below 1.
 
-    As the load capacity coefficient rises, the friction changes from `mixed`, the mixed friction at the present
-    velocity, to `lowest`, the smallest mixed friction at any velocity, and then to the friction of a full film.
+    `mixed` is the mixed friction at the present velocity, and `lowest` is the smallest mixed friction at any velocity.
+    As the load capacity coefficient rises, the friction changes from `mixed` to `lowest`, and then to the friction of a
+    full film.
     """
     full_film = min(0.01, lowest)
     if load_capacity_coefficient > 0.8:
@@ -420,8 +426,8 @@ def regime_friction(overlap: float, load_capacity_coefficient: float, mixed: flo
     -----
     Eq. C18. The paper states only a band of friction for each area. The law used here interpolates between the end
     values of these bands. The law lies inside the bands of areas 1.1, 1.3, 2.1, 2.2, 2.3 and 3.1. In area 1.2 the law
-    is a smooth transition. Near overlap 1 the law may leave the band of area 3.2; the paper calls the boundaries of the
-    areas fluid. The coefficient of friction never rises when the load capacity coefficient rises.
+    is a smooth transition. Near overlap 1 the law may leave the band of area 3.2; the paper itself calls the boundaries
+    of the areas "fluid". The coefficient of friction never rises when the load capacity coefficient rises.
     """
     if overlap > 2.0:
         return _poorly_supplied(overlap, load_capacity_coefficient)
@@ -435,9 +441,9 @@ def regime_friction(overlap: float, load_capacity_coefficient: float, mixed: flo
 def friction_coefficient(
     friction: Friction, overlap: float, load_capacity_coefficient: float, sliding_velocity: float
 ) -> float:
-    """Return the user's coefficient of friction if there is one, and otherwise the coefficient of the friction map.
+    """Return the user's coefficient of friction if there is one.
 
-    `sliding_velocity` [m/s] is the largest sliding velocity.
+    Otherwise return the coefficient of the friction map. `sliding_velocity` [m/s] is the largest sliding velocity.
     """
     if friction.coefficient is not None:
         return friction.coefficient
@@ -449,8 +455,8 @@ def friction_coefficient(
 def static_friction(friction: Friction) -> float:
     """Return the coefficient of friction at rest.
 
-    The function returns the user's static coefficient if there is one, otherwise the user's coefficient of friction if
-    there is one, and otherwise the coefficient of the friction map at rest without a film.
+    The function returns the user's static coefficient if there is one. If not, it returns the user's coefficient of
+    friction if there is one. If not, it returns the coefficient of the friction map at rest without a film.
     """
     if friction.static_coefficient is not None:
         return friction.static_coefficient

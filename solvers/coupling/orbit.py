@@ -29,10 +29,11 @@ REFINEMENTS = (2, 3)  # factors on the number of rotor angles, for the uncertain
 
 @dataclass(frozen=True, slots=True)
 class _SettledPath:
-    """Path of the sleeve (rows, 2) [m], inertia force on this path (rows, 2) [N], largest displacement `farthest` [m].
+    """Path of the sleeve that no longer changes from sweep to sweep.
 
-    `sweeps` is the number of sweeps. `change` [m] is the change of the path in the last sweep. `fewest` is the smallest
-    number of loaded teeth at any rotor angle.
+    `path` (rows, 2) [m] is the displacement of the sleeve, `force` (rows, 2) [N] is the inertia force on this path, and
+    `farthest` [m] is the largest displacement. `sweeps` is the number of sweeps. `change` [m] is the change of the path
+    in the last sweep. `fewest` is the smallest number of loaded teeth at any rotor angle.
     """
 
     path: FloatArray
@@ -104,7 +105,7 @@ def _finer_paths(inputs: CouplingInputs, settled: _SettledPath) -> list[_Settled
 
 
 def _safe_force(inputs: CouplingInputs) -> float:
-    """Return a lateral force [N] that the teeth hold at every rotor angle.
+    """Return a lateral force [N] that the teeth can hold at every rotor angle.
 
     The sweeps limit the inertia force to this value.
     """
@@ -119,7 +120,7 @@ def _settled_path(
     """Repeat sweeps over the rotor angles until the path settles.
 
     The sweeps start with `force` (rows, 2) [N], a guess of the inertia force. While teeth come under load, the change
-    of the path from sweep to sweep may grow for a dozen sweeps before this change dies out.
+    of the path may grow from sweep to sweep. After at most about a dozen sweeps, this change begins to fall.
     """
     coupling, operation = inputs.coupling, inputs.operation
     mesh = mesh_motion(coupling, tooth_geometry(coupling), operation, inputs.model.kinematics)
@@ -151,9 +152,9 @@ def _farthest(
 ) -> float:
     """Find the largest displacement [m] under a settled inertia force (rows, 2) [N].
 
-    The search includes positions between the rotor angles, because a peak of the displacement lasts only a fraction of
-    a pitch if few teeth are loaded. The force is a sum of Fourier terms up to the highest order; the force is therefore
-    known at these positions.
+    The search includes positions between the rotor angles: if few teeth are loaded, a peak of the displacement lasts
+    only a fraction of a pitch. The force is a sum of Fourier terms up to the highest order; the force is therefore also
+    known between the rotor angles.
     """
     coupling, limit = inputs.coupling, _safe_force(inputs)
     order = np.arange(highest_order + 1)

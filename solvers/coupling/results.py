@@ -56,7 +56,7 @@ class KinematicCurves:
 
 @record
 class Kinematics:
-    """Largest values of the tooth's motion over a revolution, all positive [m/s, m]."""
+    """Largest velocities [m/s] and displacements [m] of a tooth over a revolution, all positive."""
 
     max_sliding_velocity: float = quantity("largest sliding velocity", "v_G,max", f"{PAHL}, Fig. 6", unit="m_per_s")
     max_contact_travel: float = quantity(
@@ -73,7 +73,7 @@ class Kinematics:
 
 @record
 class LoadCurves:
-    """Tooth forces at the requested rotor angle; the `angle` of tooth i is 2 pi i / teeth + rotor angle."""
+    """Tooth forces at the requested rotor angle. The `angle` of tooth i is 2 pi i / teeth + rotor angle."""
 
     angle: FloatArray = quantity("angle of the tooth", "φ_i", unit="deg")
     tangential_force: FloatArray = quantity(
@@ -86,10 +86,10 @@ class LoadDistribution:
     """Load distribution of the mesh in which the hub drives the sleeve, at the requested rotor angle.
 
     `load_concentration` is the ratio of the largest to the mean tooth force; this ratio is None without torque.
-    `rotation` is the common rotation of the hub relative to the sleeve, as a length at the pitch radius. Beyond
-    `unloading_misalignment` some tooth carries no load; this limit applies to a centred sleeve with many teeth and no
-    pitch deviations. `sleeve_displacement` (x, y) is relative to the hub. `iterations` is the number of iterations for
-    a floating sleeve, and 0 for a centred sleeve.
+    `rotation` is the common rotation of the hub relative to the sleeve, as a length at the pitch radius. If the
+    misalignment exceeds `unloading_misalignment`, at least one tooth carries no load; this limit applies to a centred
+    sleeve with many teeth and no pitch deviations. `sleeve_displacement` (x, y) is relative to the hub. `iterations` is
+    the number of iterations for a floating sleeve, and 0 for a centred sleeve.
     """
 
     mean_tangential_force: float = quantity("mean tangential force", "F_m", unit="n", text="of a tooth")
@@ -138,8 +138,8 @@ class Regime:
 class Lubrication:
     """Contact and film of the most heavily loaded tooth while one tooth is in the tilt position.
 
-    If there are pitch deviations, this is the most heavily loaded tooth in a whole revolution. `contact_overlap` is
-    None if the contact does not travel. `inlet_ratio` is None if the inlet is infinitely long.
+    If there are pitch deviations, the results are those of the most heavily loaded tooth in a whole revolution.
+    `contact_overlap` is None if the contact does not travel. `inlet_ratio` is None if the inlet is infinitely long.
     `load_capacity_coefficient` is None without load.
     """
 
@@ -168,8 +168,8 @@ class SelfInducedThrust:
     """Thrust that two meshes cause without axial motion, as a mean over one tooth pitch.
 
     `overturning_moment` is the moment of friction of both meshes on the sleeve. There are two closed forms:
-    `simple_model_force` for one tooth pair per mesh, and `uniform_load_force` for equal loads on all teeth. Both closed
-    forms are zero in the angular arrangement.
+    `simple_model_force` for one pair of opposite teeth per mesh, and `uniform_load_force` for equal loads on all teeth.
+    Both closed forms are zero in the angular arrangement.
     """
 
     force: float = quantity(
@@ -202,12 +202,13 @@ class AxialThrust:
     """Mean axial thrust over one tooth pitch or, if there are pitch deviations, over one revolution.
 
     In the arrangement `single`, `force` is the thrust of one mesh and is positive in the direction of the axial
-    velocity. In the other arrangements, `force` acts on one shaft and is positive if the shafts are pulled together.
-    `lower_bound` and `upper_bound` differ from `force` only if friction is `indeterminate` because nothing slides.
-    `fraction_of_limit` is `force` divided by `coaxial_limit`, or None without load. `breakaway_force` is the thrust at
-    which coaxial shafts start to slide from rest, without a film. `uniform_load_force` is the closed form of one mesh
-    with equal tooth loads. A thrust bearing must hold `design_force`, the larger of |force| and `breakaway_force`.
-    `customary_force` is the thrust by a rule of practice, for comparison, or None without a shaft diameter.
+    velocity. In the other arrangements, `force` acts on one shaft and is positive if the shafts are pulled together. If
+    nothing slides, friction can have any value up to its limit; `indeterminate` is then True, and the thrust lies
+    between `lower_bound` and `upper_bound`. In all other cases both bounds equal `force`. `fraction_of_limit` is
+    `force` divided by `coaxial_limit`, or None without load. `breakaway_force` is the thrust at which coaxial shafts
+    start to slide from rest, without a film. `uniform_load_force` is the thrust of one mesh by the closed form for
+    equal tooth loads. A thrust bearing must hold `design_force`, which is the larger of |force| and `breakaway_force`.
+    For comparison, `customary_force` is the thrust by a rule of practice, or None without a shaft diameter.
     """
 
     force: float = quantity(
@@ -274,10 +275,11 @@ class Losses:
 
 @record
 class Limits:
-    """Design limits, and linear stiffness with every tooth loaded [m/s, rad, N m, N m/rad, N/m].
+    """Design limits of a coupling, and its linear stiffness with every tooth loaded.
 
-    `allowable_misalignment` is None if the coupling turns too slowly to reach the limit of the sliding velocity, or if
-    the coupling does not turn.
+    `sliding_velocity_limit` is in m/s, `allowable_misalignment` in rad, and `sleeve_centring_torque` in N m.
+    `torsional_stiffness` is in N m/rad, and `lateral_stiffness` in N/m. `allowable_misalignment` is None if the
+    coupling turns too slowly to reach the limit of the sliding velocity, or if the coupling does not turn.
     """
 
     sliding_velocity_limit: float = quantity(
@@ -307,7 +309,11 @@ class Limits:
 
 @record
 class Derived:
-    """The coupling with its default proportions filled in, and the oil used: viscosity [Pa s] and viscosity index."""
+    """Values used in the calculation, including the values for omitted inputs.
+
+    `coupling` is the coupling with its default proportions. `viscosity` [Pa s] and `viscosity_index` are those of the
+    oil used.
+    """
 
     coupling: Coupling
     viscosity: float = quantity("oil viscosity used", "η", unit="pa_s", text="at the teeth")
@@ -317,13 +323,13 @@ class Derived:
 
     @classmethod
     def of(cls, inputs: CouplingInputs) -> Self:
-        """Return the values in use, including the values for omitted inputs."""
+        """Return the values used in a calculation with these inputs."""
         return cls(inputs.coupling, inputs.lubricant.viscosity, inputs.lubricant.viscosity_index)
 
 
 @record
 class CouplingResult:
-    """All results at one operating point; `derived` contains the values in use for omitted inputs."""
+    """All results at one operating point. `derived` contains the values used for omitted inputs."""
 
     geometry: Geometry = quantity("geometry", text="radii")
     kinematics: Kinematics = quantity("motion of the teeth")
@@ -349,8 +355,8 @@ class Orbit:
 class InertiaForce:
     """Inertia force of the part of the sleeve's mass that is assigned to one mesh, at the rotor angles of the orbit.
 
-    The harmonics are the amplitudes 2 |c_k| of the orders k from 0 up; the amplitude of order 0 is the magnitude of the
-    mean.
+    The harmonics are the amplitudes 2 |c_k| of the orders k = 0, 1, 2 and so on, where c_k is the Fourier coefficient.
+    The amplitude of order 0 is the magnitude of the mean.
     """
 
     x: FloatArray = quantity(
@@ -392,10 +398,10 @@ class OrbitResult:
     """Results for one revolution of a floating sleeve under its own inertia.
 
     `sweeps` is the number of sweeps over the revolution until the path settled, and `change` [m] is the change of the
-    path in the last sweep. For the uncertainties, two further paths with twice as many orders are computed: one
-    with twice as many rotor angles, the other with three times as many. The uncertainties are the largest resulting
-    changes of the largest displacement [m] and of any harmonic of the force [N]. The uncertainties are None if one of
-    the further paths does not settle.
+    path in the last sweep. For the uncertainties, two further paths with twice as many orders are computed: one with
+    twice as many rotor angles, the other with three times as many. Each further path is compared with the settled path.
+    The largest displacements differ by at most `displacement_uncertainty` [m], and the harmonics of the force differ by
+    at most `harmonics_uncertainty` [N]. Both uncertainties are None if one of the further paths does not settle.
     `derived` contains the radii of the teeth.
     """
 

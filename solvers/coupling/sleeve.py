@@ -1,4 +1,4 @@
-"""Equilibrium of a floating sleeve between two misaligned hubs with a parallel offset (arrangement Z) or an angle (M).
+"""Equilibrium of a floating sleeve between two hubs; the shafts have a parallel offset (Z) or an angle (M).
 
 The units are those of `tooth_loads`. In arrays with an axis for the mesh, index 0 is the left mesh and index 1 is the
 right mesh.
@@ -53,7 +53,8 @@ class Unbalance(NamedTuple):
     """Residual of the sleeve's force balance, and its derivatives with the opposite sign.
 
     `x` and `y` are the components of the residual Phi(g) - g, and `size` is its magnitude. `xx`, `xy`, `yx` and `yy`
-    are the derivatives of g - Phi(g) by g; for example, `xy` is the derivative of the x component by g_y.
+    are the derivatives of g - Phi(g) with respect to g; for example, `xy` is the derivative of the x component with
+    respect to g_y.
     """
 
     size: float
@@ -71,9 +72,9 @@ def add_friction_moment(
 ) -> tuple[float, float, float]:
     """Add one component of the friction moment of a mesh to `moment`.
 
-    Returns the new moment, `moment` + sum F_t sgn(v_r) e_r, and the derivatives of this sum by the force (x, y) on the
-    mesh. `arm` (teeth) holds sgn(v_r) e_r, where e_r is a component of the tooth's radial direction. `ahead` and
-    `hessian` are the results of `float_sleeve` for this mesh.
+    Returns the new moment, which is `moment` + sum F_t sgn(v_r) e_r. Also returns the derivatives of this sum with
+    respect to the force (x, y) on the mesh. `arm` (teeth) holds sgn(v_r) e_r, where e_r is a component of the tooth's
+    radial direction. `ahead` and `hessian` are the results of `float_sleeve` for this mesh.
     """
     normal_x, normal_y = normal
     torque, x, y = 0.0, 0.0, 0.0
@@ -101,9 +102,9 @@ def unbalanced_force(
 ) -> Unbalance:
     """Return the residual Phi(g) - g of the sleeve's force balance, with g on the left mesh and -g on the right mesh.
 
-    The function balances both meshes under these forces. The balance starts from `places`, and the function updates
-    `places`. The function writes the interference of the teeth to `ahead` (2, teeth). The size of the residual is inf
-    if a mesh cannot hold the force.
+    The function balances both meshes under these forces. The balance starts from the values in `places`, and replaces
+    them by the solution. The function writes the interference of the teeth to `ahead` (2, teeth). The size of the
+    residual is inf if a mesh cannot hold the force.
     """
     moment_x, moment_y, xx, xy, yx, yy = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     for mesh in range(2):
@@ -139,7 +140,7 @@ def balance_sleeve(
     interference : FloatArray
         Interference at rest, shape (2, teeth) [T/(r_o c_t)].
     normal : FloatArray
-        Flank normals over cos(alpha), shape (2, 2, teeth) [-].
+        Flank normals divided by cos(alpha), shape (2, 2, teeth) [-].
     arm : FloatArray
         Direction of friction times the tooth's position, shape (2, 2, teeth) [-].
     lever : float
@@ -156,7 +157,7 @@ def balance_sleeve(
     Returns
     -------
     float
-        Residual |Phi(g) - g|, inf if a mesh cannot hold the force [T/r_o].
+        Residual |Phi(g) - g|; inf if a mesh cannot hold the force [T/r_o].
 
     Notes
     -----
@@ -204,9 +205,9 @@ def balance_rows(
 ) -> float:
     """Balance the sleeve at every rotor angle, and write the tooth forces to `share` (rows, 2, teeth).
 
-    The balance at each angle starts from the solution at the previous angle. If there is no balance from this start,
-    the balance starts again from zero force and zero displacement. The function stops at the first angle without
-    balance. Returns the largest residual.
+    The balance at each angle starts from the solution at the previous angle. If the iteration from this start does not
+    converge, a second iteration starts from zero force and zero displacement. The function stops at the first angle
+    without balance. Returns the largest residual.
     """
     force, places = np.zeros(2), Places(np.zeros(2), np.zeros(2), np.zeros(2))
     largest = 0.0
@@ -232,8 +233,8 @@ class SleeveEquilibrium:
     """Thrust and overturning moment of two meshes on one sleeve.
 
     Both are means over one tooth pitch or, if there are pitch deviations, over one revolution. `thrust` [N] acts on one
-    shaft and is positive if `thrust` pulls the shafts together. `overturning_moment` [N m] is the
-    moment of friction on the sleeve.
+    shaft and is positive if the shafts are pulled together. `overturning_moment` [N m] is the moment of friction on the
+    sleeve.
     """
 
     thrust: float
@@ -281,8 +282,8 @@ def sleeve_equilibrium(
     Notes
     -----
     Eq. C22. Nothing slides if the axial velocity is zero and, in addition, the misalignment or the speed is zero. The
-    direction of friction is then undetermined. If mu d_o/l_H < cos(pi/z), an equilibrium always exists. Phi then maps
-    the set of the forces that the teeth can hold into itself, and Brouwer's theorem applies.
+    direction of friction is then undetermined. If mu d_o/l_H < cos(pi/z), an equilibrium always exists: for every force
+    g that the teeth can hold, the teeth can also hold the force Phi(g), and Brouwer's theorem applies.
     """
     coupling, torque = inputs.coupling, inputs.operation.torque
     meshes = two_meshes(inputs, geometry)
@@ -316,7 +317,8 @@ def _tooth_forces(
 ) -> FloatArray:
     """Compute the tangential tooth forces [N], in the shape of `direction` (rotor angles, meshes, teeth).
 
-    If a NoSolution is raised, its residual is the unbalanced lateral force divided by T/r_o, but at most 1.
+    Raises NoSolution if there is no balance. The residual in NoSolution is the unbalanced lateral force divided by
+    T/r_o, but at most 1.
     """
     coupling, teeth = inputs.coupling, samples.teeth
     unit, cosine = elastic_rotation(coupling, inputs.operation.torque), cos(coupling.pressure_angle)

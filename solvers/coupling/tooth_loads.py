@@ -42,15 +42,15 @@ MAX_ITERATIONS = 10_000  # limit; no balance should reach this limit, because ea
 BALANCE_TOLERANCE = 1e-13  # in units of T/r_o; a few hundred rounding errors
 LONGEST_STEP = 1e100  # stands for infinity; the square of this number does not overflow
 STIFF = 1e-12
-"""Ratio of sleeve stiffness to loaded-tooth stiffness below which the stiffness counts as zero.
+"""Largest ratio of the sleeve's lateral stiffness to the loaded teeth's stiffness that counts as zero stiffness.
 
 Rounding errors of this ratio are about 1e-16.
 """
 FLAT = 1e-12
-"""Ratio of the slope of the energy along a step to the slope at the start, up to which the slope counts as zero."""
+"""Largest ratio of the energy's slope along a step to the slope at the start that counts as zero slope."""
 
 LOADED = 1e-6
-"""Ratio of tooth force to mean tooth force above which a tooth counts as loaded."""
+"""Smallest ratio of a tooth's force to the mean tooth force at which the tooth counts as loaded."""
 SLIDING_VELOCITY_LIMIT = 0.12
 """Limit of steady sliding in gear couplings [m/s] (Tribology Handbook B4.6); 1.6 times as large for short tilts."""
 GRAVITY = 9.80665  # m/s^2, standard gravity (CGPM 1901)
@@ -59,7 +59,10 @@ _FINER = 8  # chosen: ratio of the steps of successive searches; two searches lo
 
 
 class Motion(NamedTuple):
-    """Common rotation of the teeth and displacement of the sleeve, or torque and lateral force."""
+    """A rotation and a displacement (x, y), or a torque and a lateral force (x, y).
+
+    The rotation is the common rotation of the teeth. The displacement is that of the sleeve.
+    """
 
     rotation: float
     x: float
@@ -87,9 +90,10 @@ class Hessian(NamedTuple):
 
 @kernel
 def _crossing(ahead: FloatArray, highest: float, psi: float) -> float:
-    """Return the next value after `psi` > 0 in Newton's method for the root of sum max(0, psi + lead_i) = 1.
+    """Return the next value of psi in Newton's method for the equation sum max(0, psi + lead_i) = 1.
 
-    At the new value, the teeth that are loaded at the old value would carry unit torque.
+    The present value `psi` is positive. At the next value, the teeth that are loaded at the present value would carry
+    unit torque.
     """
     count, total = 0, 0.0
     for lead in ahead:
@@ -120,11 +124,12 @@ def rotation_of_leads(ahead: FloatArray, highest: float, start: float) -> float:
 
     Notes
     -----
-    Eq. C8: sum max(0, psi + lead_i) = 1, where lead_i is w_i minus the largest of the leads. Sorting gives the same
-    result: the leads are sorted in descending order, and k is the largest number for which psi_k = (1 - sum_1..k
-    lead)/k loads tooth k; this psi_k is the root. The sum is a convex and piecewise linear function of psi. From any
-    positive start, the first step of Newton's method leads to the root or to a larger value. Each further step reduces
-    psi and unloads at least one tooth, until the linear piece that contains the root is reached.
+    Eq. C8: sum max(0, psi + lead_i) = 1, where lead_i is w_i minus the largest of the leads. The sum is a convex and
+    piecewise linear function of psi. From any positive start, the first step of Newton's method leads to the root or to
+    a larger value. Each further step reduces psi and unloads at least one tooth, until the linear piece that contains
+    the root is reached. Sorting would give the same result: the leads are sorted in descending order, and
+    psi_k = (1 - sum_1..k lead)/k is the rotation if only the first k teeth are loaded. The root is psi_k for the
+    largest k for which psi_k loads tooth k.
     """
     psi = _crossing(ahead, highest, start)
     following = _crossing(ahead, highest, psi)
@@ -189,7 +194,7 @@ def add_up(ahead: FloatArray, normal: FloatArray) -> tuple[Motion, Hessian]:
 
 @kernel
 def solve_loaded(hessian: Hessian, right: Motion) -> tuple[Motion, float, float]:
-    """Solve `hessian` times motion = `right` in the directions in which the loaded teeth are stiff.
+    """Solve `hessian` times motion = `right` in the directions in which the loaded teeth have stiffness.
 
     Returns the motion, and the part of the lateral force (x, y) of `right` in the directions without stiffness. The
     rotation is eliminated first. The matrix of the remaining equations is the scatter of the flank normals of the
@@ -220,7 +225,7 @@ def solve_loaded(hessian: Hessian, right: Motion) -> tuple[Motion, float, float]
 
 @kernel
 def next_step(hessian: Hessian, missing: Motion) -> tuple[Motion, float]:
-    """Return the Newton step for the `missing` forces, and the rate at which the energy falls along this step.
+    """Return the Newton step that adds the `missing` forces, and the rate at which the energy falls along this step.
 
     If more than half of the missing force acts in a direction without stiffness, the step is along this direction
     instead. Such a step does not change the forces of the loaded teeth; the step ends when another tooth meets the
@@ -236,10 +241,12 @@ def next_step(hessian: Hessian, missing: Motion) -> tuple[Motion, float]:
 
 @kernel
 def slope_along(ahead: FloatArray, change: FloatArray, start: float, length: float) -> tuple[float, float]:
-    """Compute the first and the second derivative of the energy by the length of a step that changes u_i by `change`.
+    """Compute the first and the second derivative of the energy along a step, at one length of the step.
 
-    `start` is the first derivative at length zero. The function adds the change of this derivative from length zero to
-    `length`, because a sum of torque and tooth forces would lose its digits by cancellation near the balance.
+    The energy is differentiated with respect to the length. A step of length 1 changes u_i by `change`. `start` is the
+    first derivative at length zero. The function computes how much the first derivative changes between length zero and
+    `length`, and adds this change to `start`. A direct sum of torque and tooth forces would lose its digits by
+    cancellation near the balance.
     """
     first, second = start, 0.0
     for i in range(ahead.size):
@@ -252,12 +259,12 @@ def slope_along(ahead: FloatArray, change: FloatArray, start: float, length: flo
 
 @kernel
 def length_to_lowest(ahead: FloatArray, change: FloatArray, start: float) -> float:
-    """Find the length of a step at which the energy is lowest, or LONGEST_STEP if the energy has no minimum.
+    """Find the length of a step at which the energy is lowest.
 
-    The slope of the energy rises piecewise linearly with the length, from its negative value `start` at length zero.
-    Newton's method finds the length at which the slope is zero. The iteration stays between two lengths, one shorter
-    and one longer than the length at which the energy is lowest. While no tooth resists, the length is doubled, because
-    the next tooth may be many steps away.
+    The result is LONGEST_STEP if the energy has no minimum. The slope of the energy has the negative value `start` at
+    length zero, and rises piecewise linearly with the length. Newton's method finds the length at which the slope is
+    zero. The iteration stays between two lengths, one shorter and one longer than the length at which the energy is
+    lowest. While no tooth resists, the length is doubled, because the next tooth may be many steps away.
     """
     before, behind, length = 0.0, LONGEST_STEP, 1.0
     while length < LONGEST_STEP:
@@ -288,7 +295,7 @@ def float_sleeve(
     interference : FloatArray
         Interference at rest (lead w_i) of each tooth, shape (teeth,) [T/(r_o c_t)].
     normal : FloatArray
-        Flank normals over cos(alpha), shape (2, teeth) [-].
+        Flank normals divided by cos(alpha), shape (2, teeth) [-].
     force : FloatArray
         External force on the sleeve, shape (2,) [T/r_o].
     places : Places
@@ -301,7 +308,7 @@ def float_sleeve(
     Returns
     -------
     iterations : int
-        Number of iterations, negative if the balance was not reached [-].
+        Number of iterations; negative if the balance was not reached [-].
     hessian : Hessian
         Second derivatives of the energy at the balance [-].
 
@@ -361,10 +368,10 @@ def floating_rows(
 def largest_value(angles: FloatArray, values_at: Callable[[FloatArray], FloatArray]) -> float:
     """Find the largest value at evenly spaced rotor angles [rad] and between these angles.
 
-    `values_at` takes rotor angles (rows) and returns one value per angle. After the given angles, two searches follow;
-    the steps of each search are eight times finer than the steps before. A search covers the surroundings of all local
-    maxima that would reach the largest value if they continued to rise for half a step. The searches are necessary
-    because with few loaded teeth a peak lasts only a fraction of a pitch, and each tooth has its own peak.
+    `values_at` takes rotor angles (rows) and returns one value per angle. After the given angles, two searches follow.
+    The steps of each search are eight times finer than the steps before. A local maximum is searched only if it would
+    reach the largest value by rising further for half a step. The searches are necessary because with few loaded teeth
+    a peak lasts only a fraction of a pitch, and each tooth has its own peak.
     """
     coarse, step = values_at(angles), angles[1] - angles[0]
     places = angles[:, None] + step * np.array([-1.0, 0.0, 1.0])
@@ -427,7 +434,10 @@ def interference_at_rest(coupling: Coupling, mesh: MeshMotion, teeth: ToothPosit
 
 
 def elastic_rotation(coupling: Coupling, torque: float) -> float:
-    """Return T/(r_o c_t) [m], the rotation (as a length at the pitch radius) if a single tooth carries the torque."""
+    """Return T/(r_o c_t) [m].
+
+    This is the rotation, as a length at the pitch radius, if a single tooth carries the torque.
+    """
     return torque / (pitch_radius(coupling) * coupling.tooth_stiffness)
 
 
@@ -448,7 +458,7 @@ def centred_loads(coupling: Coupling, mesh: MeshMotion, teeth: ToothPositions, t
     Returns
     -------
     ToothLoads
-        Tooth loads at each rotor angle; they are exact at any torque [N].
+        Tooth loads at each rotor angle, exact at any torque [N].
 
     Notes
     -----
@@ -605,7 +615,7 @@ def sleeve_centring_torque(coupling: Coupling, radius: float) -> float:
     Parameters
     ----------
     coupling : Coupling
-        The coupling; its sleeve mass is the mass per mesh.
+        The coupling; its sleeve mass is the part of the mass that one mesh carries.
     radius : float
         Pitch radius r_o [m].
 

@@ -42,7 +42,7 @@ def check(inputs: LineContactInputs) -> None:
 
 
 def lightest(inputs: LineContactInputs) -> LineContactInputs:
-    """Raise the load of a contact to the least load that `check` accepts, unless the contact's own load is accepted.
+    """Raise the line load of a contact if `check` would refuse the load as too small.
 
     Parameters
     ----------
@@ -52,8 +52,8 @@ def lightest(inputs: LineContactInputs) -> LineContactInputs:
     Returns
     -------
     LineContactInputs
-        The contact with its own line load if this load is accepted, else with the least line load that is not refused
-        as `load_range`.
+        If the expected film is thin enough for `check`, the contact itself. Otherwise the contact with the smallest
+        line load for which the expected film is thin enough.
     """
 
     def excess(logarithm: float) -> float:
@@ -98,7 +98,11 @@ def _check_resolution(inputs: LineContactInputs) -> None:
 
 
 def _check_oil(inputs: LineContactInputs) -> None:
-    """Check viscosity and temperatures; in an isothermal film only the inlet temperature is used."""
+    """Check the viscosity and the temperatures.
+
+    In an isothermal film the bulk temperatures of the surfaces have no effect. The function then checks only the
+    temperature at the inlet.
+    """
     oil, temperatures = inputs.lubricant, inputs.temperatures
     if oil.viscosity < LOWEST_VISCOSITY:
         raise InvalidInput(
@@ -126,7 +130,8 @@ def _check_oil(inputs: LineContactInputs) -> None:
 def _check_load(inputs: LineContactInputs) -> None:
     """Check the pressure and the expected film.
 
-    If the film is thick compared with the deformation, the surfaces are practically rigid.
+    If the film is much thicker than the deformation of the surfaces, the surfaces are practically rigid. Such a contact
+    is refused.
     """
     scales = groups(inputs)
     if scales.maximum_pressure > HIGHEST_PRESSURE:
@@ -161,6 +166,6 @@ def _check_load(inputs: LineContactInputs) -> None:
 
 
 def _log_viscosity(inputs: LineContactInputs, pressure: float, temperature: float) -> float:
-    """Return ln(eta/Pa s), which stays finite if the viscosity itself overflows."""
+    """Return ln(eta/Pa s). This logarithm stays finite even if the viscosity eta itself overflows."""
     laws = inputs.lubricant.laws
     return float(log_viscosity(laws, pressure_part(laws, pressure)[0], temperature)[0])

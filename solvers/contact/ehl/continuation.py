@@ -1,4 +1,7 @@
-"""Solution of a single contact, starting from the dry contact: resolution, budget, and attempts in several ways."""
+"""Solution of a single contact that starts from the dry contact.
+
+If the cheapest way to the solution fails, the module tries further ways, as long as the budget of Newton steps lasts.
+"""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -17,7 +20,7 @@ from solvers.contact.ehl.state import State, Work, no_steps, work_arrays
 from solvers.contact.ehl.temperature import march_temperatures
 
 STEPS_A_SOLVE = 60  # limit of Newton steps on one mesh
-STEPS_IN_ALL = 500.0  # limit per contact, in Newton steps at 121 x 21 nodes; they take about a quarter of a second
+STEPS_IN_ALL = 500.0  # limit per contact, in Newton steps at 121 x 21 nodes; these steps take about 0.25 s
 STEPS_ON_FINEST = 25  # the budget suffices for this number of steps on the finest mesh, however fine this mesh is
 STEPS_TO_REFINE = 100.0  # limit per contact for solutions on finer meshes, in Newton steps at 121 x 21 nodes
 Stage = Literal["isothermal", "coupling"]
@@ -34,10 +37,11 @@ SOFT_STRESSES = tuple(5e6 * 2.0**k for k in range(10))  # Pa, Eyring stresses of
 
 @dataclass(frozen=True, slots=True)
 class Resolution:
-    """The finest mesh of a contact: `nodes` along the contact and `film_nodes` across the film.
+    """Numbers of nodes of the finest mesh of a contact: `nodes` along the contact, `film_nodes` across the film.
 
-    The nodes along the contact are graded for a film of thickness `gap` (in b^2/R). The iteration for a thermal film
-    starts from an isothermal film at `entry_temperature` [K].
+    The spacing of the nodes along the contact suits a film of thickness `gap` (in b^2/R, where b is the Hertzian half
+    width and R is the reduced radius). The iteration for a thermal film starts from an isothermal film. The temperature
+    of this isothermal film is `entry_temperature` [K].
     """
 
     gap: float
@@ -49,10 +53,11 @@ class Resolution:
 
 @dataclass(slots=True)
 class Budget:
-    """Budget for Newton steps, in units of the cost of a step at 121 x 21 nodes.
+    """Budget for Newton steps. Its unit is the cost of one step at 121 x 21 nodes.
 
-    `remaining` is the cost that is still allowed, and `spent` is the number of steps taken so far. If this budget is a
-    part of another budget, `of` is that other budget, and every cost is deducted from both budgets.
+    The field `remaining` holds the cost that may still be spent, and `spent` holds the number of steps taken so far. A
+    budget can be a part of a larger budget. The field `of` then holds the larger budget, and every cost is deducted
+    from both budgets.
     """
 
     remaining: float
@@ -60,15 +65,18 @@ class Budget:
     of: "Budget | None" = None
 
     def part(self, most: float = inf) -> "Budget":
-        """Return a part of this budget, of at most `most` units."""
+        """Return a part of this budget. The part holds all that remains, but at most `most` units."""
         return Budget(min(most, self.remaining), of=self)
 
     def steps(self, resolution: Resolution, nodes: int) -> int:
-        """Return the number of steps at `nodes` nodes that the budget allows, at most `STEPS_A_SOLVE`."""
+        """Return the number of Newton steps that the budget allows on a mesh with `nodes` nodes.
+
+        The result is at most `STEPS_A_SOLVE`.
+        """
         return min(STEPS_A_SOLVE, int(self.remaining / price(resolution, nodes)))
 
     def charge(self, resolution: Resolution, nodes: int, steps: int) -> None:
-        """Deduct the cost of Newton steps from the remaining budget."""
+        """Deduct the cost of `steps` Newton steps on a mesh with `nodes` nodes from the remaining budget."""
         self.pay(steps * price(resolution, nodes), steps)
 
     def pay(self, units: float, steps: int = 0) -> None:
@@ -85,7 +93,10 @@ def budget_for(resolution: Resolution) -> Budget:
 
 
 def price(resolution: Resolution, nodes: int) -> float:
-    """Return the time of a Newton step over the time at 121 x 21 nodes, by a formula fitted to measured times."""
+    """Return the cost of a Newton step: its time divided by the time of a step at 121 x 21 nodes.
+
+    The formula was fitted to measured times.
+    """
     relative = nodes / 121
     if resolution.thermal:
         return relative**2 * (0.4 + 0.4 * resolution.film_nodes / 21 + 0.2 * relative)
@@ -94,9 +105,12 @@ def price(resolution: Resolution, nodes: int) -> float:
 
 @dataclass(slots=True)
 class Attempt:
-    """A state on its mesh, whether the state has converged, and the stage that the solution reached.
+    """Result of one attempt to solve a contact.
 
-    If a continuation in the Eyring stress failed, `eyring_stress` [Pa] is the last stress that converged; else None.
+    `state` is the last state, and `grid` is its mesh. `converged` tells whether the state has converged. `stage` is the
+    stage that the solution reached. An attempt may raise the Eyring stress in steps. If one of these steps failed,
+    `eyring_stress` [Pa] is the last stress at which the iteration converged, or 0 if there was no such stress. In all
+    other cases `eyring_stress` is None.
     """
 
     grid: Grid
@@ -108,7 +122,7 @@ class Attempt:
 
 
 def solve_cold(problem: Problem, resolution: Resolution, budget: Budget) -> Attempt:
-    """Make one attempt after another from the Hertzian pressure, until an attempt converges or the budget is used up.
+    """Make attempts that start from the Hertzian pressure, until one converges or the budget is used up.
 
     Return the converged attempt. If no attempt converges, return the attempt that is nearest to a solution.
     """
@@ -178,8 +192,9 @@ def _start(problem: Problem, resolution: Resolution, budget: Budget) -> Attempt:
 def _dry_state(grid: Grid, resolution: Resolution) -> State:
     """Return a state with Hertzian pressure and a film of the expected thickness.
 
-    The pressure is scaled so that it carries the load on this mesh. If the film is thick, the pressure extends over the
-    length (2 R h)^1/2 instead of b.
+    The pressure is scaled so that it carries the load on this mesh. On both sides of the centre, the pressure extends
+    over the half width b, or over (2 R h)^1/2 if this length is larger. Here R is the reduced radius, and h is the
+    expected film thickness.
     """
     width = max(1.0, sqrt(2.0 * resolution.gap))
     pressure = np.sqrt(np.maximum(1.0 - (grid.x / width) ** 2, 0.0))
@@ -195,7 +210,10 @@ def _dry_state(grid: Grid, resolution: Resolution) -> State:
 
 
 def _climb(problem: Problem, resolution: Resolution, start: Attempt, levels: Sequence[int], budget: Budget) -> Attempt:
-    """Solve on one mesh after the other; on the coarse meshes a solution that has nearly converged is enough."""
+    """Solve on one mesh after the other, from the coarsest to the finest.
+
+    On every mesh except the finest, a solution that has nearly converged is enough.
+    """
     attempt = start
     if not resolution.thermal and len(levels) == 1:
         return attempt
@@ -220,7 +238,7 @@ def polish(
     tolerances: tuple[float, float],
     budget: Budget,
 ) -> Attempt:
-    """Solve by Newton's method on one mesh; `state` is the start and is changed in place."""
+    """Solve by Newton's method on one mesh. The iteration starts from `state`, and changes `state` in place."""
     work = work_arrays(grid.x.size, resolution.film_nodes)
     steps = budget.steps(resolution, grid.x.size)
     state.history[:] = no_steps()
@@ -249,7 +267,7 @@ def interpolate(state: State, x: FloatArray, onto: FloatArray) -> State:
 
 
 def _from_slow_film(problem: Problem, resolution: Resolution, budget: Budget) -> Attempt:
-    """Raise both speeds in steps to their given values on the coarsest mesh, then solve on the finer meshes.
+    """On the coarsest mesh, raise both speeds in steps to their given values; then solve on the finer meshes.
 
     At low speeds the film is thin, and the iteration for a thin film converges easily.
     """
@@ -270,7 +288,7 @@ def _from_slow_film(problem: Problem, resolution: Resolution, budget: Budget) ->
 
 
 def _from_soft_film(problem: Problem, resolution: Resolution, budget: Budget) -> Attempt:
-    """Raise the Eyring stress in steps to its given value on the coarsest mesh, then solve on the finer meshes."""
+    """On the coarsest mesh, raise the Eyring stress in steps to its given value; then solve on the finer meshes."""
     attempt: Attempt | None = None
     reached = 0.0
     for stress in SOFT_STRESSES:

@@ -1,13 +1,17 @@
-"""The discrete line contact in plain NumPy; the equations follow the chapter on the line contact in the manual.
+"""Equations of the line contact in plain NumPy, in the discrete form that the compiled kernels solve.
 
-This module is the specification of the compiled kernels, which solve `residual` = 0. It has its own formulas and is not
-written for speed. The tests compare the kernels' residual with this module, and the kernels' derivatives with
-derivatives of this module by complex steps. Therefore every function also accepts complex arrays, and no function takes
-the absolute value of an unknown or the larger of two unknowns.
+The chapter on the line contact in the manual explains the equations.
 
-n nodes lie along the contact; k = m + 1 nodes and m intervals of equal height lie across the film. P = p/p_H, X = x/b
-and H = h R/b^2; zeta is z/h - 1/2 and G is h dp/dx [Pa]. `t` is theta in the chapter, and `vartheta` is the chapter's
-share of oil in the gap.
+This module is the specification of the compiled kernels, which solve `residual` = 0. The formulas of this module are
+independent of the kernels, and are not written for speed. The tests compare the residual of the kernels with the
+residual of this module. The tests also differentiate this module by complex steps, and compare the result with the
+derivatives that the kernels compute. Therefore every function also accepts complex arrays. For the same reason, no
+function uses the absolute value of an unknown, or the larger of two unknowns.
+
+n nodes lie along the contact. Across the film lie k = m + 1 nodes, with m intervals of equal height between the nodes.
+The symbols are those of the chapter: P = p/p_H, X = x/b, H = h R/b^2 and G = h dp/dx [Pa]. zeta is z/h - 1/2, where z
+is the height above surface 1; zeta is 0 half way across the film. `t` is the temperature, for which the chapter writes
+theta. `vartheta` is the fraction of the gap that oil fills.
 """
 
 from typing import Any, NamedTuple
@@ -26,12 +30,13 @@ Numbers = NDArray[Any]
 
 
 class Columns(NamedTuple):
-    """The columns of the film, one at every node along the contact.
+    """Shear and flow in the columns of the film. Every node along the contact has one column.
 
-    In every interval (n, m): density [kg/m^3], shear stress [Pa] and shear rate [1/s]. At every node along the contact
-    (n,): stress half way across the film [Pa], flow coefficients A [s] and B [kg/(m^2 s)]. At every node across the
-    film (n, k): stream function `couette` of the flow without pressure gradient [kg/(s m)], and profile `poiseuille` of
-    the flow due to the pressure gradient, which rises from 0 to 1.
+    Three fields have one value per interval (n, m): `density` [kg/m^3], the shear stress `stress` [Pa] and the shear
+    rate `rate` [1/s]. Three fields have one value per column (n,): `mid_stress`, the shear stress half way across the
+    film [Pa], and the flow coefficients `a` [s] and `b` [kg/(m^2 s)]. Two fields have one value per node (n, k).
+    `couette` is the stream function of the flow without pressure gradient [kg/(s m)]. `poiseuille` is the profile of
+    the flow due to the pressure gradient; this profile rises from 0 at surface 1 to 1 at surface 2.
     """
 
     density: Numbers
@@ -45,10 +50,10 @@ class Columns(NamedTuple):
 
 
 class Carried(NamedTuple):
-    """Quantities that carry heat; a Newton step holds them fixed, and they are computed anew after the step.
+    """Flow quantities in the heat balance. A Newton step holds these quantities fixed.
 
-    Stream function psi (n, k) [kg/(s m)]; share of oil in the gap (n,); density in the heat of compression (n, m)
-    [kg/m^3].
+    After the step the quantities are computed again. `psi` (n, k) is the stream function [kg/(s m)]. `vartheta` (n,) is
+    the fraction of the gap that oil fills. `density` (n, m) is the density in the heat of compression [kg/m^3].
     """
 
     psi: Numbers
@@ -57,11 +62,11 @@ class Carried(NamedTuple):
 
 
 class Residual(NamedTuple):
-    """Residuals of the equations of mass (n,), of the load, and of heat (n, k).
+    """Residuals of the balances of mass (n,), load and heat (n, k).
 
-    The residuals of mass are divided by the flux scale; where the chapter prescribes P, the residual is P. The
-    residuals of heat are in W/m^2; where the chapter prescribes a temperature, the residual is a difference of
-    temperatures [K].
+    The residuals of mass are divided by the flux scale. If the pressure of a node is prescribed, the residual of mass
+    is P. The residuals of heat are in W/m^2. If the temperature of a node is prescribed, the residual of heat is the
+    temperature minus the prescribed temperature [K].
     """
 
     mass: Numbers
@@ -142,9 +147,10 @@ def effective_fluidity(problem: Problem, tau: Numbers, eta: Numbers) -> Numbers:
 
 
 def mid_film_stress(problem: Problem, eta: Numbers, g: Numbers, h: Numbers) -> Numbers:
-    """Return the stress half way across the film, as required for the sliding speed u2 - u1.
+    """Return the shear stress half way across the film for the sliding speed u2 - u1.
 
-    Eq. E6; for a Newtonian oil the integral is linear in the stress.
+    Eq. E6. The integral of the shear rate across the film must equal the sliding speed. For a Newtonian oil this
+    integral is linear in the stress.
 
     Parameters
     ----------
@@ -176,9 +182,10 @@ def mid_film_stress(problem: Problem, eta: Numbers, g: Numbers, h: Numbers) -> N
 
 
 def columns(problem: Problem, p: Numbers, g: Numbers, h: Numbers, t: Numbers) -> Columns:
-    """Return shear and flow in the column of the film at every node.
+    """Return the shear and the flow in the columns of the film. Every node along the contact has one column.
 
-    Eq. E7.1. The integrals use the middle of every interval, where the temperature is the mean of the two nodes.
+    Eq. E7.1. The integrals across the film use one value per interval, at the middle of the interval. The temperature
+    there is the mean of the temperatures at both ends of the interval.
 
     Parameters
     ----------
@@ -275,12 +282,12 @@ def face_fluxes(grid: Grid, pressure: Numbers, film: Numbers, a: Numbers, b: Num
     b : (n,) array
         Flow coefficient B [kg/(m^2 s)].
     scale : float
-        Factor that turns A into the units of B, p_H b^3/R^2 [kg/(m^2 s^2)].
+        Factor p_H b^3/R^2, which turns A into the units of B [kg/(m^2 s^2)].
 
     Returns
     -------
     (n - 1,) array
-        Mass flux over b^2/R [kg/(m^2 s)].
+        Mass flux divided by b^2/R [kg/(m^2 s)].
     """
     dx, d = np.diff(grid.x), b * film
     ratio = np.concatenate([[-0.5], 0.5 * dx[1:] / dx[:-1]])
@@ -291,7 +298,10 @@ def face_fluxes(grid: Grid, pressure: Numbers, film: Numbers, a: Numbers, b: Num
 
 
 def balance_of_mass(pressure: Numbers, cavitated: BoolArray, flux: Numbers) -> Numbers:
-    """Return outflow minus inflow of every node, or P where the chapter prescribes the pressure (Eq. E7).
+    """Return the residuals of the balance of mass at the nodes (Eq. E7).
+
+    The residual is the outflow of a node minus the inflow. At both ends and in the broken film the pressure is
+    prescribed as zero; the residual of such a node is P.
 
     Parameters
     ----------
@@ -300,7 +310,7 @@ def balance_of_mass(pressure: Numbers, cavitated: BoolArray, flux: Numbers) -> N
     cavitated : (n,) array of bool
         Nodes of broken film.
     flux : (n - 1,) array
-        Mass flux through the faces between nodes, over its scale [-].
+        Mass flux through the faces between nodes, divided by the flux scale [-].
 
     Returns
     -------
@@ -315,6 +325,8 @@ def balance_of_mass(pressure: Numbers, cavitated: BoolArray, flux: Numbers) -> N
 
 def film_thickness(grid: Grid, pressure: Numbers, separation: Any) -> Numbers:
     """Return the film thickness H = H0 + X^2/2 + K P (Eq. 21).
+
+    K is the matrix `grid.deflection`.
 
     Parameters
     ----------
@@ -385,7 +397,9 @@ def balance_of_load(grid: Grid, pressure: Numbers) -> Any:
 def carried_heat(
     problem: Problem, pressure: Numbers, film: Numbers, cavitated: BoolArray, flux: Numbers, at: Columns
 ) -> Carried:
-    """Return the quantities that carry heat, for the same mass flow in all columns (Eqs. E8.1, E8.2).
+    """Return the flow quantities in the heat balance (Eqs. E8.1, E8.2).
+
+    The mass flow is the same in all columns. It equals the flux at the largest pressure.
 
     Parameters
     ----------
@@ -398,14 +412,14 @@ def carried_heat(
     cavitated : (n,) array of bool
         Nodes of broken film.
     flux : (n - 1,) array
-        Mass flux through the faces between nodes [kg/(s m)]; the flux at the largest pressure is used.
+        Mass flux through the faces between nodes [kg/(s m)].
     at : Columns
         The columns of the film.
 
     Returns
     -------
     Carried
-        Stream function, share of oil and density.
+        Stream function, fraction of the gap that oil fills, and density.
     """
     m_dot = flux[pressure.argmax()]
     psi = at.couette + (m_dot - at.couette[:, -1:]) * at.poiseuille
@@ -438,7 +452,7 @@ def balance_of_heat(
     at : Columns
         The columns of the film.
     carried : Carried
-        Quantities that carry heat.
+        Flow quantities in the heat balance.
 
     Returns
     -------
@@ -549,7 +563,8 @@ def residual(
     t : (n, k) array
         Temperature [K].
     carried : Carried, optional
-        Quantities that carry heat, which a Newton step holds fixed; by default they are computed from the state.
+        Flow quantities in the heat balance, which a Newton step holds fixed; by default, they are computed from the
+        state.
 
     Returns
     -------
@@ -593,7 +608,7 @@ def isothermal_residual(
     Returns
     -------
     mass : (n,) array
-        Residual of mass over the flux scale [-].
+        Residual of mass, divided by the flux scale [-].
     load : number
         Residual of the load [-].
     """
@@ -607,7 +622,7 @@ def isothermal_residual(
 
 
 def _intervals(m: int) -> tuple[Numbers, float]:
-    """Return zeta half way through every interval (m,) and the height of an interval."""
+    """Return zeta (m,) at the middle of every interval, and the height of an interval divided by h."""
     return (np.arange(m) + 0.5) / m - 0.5, 1.0 / m
 
 
@@ -617,7 +632,7 @@ def _half_way(layers: Numbers) -> Numbers:
 
 
 def _from_surface_1(layers: Numbers) -> Numbers:
-    """Return the sums of layers (n, m) below every node (n, m + 1)."""
+    """Return, for every node (n, m + 1), the sum of the layers (n, m) between surface 1 and the node."""
     return np.asarray(np.concatenate([np.zeros_like(layers[:, :1]), np.cumsum(layers, axis=1)], axis=1))
 
 
@@ -628,14 +643,18 @@ def _to_nodes(intervals: Numbers) -> Numbers:
 
 
 def _layers(psi: Numbers) -> Numbers:
-    """Return the stream function at the edges of the cells across the film, including both surfaces (n, k + 1)."""
+    """Return the stream function (n, k + 1) at the edges of the cells in every column.
+
+    The inner edges lie half way between two nodes. The outer edges lie on the surfaces.
+    """
     return np.asarray(np.concatenate([psi[:, :1], 0.5 * (psi[:, 1:] + psi[:, :-1]), psi[:, -1:]], axis=1))
 
 
 def _edges(psi: Numbers) -> Numbers:
-    """Return the stream function at the edges of the cells, at the face on the right of every column (n, k + 1).
+    """Return the stream function (n, k + 1) at the edges of the cells, at the right face of every column.
 
-    At the last face, the stream function is that of the last column.
+    A face lies half way between two columns. At the last column, the result is the stream function of this column
+    itself.
     """
     layers = _layers(psi)
     return np.asarray(0.5 * (layers + np.concatenate([layers[1:], layers[-1:]])))

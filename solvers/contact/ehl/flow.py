@@ -16,17 +16,18 @@ from solvers.contact.ehl.shear import Film, stress_response, viscosities
 from solvers.lubricants import density
 
 COEFFICIENT = floats("value", "by_p", "by_g", "by_h")
-"""A coefficient with its derivatives by p, by G = h dp/dx and by h."""
+"""A flow coefficient, and its derivatives with respect to p, G = h dp/dx and h."""
 
 PLACE = floats("p", "g", "h")
 """Pressure p [Pa], G = h dp/dx after `rheology.limited_gradient` [Pa], and film thickness h [m] of a column."""
 
 
 class FlowCoefficients(NamedTuple):
-    """Coefficients ln A and B of the mass flux m = B h - A h^3 dp/dx: records (n,) of type COEFFICIENT at all nodes.
+    """Flow coefficients ln A and B, with their derivatives. The mass flux is m = B h - A h^3 dp/dx.
 
-    At first, the derivatives hold for fixed temperatures. In a thermal contact, `newton.include_temperature` adds the
-    response of the temperatures.
+    `log_a` and `b` (n,) hold one record of type COEFFICIENT per node. At first, the derivatives hold at fixed
+    temperatures. In a thermal contact, p, G and h also change the temperatures; `newton.include_temperature` adds this
+    effect to the derivatives.
     """
 
     log_a: RecordArray
@@ -50,7 +51,7 @@ def evaluate_columns(
 ) -> None:
     """Compute viscosity, shear and flow of columns start..stop from the nodal temperatures (n, k) [K].
 
-    `at` (n,), of type PLACE, holds p, G and h of all columns.
+    The array `at` (n,) holds one record of type PLACE per column, with p, G = h dp/dx and h.
     """
     for i in range(start, stop):
         p, g, h = at[i].p, at[i].g, at[i].h
@@ -63,10 +64,11 @@ def evaluate_columns(
 
 @inlined_kernel
 def flow_moments(i: int, film: Film) -> None:
-    """Compute the integrals across column i: F0 = int phi, F1 = int phi zeta, N0 = int phi R, N1 = int phi zeta R.
+    """Compute integrals across column i: F0 = int phi, F1 = int phi zeta, N0 = int phi R, N1 = int phi zeta R.
 
-    phi is the shear rate divided by the stress. zeta is the height from the middle of the film, divided by h. R(zeta)
-    is the integral of the density from zeta to surface 2. The integral over the whole film is the mean density.
+    phi is the shear rate divided by the stress. zeta is the height above the middle of the film, divided by h. R(zeta)
+    is the integral of the density from zeta to surface 2. The function also computes the mean density, which is the
+    integral of the density across the whole film.
     """
     rho, effective, moments = film.shear.density, film.shear.effective, film.moments
     m = rho.shape[1]
@@ -102,8 +104,9 @@ def flow(problem: Problem, i: int, h: float, film: Film, coefficients: FlowCoeff
     Notes
     -----
     Eqs. 17, E7.1, for a density that varies across the film: A = F1 N0/F0 - N1 and B = u1 R + du N0/F0, where R is the
-    mean density. The stream functions are the integrals, from surface 1 to each node, of h rho (u1 + du J0/F0) and of
-    rho (F1 J0/F0 - J1)/A. Here J0 and J1 are the integrals of phi and of phi zeta from surface 1.
+    mean density and du is u2 - u1. The integrals F0, F1, N0 and N1 are those of `flow_moments`. J0 and J1 are the
+    integrals of phi and of phi zeta from surface 1 to a height zeta. `couette` is the integral of h rho (u1 + du J0/F0)
+    from surface 1 to each node. `poiseuille` is the integral of rho (F1 J0/F0 - J1)/A from surface 1 to each node.
     """
     rho, effective, moments, flows = film.shear.density, film.shear.effective, film.moments[i], film.flow
     m, u1, du = rho.shape[1], problem.speed_1, problem.speed_2 - problem.speed_1
@@ -132,7 +135,10 @@ def linearise_columns(
     film: Film,
     coefficients: FlowCoefficients,
 ) -> None:
-    """Compute the derivatives of tau_m, ln A and B of columns start..stop after `evaluate_columns`."""
+    """Compute the derivatives of the mid-film stress, of ln A and of B in columns start..stop.
+
+    `evaluate_columns` must have computed these columns before.
+    """
     for i in range(start, stop):
         stress_response(problem, i, at[i].h, film)
         flow_slopes(problem, i, at[i].p, film, coefficients)
@@ -140,11 +146,11 @@ def linearise_columns(
 
 @inlined_kernel
 def flow_slopes(problem: Problem, i: int, p: float, film: Film, coefficients: FlowCoefficients) -> None:
-    """Compute the derivatives of ln A and B of column i by p, G, h (at fixed temperatures) and by nodal temperature.
+    """Compute the derivatives of ln A and B of column i with respect to p, G, h and the nodal temperatures.
 
-    An interval contributes through its density and through phi, which is the shear rate divided by the stress. phi
-    depends directly on p and on the temperature. phi also depends on the stress, and thus on everything that changes
-    tau_m.
+    The derivatives with respect to p, G and h hold at fixed temperatures. An interval contributes through its density
+    and through phi, which is the shear rate divided by the stress. phi depends directly on p and on the temperature.
+    phi also depends on the stress, and therefore on every quantity that changes the mid-film stress tau_m.
     """
     shear, moments, flows, mid = film.shear, film.moments[i], film.flow, film.mid
     m, u1, du = shear.density.shape[1], problem.speed_1, problem.speed_2 - problem.speed_1

@@ -114,7 +114,7 @@ def grid_for(gap: float, nodes: int) -> Grid:
 
 
 def inlet_length(gap: float) -> float:
-    """Return the distance from the inlet to the centre, in half widths, that a film of thickness `gap` needs."""
+    """Return the distance from the inlet to the centre [half widths] for a film of thickness `gap` (in b^2/R)."""
     return max(SHORTEST_INLET, sqrt(2.0 * CLEARANCE * gap))
 
 
@@ -128,10 +128,11 @@ def _grid(half_octaves: int, nodes: int) -> Grid:
 
 
 def _graded(gap: float, nodes: int) -> FloatArray:
-    """Return nodes (n,) from inlet to outlet; the distances between nodes are in proportion to a prescribed spacing.
+    """Return the nodes (n,) from inlet to outlet.
 
-    If the film is much thicker than b^2/R, the pressure extends over the length (2 R h)^1/2 instead of b. The mesh
-    then need not resolve lengths of the order of b.
+    The distance between neighbouring nodes is proportional to a prescribed function of the position. If the film is
+    much thicker than b^2/R, the pressure extends over the length (2 R h)^1/2, which is much larger than the half width
+    b. The mesh then need not resolve lengths of the order of b.
     """
     inlet = -inlet_length(gap)
     outlet = max(1.25, 1.0 + 1.2 * gap ** (2 / 3))

@@ -1,4 +1,4 @@
-"""Heat in the film: balances of finite volumes, their linearisation, and the elimination of the columns.
+"""Heat in the film: heat balances of finite volumes, their derivatives, and the solution column by column.
 
 Two passes run over the columns: `balance_columns` computes the residuals, and `linearise_balances` computes their
 derivatives.
@@ -17,10 +17,12 @@ from solvers.contact.ehl.shear import Film
 
 
 class Responses(NamedTuple):
-    """Right-hand sides (n, k) of the linear systems of all columns; the solutions are responses of the temperatures.
+    """Right-hand sides (n, k) of the linear systems of all columns, and later the solutions of these systems.
 
-    `heating` is the derivative of the residual by the mid-film stress. `by_p`, `by_g` and `by_h` are the right-hand
-    sides for p, G = h dp/dx and h. `factor_columns` replaces all right-hand sides by the responses of the temperatures.
+    `heating` is the derivative of the heat residual with respect to the mid-film stress. `by_p`, `by_g` and `by_h` are
+    the right-hand sides for a change of p, of G = h dp/dx and of h. `factor_columns` solves the systems, and replaces
+    every right-hand side by the solution. The solutions for p, G and h are changes of the temperatures per unit of p, G
+    and h. These solutions are called the responses of the temperatures.
     """
 
     heating: FloatArray
@@ -30,12 +32,15 @@ class Responses(NamedTuple):
 
 
 class ColumnSystem(NamedTuple):
-    """The linear systems of all columns: tridiagonal part and residual (n, k), and rank-one part.
+    """Linear systems for the temperatures of all columns.
 
-    `lower`, `pivot` and `upper` are the tridiagonal part; `factor_columns` replaces `lower` and `upper` by factors, and
-    `pivot` by the inverse pivots. The rank-one part is the effect of the mid-film stress; `sherman` (n,) is the factor
-    1/(1 + v x) of the Sherman-Morrison formula. `squeeze` (n, k) is the heat of compression per kelvin of temperature
-    and per pascal of h dp/dx [W/(m^2 K Pa)].
+    The matrix of a column is the sum of a tridiagonal part and a rank-one part. `lower`, `pivot` and `upper` (n, k) are
+    the tridiagonal part. `factor_columns` replaces `lower` and `upper` by factors, and `pivot` by the inverse pivots.
+    The rank-one part arises because the temperatures change the mid-film stress, and this stress changes the generated
+    heat. `sherman` (n,) is the factor 1/(1 + v x) of the Sherman-Morrison formula. Here v holds the derivatives of the
+    mid-film stress with respect to the temperatures, and x is the solution of the tridiagonal system for the right-hand
+    side `heating`. `residual` (n, k) is the residual of the heat balance. `squeeze` (n, k) is the heat of compression
+    per kelvin of temperature and per pascal of h dp/dx [W/(m^2 K Pa)].
     """
 
     lower: FloatArray
@@ -48,11 +53,11 @@ class ColumnSystem(NamedTuple):
 
 
 class Convection(NamedTuple):
-    """Inflow from the left and right columns (n, k), and the stream function at the edges of the cells (n, k + 1).
+    """Inflow into the cells from the left and right columns (n, k), and stream function at the cells' edges (n, k + 1).
 
-    The edges of a column are those at the face on the right of the column. The inflow is a heat capacity flux per area
-    [W/(m^2 K)]. In the rows of the walls, which are equations for temperatures, `linearise_balances` scales the inflow
-    to a number without unit.
+    The edges of a column lie on the right face of the column, which is half way to the next column. The inflow is a
+    heat capacity flux per area [W/(m^2 K)]. The rows of the walls become equations for temperatures. In these rows
+    `linearise_balances` scales the inflow to a number without unit.
     """
 
     from_left: FloatArray
@@ -63,13 +68,14 @@ class Convection(NamedTuple):
 WALLS = floats("history_1", "history_2", "change_1", "change_2", "gain_1", "gain_2")
 """Flash temperatures of both surfaces at a column.
 
-`history`: flash temperature due to the heat fluxes upstream [K]; `change`: change of this temperature in a step [K];
-`gain`: temperature rise per heat flux at the column itself [K m^2/W].
+`history_1` and `history_2` are the flash temperatures due to the heat fluxes upstream of the column [K]. `change_1` and
+`change_2` are the changes of these flash temperatures in a step [K]. `gain_1` and `gain_2` are the temperature rises
+per heat flux at the column itself [K m^2/W].
 """
 
 
 class Surfaces(NamedTuple):
-    """Heat fluxes into both surfaces at all columns (n,) [W/m^2], and `walls` (n,) of type WALLS."""
+    """Heat fluxes into both surfaces [W/m^2] and records `walls` of type WALLS, at all columns (n,)."""
 
     flux_1: FloatArray
     flux_2: FloatArray
@@ -109,8 +115,8 @@ def heat_arrays(nodes: int, film_nodes: int) -> Heat:
 def face_edges(stream: FloatArray, edges: FloatArray) -> None:
     """Compute the stream function at the edges of the cells (n, k + 1) from the stream function at the nodes (n, k).
 
-    An edge lies at the face between two columns, half way between two nodes across the film. The outermost edges lie
-    on the surfaces. At the last face, the stream function is that of the last column.
+    An edge lies at the face between two columns, half way between two nodes across the film. The outermost edges lie on
+    the surfaces. At the last column, the result is the stream function of this column itself.
     """
     n, nodes = stream.shape
     for i in range(n):
@@ -123,7 +129,9 @@ def face_edges(stream: FloatArray, edges: FloatArray) -> None:
 
 @inlined_kernel
 def surface_history(problem: Problem, i: int, surface_matrix: FloatArray, surfaces: Surfaces) -> None:
-    """Compute the flash temperatures of column i due to heat fluxes upstream, and the gain of the column itself.
+    """Compute the flash temperatures that heat fluxes upstream cause at column i, and the gains of column i.
+
+    A gain is the temperature rise of a surface per heat flux at the column itself [K m^2/W].
 
     Parameters
     ----------
@@ -170,7 +178,7 @@ def balance_columns(
     start : int
         First column.
     stop : int
-        Column after the last one.
+        Number of the column after the last column.
     at : RecordArray
         Records (n,) of type PLACE: G = h dp/dx [Pa] and h [m] of every column.
     film : Film
@@ -202,8 +210,8 @@ def balance_columns(
 def exchange(problem: Problem, i: int, width: float, h: float, film: Film, heat: Heat) -> None:
     """Compute the heat that the cells of column i exchange per kelvin, by convection and conduction [W/(m^2 K)].
 
-    Convection is upwind on all sides. `width` is the width of the column [m]. The heat of compression per kelvin and
-    pascal, (0.00065 rho0/rho) u/h, is computed as well.
+    Convection is upwind on all sides. `width` is the width of the column [m]. The function also computes the heat of
+    compression per kelvin and pascal, (0.00065 rho0/rho) u/h.
     """
     convection, column, edges, psi, rho = (
         heat.convection,
@@ -229,7 +237,9 @@ def exchange(problem: Problem, i: int, width: float, h: float, film: Film, heat:
 
 @inlined_kernel
 def column_residual(i: int, temperature: FloatArray, g: float, h: float, film: Film, heat: Heat) -> None:
-    """Compute the heat that the cells of column i lose, minus the heat of shear and compression there [W/m^2].
+    """Compute the heat that the cells of column i lose, minus the heat generated in these cells [W/m^2].
+
+    The heat is generated by shear and compression.
 
     Parameters
     ----------
@@ -278,10 +288,11 @@ def linearise_balances(
     film: Film,
     heat: Heat,
 ) -> None:
-    """Compute the derivatives of the heat balances of columns start..stop after `balance_columns`.
+    """Compute the derivatives of the heat balances of columns start..stop.
 
-    The derivatives are the tridiagonal part and the right-hand sides for tau_m, p, G and h. `damping` is an artificial
-    heat capacity, relative to the conduction across the film, that makes the temperature steps shorter.
+    `balance_columns` must have computed these columns before. The results are the tridiagonal part of the systems, and
+    the right-hand sides for the mid-film stress, p, G and h. `damping` is an artificial heat capacity, divided by the
+    heat conduction across the film. The damping makes the temperature steps shorter.
     """
     m = temperature.shape[1] - 1
     for i in range(start, stop):
@@ -296,10 +307,11 @@ def linearise_balances(
 def column_slopes(
     i: int, temperature: FloatArray, g: float, h: float, conductance: float, inertia: float, film: Film, heat: Heat
 ) -> None:
-    """Compute the derivatives of `column_residual`: rows of the matrix, and right-hand sides of the responses.
+    """Compute the derivatives of `column_residual`: the rows of the matrix, and the four right-hand sides.
 
-    The heat generated in an interval, stress times rate, depends on temperature and p through the viscosity. This heat
-    also depends on the stress, and a change of tau_m changes the stress in all intervals.
+    The heat that shear generates in an interval is stress times rate. This heat depends on temperature and p through
+    the viscosity. This heat also depends on the stress, and a change of the mid-film stress tau_m changes the stress in
+    all intervals.
     """
     shear, mid, column, convection, last = film.shear, film.mid, heat.column, heat.convection, temperature.shape[1] - 1
     lower, upper, responses, t = column.lower, column.upper, column.responses, temperature
@@ -351,12 +363,12 @@ def _scale_walls(i: int, inertia: float, heat: Heat) -> None:
 
 @kernel
 def factor_columns(start: int, stop: int, film: Film, heat: Heat) -> None:
-    """Factor the systems of columns start..stop, and compute the four responses of each column.
+    """Factor the systems of columns start..stop, and solve every system for its four right-hand sides.
 
     Thomas' algorithm factors the tridiagonal part, and the Sherman-Morrison formula adds the rank-one part. All arrays
-    are changed in place: `pivot` becomes the inverse pivots, and `lower` and `upper` become the factors by which a row
-    enters the next and the previous row. The rank-one part stabilises a sliding film, because warmer oil shears at a
-    lower stress.
+    are changed in place. `pivot` becomes the inverse pivots, `lower` becomes the factors of the forward substitution,
+    and `upper` becomes the factors of the backward substitution. Warmer oil shears at a lower stress. In a sliding film
+    the rank-one part describes this effect, which makes the system more stable.
     """
     column, by_temperature = heat.column, film.mid.by_temperature
     lower, pivot, upper, responses = column.lower, column.pivot, column.upper, column.responses
@@ -398,7 +410,7 @@ def factor_columns(start: int, stop: int, film: Film, heat: Heat) -> None:
 
 @inlined_kernel
 def solve_column(i: int, film: Film, heat: Heat, vector: FloatArray) -> None:
-    """Solve the linearised system of column i; row i of `vector` (n, k) is replaced by the solution."""
+    """Solve the linearised system of column i. The solution replaces the right-hand side, row i of `vector` (n, k)."""
     column, by_temperature = heat.column, film.mid.by_temperature
     lower, pivot, upper, responses = column.lower, column.pivot, column.upper, column.responses
     m = vector.shape[1] - 1

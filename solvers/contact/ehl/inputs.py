@@ -106,9 +106,9 @@ class Temperatures:
 class Model:
     """Physics and resolution of the film.
 
-    `refine_mesh` adds nodes until the estimated error due to the mesh is below 2 %. Errors due to pressure spikes do
-    not count, because no mesh resolves the spikes. The film of the paper is Newtonian. Near pure rolling the friction
-    of a Newtonian film is not physical, so Ree-Eyring is the default.
+    `refine_mesh` adds nodes until the estimated error due to the mesh is below 2 %. This estimate leaves out errors due
+    to pressure spikes, because no mesh resolves the spikes. The film of the paper is Newtonian. Near pure rolling the
+    friction of a Newtonian film is not physical, so Ree-Eyring is the default.
     """
 
     thermal: bool = quantity("thermal film", None, XUE, default=True, text="whether the film heats up", advanced=True)

@@ -50,7 +50,8 @@ def row_product(matrix: FloatArray, i: int, start: int, stop: int, vector: Float
 def _factor_panel(matrix: FloatArray, pivots: IntArray, start: int, stop: int) -> None:
     """Eliminate the elements below the diagonal in columns start..stop.
 
-    Pivoting exchanges whole rows; the columns from `stop` on do not change otherwise.
+    Pivoting exchanges whole rows, including the columns from `stop` on. Apart from these exchanges, the columns from
+    `stop` on do not change.
     """
     n = pivots.size
     for k in range(start, stop):

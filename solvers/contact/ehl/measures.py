@@ -15,7 +15,7 @@ from solvers.contact.ehl.results import (
     ContactTemperature,
 )
 
-PEAK_ZONE = 0.1  # half widths downstream of the centre; a maximum upstream of this place is the Hertzian one
+PEAK_ZONE = 0.1  # half widths downstream of the centre; a maximum upstream of this place is the Hertzian maximum
 
 
 def load_error(attempt: Attempt) -> float:
@@ -77,7 +77,7 @@ def temperature(problem: Problem, attempt: Attempt) -> ContactTemperature:
 
 
 def mid_film(t: FloatArray) -> FloatArray:
-    """Return the temperatures half way between the surfaces (n,) from the temperatures t of the columns (n, k)."""
+    """Return the temperatures (n,) half way between the surfaces. `t` (n, k) holds the temperatures of the columns."""
     middle = (t.shape[1] - 1) // 2
     return np.asarray(0.5 * (t[:, middle] + t[:, t.shape[1] // 2]))
 
@@ -180,7 +180,10 @@ def heat(problem: Problem, attempt: Attempt) -> ContactHeat:
 
 
 def _layer_edges(stream: FloatArray) -> FloatArray:
-    """Return the stream function at the edges of the cells around the nodes across the film (k + 1,)."""
+    """Return the stream function (k + 1,) at the edges of the cells in one column.
+
+    The inner edges lie half way between two nodes. The outer edges lie on the surfaces.
+    """
     return np.concatenate([stream[:1], 0.5 * (stream[1:] + stream[:-1]), stream[-1:]])
 
 

@@ -65,13 +65,13 @@ def uniform_film(problem: Problem, i: int, p: float, g: float, h: float, coeffic
 
     Notes
     -----
-    Eq. E7.2: A is rho/(12 eta), the value of a Newtonian oil, times a factor that depends on the law of shear; B is
-    rho um.
+    Eq. E7.2. A Newtonian oil has A = rho/(12 eta). For another law of shear, A is this value times a factor that
+    depends on the law. B is rho um.
     """
     laws = problem.laws
     term, term_slope = pressure_part(laws, p)
     log_eta, eta_slope, _ = log_viscosity(laws, term, problem.inlet)
-    eta_by_p = eta_slope * term_slope  # derivative of ln eta by p
+    eta_by_p = eta_slope * term_slope  # derivative of ln eta with respect to p
     rho, rho_by_p, _ = density(laws, p, problem.inlet)
     sheared, by_eta, by_g, by_h, tau_m = uniform_shear(problem, log_eta, g, h)
     um = 0.5 * (problem.speed_1 + problem.speed_2)
@@ -86,7 +86,7 @@ def uniform_film(problem: Problem, i: int, p: float, g: float, h: float, coeffic
 def evaluate_isothermal(problem: Problem, grid: Grid, state: State, work: Work) -> None:
     """Compute film thickness, stress and flow of all columns at the inlet temperature.
 
-    If the film is broken at the last node but one, it is broken at the last node as well.
+    The function copies the mark for broken film from the last node but one to the last node.
     """
     state.cavitated[-1] = state.cavitated[-2]
     film_shape(grid, state.pressure, state.separation[0], work.height)
@@ -106,9 +106,10 @@ def solve_isothermal(
 ) -> bool:
     """Solve for (P, H0) by Newton's method from the given pressures, in place; return whether the iteration converged.
 
-    `work` receives all quantities of the solution. In the first iterations the changes of pressure are limited node by
-    node; later the whole step is scaled. A node downstream of the centre whose pressure falls below zero joins the
-    broken film. The node leaves the broken film if more oil flows into the node than out of it.
+    `work` receives all quantities of the solution. In the first iterations, the change of pressure is limited at each
+    node. In later iterations, the whole step is scaled. If the pressure at a node downstream of the centre falls below
+    zero, the node joins the broken film. The node leaves the broken film again if more oil flows into the node than out
+    of the node.
     """
     n = grid.x.size
     jacobian, residual, step = np.empty((n + 1, n + 1)), np.empty(n + 1), np.empty(n + 1)
@@ -141,7 +142,10 @@ def solve_isothermal(
 
 @kernel
 def include_temperature(work: Work) -> None:
-    """Turn the derivatives of A and B into total derivatives, by adding the response of the temperatures."""
+    """Turn the derivatives of ln A and B at fixed temperatures into total derivatives.
+
+    The function adds the effect that p, G and h have through the responses of the temperatures.
+    """
     log_a, b, responses = work.coefficients.log_a, work.coefficients.b, work.heat.column.responses
     a_slopes, b_slopes = work.film.flow.log_a_by_temperature, work.film.flow.b_by_temperature
     n, nodes = a_slopes.shape
@@ -170,8 +174,8 @@ def add_temperature_changes(
 ) -> None:
     """Add to `residual` the effect of a temperature step on the balance of mass.
 
-    Only the difference between the step and `given` counts. `given` is the response of the temperatures to pressure,
-    which the derivatives of A and B already contain.
+    `given` is the part of the temperature step that is a response to the pressure. The derivatives of ln A and B
+    already contain this part. Therefore the function uses only the difference between `step` and `given`.
     """
     n, nodes = step.shape
     log_a, b = np.zeros(n), np.zeros(n)
@@ -217,10 +221,13 @@ def transport_response(
     step_t: FloatArray,
     change: FloatArray,
 ) -> None:
-    """Compute the effect `change` (n + 1,) of heat transport between columns on a step (n + 1,) in (P, H0).
+    """Compute how the heat transport between columns changes a step (n + 1,) in (P, H0).
 
-    The factored Jacobian contains the response of a column to its own pressure. It does not contain the transport of
-    heat from column to column by oil and surfaces. `given` and `step_t` (n, k) are work arrays for temperatures.
+    The factored Jacobian contains the response of a column's temperatures to the pressure at this column. The Jacobian
+    does not contain the transport of heat from column to column by oil and surfaces. The function computes the
+    residuals that this transport adds if the step is taken. The function then solves the factored system for these
+    residuals, and writes the solution to `change` (n + 1,). `given` and `step_t` (n, k) are work arrays for
+    temperatures.
     """
     pressure_responses(problem, grid, work, cavitated, step, given)
     temperature_step(problem, grid, work.film, work.heat, given, 0.0, step_t)
@@ -241,12 +248,12 @@ def newton_step(
     step: FloatArray,
     step_t: FloatArray,
 ) -> None:
-    """Compute the step (n + 1,) in (P, H0) and (n, k) in T from the linearised equations.
+    """Compute the Newton step from the linearised equations: (n + 1,) in (P, H0), and (n, k) in T.
 
-    The factored Jacobian leaves out the transport of heat between columns. GMRES is preconditioned with this Jacobian,
-    and corrects the step that the Jacobian alone gives. The Jacobian contains the whole balance of load, so the load is
-    met after any number of corrections. If the square of the first relative correction is within the tolerance, the
-    first correction is enough.
+    The factored Jacobian leaves out the transport of heat between columns. Therefore GMRES corrects the step that this
+    Jacobian alone gives. The same Jacobian is the preconditioner of GMRES. The Jacobian contains the whole balance of
+    load. The load is therefore met after any number of corrections. GMRES is not needed if the first correction is
+    small: the square of the ratio of correction to step must be within the tolerance.
     """
     n, nodes = step_t.shape
     given, change = np.zeros((n, nodes)), np.zeros(n + 1)
@@ -288,7 +295,10 @@ def factor_jacobian(
 
 @kernel
 def take_step(grid: Grid, state: State, step: FloatArray, step_t: FloatArray, scale: float) -> tuple[float, bool]:
-    """Change all unknowns by `scale` times the step, or by less if the film would close; see `apply_pressure_step`."""
+    """Change all unknowns by `scale` times the step.
+
+    If the film would close, the change is smaller; see `apply_pressure_step`.
+    """
     taken, joined = apply_pressure_step(grid, state.pressure, state.separation, state.cavitated, step, scale)
     n, nodes = step_t.shape
     for i in range(n):
@@ -311,9 +321,10 @@ def solve_coupled(
 
     `work` receives all quantities of the solution. The iteration has converged if four conditions hold: the steps of
     pressure and temperature are within tolerance, the steps were not shortened, the broken film has not changed, and no
-    pressure gradient was limited. A step that is too long is not taken; it is computed again with damped temperatures
-    (implicit pseudo-time). The damping decreases as the steps shrink. If the steps stop shrinking, only a share of each
-    step is taken. After a small full step the Jacobian is reused, as long as the steps keep shrinking fast.
+    pressure gradient was limited. If a step is too long, the function does not take the step, but computes the step
+    again with damped temperatures (implicit pseudo-time). The damping decreases as the steps shrink. If the steps stop
+    shrinking, only a share of each step is taken. After a small full step the Jacobian is reused, as long as the steps
+    keep shrinking fast.
     """
     n, nodes = state.temperature.shape
     jacobian, residual = np.empty((n + 1, n + 1)), np.empty(n + 1)

@@ -78,7 +78,7 @@ def solve_path(contacts: Sequence[LineContactInputs]) -> list[LineContactResult]
     Notes
     -----
     Every contact except the first starts from pressures, temperatures and separation that are extrapolated from the
-    contacts before it. If the contact does not converge from this start within a few steps, it is solved as if it
+    contacts before. If the contact does not converge from this start within a few steps, the contact is solved as if it
     were alone. If this fails as well, the contact has no result, and the next contacts are still solved. After many
     consecutive failures each contact is given fewer steps, until a contact converges again.
     """
@@ -93,7 +93,7 @@ def solve_path(contacts: Sequence[LineContactInputs]) -> list[LineContactResult]
 def _solve_next(inputs: LineContactInputs, walk: _Walk) -> LineContactResult:
     """Solve a contact, starting from earlier solutions.
 
-    If there are no earlier solutions, or if this start fails, solve the contact as if it were alone.
+    If there are no earlier solutions, or if the iteration from this start fails, solve the contact as if it were alone.
     """
     constants = problem(inputs, groups(inputs))
     resolution = resolution_for(inputs)
@@ -139,8 +139,9 @@ def _guess(states: Sequence[State]) -> State:
 def _extrapolated(rows: FloatArray) -> FloatArray:
     """Extrapolate `rows` (m, ...) to the next row by Newton's backward differences.
 
-    The difference of an order is the error that the lower orders make if they extrapolate to the last row. Therefore
-    orders are added only as long as the difference of the next order is smaller.
+    The result is the last row plus one difference per order. The difference of order m is the error with which the
+    orders below m would have predicted the last row. Therefore an order is added only if the difference of the next
+    order is smaller.
     """
     differences = [rows[-1]]
     while len(rows) > 1:

@@ -147,7 +147,7 @@ def _moes_film(l: float, asymptotes: tuple[float, float, float, float]) -> float
 
 
 def moes_gap(contact: Groups) -> float:
-    """Return the film thickness of `moes_central_film` in units of b^2/R, or infinity without load.
+    """Return the film thickness of `moes_central_film` in units of b^2/R. Without load the result is infinity.
 
     The grading of the mesh depends on this film thickness.
     """

@@ -1,9 +1,10 @@
-"""Accuracy of a finished contact: estimated error due to the mesh, and a check of the temperatures by separate code.
+"""Accuracy of a finished contact: estimated error due to the mesh, and independent check of the temperatures.
 
-The error due to the mesh is estimated from a solution on half as many nodes. The check uses reported values only:
-curves, field and inputs in SI units. The temperature of each surface must equal its bulk temperature plus the rise due
-to the heat flux into this surface. The oil must enter at the given temperature. A point may be colder than the lowest
-bulk or inlet temperature only by as much as the decompression of the oil explains.
+The error due to the mesh is estimated from a solution on half as many nodes. The check of the temperatures has its own
+code. This check uses reported values only: curves, field and inputs in SI units. The check has three parts. The
+temperature of each surface must equal the bulk temperature of the surface plus the rise due to the heat flux into the
+surface. Oil that enters must have the inlet temperature. The film may be colder than the lowest bulk or inlet
+temperature, but only by the amount that the decompression of the oil explains.
 """
 
 from dataclasses import dataclass, replace
@@ -46,7 +47,7 @@ LEAST = {
 
 
 def departure(inputs: LineContactInputs, curves: ContactCurves, field: ContactField) -> float:
-    """Return the largest difference [K] between the computed temperatures and those that the check requires."""
+    """Return the largest difference [K] between the reported temperatures and the values that the check requires."""
     contact, bulk = inputs.contact, inputs.temperatures
     t = field.temperature
     fluxes = (curves.surface_1_heat_flux, curves.surface_2_heat_flux)
@@ -117,7 +118,7 @@ def strip_integral(x: FloatArray, flux: FloatArray) -> FloatArray:
 
 
 def inlet_departure(inputs: LineContactInputs, t: FloatArray) -> float:
-    """Return the error [K] of the first column of the temperatures t (n, k).
+    """Return the largest error [K] of the temperatures in the first column of `t` (n, k).
 
     The walls must have their bulk temperatures. Oil that enters must have the inlet temperature, and oil that leaves
     must have the temperature of the next column.
@@ -130,11 +131,12 @@ def inlet_departure(inputs: LineContactInputs, t: FloatArray) -> float:
 
 
 def undercooling(inputs: LineContactInputs, curves: ContactCurves, t: FloatArray) -> float:
-    """Return the part of the cooling [K] at the coldest point of the film that decompression cannot explain.
+    """Return the temperature difference [K] by which the film is colder than decompression explains.
 
-    The cooling is the difference between the lowest bulk or inlet temperature and the lowest of the temperatures t
-    (n, k). Decompression takes up the heat q = 0.00065 T u |dp/dx| h per area. This heat cools the surfaces by the
-    amount that `surface_heating` gives for the flux q, and the film between the surfaces by q h/(8 lambda).
+    The cooling is the lowest bulk or inlet temperature minus the lowest temperature in `t` (n, k). Decompression takes
+    up the heat q = 0.00065 T u |dp/dx| h per area. `surface_heating` with the flux q gives the amount by which this
+    heat cools the surfaces. Between the surfaces, the film can be colder by a further q h/(8 lambda). The result is the
+    rest of the cooling, or 0 if there is no rest.
     """
     bulk, contact, oil = inputs.temperatures, inputs.contact, inputs.lubricant
     missing = min(bulk.surface_1, bulk.surface_2, bulk.inlet) - float(t.min())
@@ -151,10 +153,11 @@ def undercooling(inputs: LineContactInputs, curves: ContactCurves, t: FloatArray
 
 @dataclass(frozen=True, slots=True)
 class Comparison:
-    """The results of a contact (`fine`) and of the same contact on half the nodes (`coarse`).
+    """Results of a contact (`fine`), and of the same contact on half as many nodes (`coarse`).
 
-    Each result is a tuple of parts and has the name of its error in `MeshError`. `fall` is the steepest fall of P from
-    one node to the next, and `kinks` are the results of `_kink` for both surfaces [K].
+    `fine` and `coarse` are dictionaries. Their keys are the names of the errors in `MeshError`. Each value is a tuple
+    of parts; the sum of the parts is the result of the contact. `fall` is the steepest fall of P from one node to the
+    next. `kinks` holds the result of `_kink` for each surface [K].
     """
 
     fine: dict[str, tuple[float, ...]]
@@ -163,11 +166,14 @@ class Comparison:
     kinks: dict[str, float]
 
     def smooth_error(self) -> MeshError:
-        """Return the error without the effect of spikes and kinks; more nodes soon reduce this error."""
+        """Return the error without the effect of spikes and kinks. This error falls quickly as nodes are added."""
         return self._error(0.0, {})
 
     def error(self) -> MeshError:
-        """Return the error with the effect of spikes and kinks, which no mesh up to `FINEST` resolves."""
+        """Return the error with the effect of spikes and kinks.
+
+        No mesh of up to `FINEST` nodes resolves spikes and kinks.
+        """
         return self._error(min(LEFT_BY_FALL * self.fall, 1.0), self.kinks)
 
     def _error(self, left_at_spike: float, kinks: dict[str, float]) -> MeshError:
@@ -186,11 +192,12 @@ class Comparison:
 def refine(
     inputs: LineContactInputs, constants: Problem, resolution: Resolution, attempt: Attempt, budget: Budget
 ) -> tuple[Attempt, MeshError | None]:
-    """Return a converged attempt on a sufficiently fine mesh, and the error of its results (None if unknown).
+    """Return a converged attempt on a sufficiently fine mesh, and the error of the results.
 
-    The attempt stays on its mesh in four cases: the mesh is fine enough; it is the finest mesh; no refinement is
-    requested; or the solution on a finer mesh does not converge within the remaining steps. The decision depends on
-    the contact only, and not on how the contact was solved.
+    The error is None if it cannot be estimated. The attempt stays on its mesh in four cases: the mesh is fine enough;
+    the mesh has the largest number of nodes; no refinement is requested; or the solution on a finer mesh does not
+    converge within the remaining steps. The decision depends on the contact only, and not on how the contact was
+    solved.
     """
     comparison = compare(inputs, constants, resolution, attempt)
     while inputs.model.refine_mesh and not is_acceptable(comparison) and resolution.nodes < FINEST:
@@ -207,7 +214,10 @@ def refine(
 
 
 def is_acceptable(comparison: Comparison | None) -> bool:
-    """Return whether the error that more nodes would reduce is within the limit; False if the error is unknown."""
+    """Return whether the error that more nodes would reduce is within the limit.
+
+    The result is False if the error is unknown.
+    """
     return comparison is not None and comparison.smooth_error().largest <= LARGEST_MESH_ERROR
 
 
@@ -224,10 +234,11 @@ def finer_nodes(nodes: int, comparison: Comparison | None) -> int:
 def compare(
     inputs: LineContactInputs, constants: Problem, resolution: Resolution, attempt: Attempt
 ) -> Comparison | None:
-    """Compare a contact with the same contact on half the nodes (Richardson); return None if that solution fails.
+    """Compare a contact with the same contact on half as many nodes (Richardson).
 
-    The solution on half the nodes starts from the contact's own solution. Mostly one Newton step is enough. A spike or
-    a hot film needs more steps, because the peak from the finer mesh at first remains on the coarser mesh.
+    Return None if the solution on half as many nodes fails. The solution on half as many nodes starts from the
+    contact's own solution. One Newton step is usually enough. A spike or a hot film needs more steps, because the start
+    contains the peak of the finer mesh.
     """
     grid = grid_for(resolution.gap, resolution.nodes // 2 + 1)
     state = interpolate(attempt.state, attempt.grid.x, grid.x)
@@ -248,22 +259,22 @@ def _steepest_fall(attempt: Attempt) -> float:
 
 
 def _kink(attempt: Attempt, surface: int) -> float:
-    """Return the largest excess [K] of a surface temperature over the mean of its neighbours, downstream of the centre.
+    """Return the largest excess [K] of a surface temperature over the mean temperature of both neighbours.
 
-    This excess comes from a spike whose heat affects only one node. If this node lay nearer to the spike, the
-    temperature of this node would rise by the same amount once more.
+    Only nodes downstream of the centre are considered. Such an excess arises if the heat of a pressure spike affects
+    only one node. If this node lay nearer to the spike, its temperature would be higher by the same excess again.
     """
     t = attempt.state.temperature[attempt.grid.x > 0.0, surface]
     return float((t[1:-1] - 0.5 * (t[:-2] + t[2:])).max())
 
 
 def _parts(inputs: LineContactInputs, constants: Problem, attempt: Attempt) -> dict[str, tuple[float, ...]]:
-    """Return the results of a contact except local maxima: a tuple of parts for each name of `MeshError`.
+    """Return the results of a contact without local maxima, as a tuple of parts for each name of `MeshError`.
 
-    Friction, heat and flash temperatures have two parts: before and behind the place where pressure spikes begin. With
-    more nodes the film is thicker, so less heat arises before this place. The spike is also sharper, so more heat
-    arises behind this place. Therefore the sum of the parts can be equal on two meshes although it has not converged,
-    but then the parts differ.
+    Friction, heat and flash temperatures have two parts: one upstream and one downstream of the place where pressure
+    spikes begin. On a finer mesh the film is thicker, so less heat arises upstream of this place. The spike is also
+    sharper, so more heat arises downstream of this place. Both effects may cancel: the sum of the parts is then equal
+    on two meshes, although the results have not converged. The parts themselves still differ in this case.
     """
     heights = measures.film_heights(constants, attempt)
     parts: dict[str, tuple[float, ...]] = {
@@ -283,6 +294,6 @@ def _parts(inputs: LineContactInputs, constants: Problem, attempt: Attempt) -> d
 
 
 def _before_and_behind(attempt: Attempt, by_node: FloatArray) -> tuple[float, float]:
-    """Return the sum of `by_node` (n,) over the nodes before the place where spikes begin, and over the other nodes."""
+    """Sum `by_node` (n,) upstream and downstream of the place where pressure spikes begin, and return both sums."""
     before = attempt.grid.x <= BEFORE_SPIKES
     return float(by_node[before].sum()), float(by_node[~before].sum())

@@ -17,11 +17,13 @@ HALVINGS = 12  # largest number of halvings of a step; a step below 1/4096 of Ne
 
 
 class FaceFluxes(NamedTuple):
-    """Mass flux (divided by flux_scale) through the face on the right of each node, and its derivatives.
+    """Mass flux through the face on the right of each node, divided by `flux_scale`, and its derivatives.
 
-    `flux` (n,); `conductance` A H^3/dX (n,). The derivatives are those of the flux through the face on the right of
-    node i: `by_b` (n, 2) by B of nodes i and i-1 (at the first face, of nodes 0 and 1); `by_log_a` (n, 2) by ln A of
-    nodes i and i+1; `by_pressure` (n, 5) by P of nodes i-2..i+2; `by_film` (n, 3) by H of nodes i-1..i+1.
+    `flux` (n,) is the mass flux, and `conductance` (n,) is A H^3/dX in the same units. Row i of the other fields holds
+    derivatives of the flux through the face on the right of node i. `by_b` (n, 2) holds the derivatives with respect to
+    B of nodes i and i-1; at the first face, the nodes are 0 and 1. `by_log_a` (n, 2) holds the derivatives with respect
+    to ln A of nodes i and i+1. `by_pressure` (n, 5) holds the derivatives with respect to P of nodes i-2..i+2.
+    `by_film` (n, 3) holds the derivatives with respect to H of nodes i-1..i+1.
     """
 
     flux: FloatArray
@@ -104,9 +106,10 @@ def pressure_gradients(x: FloatArray, pressure: FloatArray, cavitated: BoolArray
 
 @kernel
 def _log_mean(a: float, b: float) -> tuple[float, float]:
-    """Return the logarithmic mean of e^a and e^b, and the derivative of the logarithm of this mean by a.
+    """Return the logarithmic mean of e^a and e^b, and d(ln mean)/da.
 
-    The mean is exact if the coefficient varies exponentially between the nodes.
+    e^a and e^b are the values of a coefficient at two nodes. The mean is exact if the coefficient varies exponentially
+    between the nodes.
     """
     half = 0.5 * (a - b)
     middle = np.exp(0.5 * (a + b))
@@ -127,7 +130,9 @@ def mass_fluxes(
     coefficients: FlowCoefficients,
     faces: FaceFluxes,
 ) -> None:
-    """Compute the mass fluxes through the faces between the nodes, and their derivatives by ln A and B, in place.
+    """Compute the mass fluxes through the faces between the nodes, and some of their derivatives, in place.
+
+    The derivatives are those with respect to ln A and B.
 
     Parameters
     ----------
@@ -174,10 +179,11 @@ def mass_flux_slopes(
     coefficients: FlowCoefficients,
     faces: FaceFluxes,
 ) -> None:
-    """Compute the derivatives of the mass fluxes by the pressures and film thicknesses around each face.
+    """Compute the derivatives of the mass fluxes with respect to the pressures and film thicknesses.
 
-    B and ln A of a node depend on p, G = h dp/dx and h of this node. First, the derivatives of B and ln A by three
-    quantities are computed: P of the node, P of the neighbours of the node, and H of the node.
+    The flux through a face depends on P and H of the nodes around the face. B and ln A of a node depend on p,
+    G = h dp/dx and h of this node. First, B and ln A of each node are differentiated with respect to three quantities:
+    P of the node, P of the neighbouring nodes, and H of the node.
     """
     n, (couette_scale, _), b, log_a = grid.x.size, _flux_scales(problem), coefficients.b, coefficients.log_a
     slope = problem.maximum_pressure / problem.half_width
@@ -219,10 +225,11 @@ def _flux_scales(problem: Problem) -> tuple[float, float]:
 
 @inlined_kernel
 def _upstream(x: FloatArray, i: int) -> tuple[int, float]:
-    """Return the node upstream of node i, and its weight in the extrapolation of B H to the face on the right of i.
+    """Return the node upstream of node i, and the weight of this upstream node in an extrapolation.
 
-    The first face has only one node upstream. At this face the result is the node downstream and the weight 0.5, with
-    which the extrapolation becomes the mean of both nodes.
+    The product B H is extrapolated from both nodes to the face on the right of node i. The first face has only one node
+    upstream. For this face the function returns the node downstream and the weight 0.5. The extrapolation then becomes
+    the mean of both nodes.
     """
     if i == 0:
         return 1, 0.5
@@ -233,7 +240,10 @@ def _upstream(x: FloatArray, i: int) -> tuple[int, float]:
 def add_flux_changes(
     faces: FaceFluxes, cavitated: BoolArray, log_a: FloatArray, b: FloatArray, residual: FloatArray
 ) -> None:
-    """Add to `residual` (n + 1,) the change of the mass balances that changes of ln A and B at the nodes (n,) cause."""
+    """Update the mass balances in `residual` (n + 1,) after changes of ln A and B.
+
+    `log_a` and `b` (n,) hold the changes of ln A and B at the nodes.
+    """
     before = 0.0
     for i in range(cavitated.size - 1):
         other = i - 1 if i > 0 else 1
@@ -280,7 +290,7 @@ def balance_of_mass(
 
 @kernel
 def assemble_jacobian(grid: Grid, cavitated: BoolArray, faces: FaceFluxes, jacobian: FloatArray) -> None:
-    """Compute the derivatives of the residuals of `balance_of_mass` by P_0..P_n-1 and H0."""
+    """Compute the derivatives of the residuals of `balance_of_mass` with respect to P_0..P_n-1 and H0."""
     n = grid.x.size
     deflection, by_film, by_pressure = grid.deflection, faces.by_film, faces.by_pressure
     for i in range(n):
@@ -310,10 +320,10 @@ def assemble_jacobian(grid: Grid, cavitated: BoolArray, faces: FaceFluxes, jacob
 
 @kernel
 def release_cavitated(faces: FaceFluxes, cavitated: BoolArray, tolerance: float) -> bool:
-    """Move broken nodes with more inflow than outflow to the full film, and return whether any node was moved.
+    """Move a node from the broken to the full film if more oil flows in than out. Return whether any node was moved.
 
-    `tolerance` is the imbalance, relative to the flux, that a broken node may keep. Without this tolerance, a node at
-    the edge of the broken film can change between full and broken film for ever.
+    A node stays in the broken film if inflow minus outflow, divided by the flux, is at most `tolerance`. Without this
+    tolerance, a node at the edge of the broken film can change between full and broken film for ever.
     """
     changed = False
     for i in range(1, cavitated.size - 1):

@@ -1,12 +1,12 @@
 """Laws of shear of the oil: Newton's law, and the law of Ree and Eyring.
 
-The stress is tau = tau_m + G (zeta - 1/2), where G is h dp/dx and zeta is the height over the film thickness. Four
-functions contain all that depends on the law, and choose the law by `Problem.rheology`:
+The stress is tau = tau_m + G (zeta - 1/2), where G is h dp/dx and zeta is the height divided by the film thickness h.
+Four functions contain all that depends on the law, and choose the law by `Problem.rheology`:
 
 limited_gradient  G, limited to values at which the law can be evaluated
-mid_film_stress   the stress half way across a column, as required for the sliding speed u2 - u1
-shear_rates       the shear rate of every interval at the given stress, and the derivative of the rate by the stress
-uniform_shear     flow and stress in a film at one temperature
+mid_film_stress   the shear stress half way across a column, for the sliding speed u2 - u1
+shear_rates       the shear rate of every interval at the given stress, and its derivative with respect to the stress
+uniform_shear     the flow and the mid-film stress in a film at one temperature
 
 A further law needs a name in `inputs.Rheology` and a branch in each of these four functions. In the module `equations`,
 the functions `effective_fluidity`, `mid_film_stress` and `uniform_columns` also need a branch. The tests compare every
@@ -27,9 +27,9 @@ STRESS_LIMIT = 300.0  # largest |h dp/dx|/(2 tau0); exp(300)^2 does not overflow
 
 
 def softened(problem: Problem, stress: float) -> Problem | None:
-    """Return the problem with the law of Ree and Eyring and the Eyring stress `stress` [Pa].
+    """Return a copy of the problem with the law of Ree and Eyring and with `stress` [Pa] as the Eyring stress.
 
-    Return None if the problem already has this law and an Eyring stress that is not higher than `stress`.
+    Return None if the problem already has this law, and its Eyring stress is not higher than `stress`.
     """
     if problem.rheology == REE_EYRING and stress >= problem.eyring_stress:
         return None
@@ -38,7 +38,10 @@ def softened(problem: Problem, stress: float) -> Problem | None:
 
 @kernel
 def limited_gradient(problem: Problem, g: float) -> float:
-    """Return G = h dp/dx, limited so that exp(G/(2 tau0)) does not overflow; a solution never reaches the limit."""
+    """Return G = h dp/dx, limited so that exp(G/(2 tau0)) does not overflow.
+
+    In a solution, G never reaches this limit.
+    """
     if problem.rheology == NEWTONIAN:
         return g
     bound = 2.0 * STRESS_LIMIT * problem.eyring_stress
@@ -47,7 +50,7 @@ def limited_gradient(problem: Problem, g: float) -> float:
 
 @inlined_kernel
 def mid_film_stress(problem: Problem, i: int, g: float, h: float, shear: Shear) -> float:
-    """Compute the stress half way across column i, as required for the sliding speed u2 - u1.
+    """Compute the shear stress half way across column i for the sliding speed u2 - u1.
 
     Parameters
     ----------
@@ -78,7 +81,7 @@ def mid_film_stress(problem: Problem, i: int, g: float, h: float, shear: Shear) 
 
 @inlined_kernel
 def _newtonian_mid_stress(problem: Problem, i: int, g: float, h: float, shear: Shear) -> float:
-    """Solve du/h = int (tau_m + G (zeta - 1/2))/eta dzeta for tau_m."""
+    """Solve du/h = int (tau_m + G (zeta - 1/2))/eta dzeta for tau_m, where du is u2 - u1."""
     m = shear.fluidity.shape[1]
     dz, zeroth, first = 1.0 / m, 0.0, 0.0
     for j in range(m):
@@ -90,7 +93,10 @@ def _newtonian_mid_stress(problem: Problem, i: int, g: float, h: float, shear: S
 
 @inlined_kernel
 def _eyring_mid_stress(problem: Problem, i: int, g: float, h: float, shear: Shear) -> float:
-    """Compute tau_m = tau0 a from a closed form of e^a; for du < 0 the conjugate form avoids cancellation."""
+    """Compute tau_m = tau0 a, where e^a is the positive root of a quadratic equation.
+
+    If u2 < u1, the conjugate form of the root avoids cancellation.
+    """
     m = shear.fluidity.shape[1]
     tau0, dz = problem.eyring_stress, 1.0 / m
     # e^(G (zeta - 1/2)/tau0) in the first interval, and the ratio of this factor between neighbouring intervals
@@ -109,7 +115,9 @@ def _eyring_mid_stress(problem: Problem, i: int, g: float, h: float, shear: Shea
 
 @inlined_kernel
 def shear_rates(problem: Problem, i: int, g: float, tau_m: float, shear: Shear) -> None:
-    """Compute stress, rate and effective fluidity of column i, and derivatives of rate and fluidity by the stress.
+    """Compute the stress, the rate and the effective fluidity of column i.
+
+    The function also computes the derivatives of the rate and of the effective fluidity with respect to the stress.
 
     Parameters
     ----------
@@ -146,7 +154,10 @@ def _newtonian_rates(i: int, g: float, tau_m: float, shear: Shear) -> None:
 
 @inlined_kernel
 def _eyring_rates(problem: Problem, i: int, g: float, tau_m: float, shear: Shear) -> None:
-    """Compute the rate (tau0/eta) sinh s with s = tau/tau0; value and derivative share one exponential, e^s."""
+    """Compute the rate (tau0/eta) sinh s with s = tau/tau0, and its derivative.
+
+    Both follow from the same exponential e^s.
+    """
     m = shear.fluidity.shape[1]
     per_tau0, dz = 1.0 / problem.eyring_stress, 1.0 / m
     e_s, ratio = np.exp((tau_m + g * (0.5 * dz - 0.5)) * per_tau0), np.exp(g * dz * per_tau0)
@@ -183,14 +194,16 @@ def uniform_shear(problem: Problem, log_eta: float, g: float, h: float) -> tuple
     Returns
     -------
     tuple of float
-        Logarithm ln(12 eta A/rho) [-], its derivatives by ln eta [-], by G [1/Pa] and by h [1/m], and tau_m [Pa].
+        Logarithm ln(12 eta A/rho) [-], its derivatives with respect to ln eta [-], G [1/Pa] and h [1/m], and tau_m
+        [Pa].
 
     Notes
     -----
-    Eq. E7.2. A Newtonian oil has A = rho/(12 eta). A Ree-Eyring oil, with s = G/(2 tau0), has sinh a = eta du s/(tau0 h
-    sinh s), tau_m = tau0 a and 12 eta A/rho = cosh a 3 (s cosh s - sinh s)/s^3. In the code, `sigma` is s/sinh s and
-    `phi` is 3 (s cosh s - sinh s)/s^3; near s = 0 both are computed by series. `sigma_slope` and `phi_slope` are the
-    derivatives of ln sigma and ln phi by s.
+    Eq. E7.2. A Newtonian oil has A = rho/(12 eta). For a Ree-Eyring oil, s = G/(2 tau0) and
+    sinh a = eta du s/(tau0 h sinh s), where du is u2 - u1. Then tau_m = tau0 a, and
+    12 eta A/rho = 3 cosh(a) (s cosh s - sinh s)/s^3. In the code, `sigma` is s/sinh s and `phi` is
+    3 (s cosh s - sinh s)/s^3. If s is small, both are computed by series. `sigma_slope` and `phi_slope` are the
+    derivatives of ln sigma and ln phi with respect to s.
     """
     du = problem.speed_2 - problem.speed_1
     if problem.rheology == NEWTONIAN:

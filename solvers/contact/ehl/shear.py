@@ -13,10 +13,10 @@ from solvers.lubricants import density, log_viscosity, pressure_part
 class Shear(NamedTuple):
     """Shear and density of the oil in all intervals (n, m).
 
-    `fluidity` is 1/eta [1/(Pa s)]; `by_temperature` [1/K] and `by_pressure` [1/Pa] are the derivatives of ln(1/eta).
-    `stress` is the shear stress [Pa]; `rate` is the shear rate [1/s]; `stiffness` is the derivative of the rate by the
-    stress [1/(Pa s)]. `effective` is the rate divided by the stress [1/(Pa s)]; `effective_slope` is the derivative of
-    `effective` by the stress. `density` is in kg/m^3.
+    `fluidity` is 1/eta [1/(Pa s)]. `by_temperature` [1/K] and `by_pressure` [1/Pa] are the derivatives of ln(1/eta).
+    `stress` is the shear stress [Pa], and `rate` is the shear rate [1/s]. `stiffness` is the derivative of the rate
+    with respect to the stress [1/(Pa s)]. `effective` is the rate divided by the stress [1/(Pa s)]. `effective_slope`
+    is the derivative of `effective` with respect to the stress. `density` is in kg/m^3.
     """
 
     fluidity: FloatArray
@@ -31,11 +31,11 @@ class Shear(NamedTuple):
 
 
 class Flow(NamedTuple):
-    """Stream functions at the nodes, and derivatives of ln A and B by nodal temperature, all (n, m + 1).
+    """Stream functions, and derivatives of ln A and B with respect to the nodal temperatures, all (n, m + 1).
 
     `stream` is the mass flow between surface 1 and a node [kg/(m s)]. `couette` is the part of this flow that does not
-    depend on the pressure gradient [kg/(m s)]. `poiseuille` is the profile of the part due to the pressure gradient; it
-    rises from 0 at surface 1 to 1 at surface 2.
+    depend on the pressure gradient [kg/(m s)]. `poiseuille` is the profile of the other part, which the pressure
+    gradient drives. This profile rises from 0 at surface 1 to 1 at surface 2.
     """
 
     stream: FloatArray
@@ -52,7 +52,8 @@ MOMENTS = floats("density", "f0", "f1", "n0", "n1")
 class MidFilm(NamedTuple):
     """Shear stress half way across the film (n,) [Pa], and the derivatives of this stress.
 
-    The derivatives by p, G = h dp/dx and h have the shape (n,), those by nodal temperature the shape (n, m + 1).
+    The derivatives with respect to p, G = h dp/dx and h have the shape (n,). The derivatives with respect to the nodal
+    temperatures have the shape (n, m + 1).
     """
 
     stress: FloatArray
@@ -65,7 +66,7 @@ class MidFilm(NamedTuple):
 class Film(NamedTuple):
     """Arrays of n columns of the film, each with m intervals of equal height and m + 1 nodes.
 
-    `moments` (n,) has the type MOMENTS.
+    `moments` (n,) holds one record of type MOMENTS per column.
     """
 
     shear: Shear
@@ -99,9 +100,9 @@ def viscosities(problem: Problem, i: int, temperature: FloatArray, p: float, she
 
 @inlined_kernel
 def stress_response(problem: Problem, i: int, h: float, film: Film) -> None:
-    """Compute the derivatives of the mid-film stress by temperatures, p, G and h at constant sliding speed, in place.
+    """Compute the derivatives of the mid-film stress with respect to temperatures, p, G and h, in place.
 
-    The formulas hold for any law of shear.
+    The sliding speed is constant. The formulas hold for any law of shear.
     """
     shear, mid, m = film.shear, film.mid, film.shear.stress.shape[1]
     height, total, by_p, by_g = 1.0 / m, 0.0, 0.0, 0.0

@@ -44,9 +44,9 @@ def no_steps() -> RecordArray:
 class Work(NamedTuple):
     """Quantities that follow from a state.
 
-    `height` is the film thickness H (n,), and `gradient` is dP/dX (n,). `at` (n,), of type PLACE, holds pressure,
-    h dp/dx and film thickness of the columns in SI units. The other fields hold flow coefficients, mass fluxes, shear
-    and heat.
+    `height` is the film thickness H (n,), and `gradient` is dP/dX (n,). The array `at` (n,) holds one record of type
+    PLACE per column: pressure, h dp/dx and film thickness in SI units. The other fields hold flow coefficients, mass
+    fluxes, shear and heat.
     """
 
     height: FloatArray
@@ -154,7 +154,7 @@ def match_stream(problem: Problem, state: State, work: Work) -> None:
 def evaluate_state(problem: Problem, grid: Grid, state: State, work: Work) -> bool:
     """Compute the residuals of all columns and faces; return whether a pressure gradient had to be limited.
 
-    If the film is broken at the last node but one, it is broken at the last node as well.
+    The function copies the mark for broken film from the last node but one to the last node.
     """
     state.cavitated[-1] = state.cavitated[-2]
     limited = evaluate_flow(problem, grid, state, work)
@@ -168,8 +168,8 @@ def evaluate_state(problem: Problem, grid: Grid, state: State, work: Work) -> bo
 def linearise_state(problem: Problem, state: State, work: Work, damping: float) -> None:
     """Compute the derivatives of stress, flow and heat balance of all columns of an evaluated state.
 
-    Three quantities that carry heat are held fixed: the stream function, the fluid fraction, and the density in the
-    heat of compression. `damping` is that of `linearise_balances`.
+    Three quantities in the heat balance are held fixed: the stream function, the fluid fraction, and the density in the
+    heat of compression. `linearise_balances` explains `damping`.
     """
     n = work.at.size
     linearise_columns(problem, FIRST, n, work.at, work.film, work.coefficients)

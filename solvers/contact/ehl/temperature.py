@@ -31,8 +31,8 @@ def march_temperatures(problem: Problem, grid: Grid, state: State, work: Work) -
     """Compute a first guess of the temperatures at given pressures, one column after the other.
 
     The flow is Couette flow without a pressure gradient, with the same mass flux in all columns. The iteration of a
-    column starts from the temperatures of the column before it. Thus all columns stay on the same branch of solutions
-    as the inlet.
+    column starts from the temperatures of the column before. Thus all columns stay on the same branch of solutions as
+    the inlet.
     """
     film, heat, temperature = work.film, work.heat, state.temperature
     n, nodes = temperature.shape
@@ -80,9 +80,10 @@ def last_reverse(convection: Convection) -> int:
 
 @inlined_kernel
 def _relax_column(i: int, film: Film, heat: Heat, given: FloatArray, weight: float, step: FloatArray) -> None:
-    """Compute the temperature step of column i from the steps of both neighbours and both surfaces, and add `given`.
+    """Compute the temperature step of column i, including `given`.
 
-    `given` and `weight` are those of `temperature_step`.
+    The step follows from the latest steps of both neighbouring columns and from the changes of both surfaces.
+    `temperature_step` explains `given` and `weight`.
     """
     from_left, from_right, residual = heat.convection.from_left, heat.convection.from_right, heat.column.residual
     n, m = step.shape[0], step.shape[1] - 1
@@ -104,10 +105,11 @@ def temperature_step(
 ) -> None:
     """Solve the linearised heat balance of all columns for the temperature step `step` (n, k).
 
-    The solution marches along the flow. If there is reverse flow, the columns up to the last one with reverse flow are
-    first swept forward and backward; each column then uses the latest step of its right neighbour. `given` (n, k) is
-    the temperature change that a change of pressure causes at fixed temperatures upstream. `weight` multiplies the
-    residual. The weight is 1 for a Newton step, and 0 for the effect of `given` alone.
+    The solution marches along the flow. In some columns oil may flow backward. The columns up to the last column with
+    backward flow are then first swept forward and backward several times. In these sweeps, each column uses the latest
+    step of its right neighbour. `given` (n, k) is the temperature change that a change of pressure causes at fixed
+    temperatures upstream. The residual is multiplied by `weight`. `weight` is 1 for a Newton step, and 0 if only the
+    effect of `given` is wanted.
     """
     n, last = step.shape[0], step.shape[1] - 1
     surfaces, residual = heat.surfaces, heat.column.residual
