@@ -1,7 +1,4 @@
-"""Start page, manual and pages of cases.
-
-The page of a case and the other views of this case have the same query in their addresses.
-"""
+"""Start page, manual and pages of cases. The addresses of all views of a case have the same query."""
 
 import json
 from collections.abc import Callable
@@ -58,10 +55,7 @@ async def static(name: str) -> Response:
 
 @router.post("/case", response_class=HTMLResponse)
 async def open_case(http: Request) -> Response:
-    """Read a case from a file, and redirect to the page of this case.
-
-    If the case is too long for a link, send the page itself.
-    """
+    """Read a case from a file. Redirect to the page of the case; if the case is too long for a link, send the page."""
     if not http.headers.get("content-type", "").startswith("multipart/form-data"):
         raise HTTPException(415, "Send the file of a case as multipart/form-data")
     async with http.form(max_files=1, max_fields=0) as form:
@@ -129,10 +123,7 @@ def _add(calculation: Calculation) -> None:
 
     @router.api_route(f"{path}/case.json", methods=METHODS)
     async def saved(http: Request) -> Response:
-        """Send a JSON file with the title, the endpoint and the request of the case.
-
-        The request has the values as they were typed. Values may be missing.
-        """
+        """Send a JSON file with the title, the endpoint and the request as typed. Values may be missing."""
         asked, _ = await asked_of(http, calculation)
         content = {"title": asked.title, "endpoint": calculation.path, "request": asked.body}
         name = "".join(sign for sign in asked.title if sign.isalnum() or sign in " -").strip() or PurePath(path).name
@@ -186,10 +177,7 @@ async def asked_of(http: Request, calculation: Calculation) -> tuple[Asked, bool
 
 
 def _kept(http: Request, path: str) -> Asked:
-    """Return the case and the variant whose hashes are in the query.
-
-    Answer 410 if the answer of the case or of the variant is no longer kept.
-    """
+    """Return the case and the variant whose hashes are in the query. Answer 410 if one of them is no longer kept."""
     query, answers = http.query_params, http.app.state.answers
     kept, kept_ref = (answers.get(key_of(path, [("case", query.get(name, ""))])) for name in ("case", "ref_case"))
     if kept is None or (query.get("ref_case") and kept_ref is None):

@@ -131,10 +131,7 @@ def _key(root: str, name: str) -> str:
 
 
 async def _upload(http: Request) -> Upload:
-    """Return the file that was sent.
-
-    Raises HTTPException if the media type is unknown. Raises Unprocessable if the body is a form without a file.
-    """
+    """Return the file. Raises HTTPException if the media type is unknown, and Unprocessable if a form has no file."""
     media_type = http.headers.get("content-type", "").partition(";")[0].strip().lower()
     if media_type in TYPES:
         return Upload(await http.body())

@@ -93,10 +93,7 @@ router = APIRouter(tags=["studies"], route_class=JsonRoute, responses=documented
 
 
 def _add(page: type[StudyPage]) -> None:
-    """Add the endpoint of a kind of study.
-
-    If the lines of this kind of study can be a table, the endpoint offers a choice of formats.
-    """
+    """Add the endpoint of a kind of study. If the lines of the study can be a table, add a choice of formats."""
     kind = page.plan
 
     async def lines(http: Request, body: Any) -> Response:
