@@ -126,8 +126,8 @@ class StageDraft(Draft):
     def _driver(self) -> int | None:
         """Return the position of the driving gear in `pair`, or None if the driving gear is not known.
 
-        The driving gear follows from torque and speed. If these are not known, it is the gear that the file calls the
-        driving gear.
+        The driving gear follows from torque and speed. If torque and speed are not known, the driving gear is the gear
+        that the file marks as driving.
         """
         by_power, pair = self.flow.driver(self.pair), self.pair
         stated = [place for place in (0, 1) for data in _gear_data(self.reading, pair, pair.gears[place])
@@ -166,7 +166,7 @@ class StageDraft(Draft):
         return made_by or model.reference_of((self.gears[place], *flanks), table.TOOL)
 
     def material(self, place: int) -> Component | None:
-        """Return the material of a gear, or the material of the gear's shaft if the gear has none in the file."""
+        """Return the material of a gear. If the file does not state it, return the material of the gear's shaft."""
         return self.reading.model.reference_of((self.gears[place], self.shafts[place]), "material")
 
     @property
@@ -176,7 +176,7 @@ class StageDraft(Draft):
 
     @property
     def lubricant(self) -> Component | None:
-        """The lubricant of the stage, or the lubricant of the casing if the file states none for the stage."""
+        """The lubricant of the stage, or the lubricant of the casing if the stage has no lubricant in the file."""
         return self.reading.model.reference_of(self.oil_origins, "lubricant")
 
     def load(self, flow: Flow) -> dict[str, float]:
@@ -204,8 +204,8 @@ class StageDraft(Draft):
 
         Return None if the position is not known. The file may state the origin of the part, which is the middle of the
         part's width, and a coordinate on the shaft. If the file states both, the origin is used, and a fault is
-        recorded if the two positions differ. No fault is recorded if they differ by half the width, because the
-        coordinate is then the position of an end of the part.
+        recorded if the two positions differ. No fault is recorded if the two positions differ by half the width,
+        because the coordinate is then the position of an end of the part.
         """
         reading = self.reading
         stated = reading.number(part, table.POSITION)
@@ -288,7 +288,8 @@ class StageDraft(Draft):
         """Return the helix angle at the reference circle [deg]; None if the file does not state a helix angle.
 
         If the file states only the helix angle at the base circle, the angle is computed from this base helix angle.
-        The equations are sin beta = sin beta_b / cos alpha_n and tan beta = tan beta_b / cos alpha_t.
+        The equation is sin beta = sin beta_b / cos alpha_n. If the file states only the transverse pressure angle, the
+        equation is tan beta = tan beta_b / cos alpha_t.
         """
         stated = self.reading.number(gear, table.HELIX_ANGLE)
         base = self.reading.number(gear, table.BASE_HELIX_ANGLE) if stated is None else None
@@ -517,9 +518,9 @@ class StageDraft(Draft):
         return 2.0 * pinion.module * sin(pinion.normal_angle) * total
 
     def working_distance(self) -> float | None:
-        """Return the centre distance in the file [mm], or the backlash-free centre distance if the file states none.
+        """Return the centre distance [mm], or None if the centre distance is not possible or not known.
 
-        Return None if the centre distance is not possible or not known.
+        If the file does not state the centre distance, the backlash-free centre distance is returned.
         """
         pinion, wheel = self.involute(0), self.involute(1)
         if pinion is None or wheel is None:
@@ -572,7 +573,8 @@ class StageDraft(Draft):
     def _load(self) -> None:
         """Fill in the torque and the speed of the pinion.
 
-        They follow from the loads on the shafts. If they do not, the values that the file states for the gear are used.
+        Torque and speed follow from the loads on the shafts. If the loads do not determine torque and speed, the values
+        that the file states for the gear are used.
         """
         load = self.load(self.flow)
         own = (table.GEAR_TORQUE, self.gear_data(0)), (table.GEAR_SPEED, (self.gears[0],))

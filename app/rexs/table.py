@@ -52,8 +52,8 @@ def convert(value: float, stated: str, wanted: str) -> float | None:
 class Row(NamedTuple):
     """A number that is copied from the file into a request.
 
-    `field` is the field of the request, and `unit` is its unit. `attributes` names the attributes that may contain the
-    number; the preferred attribute comes first.
+    `field` is the field of the request, and `unit` is the unit of this field. `attributes` names the attributes that
+    may contain the number; the preferred attribute comes first.
     """
 
     field: str
@@ -200,7 +200,7 @@ BEARING_BORE = Row("diameter_mm", ("reference_diameter_relative_clearance_plain_
 JOURNAL = (
     Row("diameter_mm", ("inner_diameter",), "mm"),
     Row("width_mm", ("width",), "mm"),
-    Row("radial_clearance_um", ("diameter_clearance_plain_bearing",), "um"),  # half this value is used
+    Row("radial_clearance_um", ("diameter_clearance_plain_bearing",), "um"),  # a diameter; half of it is used
     Row("film_temperature_c", ("lubricant_feed_temperature",), "C"),
     Row("oil_flow_l_per_min", ("lubricant_flow_through_bearing",), "l/min"),
 )
