@@ -166,7 +166,7 @@ class StageDraft(Draft):
         return made_by or model.reference_of((self.gears[place], *flanks), table.TOOL)
 
     def material(self, place: int) -> Component | None:
-        """Return the material of a gear. If the file does not state it, return the material of the gear's shaft."""
+        """Return the material of a gear, or the material of the gear's shaft if the gear has no stated material."""
         return self.reading.model.reference_of((self.gears[place], self.shafts[place]), "material")
 
     @property

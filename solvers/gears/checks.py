@@ -1,4 +1,4 @@
-"""Checks of the inputs of a gear pair; all models use the same checks."""
+"""Checks of the inputs of a gear pair. All models use the same checks."""
 
 from solvers.errors import InvalidInput
 from solvers.gears.gear import Gear, full_rack_tip_radius
@@ -11,7 +11,7 @@ PRINTED = 1e-4
 
 
 def check_rack(inputs: GearPairInputs, teeth: GearTeeth, name: str) -> None:
-    """Refuse a pointed rack, whose flanks meet before they reach the tip line.
+    """Refuse a rack if it is pointed: the two flanks of a rack tooth meet before they reach the tip line.
 
     Raises
     ------
@@ -61,8 +61,9 @@ def check_working_involute(value: float) -> None:
 def centre_distance_in_use(given: float | None, backlash_free: float) -> float:
     """Return the centre distance in use [m].
 
-    If no centre distance is given, the backlash-free centre distance is used. It is also used if the given centre
-    distance is smaller, but only by the rounding of printed values. Otherwise the given centre distance is used.
+    If no centre distance is given, the backlash-free centre distance is used. If the given centre distance is smaller
+    than the backlash-free centre distance, but only by the rounding of printed values, the backlash-free centre
+    distance is also used. Otherwise the given centre distance is used.
 
     Raises
     ------

@@ -95,7 +95,7 @@ def transverse_gear(inputs: GearPairInputs, teeth: GearTeeth) -> Gear:
 
 
 def virtual_gear(inputs: GearPairInputs, teeth: GearTeeth, base_helix_angle: float) -> Gear:
-    """Return the virtual spur gear of the normal section, cut by the rack of the real gear.
+    """Return the virtual spur gear that the rack of the real gear cuts in the normal section.
 
     Parameters
     ----------

@@ -66,7 +66,7 @@ A film ratio is film thickness divided by roughness. The keys are the kinematic 
 
 
 def asked_over_test() -> list[float]:
-    """Return the permissible film ratio divided by the film ratio in the oil test, as computed here.
+    """Return the permissible film ratio, divided by the film ratio that the solvers compute for the oil test.
 
     The list has one item for each oil and load stage in `ASKED_FOR`.
     """

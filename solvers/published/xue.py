@@ -106,8 +106,8 @@ def root_load(number: int, model: Model) -> float:
 def film_over_formula() -> float:
     """Return the largest ratio of two film thicknesses over all points of the path of contact (Fig. 23).
 
-    The first is the least film thickness in the thermal EHL solution. The second follows from the formula of Dowson and
-    Higginson.
+    The first film thickness is the least film thickness in the thermal EHL solution at a point. The second film
+    thickness follows from the formula of Dowson and Higginson at the same point.
     """
     path = scuffing().path
     assert path.thermal is not None
@@ -122,7 +122,7 @@ def thinnest_psi() -> float:
 
 
 def helix_slope_pressure(slope: float) -> float:
-    """Return the largest contact pressure of gear pair 4 with a helix slope [m] (Fig. 17)."""
+    """Return the largest contact pressure of gear pair 4. `slope` is the helix slope [m] (Fig. 17)."""
     largest = pair(4, PAPER_MODEL, replace(PAPER_MODIFICATIONS, helix_slope=slope)).pressure.max
     assert largest is not None
     return largest
