@@ -158,9 +158,9 @@ PLACES = {
 }
 """The targets in the manual for each of the solvers' dataclasses that declare results.
 
-A target is the number of an equation, or a chapter and the anchor of a section. A text lists targets, separated by
-semicolons. Before every target except the first, there are names of fields and a colon: the target belongs to these
-fields. The first target belongs to all other fields of the dataclass.
+A target is the number of an equation, or a chapter and the anchor of a section. The value for a dataclass is a text
+that lists targets, separated by semicolons. The names of some fields and a colon stand before every target except the
+first; the target belongs to these fields. The first target belongs to all other fields of the dataclass.
 """
 
 

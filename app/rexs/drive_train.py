@@ -1,4 +1,4 @@
-"""The drive-train request of a stage. It describes both shafts and the bearings of both shafts.
+"""The drive-train request of a stage. The request describes both shafts and the bearings of both shafts.
 
 A stage has a drive-train request if both shafts carry only the gears of this stage, and if each shaft runs in two
 radial bearings in the casing. Positions are along the axis Z of the pinion's shaft. Z is the u axis of this shaft in

@@ -30,7 +30,7 @@ SECTIONS = {
     SCUFFING: MESH | {"temperatures", "lubricant"},
     "/v1/pumping": {"gears"},
 }
-"""For each endpoint that calculates a single mesh, the sections of the draft that are also sections of its request."""
+"""For each endpoint that calculates a single mesh, the sections of the draft that the request of the endpoint has."""
 Vector = tuple[float, float, float]
 
 

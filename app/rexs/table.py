@@ -103,7 +103,7 @@ HEAT = (
     Row("thermal_conductivity_w_per_m_k", ("thermal_conductivity",), "W/(mK)"),
     Row("specific_heat_j_per_kg_k", ("thermal_capacity",), "J/(kgK)"),
 )
-"""Thermal properties of gears and oils. Shafts have no such fields."""
+"""Thermal properties of gears and oils. A request has no such fields for shafts."""
 OIL = (
     Row("kinematic_viscosity_40_mm2_per_s", ("viscosity_at_40_degree_celsius",), "mm^2/s"),
     Row("kinematic_viscosity_100_mm2_per_s", ("viscosity_at_100_degree_celsius",), "mm^2/s"),
@@ -369,7 +369,10 @@ MICROPITTING_RESULTS = (
     ("wear.pinion_max_um_per_million", "maximum_wear_pinion_per_million_revolutions", "mum"),
     ("wear.wheel_max_um_per_million", "maximum_wear_wheel_per_million_revolutions", "mum"),
 )
-"""REXS has no attribute for the failure load stage of a micropitting test. The user enters this load stage on the page.
+"""Results about micropitting.
+
+These results need the failure load stage of a micropitting test. REXS has no attribute for this load stage, so the user
+enters it on the page.
 """
 RESULTS = {
     "/v1/scuffing": (

@@ -25,7 +25,10 @@ MOST_DRAFTS = 2000  # largest product of stages and load cases; each combination
 LONGEST_NAME, MOST_SPECTRUM_CASES = 100, 100  # length of a name and number of cases that /v1/spectrum accepts
 MOST_IGNORED = 2000  # largest number of ignored attributes per stage
 SHARES = {"operating_time_fraction": "", "load_duration_fraction": "", "operating_time": "h", "load_duration": "h"}
-"""Attributes that state the duration of a load case, as a share of the operating time or in hours; their units."""
+"""Attributes that state the duration of a load case, as a share of the operating time or in hours.
+
+The keys are the names of the attributes, and the values are the units of the attributes.
+"""
 
 
 def gear_unit(model: Model) -> dict[str, Any]:

@@ -61,7 +61,10 @@ def did_you_mean(path: str, known: Iterable[str]) -> str:
 
 
 def fault(leaf: Leaf, value: Scalar) -> tuple[str, str] | None:
-    """Return the code and the message of the error if a field rejects a value. Return None if it accepts the value."""
+    """Return the code and the message of the error if a field rejects a value.
+
+    Return None if the field accepts the value.
+    """
     code = "out_of_range"
     if value is None:
         wrong, message = not leaf.nullable, "null is not accepted here"
@@ -106,9 +109,10 @@ def is_number(value: Any) -> bool:
 def set_value(model: type[Documented], body: dict[str, Any], path: str, value: Scalar) -> None:
     """Set the value at a dotted path of a request.
 
-    If a section or a list on the path is missing, it is inserted; an inserted list has its default items. Raises
-    IndexError if a list on the path is too short. If the request holds something else where the path needs a section or
-    a list, the value is not set. The later validation of the request reports this error.
+    If a section on the path is missing, an empty section is inserted. If a list on the path is missing, a list with the
+    default items is inserted. Raises IndexError if a list on the path is too short. If the request holds something else
+    where the path needs a section or a list, the value is not set. The later validation of the request reports this
+    error.
     """
     parts = path.split(".")
     here: Any = body

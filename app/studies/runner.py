@@ -1,8 +1,8 @@
 """The common parts of all studies.
 
 A pool of processes solves the points of a study. Points are sent to the processes in chunks, but come back in order.
-The answer of a study is a sequence of lines. `Study` is the base class of the kinds of study. A subclass declares its
-endpoint and the model of its body; it checks the body and makes the lines.
+The answer of a study is a sequence of lines. `Study` is the base class of the kinds of study. A subclass declares the
+endpoint of the study and the model of the body. The subclass also checks the body and makes the lines.
 """
 
 import asyncio

@@ -26,7 +26,8 @@ class Row:
 class Statement:
     """A published statement, and the function that computes the number for comparison.
 
-    The statement prints a number, which the computed number must equal within a tolerance, or a bound or a range.
+    The source prints a number, a bound or a range. The statement holds if the computed number lies between `least` and
+    `most`.
     """
 
     says: str = described("What the source says.")
