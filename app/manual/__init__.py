@@ -1,7 +1,8 @@
 """The theory manual: chapters in Markdown beside this file.
 
-`equations` finds the numbered equations and the functions that implement them. `results` tells which function computes
-a result. `fields` contains the rows of the table of all fields. `app.pages.manual` writes the pages of the chapters.
+`equations` finds the numbered equations and the functions that implement the equations. `results` finds the equation or
+the section that explains a result. `fields` reads the table of all fields. `app.pages.manual` writes the pages of the
+chapters.
 """
 
 import re
@@ -52,7 +53,7 @@ class Chapter:
         return re.findall(r"^\* (.*)$", self.section("What it answers"), re.MULTILINE)
 
     def section(self, heading: str) -> str:
-        """Return the text of the section with this heading, without the heading; empty if there is no such section."""
+        """Return the text below this heading, up to the next heading; empty if the chapter has no such heading."""
         return self.text.partition(f"\n## {heading}\n")[2].partition("\n## ")[0].strip()
 
 

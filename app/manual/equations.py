@@ -1,9 +1,9 @@
 r"""The numbered equations of the manual and the functions of `solvers` that implement them.
 
-An equation is a block between `$$` with a `\tag`. The tag of a paper's equation begins with the paper's name
-(`Xue 25`); the tag of an equation of our own begins with a letter (`C4`). The paragraph below an equation names the
-functions that implement the equation. The docstrings of these functions cite the number of the equation: `Eq. 25` in a
-package that implements Xue's paper, `Eq. C4` in any package.
+In a chapter, an equation is a block between `$$` that contains a `\tag`. If the equation is from a paper, the tag is
+the paper's name and the number in the paper (`Xue 25`). If the equation is our own, the tag is a letter and a number
+(`C4`). The paragraph below an equation names the functions that implement the equation. The docstrings of these
+functions cite the number of the equation: `Eq. 25` in a package that implements Xue's paper, `Eq. C4` in any package.
 """
 
 import ast
@@ -35,7 +35,10 @@ class Equation:
 
 @dataclass(frozen=True, slots=True)
 class Function:
-    """A function or class that implements equations, with its head and its docstring as they stand in the source."""
+    """A function or class that implements equations.
+
+    `head` is the line with the signature, and `text` is the docstring, both as they stand in the source code.
+    """
 
     name: str
     head: str

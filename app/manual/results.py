@@ -1,7 +1,7 @@
 """The places in the manual that say how the results are computed.
 
-A place is a numbered equation, or a section if no equation defines the result. For example, no equation defines counts,
-settings in force and measures of convergence.
+A place is a numbered equation, or a section if no equation defines the result. Results without an equation are, for
+example, counts, the settings that were used, and measures of convergence.
 """
 
 from functools import cache
@@ -156,10 +156,11 @@ PLACES = {
     "heat_balance.warm_up.WarmUp": "H24",
     "drive_train.warm_up.UnitWarmUp": "D15; largest_face_load_factor: L17; least_backlash: H22",
 }
-"""Places in the manual. The keys are the solvers' dataclasses that declare the results.
+"""The targets in the manual for each of the solvers' dataclasses that declare results.
 
-A text lists targets, separated by semicolons. Every target except the first begins with names of fields, and is the
-place of these fields. The first target is the place of all other fields of the dataclass.
+A target is the number of an equation, or a chapter and the anchor of a section. The value for a dataclass is a text
+that lists targets, separated by semicolons. The names of some fields and a colon stand before every target except the
+first; the target belongs to these fields. The first target belongs to all other fields of the dataclass.
 """
 
 
@@ -186,7 +187,10 @@ def place_of(declared: Quantity) -> Place | None:
 
 
 def _target(targets: str, name: str) -> str:
-    """Return the target of the field `name` among the targets of its dataclass."""
+    """Return the target that belongs to the field `name`.
+
+    `targets` is the text in `PLACES` for the dataclass of the field.
+    """
     target, *others = targets.split("; ")
     for other in others:
         names, _, own = other.partition(": ")
@@ -196,7 +200,7 @@ def _target(targets: str, name: str) -> str:
 
 
 def _place(target: str) -> Place:
-    """Return the place of a target. A target is the number of an equation, or a chapter and the anchor of a section."""
+    """Return the place in the manual to which a target leads."""
     chapter, _, section = target.partition("#")
     if section:
         return Place(f"section {section.replace('-', ' ')}", f"/manual/{target}", chapter)

@@ -1,4 +1,4 @@
-"""Results that a worker returns for the file of a gear unit: the answer of /v1/rexs, a page, the file with results."""
+"""What a worker makes from the file of a gear unit: the answer of /v1/rexs, a page, or the file with added results."""
 
 import json
 from hashlib import sha256
@@ -87,16 +87,17 @@ def unit_json(content: bytes, most_bytes: int) -> bytes:
 
 
 def unit_html(root: str, content: bytes, most_bytes: int, name: str = "") -> bytes:
-    """Return the answer of /v1/rexs as a page; `root` is the prefix of the links, `name` is the name of the file."""
+    """Return the answer of /v1/rexs as a page. `root` is the prefix of all links; `name` is the name of the file."""
     return unit_page(root, unit_of(content, most_bytes), name, sha256(content).hexdigest()).encode()
 
 
 def with_results(content: bytes, most_bytes: int, stage: int, request: bytes | None, deadline_s: float) -> File:
-    """Calculate a stage and return the file with the answer added.
+    """Calculate a stage, and return the file with the results of the stage.
 
-    `request` is the stage's request as the user edited it. If `request` is None, the request is made from the file: a
-    drive-train request if the file describes a drive train, else a request of /v1/scuffing. Raises Unprocessable if the
-    file is not readable or does not contain the stage. Also raises the errors that reading a request raises.
+    `request` is the request of the stage after the user edited it. If `request` is None, the request is made from the
+    file. The request is then a drive-train request if the file describes a drive train, else a request of /v1/scuffing.
+    Raises Unprocessable if the file is not readable or does not contain the stage. If the request is not valid, raises
+    the same errors as the endpoint of the request.
     """
     document = read(content, most_bytes)
     row = next((row for row in gear_unit(document.model)["stages"] if row["id"] == stage), None)
@@ -115,11 +116,11 @@ def with_results(content: bytes, most_bytes: int, stage: int, request: bytes | N
 
 
 def with_answer(document: Document, stage: int, endpoint: str, answer: dict[str, Any]) -> File:
-    """Return the file with the numbers, the status and the case of an answer as attributes of the stage.
+    """Return the file with new attributes of the stage: the results, the status and the case of an answer.
 
-    A quantity is written to the attribute of the standard if the file's version of REXS has such an attribute. Other
-    quantities are written to attributes whose names begin with `custom_tribodrive_`; REXS reserves such names for
-    programs.
+    A result is written to the attribute of the standard if the file's version of REXS has an attribute for this result.
+    The names of all other new attributes begin with `custom_tribodrive_`. REXS reserves names that begin with `custom_`
+    for the attributes of programs.
     """
     major, written = int(document.model.version.split(".")[0]), []
     for path, name, unit in table.RESULTS[endpoint]:

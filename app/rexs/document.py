@@ -1,8 +1,8 @@
 """Reading of a REXS file into a `Model`, and writing of the file with new attributes.
 
-A file is XML, JSON, or a zip archive with one XML or JSON file. The file may come from anybody. Therefore lxml parses
-XML without entities, external files or deep nesting, and tags and attributes are counted before the parser turns the
-file into objects.
+A file is XML, JSON, or a zip archive with one XML or JSON file. The file may come from anybody. Therefore the options
+of lxml forbid entities, external files and deep nesting. The number of tags and attributes is checked before the parser
+turns the file into objects.
 """
 
 import base64
@@ -22,18 +22,18 @@ from lxml import etree
 from app.errors import Unprocessable
 from app.rexs.model import Attribute, Component, LoadCase, Model, Relation
 
-MOST_ELEMENTS = 1_500_000  # tags and attributes of XML, or containers of JSON; 300 MB at 200 bytes per element
+MOST_ELEMENTS = 1_500_000  # XML tags and attributes, or JSON objects and arrays; about 200 bytes of memory for each
 VERSIONS = ("1", "2")
 SUFFIXES = (".rexs", ".rexsj", ".rexs.json", ".rexs.xml")
 MODELS = ", ".join(SUFFIXES)
-PACKINGS = {zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED}  # other methods of compression may need gigabytes of memory
+PACKINGS = {zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED}  # to unpack other methods may take gigabytes of memory
 CODES = {"float32": "<f4", "float64": "<f8", "int32": "<i4"}
 SAFE = {"resolve_entities": False, "load_dtd": False, "no_network": True, "huge_tree": False, "remove_pis": False}
-"""Options of lxml: no entities, no other files, and the limits of libxml2 on depth and length."""
+"""Options of lxml: no entities, no access to other files, and libxml2's own limits on nesting and on text length."""
 
 
 def not_rexs(message: str) -> Unprocessable:
-    """Return the error for a file that is not a readable REXS model; the message says where and why."""
+    """Return the error for a file that is not a readable REXS model. `message` says what is wrong and where."""
     return Unprocessable("not_rexs", message, None)
 
 
@@ -70,15 +70,18 @@ def read(content: bytes, most_bytes: int) -> Document:
 
 
 def with_attributes(file: File, component: int, attributes: Iterable[Attribute]) -> File:
-    """Return the file with new attributes of a component. The new attributes replace attributes with the same names."""
+    """Return the file with additional attributes of a component.
+
+    A new attribute replaces an attribute of the same name.
+    """
     write = _json_with if file.suffix == ".rexsj" else _xml_with
     return file._replace(content=write(file.content, component, attributes))
 
 
 def _unpacked(content: bytes, most_bytes: int) -> bytes:
-    """Unpack the model in a zip archive, and return at most the first `most_bytes` + 1 bytes.
+    """Unpack the model file in a zip archive, and return at most the first `most_bytes` + 1 bytes of the file.
 
-    The size that the archive states for the model may be wrong, so this size is not used.
+    The archive states the size of the unpacked file. This size may be wrong, so it is not used.
     """
     try:
         with zipfile.ZipFile(io.BytesIO(content)) as archive:
@@ -96,7 +99,10 @@ def _unpacked(content: bytes, most_bytes: int) -> bytes:
 
 
 def _is_model(name: str) -> bool:
-    """Return True if a file in an archive is a model, and not a hidden file that an operating system added."""
+    """Return True if the name of a file in an archive is the name of a REXS file.
+
+    Hidden files, which some operating systems add to archives, do not count.
+    """
     path = PurePosixPath(name.replace("\\", "/"))
     hidden = "__MACOSX" in path.parts[:-1] or path.name.startswith(".")
     return not hidden and not name.endswith("/") and path.name.lower().endswith(SUFFIXES)
@@ -131,7 +137,7 @@ def _numbers(code: object, text: object) -> list[Any] | None:
 
 
 def _model_of_xml(content: bytes) -> Model:
-    """Read the model part by part, so that the whole tree of a large file is never in memory at once."""
+    """Read the model from XML, element by element, so that the whole tree of a large file is never in memory."""
     if content.count(b"<") + content.count(b"=") > MOST_ELEMENTS:
         raise not_rexs(f"the file has more than {MOST_ELEMENTS} tags and attributes")
     readers = {"component": _xml_component, "relation": _xml_relation, "load_case": _xml_load_case}
@@ -142,7 +148,7 @@ def _model_of_xml(content: bytes) -> Model:
         for _, element in steps:
             tag = _tag(element)
             if tag == "component" and not _is_of_model(element):
-                continue  # part of a load case, which is read as a whole
+                continue  # the component belongs to a load case; it is read together with the load case
             parts[tag].append(readers[tag](element))
             element.clear(keep_tail=False)
     except etree.XMLSyntaxError as error:
@@ -166,7 +172,7 @@ def _children(element: Any, tag: str) -> Iterator[Any]:
 
 
 def _is_of_model(component: Any) -> bool:
-    """Return True if a component belongs to the list of components, and False if it belongs to a load case."""
+    """Return True if a component is an item of the model's list of components. Load cases also have components."""
     parent = component.getparent()
     return parent is not None and _tag(parent) == "components"
 
@@ -233,10 +239,10 @@ def _model_of_json(content: bytes) -> Model:
     try:
         document = json.loads(content, parse_constant=_refuse_constant, parse_float=_finite)
         if b"\\ud" in content.lower():
-            json.dumps(document, ensure_ascii=False).encode()  # raises for half a surrogate pair
+            json.dumps(document, ensure_ascii=False).encode()  # raises an error if half of a surrogate pair is missing
     except json.JSONDecodeError as error:
         raise not_rexs(f"line {error.lineno}: {error.msg}") from error
-    except (ValueError, RecursionError) as error:  # not UTF-8, a number with too many digits, nested too deeply
+    except (ValueError, RecursionError) as error:  # not UTF-8, too many digits in a number, or too deep nesting
         raise not_rexs("the file is not valid JSON") from error
     model = document.get("model")
     if not isinstance(model, dict):
@@ -255,14 +261,14 @@ def _refuse_constant(name: str) -> float:
 
 
 def _finite(text: str) -> float:
-    """Convert a text into a number. Reject a number that is infinite as a float, because JSON cannot represent it."""
+    """Convert a text into a float. Reject a number too large for a float, because JSON cannot represent infinity."""
     if not isfinite(number := float(text)):
         raise not_rexs(f"the number {text[:20]} is too large")
     return number
 
 
 def _objects(of: Any, name: str) -> list[dict[str, Any]]:
-    """Return the objects that an object lists under a name, or an empty list if the name is absent."""
+    """Return the list of objects that a JSON object contains under a name, or an empty list if the name is absent."""
     items = of.get(name, []) if isinstance(of, dict) else None
     if not isinstance(items, list) or not all(isinstance(item, dict) for item in items):
         raise not_rexs(f"{name} must be a list of objects")
@@ -273,7 +279,7 @@ def _json_component(item: dict[str, Any]) -> Component:
     attributes = {}
     for attribute in _objects(item, "attributes"):
         name = str(attribute.get("id") or "")
-        # The value stands under a key that names its type.
+        # The key of the value is the name of the value's type.
         value = next((attribute[key] for key in attribute if key not in {"id", "unit"}), None)
         if isinstance(value, dict):
             value = _numbers(value.get("code"), value.get("value"))

@@ -1,7 +1,8 @@
-"""The drive-train request of a stage, with both shafts and their bearings at positions along the pinion's axis.
+"""The drive-train request of a stage. The request describes both shafts and the bearings of both shafts.
 
-A stage has such a request if both shafts carry only the gears of this stage, and if each shaft runs in two radial
-bearings in the casing. Z is the u axis of the pinion's shaft; X and Y are the v and w axes of this shaft.
+A stage has a drive-train request if both shafts carry only the gears of this stage, and if each shaft runs in two
+radial bearings in the casing. Positions are along the axis Z of the pinion's shaft. Z is the u axis of this shaft in
+the file; X and Y are the v and w axes of this shaft.
 """
 
 from collections.abc import Iterator
@@ -14,16 +15,16 @@ from app.rexs.model import Component
 from app.rexs.reading import Vector
 from app.rexs.stages import StageDraft
 
-MOST_PIECES = 10  # largest number of pieces per cone; a request allows 40 sections per shaft
-LONGEST_PIECE = 10.0  # mm; length of a cylinder that replaces a part of a cone
-SHORTEST_SECTION = 0.1  # mm
-RIGID_FROM_N_PER_UM = 1e5  # stiffer bearings count as rigid; chosen: a hundred times the stiffness of a plain bearing
+MOST_PIECES = 10  # largest number of cylinders that replace a cone; a request allows 40 sections per shaft
+LONGEST_PIECE = 10.0  # mm; largest length of a cylinder that replaces a part of a cone, if MOST_PIECES are enough
+SHORTEST_SECTION = 0.1  # mm; shorter sections are left out
+RIGID_FROM_N_PER_UM = 1e5  # bearings at least this stiff are rigid; chosen: 100 times the stiffness of plain bearings
 STANDARD_GRAVITY = 9.80665  # m/s^2
 NAMES = ("pinion_shaft", "wheel_shaft")
 
 
 class Section(NamedTuple):
-    """A cylinder of a shaft, with the positions of both ends along Z and both diameters [mm]."""
+    """A cylindrical section of a shaft: the positions of both ends along Z, the outer and the inner diameter [mm]."""
 
     begin: float
     end: float
@@ -34,7 +35,8 @@ class Section(NamedTuple):
 def add_drive_train(stage: StageDraft) -> bool:
     """Add the fields of the drive train to the draft of a stage, and return True on success.
 
-    Return False if the file does not describe a drive train that can be calculated; the draft then states the reasons.
+    Return False if the file does not describe a drive train that can be calculated. The draft then lists the reasons as
+    missing values.
     """
     reasons = list(_obstacles(stage))
     for component, reason in reasons:
@@ -87,7 +89,7 @@ class _DriveTrain:
         self._x = _cross(self._y, z)
 
     def fill(self) -> bool:
-        """Fill in the request for a drive train. Return False if a shaft has no sections."""
+        """Fill in all fields of the drive train, and return True. Return False if a shaft has no sections."""
         stage = self._stage
         faces = [stage.face_interval(place) for place in (0, 1)]
         start = max(face[0] for face in faces if face is not None)
@@ -125,14 +127,17 @@ class _DriveTrain:
         self._stage.put(path, self._angle(self._in_file(unit, (u, v, w))), unit, "direction_vector_gravity_v")
 
     def _temperatures(self) -> None:
-        """Fill in the reference temperature of the drawings and the tooth temperatures of both gears."""
+        """Fill in the reference temperature and the tooth temperatures of both gears.
+
+        The dimensions in drawings are valid at the reference temperature.
+        """
         stage = self._stage
         stage.take(table.REFERENCE_TEMPERATURE, self._reading.model.first("gear_unit"))
         for gear, row in zip(stage.gears, table.TOOTH_TEMPERATURES, strict=True):
             stage.take(row, gear)
 
     def _angle(self, direction: Vector) -> float:
-        """Return the angle of a direction from X towards Y [deg]."""
+        """Return the angle [deg] from the X axis to a direction, positive towards the Y axis."""
         return degrees(atan2(_dot(direction, self._y), _dot(direction, self._x)))
 
     def _in_file(self, component: Component, along: Vector) -> Vector:
@@ -168,7 +173,11 @@ class _DriveTrain:
         return True
 
     def _sections(self, shaft: Component) -> list[Section]:
-        """Return the cylinders of a shaft. Each cone is replaced by short cylinders with mean diameters."""
+        """Return the sections of a shaft.
+
+        Each cone is replaced by short cylinders. A cylinder has the diameters that the cone has at the middle of the
+        cylinder.
+        """
         reading, stage = self._reading, self._stage
         base, sense = stage.position_of_coordinate(shaft, 0.0) or 0.0, stage.along(shaft)
         cylinders, stacked = [], 0.0
@@ -196,7 +205,10 @@ class _DriveTrain:
         return self._contiguous(sorted(cylinders), shaft)
 
     def _contiguous(self, sections: list[Section], shaft: Component) -> list[Section]:
-        """Make the sections adjoin without gaps or overlaps. Gaps and overlaps in the file are recorded as findings."""
+        """Move the ends of the sections so that there are no gaps and no overlaps.
+
+        Gaps and overlaps in the file are recorded as findings.
+        """
         joined: list[Section] = []
         for section in sections:
             here = joined[-1].end if joined else section.begin
@@ -243,14 +255,14 @@ class _DriveTrain:
             for row in table.JOURNAL:
                 if (value := reading.number(bearing, row)) is not None:
                     fields[row.field] = value / 2.0 if row.field == "radial_clearance_um" else value
-            if fields.get("oil_flow_l_per_min", 1.0) <= 0.0:  # not known; the heat balance uses the side leakage
+            if fields.get("oil_flow_l_per_min", 1.0) <= 0.0:  # without an oil flow, the solver uses the side leakage
                 del fields["oil_flow_l_per_min"]
             relative = reading.number(bearing, "relative_clearance_plain_bearing")
             bore = reading.number(bearing, table.BEARING_BORE)
             if "radial_clearance_um" not in fields and relative is not None and bore is not None:
                 fields["radial_clearance_um"] = (
                     relative * bore * 500.0
-                )  # from mm to um; the radial clearance is half the diametral clearance
+                )  # 500: 1000 um per mm, and the radial clearance is half the diametral clearance
             return fields
         stiffness = reading.number(bearing, "radial_stiffness", "N/um")
         if stiffness is not None and stiffness >= RIGID_FROM_N_PER_UM:

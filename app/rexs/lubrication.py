@@ -1,4 +1,4 @@
-"""Oil, oil supply, temperatures of oil and teeth, and friction of a mesh, as the file states these values."""
+"""The oil, the oil supply, the temperatures of oil and teeth, and the friction of a mesh, taken from the file."""
 
 from app.rexs import table
 from app.rexs.model import Component
@@ -38,9 +38,10 @@ class Lubrication:
         self._base_oil(oil)
 
     def _base_oil(self, oil: Component) -> None:
-        """Fill in the kind of base oil from the attribute of the standard, or else from other texts.
+        """Fill in the kind of base oil.
 
-        If there is no model of this kind of oil, this is recorded as a finding.
+        The kind is taken from an attribute for the lubricant type. If these attributes do not name the kind, the kind
+        is taken from other texts about the oil. A kind of oil that is not modelled is recorded as a finding.
         """
         path, texts = "lubricant.kind", {}
         for name in (*table.OIL_TYPES, *table.OIL_WORDS):
@@ -69,10 +70,10 @@ class Lubrication:
         )
 
     def _temperatures(self) -> None:
-        """Fill in the temperature and the supply of the oil, and the bulk temperature.
+        """Fill in the oil temperature, the oil supply and the bulk temperature.
 
         The bulk temperature is the mean of the bulk temperatures of both gears. If the file states no bulk temperature
-        for the gears, the bulk temperature of the stage is used.
+        of a gear, the bulk temperature of the stage is used.
         """
         for origin in self._stage.oil_origins:
             if self._stage.take(table.OIL_TEMPERATURE, origin) is not None:
@@ -96,7 +97,7 @@ class Lubrication:
         self._supply_by_factor()
 
     def _supply_by_factor(self) -> None:
-        """Fill in the oil supply that belongs to the lubrication factor of the file."""
+        """Fill in the kind of oil supply that belongs to the lubrication factor stated in the file."""
         factor = self._reading.number(self._stage.stage, table.SUPPLY_FACTOR)
         if factor is None:
             return

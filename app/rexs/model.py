@@ -38,7 +38,11 @@ class Component:
 
 @dataclass(frozen=True, slots=True)
 class Relation:
-    """A relation between components. `parts` holds pairs of role and component id in the order of the file."""
+    """A relation between components.
+
+    `parts` holds a pair for each component: the role of the component in the relation, and the id of the component. The
+    pairs are in the order of the file.
+    """
 
     type: str
     order: int | None
@@ -51,7 +55,11 @@ class Relation:
 
 @dataclass(frozen=True, slots=True)
 class LoadCase:
-    """A case of the load spectrum. Its attributes, listed by component, replace the attributes of the model."""
+    """A case of the load spectrum.
+
+    `attributes` holds attributes of components; the keys are the ids of the components. In this load case, these
+    attributes replace the attributes of the model.
+    """
 
     name: str
     attributes: dict[int, dict[str, Attribute]]
@@ -69,7 +77,7 @@ class Model:
 
     @cached_property
     def by_type(self) -> defaultdict[str, list[Component]]:
-        """Components by type, in the order of the file."""
+        """The components of each type, in the order of the file. The keys are the types."""
         components = defaultdict(list)
         for component in self.components.values():
             components[component.type].append(component)
@@ -88,20 +96,23 @@ class Model:
         return next(iter(self.by_type[type_]), None)
 
     def part(self, relation: Relation, role: str) -> Component | None:
-        """Return the component that has a role in a relation."""
+        """Return the component that has a role in a relation, or None if there is no such component."""
         id_ = relation.part(role)
         return None if id_ is None else self.components.get(id_)
 
     def relations_of(self, type_: str, role: str, component: int) -> Sequence[Relation]:
         """Return the relations of a type in which the component has the role `role`.
 
-        Relations that state an order come first, sorted by this order.
+        Relations that state an order come first, and are sorted by this order.
         """
         relations = self._by_part.get((type_, role, component), ())
         return sorted(relations, key=lambda relation: (relation.order is None, relation.order or 0))
 
     def related(self, type_: str, role: str, component: int, other: str) -> Iterator[Component]:
-        """Yield the components in the role `other` of the relations in which the component has the role `role`."""
+        """Yield the partners of a component in the relations of a type.
+
+        In these relations, the component has the role `role`, and its partner has the role `other`.
+        """
         partners = (self.part(relation, other) for relation in self.relations_of(type_, role, component))
         return (partner for partner in partners if partner is not None)
 
@@ -116,12 +127,18 @@ class Model:
         return next((whole for whole in wholes if whole.type == type_), None)
 
     def reference_of(self, origins: Iterable[Component | None], type_: str) -> Component | None:
-        """Return the first component of a type to which one of the `origins` refers."""
+        """Return the first component of type `type_` to which one of the components `origins` refers.
+
+        The origins are searched in their order. Return None if no origin refers to such a component.
+        """
         given = (origin for origin in origins if origin is not None)
         return next((reference for origin in given for reference in self.references_of(origin.id, type_)), None)
 
     def references_of(self, origin: int, *types: str) -> Iterator[Component]:
-        """Yield the components of some types to which a component refers, such as its lubricant, material or tools."""
+        """Yield the components to which a component refers and whose type is one of `types`.
+
+        For example, a gear refers to its material and its tools.
+        """
         for relation_type in ("reference", "ordered_reference"):
             for reference in self.related(relation_type, "origin", origin, "referenced"):
                 if reference.type in types:

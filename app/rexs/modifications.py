@@ -1,7 +1,7 @@
-"""Modifications of the mesh. Each modification is the sum of the modifications of both gears on the loaded flanks.
+"""Modifications of the mesh. A modification of the mesh is the sum of the modifications of the two loaded flanks.
 
 Tip relief of the pinion and root relief of the wheel act at E, the end of contact. Root relief of the pinion and tip
-relief of the wheel act at A, the start of contact. The sign of a slope depends on the end of the face that meshes
+relief of the wheel act at A, the start of contact. The sign of a helix slope depends on which end of the face meshes
 first.
 """
 
@@ -46,10 +46,11 @@ class Modifications:
         return [item for item in modifications if item.type in table.MODIFICATIONS]
 
     def _working_side(self, place: int) -> str | None:
-        """Return the loaded flank, as stated in the file, or else from the sense of rotation and the driving gear.
+        """Return the side of the loaded flank: "left" or "right", or None if the loaded flank is not known.
 
-        Seen from the end of the shaft at which u is least (the datum face), a gear with positive speed turns clockwise.
-        With this sense of rotation, the right flank of a driving gear and the left flank of a driven gear are loaded.
+        If the file does not state the loaded flank, it follows from the sense of rotation and the driving gear. A gear
+        with positive speed turns clockwise, seen from the end of the shaft at which u is least (the datum face). With
+        this sense of rotation, the right flank of a driving gear and the left flank of a driven gear are loaded.
         """
         stage = self._stage
         for data in stage.gear_data(place):
@@ -82,8 +83,8 @@ class Modifications:
     def _relief(self, name: str, kinds: tuple[str, str]) -> None:
         """Fill in the relief at one end of the path of contact.
 
-        The amount is the sum of the amounts of both gears; length and shape are taken from the larger relief. `kinds`
-        names the reliefs of pinion and wheel that act at this end.
+        `kinds` names the kind of relief of the pinion and the kind of relief of the wheel that act at this end. The
+        amount is the sum of the amounts of both gears. Length and shape are those of the gear with the larger amount.
         """
         reliefs = []
         for place, item in self._carried:
@@ -118,7 +119,10 @@ class Modifications:
             self._stage.put(path, exponent, component, "shape_of_relief")
 
     def _relief_length(self, component: Component, kind: str, place: int) -> float | None:
-        """Return the length of a relief along the line of action [mm], as given or computed from the start diameter."""
+        """Return the length of a relief along the line of action [mm], or None if the length is not known.
+
+        If the file does not state the length, it follows from the diameter at which the relief starts.
+        """
         length = self._reading.number(component, f"{kind}_datum_length", "mm")
         if length is not None:
             return length
@@ -142,7 +146,11 @@ class Modifications:
         return gear.roll_length(gear.reference_diameter + 2.0 * gear.module * (addendum + gear.shift))
 
     def _slopes(self) -> None:
-        """Fill in profile and helix slopes. Positive slopes remove material at the tip and at the non-datum face."""
+        """Fill in the profile slope and the helix slope.
+
+        In the file, a positive profile slope removes material at the tip, and a positive helix slope removes material
+        at the non-datum face. The datum face is the end of the gear at which u is least.
+        """
         sums, origins = {"profile_slope": 0.0, "helix_slope": 0.0}, {}
         for place, item in self._carried:
             amount = self._reading.number(item, item.type, "um") if item.type in sums else None
@@ -166,11 +174,12 @@ class Modifications:
                 self._stage.note(path, total, f"positive amounts remove material at the {where[kind]}")
 
     def _end_sense(self, place: int) -> float | None:
-        """Return +1 if u of this gear's shaft grows towards the end that leaves the mesh last, else -1.
+        """Return +1 if the u axis of the gear's shaft points to the end of the face that leaves the mesh last, else -1.
 
-        The coordinate y runs from the end that meshes first to the end that leaves last. Along the u axis of the
-        driving gear, y has the direction -sigma h, where sigma is the sense of rotation and h is +1 for a right-hand
-        helix.
+        Return None if the sense of rotation is not known. The coordinate y runs from the end of the face that meshes
+        first to the end that leaves the mesh last. The direction of y is -sigma h times the direction of the u axis of
+        the driving gear's shaft. Here sigma is the sense of rotation about this axis, +1 or -1. For the helix of the
+        driving gear, h is +1 if the helix is right-hand, and -1 if it is left-hand.
         """
         stage = self._stage
         speed = stage.flow.speed.get(stage.shafts[0].id)
@@ -180,7 +189,11 @@ class Modifications:
         return -(1.0 if speed > 0.0 else -1.0) * hand * stage.along(stage.shafts[place])
 
     def _end_relief(self) -> None:
-        """Fill in the end relief. The request has one relief for both ends: the mean of both reliefs in the file."""
+        """Fill in the end relief.
+
+        The request has the same end relief at both ends of the face. In the file, the amount at an end is the sum of
+        the amounts of both gears. The request gets the mean of the amounts at the two ends.
+        """
         depths, lengths, origins = {"datum_face": 0.0, "non_datum_face": 0.0}, list[float](), list[Component]()
         for end in depths:
             for _, item in self._carried:
@@ -204,5 +217,5 @@ class Modifications:
 
 
 def modifications_of(reading: Reading, flank: Component) -> list[Component]:
-    """Return the modifications of a flank, including modifications that are not modelled."""
+    """Return all modifications of a flank. Modifications that are not modelled are included."""
     return list(reading.model.references_of(flank.id, *table.MODIFICATIONS, *table.OTHER_MODIFICATIONS))

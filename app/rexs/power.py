@@ -1,9 +1,9 @@
-"""Speeds and torques of all shafts, which follow from the values in the file. Losses of the meshes are neglected.
+"""Speeds and torques of all shafts, computed from the values in the file. Losses of the meshes are neglected.
 
-Shafts joined by a coupling turn as one. In a cylindrical stage, n_1 z_1 = -n_2 z_2. The mesh loads both gears with
-torques of the same sign in the ratio z_1 : z_2. The torques on a shaft add up to zero. In a unit without power
-splitting these equations can be solved one after another, because at each step there is an equation with a single
-unknown.
+Shafts that are joined by a coupling turn as one shaft. In a cylindrical stage, n_1 z_1 = -n_2 z_2, with the speed n and
+the number of teeth z. The mesh loads both gears with torques of the same sign, in the ratio z_1 : z_2. The torques on a
+shaft add up to zero. If the unit does not split the power, these equations can be solved one after another, because at
+each step there is an equation with a single unknown.
 """
 
 from collections import defaultdict
@@ -15,12 +15,15 @@ from app.rexs.model import Component, LoadCase
 from app.rexs.reading import Reading
 from app.rexs.table import REVOLUTION_PER_MINUTE
 
-MOST_SHAFTS = 200  # chosen: far more than any gear unit has
+MOST_SHAFTS = 200  # largest number of shafts; chosen: far more than any gear unit has
 BALANCE = 0.02  # tolerated relative unbalance of torques, because the torques in some files include efficiencies
 
 
 class Pair(NamedTuple):
-    """A stage: two external gears and their shafts, in the order of the file."""
+    """A stage with two external gears.
+
+    `gears`, `shafts` and `teeth` (the numbers of teeth) have the order in which the file names the two gears.
+    """
 
     stage: Component
     gears: tuple[Component, Component]
@@ -32,9 +35,9 @@ class Pair(NamedTuple):
 class Flow:
     """Speeds of shafts and torques of meshes, as far as the file determines these values.
 
-    `reading` reads the model or the load case that states the load. `speed` maps each shaft to its speed [1/min] about
-    its own u axis. `mesh_torque` maps each stage to the torques [N m] of the mesh on gear 1 and gear 2, about the u
-    axis of the shaft of each gear.
+    `reading` reads the model or the load case that states the load. `speed` maps each shaft to the speed [1/min] about
+    the u axis of the shaft. `mesh_torque` maps each stage to two torques [N m], with which the mesh loads gear 1 and
+    gear 2. Each torque is about the u axis of the gear's shaft.
     """
 
     reading: Reading
@@ -46,7 +49,7 @@ class Flow:
         return pair.stage.id in self.mesh_torque and pair.shafts[0].id in self.speed
 
     def driver(self, pair: Pair) -> int | None:
-        """Return the place (0 or 1) of the driving gear in the pair, or None if the driving gear is not known."""
+        """Return the position (0 or 1) of the driving gear in the pair, or None if the driving gear is not known."""
         for place, torque in enumerate(self.mesh_torque.get(pair.stage.id, ())):
             speed = self.speed.get(pair.shafts[place].id)
             if speed and torque:
@@ -55,7 +58,10 @@ class Flow:
 
 
 class Train:
-    """The shafts of a unit in groups that turn as one, and the meshes between the groups."""
+    """The shafts of a unit, and the meshes between the shafts. Shafts that turn as one shaft form a group.
+
+    Speeds and torques of groups are about the axis of the unit (see `Reading.sense`).
+    """
 
     def __init__(self, reading: Reading, pairs: list[Pair]) -> None:
         self._reading, self._pairs = reading, pairs
@@ -69,13 +75,14 @@ class Train:
             self._shafts, self._pairs = [], []
         self._group = self._groups()
         self._elsewhere = self._not_modelled()
-        self._at: dict[int, list[tuple[Pair, int]]] = defaultdict(list)  # meshes of each group, and place of the gear
+        # For each group, its meshes and the position (0 or 1) of the group's gear in the pair of each mesh.
+        self._at: dict[int, list[tuple[Pair, int]]] = defaultdict(list)
         for pair in self._pairs:
             for place, shaft in enumerate(pair.shafts):
                 self._at[self._group[shaft.id]].append((pair, place))
 
     def flow(self, case: LoadCase | None = None) -> Flow:
-        """Return speeds and torques of the base model or of a load case."""
+        """Return the speeds and torques in a load case, or in the model itself if `case` is None."""
         reading = self._reading.in_case(case)
         speeds = self._speeds(reading)
         flow = Flow(reading)
@@ -92,7 +99,7 @@ class Train:
         return flow
 
     def _groups(self) -> dict[int, int]:
-        """Map each shaft to the representative of the shafts that turn with it."""
+        """Map each shaft to its group. The name of a group is the id of one of the shafts in the group."""
         model = self._reading.model
         group = {shaft.id: shaft.id for shaft in self._shafts}
         for relation in model.relations if group else ():
@@ -105,7 +112,7 @@ class Train:
         return group
 
     def _speeds(self, reading: Reading) -> dict[int, float]:
-        """Return the speeds of the groups [1/min] about the unit's axis."""
+        """Return the speeds [1/min] of the groups about the axis of the unit. Unknown speeds are left out."""
         speeds: dict[int, float] = {}
         stated = [(shaft, reading.number(shaft, "rotational_speed", "1/min")) for shaft in self._shafts]
         restated = {shaft.id for shaft, _ in stated if reading.says(shaft, "rotational_speed")}
@@ -127,7 +134,7 @@ class Train:
         return speeds
 
     def _spread(self, group: int, speed: float, speeds: dict[int, float]) -> None:
-        """Set the speed of a group, and then the speeds of all groups that are connected to it by meshes."""
+        """Set the speed of a group, and then the speeds of all groups that meshes connect to this group."""
         speeds[group] = speed
         for pair, place in self._at[group]:
             other = self._group[pair.shafts[1 - place].id]
@@ -135,7 +142,10 @@ class Train:
                 self._spread(other, -speed * pair.teeth[place] / pair.teeth[1 - place], speeds)
 
     def _forces(self, speeds: dict[int, float], reading: Reading) -> dict[int, float]:
-        """Return the mesh torque per tooth [N m] of each stage in which the file's torques determine this torque."""
+        """Return the torque of each mesh on a gear, divided by the gear's number of teeth [N m].
+
+        Both gears of a mesh have the same quotient. Meshes whose torques do not follow from the file are left out.
+        """
         torques, opened = self._loads(speeds, reading)
         forces: dict[int, float] = {}
         waiting = list(self._at) if torques else []
@@ -152,7 +162,10 @@ class Train:
         return forces
 
     def _loads(self, speeds: dict[int, float], reading: Reading) -> tuple[dict[int, float], set[int]]:
-        """Return the stated torques by group [N m], and the groups at which an unstated torque enters or leaves."""
+        """Return the sum of the stated torques on each group [N m], and the groups that carry unknown torques as well.
+
+        An unknown torque is a torque that enters or leaves the unit at this group, but that the file does not state.
+        """
         torques: dict[int, float] = defaultdict(float)
         opened, leaving = set(self._elsewhere), set()
         for shaft in self._shafts:
@@ -174,7 +187,7 @@ class Train:
         return torques, opened
 
     def _not_modelled(self) -> set[int]:
-        """Return the groups that have gears in stages without a model. The torques of these stages are not known."""
+        """Return the groups that have gears in stages that are not modelled. The torques of such stages are unknown."""
         model, modelled = self._reading.model, {pair.stage.id for pair in self._pairs}
         stages = (relation for relation in model.relations if relation.type == "stage")
         others = (relation for relation in stages if relation.part("stage") not in modelled)
@@ -183,10 +196,10 @@ class Train:
         return {self._group[shaft.id] for shaft in shafts if shaft is not None and shaft.id in self._group}
 
     def _stated_torque(self, load: Component, shaft: Component, speed: float | None, reading: Reading) -> float | None:
-        """Return the torque of a load on a shaft about the unit's axis [N m], or None if the torque is not stated.
+        """Return the torque [N m] of an external load about the axis of the unit, or None if the torque is not stated.
 
-        If a load case states a power but no torque, the torque is computed from this power, even if the model states a
-        torque.
+        `shaft` carries the load, and `speed` is the speed of the shaft. If only the power is stated, the torque is
+        computed from the power. If the load case states only the power, a torque that the model states is ignored.
         """
         if reading.flag(load, "defines_torque") is False:
             return None
@@ -209,4 +222,4 @@ class Train:
                 "stated torque is used"
             )
             reading.find("power_conflict", load, "power", message)
-        return torque * reading.sense(shaft)  # a load is stated about the u axis of its shaft
+        return torque * reading.sense(shaft)  # the file states the torque of a load about the u axis of the shaft

@@ -1,6 +1,7 @@
-"""Attributes of a file as numbers in the units of the requests, and the draft of a request that holds these numbers.
+"""Attributes of a file as numbers in the units of the requests, and the draft of a request.
 
-For the answer, `Reading` and `Draft` record the faults of the file, and the missing, assumed and unused values.
+For the answer of /v1/rexs, `Reading` records the faults of the file and the attributes that have been read. `Draft`
+records the missing and the assumed values.
 """
 
 import re
@@ -20,7 +21,7 @@ from app.rexs.table import APPLICATION_FACTOR, IGNORED, SCUFFING_FACTOR, Row, co
 from app.schema.quantities import Output
 from app.schema.reading import validated
 
-LARGEST = 1e30  # largest number accepted in any unit; keeps sums and products finite even for a malicious file
+LARGEST = 1e30  # largest absolute value of an accepted number; sums and products of such numbers stay finite
 DIGITS = 7
 SCUFFING = "/v1/scuffing"
 MESH = {"gears", "load", "materials", "modifications", "friction_coefficient"}
@@ -29,7 +30,7 @@ SECTIONS = {
     SCUFFING: MESH | {"temperatures", "lubricant"},
     "/v1/pumping": {"gears"},
 }
-"""For each endpoint of a single mesh, the sections of a draft that the request of the endpoint has."""
+"""For each endpoint that calculates a single mesh, the sections of the draft that the request of the endpoint has."""
 Vector = tuple[float, float, float]
 
 
@@ -44,14 +45,14 @@ class Axis(NamedTuple):
         return sum((a - b) * u for a, b, u in zip(point, self.origin, self.direction, strict=True))
 
     def apart(self, other: "Axis") -> float:
-        """Return the distance of the origin of another axis from this axis [mm]."""
+        """Return the distance [mm] between this axis and the origin of the other axis."""
         along = self.along(other.origin)
         across = (a - b - along * u for a, b, u in zip(other.origin, self.origin, self.direction, strict=True))
         return sqrt(sum(part * part for part in across))
 
 
 class Number(NamedTuple):
-    """A number of the file in the requested unit, and the name of its attribute."""
+    """The number in an attribute of the file, converted to the requested unit, and the name of the attribute."""
 
     value: float
     attribute: str
@@ -67,7 +68,7 @@ class Fault(BaseModel, frozen=True):
 
 
 class MissingValue(BaseModel):
-    """A field that a calculation needs and the file does not contain."""
+    """A field of a request that a calculation needs but that does not follow from the file."""
 
     field: Annotated[str, Output("dotted path of the field, or the endpoint that cannot be asked")]
     component: Annotated[int | None, Output("component in the file that could give it")]
@@ -94,10 +95,11 @@ class Unused(BaseModel):
 
 @dataclass
 class Reading:
-    """Reader of a model. The reader records which attributes were requested, and records faults as findings.
+    """Reader of the attributes in a model. The reader also records faults as findings.
 
-    The attributes of the load case `case` replace the attributes of the model. `used` holds the requested attributes of
-    the model, and `used_of_case` the requested attributes of the load case, as pairs of component and name.
+    If there is a load case `case`, the attributes of the load case replace the attributes of the model. `used` records
+    which attributes of the model have been read, and `used_of_case` records which attributes of the load case have been
+    read. Both hold pairs: the id of the component and the name of the attribute.
     """
 
     model: Model
@@ -107,13 +109,16 @@ class Reading:
     used_of_case: set[tuple[int, str]] = field(default_factory=set)
 
     def in_case(self, case: LoadCase | None) -> "Reading":
-        """Return a reading of the same model in which the values of a load case replace the values of the model."""
-        reading = copy(self)  # keeps the cached directions of the shafts
+        """Return a reader of the same model in which the values of a load case replace the values of the model.
+
+        Both readers share their findings.
+        """
+        reading = copy(self)  # the copy keeps the cached directions of the shafts
         reading.case, reading.used_of_case = case, set()
         return reading
 
     def says(self, component: Component, name: str) -> bool:
-        """Return True if the load case itself states an attribute."""
+        """Return True if the load case states an attribute, False if the attribute can only come from the model."""
         return self.case is not None and name in self.case.attributes.get(component.id, {})
 
     def find(self, code: str, component: Component | None, attribute: str | None, message: str) -> None:
@@ -129,18 +134,21 @@ class Reading:
         self.findings[Fault(code=code, component=id_, attribute=attribute, message=message)] = None
 
     def number(self, component: Component | None, wanted: Row | str, unit: str = "") -> float | None:
-        """Return the number of a row in the unit of the row, or the number of a named attribute in `unit`.
+        """Return a number of a component, or None if the file has no such number.
 
-        Return None if the file has no such value. If a row names several attributes, the first attribute that the file
-        has is used. A value that is not a number, or whose unit belongs to another quantity, is recorded as a finding
-        and is not used.
+        `wanted` is a row of the table, or the name of an attribute. The number is converted to the unit of the row, or
+        to `unit`. If the row names several attributes, the first attribute with a usable number counts. If a value is
+        not a number, or if its unit belongs to another quantity, the value is recorded as a finding and is not used.
         """
         names, unit = (wanted.attributes, wanted.unit) if isinstance(wanted, Row) else ((wanted,), unit)
         first = self.first_of(component, names, unit)
         return None if first is None else first.value
 
     def first_of(self, component: Component | None, names: Iterable[str], unit: str) -> "Number | None":
-        """Return value and name of the first of these attributes that is a number and can be converted to `unit`."""
+        """Return the first number among these attributes of a component, converted to `unit`.
+
+        Values that are not numbers or cannot be converted are skipped. Return None if no value remains.
+        """
         if component is None:
             return None
         for name in names:
@@ -151,18 +159,18 @@ class Reading:
         return None
 
     def text(self, component: Component, name: str) -> str:
-        """Return a text in lower case. The text is empty if the file does not have the attribute."""
+        """Return the text of an attribute in lower case; empty if the file has no such attribute."""
         attribute = self._attribute(component, name)
         return str(attribute.value).lower() if attribute is not None and isinstance(attribute.value, str) else ""
 
     def flag(self, component: Component, name: str) -> bool | None:
-        """Return a boolean, or None if the file does not have this attribute."""
+        """Return the boolean value of an attribute, or None if the file has no such attribute."""
         attribute = self._attribute(component, name)
         text = "" if attribute is None else str(attribute.value).lower()
         return {"true": True, "1": True, "false": False, "0": False}.get(text)
 
     def vector(self, component: Component, name: str) -> Vector | None:
-        """Return a vector of three numbers, with lengths in mm. Return None if the file has no such vector."""
+        """Return the vector in an attribute, or None if the file has no such vector. Lengths are converted to mm."""
         attribute = self._attribute(component, name)
         if attribute is None or not isinstance(attribute.value, list) or len(attribute.value) != 3:
             return None
@@ -190,9 +198,10 @@ class Reading:
         return Axis(origin, (x / size, y / size, z / size))
 
     def sense(self, shaft: Component) -> float:
-        """Return -1 if the u axes of a shaft and of the first shaft with an axis have opposite directions, else +1.
+        """Return the direction of a shaft's u axis: +1 along the axis of the unit, -1 against the axis of the unit.
 
-        Also return +1 for a shaft without an axis.
+        The axis of the unit is the u axis of the first shaft whose position the file states. Return +1 for a shaft
+        whose position is not stated.
         """
         return self._senses.get(shaft.id, 1.0)
 
@@ -204,14 +213,17 @@ class Reading:
         return {id_: 1.0 if cosine >= 0.0 else -1.0 for id_, cosine in cosines.items()}
 
     def ignored(self, components: Iterable[Component]) -> Iterator[Unused]:
-        """Yield the attributes of these components that were not requested."""
+        """Yield the attributes of these components that have not been read."""
         for component in components:
             for name in component.attributes:
                 if (component.id, name) not in self.used:
                     yield Unused(component=component.id, attribute=name, reason=why_unused(component.type, name))
 
     def ignored_of_case(self, elsewhere: Collection[int]) -> Iterator[Unused]:
-        """Yield the unrequested attributes of the load case, except the attributes of the components `elsewhere`."""
+        """Yield the attributes of the load case that have not been read.
+
+        Attributes of the components whose ids are in `elsewhere` are left out.
+        """
         if (case := self.case) is None:
             return
         for id_, attributes in case.attributes.items():
@@ -253,7 +265,10 @@ class Reading:
 
 @dataclass
 class Draft:
-    """Fields by their dotted path in the request of /v1/scuffing, and the origins of these fields in the file."""
+    """Draft of a request: values of fields, and the components and attributes of the file from which they come.
+
+    The keys are dotted paths in the request of /v1/scuffing. The draft also records missing and assumed values.
+    """
 
     reading: Reading
     fields: dict[str, Any] = field(default_factory=dict)
@@ -272,16 +287,23 @@ class Draft:
         self.note(path, value, reason)
 
     def note(self, path: str, value: Any, reason: str) -> None:
-        """Record why a field has this value although the file permits other values."""
+        """Record the reason for a field's value in the list of assumed values. The field itself is not changed."""
         self.assumed[path] = AssumedValue(field=path, value=value, reason=reason)
 
     def lacks(self, path: str, component: Component | None, attribute: str | None, message: str) -> None:
-        """Record that the file does not contain a field that has no default."""
+        """Record that a field has no value, although a calculation needs the value.
+
+        `component` and `attribute` say where the file could state the value.
+        """
         id_ = component.id if component else None
         self.missing.setdefault(path, MissingValue(field=path, component=id_, attribute=attribute, message=message))
 
     def take(self, row: Row, component: Component | None, prefix: str = "") -> float | None:
-        """Copy a number of the file into a field. Return this number, or None if the file does not contain it."""
+        """Copy the number that a row describes from the file into the field of the row.
+
+        `prefix` is put before the path of the field. Return the number, or None if the file does not contain the
+        number.
+        """
         number = self.reading.first_of(component, row.attributes, row.unit)
         if component is None or number is None:
             return None
@@ -289,11 +311,11 @@ class Draft:
         return number.value
 
     def request(self, endpoint: str, paths: Iterable[str]) -> dict[str, Any]:
-        """Return the request of an endpoint from these fields.
+        """Return a request of an endpoint. The request has the fields of the draft that are in `paths`.
 
-        Fields that the endpoint does not have, and fields whose values the endpoint rejects, are left out. If a
-        rejected value comes from the file, the value is recorded as a finding with the permitted range. If a field that
-        the endpoint requires has no value, the field is recorded as missing.
+        Fields that the endpoint does not have are left out. Fields whose values the endpoint rejects are also left out;
+        they are recorded as findings with the permitted range, and as missing. If a field that the endpoint requires
+        has no value, the field is recorded as missing.
         """
         replaced = endpoint == SCUFFING and SCUFFING_FACTOR in self.fields
         places = {
@@ -332,7 +354,10 @@ class Draft:
 
 
 def path_in(endpoint: str, path: str) -> str | None:
-    """Return the path of a field of the draft in the request of an endpoint; None if the request has no such field."""
+    """Convert the path of a field in the draft into the path of this field in the request of an endpoint.
+
+    Return None if the request has no such field.
+    """
     if path == SCUFFING_FACTOR:
         return APPLICATION_FACTOR if endpoint == SCUFFING else None
     if endpoint == "/v1/drive-train" or (endpoint, path) == ("/v1/pumping", "load.pinion_speed_rpm"):
@@ -342,7 +367,7 @@ def path_in(endpoint: str, path: str) -> str | None:
 
 
 def rounded(value: Any) -> Any:
-    """Return a value with its numbers rounded to the seven digits that a page shows."""
+    """Round all numbers in a value to seven significant digits, the number of digits that a page shows."""
     if isinstance(value, float):
         return float(f"{value:.{DIGITS}g}")
     if isinstance(value, list):
@@ -362,7 +387,7 @@ def _within(path: str, section: str) -> bool:
 
 
 def _nested(fields: dict[str, Any]) -> dict[str, Any]:
-    """Return nested sections from fields with dotted paths."""
+    """Convert fields with dotted paths into nested sections."""
     request: dict[str, Any] = {}
     for path, value in fields.items():
         *sections, name = path.split(".")

@@ -1,4 +1,4 @@
-"""The stages of a gear unit as requests: gears, load and materials of one mesh."""
+"""The draft of a request for each stage of a gear unit: the gears, the load and the materials of the stage's mesh."""
 
 from collections.abc import Iterable, Iterator
 from math import acos, asin, atan, cos, degrees, pi, radians, sin, sqrt, tan
@@ -10,17 +10,17 @@ from app.rexs.reading import Draft, Reading
 from solvers.gears.gear import involute
 from solvers.gears.pair import inverse_involute
 
-ISO_53_A = {"addendum": 1.0, "dedendum": 1.25, "gears.rack_tip_radius": 0.38}  # in modules
-SAME = 1e-6  # chosen: two stated numbers count as equal if their difference is smaller than this
-OFF_CENTRE = 1e-3  # chosen: tolerated error, as a share of the centre distance; positions in files are often rounded
-MOST_INVOLUTE = 1e8  # only absurd profile shifts give larger values; the inverse function works up to 1e9
-NORMAL_ANGLE = 20.0  # deg, ISO 53
+ISO_53_A = {"addendum": 1.0, "dedendum": 1.25, "gears.rack_tip_radius": 0.38}  # coefficients, in modules
+SAME = 1e-6  # two stated numbers count as equal if their difference is smaller than this; chosen
+OFF_CENTRE = 1e-3  # tolerated error of positions, which are often rounded, as a share of the centre distance; chosen
+MOST_INVOLUTE = 1e8  # only absurd profile shifts give larger involute functions; the inverse function works up to 1e9
+NORMAL_ANGLE = 20.0  # normal pressure angle of ISO 53 [deg]
 ROLES = ("pinion", "wheel")
 TORQUE, SPEED = "load.pinion_torque_n_m", "load.pinion_speed_rpm"
 
 
 def pairs(reading: Reading) -> Iterator[Pair]:
-    """Yield the cylindrical stages with two external gears on shafts. Record every other stage as a finding."""
+    """Yield the cylindrical stages that have two external gears on two shafts. Record all other stages as findings."""
     for stage in reading.model.components.values():
         if stage.type in table.OTHER_STAGES:
             reading.find("stage_not_modelled", stage, None, f"{table.OTHER_STAGES[stage.type]}; the stage is left out")
@@ -80,13 +80,17 @@ def _gear_data(reading: Reading, pair: Pair, gear: Component) -> Iterator[Compon
 class StageDraft(Draft):
     """The draft of one mesh. The pinion is the driving gear, or the smaller gear if the driving gear is not known.
 
-    `order` holds the positions of pinion and wheel in the pair of the file, 0 or 1. `driver` is the position of the
-    driving gear in this pair, or None if the driving gear is not known. The argument `place` of the methods is 0
-    for the pinion and 1 for the wheel.
+    In `pair`, the gears have the order of the file. `order` holds the position (0 or 1) of the pinion in `pair`, and
+    then the position of the wheel. `driver` is the position of the driving gear in `pair`, or None if the driving gear
+    is not known. `gears`, `shafts` and `teeth` begin with the pinion. The argument `place` of the methods is 0 for the
+    pinion and 1 for the wheel.
     """
 
     def __init__(self, pair: Pair, flow: Flow, pinion: int | None = None) -> None:
-        """Begin the draft. `pinion` is the pinion's position in the pair if another draft has chosen the pinion."""
+        """Choose the pinion.
+
+        If another draft of the same stage has chosen the pinion, `pinion` is the position of this pinion in `pair`.
+        """
         super().__init__(flow.reading)
         self.flow, self.pair = flow, pair
         self.driver = self._driver()
@@ -120,7 +124,11 @@ class StageDraft(Draft):
                 self.take(row, self.material(place), f"materials.{role}.")
 
     def _driver(self) -> int | None:
-        """Return the driving gear's position in the pair: from torque and speed if known, else from the file."""
+        """Return the position of the driving gear in `pair`, or None if the driving gear is not known.
+
+        The driving gear follows from torque and speed. If torque and speed are not known, the driving gear is the gear
+        that the file marks as driving.
+        """
         by_power, pair = self.flow.driver(self.pair), self.pair
         stated = [place for place in (0, 1) for data in _gear_data(self.reading, pair, pair.gears[place])
                   if self.reading.flag(data, "is_driving_gear")]  # fmt: skip
@@ -138,18 +146,18 @@ class StageDraft(Draft):
         return {side: flank for side, flank in flanks.items() if flank is not None}
 
     def gear_data(self, place: int) -> Iterator[Component]:
-        """Yield the data of pinion (0) or wheel (1) in this stage."""
+        """Yield the components that hold data of the pinion (0) or the wheel (1) in this stage."""
         return _gear_data(self.reading, self.pair, self.gears[place])
 
     @property
     def load_sources(self) -> set[int]:
-        """Components whose attributes in a load case change nothing but torque, speed and shares."""
+        """The ids of the components that state only torques, speeds and shares of time in a load case."""
         model = self.reading.model
         sources = (model.first("gear_unit"), *model.by_type["shaft"], *model.by_type["external_load"])
         return {source.id for source in sources if source is not None}
 
     def tool(self, place: int) -> Component | None:
-        """Return the rack-shaped tool that made a gear."""
+        """Return the rack-shaped tool that cuts a gear, or None if the file does not state such a tool."""
         model, flanks = self.reading.model, self.flanks(place).values()
         tools = (
             tool for flank in flanks for tool in model.related("manufacturing_step", "workpiece", flank.id, "tool")
@@ -158,27 +166,33 @@ class StageDraft(Draft):
         return made_by or model.reference_of((self.gears[place], *flanks), table.TOOL)
 
     def material(self, place: int) -> Component | None:
-        """Return the material of a gear, else the material of the gear's shaft."""
+        """Return the material of a gear, or the material of the gear's shaft if the gear has no stated material."""
         return self.reading.model.reference_of((self.gears[place], self.shafts[place]), "material")
 
     @property
     def oil_origins(self) -> tuple[Component | None, ...]:
-        """Components that may state the oil and its temperature: the stage, then the casing."""
+        """The components that may state the oil and the oil temperature. The stage has priority over the casing."""
         return self.stage, self.reading.model.first("gear_casing")
 
     @property
     def lubricant(self) -> Component | None:
-        """Lubricant of the stage, else the lubricant of the casing."""
+        """The lubricant of the stage, or the lubricant of the casing if the stage has no lubricant in the file."""
         return self.reading.model.reference_of(self.oil_origins, "lubricant")
 
     def load(self, flow: Flow) -> dict[str, float]:
-        """Return torque and speed of the pinion as fields of the request. Unknown values are left out."""
+        """Return the torque and the speed of the pinion. The keys are the paths of the fields in the draft.
+
+        Unknown values are left out.
+        """
         torques, speed = flow.mesh_torque.get(self.stage.id), flow.speed.get(self.shafts[0].id)
         fields = {} if torques is None else {TORQUE: abs(torques[self.order[0]])}
         return fields if speed is None else fields | {SPEED: abs(speed)}
 
     def face_interval(self, place: int) -> tuple[float, float] | None:
-        """Return both ends of a gear's face along the axis of the pinion's shaft [mm]; None if not known."""
+        """Return the positions of both ends of a gear's face along the axis of the pinion's shaft [mm].
+
+        Return None if the face width or the position of the gear is not known.
+        """
         width = self.reading.number(self.gears[place], table.FACE_WIDTH)
         middle = self.position(self.gears[place], self.shafts[place])
         if width is None or middle is None:
@@ -186,11 +200,12 @@ class StageDraft(Draft):
         return middle - width / 2.0, middle + width / 2.0
 
     def position(self, part: Component, shaft: Component) -> float | None:
-        """Return the position of a part's middle along the axis of the pinion's shaft [mm]; None if this is not known.
+        """Return the position of the middle of a part along the axis of the pinion's shaft [mm].
 
-        The origin of a part is the middle of the part's width. If the file gives both an origin and a coordinate, the
-        origin is used. If the two positions differ by half the width, the coordinate is taken as the position of an end
-        of the part, and no fault is recorded.
+        Return None if the position is not known. The file may state the origin of the part, which is the middle of the
+        part's width, and a coordinate on the shaft. If the file states both, the origin is used, and a fault is
+        recorded if the two positions differ. No fault is recorded if the two positions differ by half the width,
+        because the coordinate is then the position of an end of the part.
         """
         reading = self.reading
         stated = reading.number(part, table.POSITION)
@@ -223,7 +238,7 @@ class StageDraft(Draft):
         return self.reading.sense(shaft) * self.reading.sense(self.shafts[0])
 
     def involute(self, place: int) -> "Involute | None":
-        """Return the transverse geometry of a gear; None if the file does not contain enough data."""
+        """Return the transverse geometry of a gear, or None if the draft does not contain enough data."""
         fields, module = self.fields, self.fields.get(table.MODULE.field)
         angle, helix = fields.get(table.PRESSURE_ANGLE.field), fields.get(table.HELIX_ANGLE.field, 0.0)
         if not module or module < 0.0 or angle is None or not 0.0 < angle < 45.0 or not helix < 80.0:
@@ -232,7 +247,7 @@ class StageDraft(Draft):
         return Involute(self.teeth[place], module, radians(angle), radians(helix), shift)
 
     def values_of(self, components: Iterable[Component], row: table.Row) -> list[tuple[float, Component]]:
-        """Return pairs of value and component for the components that have a value."""
+        """Return a pair of value and component for each of the components that has a value for the row."""
         numbers = ((self.reading.number(component, row), component) for component in components)
         return [(value, component) for value, component in numbers if value is not None]
 
@@ -248,7 +263,7 @@ class StageDraft(Draft):
         self.put(row.field, *modules[0], row.name)
 
     def _transverse_modules(self) -> list[tuple[float, Component]]:
-        """Return pairs of normal module and gear. The normal modules follow from the transverse modules in the file."""
+        """Return a pair of normal module and gear for each gear that has a transverse module in the file."""
         cosine = cos(radians(self.fields.get(table.HELIX_ANGLE.field, 0.0)))
         modules = self.values_of(self.gears, table.TRANSVERSE_MODULE)
         if modules:
@@ -270,9 +285,11 @@ class StageDraft(Draft):
         self.put("gears.hand", "right" if pinion >= 0.0 else "left", gear, row.name)
 
     def _helix_angle(self, gear: Component) -> float | None:
-        """Return the helix angle at the reference circle [deg], as stated or computed from the base helix angle.
+        """Return the helix angle at the reference circle [deg]; None if the file does not state a helix angle.
 
-        The equations are sin beta = sin beta_b / cos alpha_n and tan beta = tan beta_b / cos alpha_t.
+        If the file states only the helix angle at the base circle, the angle is computed from this base helix angle.
+        The equation is sin beta = sin beta_b / cos alpha_n. If the file states only the transverse pressure angle, the
+        equation is tan beta = tan beta_b / cos alpha_t.
         """
         stated = self.reading.number(gear, table.HELIX_ANGLE)
         base = self.reading.number(gear, table.BASE_HELIX_ANGLE) if stated is None else None
@@ -332,7 +349,11 @@ class StageDraft(Draft):
         self.put(row.field, normal, angles[0][1], table.TRANSVERSE_PRESSURE_ANGLE.name)
 
     def _profile_shift(self, place: int) -> None:
-        """Fill in the nominal profile shift, or else the finished shift, which includes the thickness allowance."""
+        """Fill in the nominal profile shift.
+
+        If the file does not state the nominal profile shift, the profile shift after finishing is used. This profile
+        shift includes the allowance of the tooth thickness.
+        """
         path = f"gears.{ROLES[place]}.profile_shift"
         if self._of_flanks(place, table.PROFILE_SHIFT, path) is not None:
             return
@@ -350,7 +371,10 @@ class StageDraft(Draft):
             self.assume(path, 0.0, "the file has no profile shift")
 
     def _of_flanks(self, place: int, row: table.Row, path: str) -> float | None:
-        """Fill in a number that must be the same for both flanks. Return this number; None if the file has none."""
+        """Fill in a number that must be the same for both flanks, and return the number.
+
+        Return None if the file does not state the number for any flank.
+        """
         values = self.values_of(self.flanks(place).values(), row)
         if not values:
             return None
@@ -361,10 +385,10 @@ class StageDraft(Draft):
         return values[0][0]
 
     def _rack(self, place: int) -> None:
-        """Fill in addendum and dedendum.
+        """Fill in the coefficients of addendum and dedendum.
 
-        The addendum comes from the tip diameter or the basic profile. The dedendum comes from the tool or the root
-        diameter. If the file does not contain these values, profile A of ISO 53 is assumed.
+        The addendum comes from the tip diameter, or else from the basic profile. The dedendum comes from the tool, or
+        else from the root diameter. If the file contains none of these values, profile A of ISO 53 is assumed.
         """
         prefix, tool = f"gears.{ROLES[place]}.", self.tool(place)
         path, module = f"{prefix}addendum", self.fields.get(table.MODULE.field)
@@ -387,15 +411,19 @@ class StageDraft(Draft):
         self.assume(path, ISO_53_A[name], f"the file gives no {name}; the value of ISO 53, profile A, is used")
 
     def _of_tool(self, tool: Component | None, row: table.Row, length_row: table.Row) -> float | None:
-        """Return a coefficient of the rack. The file gives the coefficient in modules or as a length."""
+        """Return a coefficient of the rack. The file states this coefficient in modules, or as a length.
+
+        `row` is for the coefficient in modules, and `length_row` is for the length.
+        """
         coefficient, length = self.reading.number(tool, row), self.reading.number(tool, length_row)
         module = self.fields.get(table.MODULE.field)
         return length / module if coefficient is None and length is not None and module else coefficient
 
     def _from_diameter(self, place: int, row: table.Row) -> bool:
-        """Fill in a coefficient of the rack that follows from the tip or root diameter. Return True on success.
+        """Fill in the addendum from the tip diameter, or the dedendum from the root diameter. Return True on success.
 
-        An impossible diameter is recorded as a finding and is not used.
+        `row` decides which of the two diameters is used. An impossible diameter is recorded as a finding and is not
+        used.
         """
         path, gear = f"gears.{ROLES[place]}.{row.field}", self.gears[place]
         diameter, flank = self.reading.number(gear, row), self.involute(place)
@@ -432,9 +460,10 @@ class StageDraft(Draft):
             self.note(path, smallest, "the tools differ; the smaller radius is used for both gears")
 
     def _backlash(self) -> None:
-        """Fill in the normal backlash in the file minus the backlash that results from the centre distance.
+        """Fill in the part of the normal backlash that results from the thinning of the teeth.
 
-        If the file states no backlash, the value is computed from the profile shifts before and after finishing.
+        This part is the backlash in the file minus the backlash that results from the centre distance. If the file
+        states no backlash, this part is computed from the profile shifts before and after finishing.
         """
         path, name = "gears.normal_backlash_mm", table.BACKLASH[0]
         limits = self._stated_backlash()
@@ -459,9 +488,9 @@ class StageDraft(Draft):
             self.note(path, stated - own, "mean of the least and the largest backlash")
 
     def _stated_backlash(self) -> list[float]:
-        """Return the least and the largest normal backlash [mm], as stated or computed from the transverse backlash.
+        """Return the least and the largest normal backlash in the file [mm]; empty if the file states no backlash.
 
-        The normal backlash is j_bn = j_t cos alpha_wt cos beta_b, where j_t is the transverse backlash.
+        If the file states only the transverse backlash j_t, the normal backlash is j_bn = j_t cos alpha_wt cos beta_b.
         """
         normal, transverse = (
             [value for name in names if (value := self.reading.number(self.stage, name, "mm")) is not None]
@@ -489,7 +518,10 @@ class StageDraft(Draft):
         return 2.0 * pinion.module * sin(pinion.normal_angle) * total
 
     def working_distance(self) -> float | None:
-        """Return the stated centre distance [mm], or else the distance at which the teeth mesh without backlash."""
+        """Return the centre distance [mm], or None if the centre distance is not possible or not known.
+
+        If the file does not state the centre distance, the backlash-free centre distance is returned.
+        """
         pinion, wheel = self.involute(0), self.involute(1)
         if pinion is None or wheel is None:
             return None
@@ -506,7 +538,7 @@ class StageDraft(Draft):
         return involute(pinion.transverse_angle) + shifts / sum(self.teeth)
 
     def _backlash_of_centre_distance(self) -> float | None:
-        """Return the normal backlash of unthinned teeth at the centre distance [mm].
+        """Return the normal backlash [mm] that teeth without thinning have at the centre distance.
 
         This backlash is 2 a cos alpha_wt (inv alpha_wt - inv alpha_0) cos beta_b, where alpha_0 is the working pressure
         angle at which the teeth mesh without backlash.
@@ -539,7 +571,11 @@ class StageDraft(Draft):
             self.reading.find("centre_distance", self.stage, "center_distance", message)
 
     def _load(self) -> None:
-        """Fill in torque and speed from the loads of the shafts, or else from the values stated for the gear."""
+        """Fill in the torque and the speed of the pinion.
+
+        Torque and speed follow from the loads on the shafts. If the loads do not determine torque and speed, the values
+        that the file states for the gear are used.
+        """
         load = self.load(self.flow)
         own = (table.GEAR_TORQUE, self.gear_data(0)), (table.GEAR_SPEED, (self.gears[0],))
         for (row, origins), what in zip(own, ("torque", "speed"), strict=True):
@@ -567,9 +603,9 @@ class Involute:
         self.base_diameter = self.reference_diameter * cos(self.transverse_angle)
 
     def roll_length(self, diameter: float) -> float:
-        """Return the distance along the line of action [mm] from the base tangent point to a diameter [mm].
+        """Return the roll length at a diameter [mm]: the distance from the base tangent point along the line of action.
 
-        Inside the base circle the distance is 0.
+        The diameter is in mm. Inside the base circle, the roll length is 0.
         """
         return sqrt(max(diameter**2 - self.base_diameter**2, 0.0)) / 2.0
 

@@ -1,7 +1,8 @@
-"""The names of REXS: units, attributes that become fields of a request, and attributes for the numbers of an answer.
+"""Names in REXS files: units, attributes from which request fields are filled, and attributes for results.
 
 Sources: the specification and the published schemas of REXS 1.0 to 2.0 (https://www.rexs.info). Only names and units
-are used here. If different versions of REXS name an attribute differently, the preferred name comes first.
+are taken from these sources. If the versions of REXS have different names for an attribute, the preferred name comes
+first.
 """
 
 from math import pi
@@ -27,13 +28,13 @@ UNITS = (
     {"m/s^2": 1.0},
     {"l/min": 1e-3 / 60.0, "l/s": 1e-3, "m^3/s": 1.0, "m^3/h": 1.0 / 3600.0},
 )
-"""Units of each quantity as files spell them, without blanks, and the size of each unit in SI.
+"""The units of each quantity. The keys are the spellings in files, without blanks. The values are in SI units.
 
-A file states the unit of every attribute. This unit decides how a value is converted, and the version of the file does
-not matter. The versions spell units differently: degrees are "°" up to version 1.3 and "deg" from 1.4; modifications
-are in "mum" or in "mm".
+A file states the unit of every attribute. The stated unit alone decides how a value is converted; the version of the
+file does not matter. The versions of REXS use different spellings and units. For example, degrees are "°" up to version
+1.3 and "deg" from version 1.4, and modifications are in "mum" or in "mm".
 """
-ZEROS = {"C": 273.15, "°C": 273.15}  # K
+ZEROS = {"C": 273.15, "°C": 273.15}  # zero points of the scales of temperature [K]
 
 
 def convert(value: float, stated: str, wanted: str) -> float | None:
@@ -49,7 +50,11 @@ def convert(value: float, stated: str, wanted: str) -> float | None:
 
 
 class Row(NamedTuple):
-    """A number that is copied from the file: field of the request, attributes by preference, unit of the field."""
+    """A number that is copied from the file into a request.
+
+    `field` is the field of the request, and `unit` is the unit of this field. `attributes` names the attributes that
+    may contain the number; the preferred attribute comes first.
+    """
 
     field: str
     attributes: tuple[str, ...]
@@ -57,12 +62,12 @@ class Row(NamedTuple):
 
     @property
     def name(self) -> str:
-        """The preferred attribute."""
+        """The name of the preferred attribute."""
         return self.attributes[0]
 
 
 APPLICATION_FACTOR, SCUFFING_FACTOR = "load.application_factor", "scuffing.application_factor"
-"""If a draft has both fields, a request of /v1/scuffing gets the value of the second field as application factor."""
+"""Two fields of a draft. If a draft has both fields, the second field is the application factor of /v1/scuffing."""
 STAGE = (
     Row("gears.centre_distance_mm", ("center_distance",), "mm"),
     Row(
@@ -98,7 +103,7 @@ HEAT = (
     Row("thermal_conductivity_w_per_m_k", ("thermal_conductivity",), "W/(mK)"),
     Row("specific_heat_j_per_kg_k", ("thermal_capacity",), "J/(kgK)"),
 )
-"""Thermal properties of gears and oils. Shafts have no such fields."""
+"""Thermal properties of gears and oils. A request has no such fields for shafts."""
 OIL = (
     Row("kinematic_viscosity_40_mm2_per_s", ("viscosity_at_40_degree_celsius",), "mm^2/s"),
     Row("kinematic_viscosity_100_mm2_per_s", ("viscosity_at_100_degree_celsius",), "mm^2/s"),
@@ -185,7 +190,7 @@ SUPPLY_FACTOR, SUPPLY_FACTORS = (
 )
 SUPPLIES = {"splash": "dip", "dip": "dip", "bath": "dip", "submerged": "submerged", "spray": "spray",
             "injection": "spray", "circulating": "spray"}  # fmt: skip
-"""Words in files that identify the oil supply of a mesh."""
+"""Words that identify the oil supply of a mesh in files, and the oil supply that each word means."""
 REFERENCE_TEMPERATURE = Row("thermal.reference_c", ("reference_temperature",), "C")
 TOOTH_TEMPERATURES = (
     Row("thermal.pinion_bulk_c", ("bulk_temperature",), "C"),
@@ -195,7 +200,7 @@ BEARING_BORE = Row("diameter_mm", ("reference_diameter_relative_clearance_plain_
 JOURNAL = (
     Row("diameter_mm", ("inner_diameter",), "mm"),
     Row("width_mm", ("width",), "mm"),
-    Row("radial_clearance_um", ("diameter_clearance_plain_bearing",), "um"),  # half this value is used
+    Row("radial_clearance_um", ("diameter_clearance_plain_bearing",), "um"),  # a diameter; half of it is used
     Row("film_temperature_c", ("lubricant_feed_temperature",), "C"),
     Row("oil_flow_l_per_min", ("lubricant_flow_through_bearing",), "l/min"),
 )
@@ -211,7 +216,10 @@ BASE_OILS = {"phosphat": None, "traction": None, "silicon": None, "polyglycol": 
              "polyalpha": "pao", "polyalfa": "pao",
              "ester": "ester", "mil_l_": "ester", "miner": "mineral", "synthetic": None, "biologic": None,
              "food": None}  # fmt: skip
-"""Words in files that identify the base oil, the most specific words first. None stands for an oil without a model."""
+"""Words that identify the base oil in files, and the base oil that each word means. Specific words come first.
+
+None marks an oil that is not modelled.
+"""
 BACKLASH = ("minimum_normal_backlash", "maximum_normal_backlash")
 TRANSVERSE_BACKLASH = ("minimum_transverse_backlash", "maximum_transverse_backlash")
 
@@ -339,11 +347,15 @@ IGNORED = (
     (".*", _RESULTS, "a result of the program that wrote the file"),
     (".*", "", "the models have no such input"),
 )
-"""Reasons why attributes are not used, by component type and attribute. The first matching pattern counts."""
+"""Reasons why attributes are not used.
+
+An entry has a pattern for the type of the component, a pattern for the name of the attribute, and the reason. The first
+entry whose two patterns match counts.
+"""
 
 CUSTOM = "custom_tribodrive_"
 STANDARD_FROM = {"face_load_factor_contact_stress": 2}
-"""Attributes of the standard for results, with the major version of REXS that introduced the attribute."""
+"""Attributes for results that are part of the standard, and the major version of REXS that introduced the attribute."""
 LOAD_RESULTS = (
     ("load.face_load_factor", "face_load_factor_contact_stress", "none"),
     ("load.max_line_load_n_per_mm", "maximum_line_load", "N / mm"),
@@ -357,7 +369,10 @@ MICROPITTING_RESULTS = (
     ("wear.pinion_max_um_per_million", "maximum_wear_pinion_per_million_revolutions", "mum"),
     ("wear.wheel_max_um_per_million", "maximum_wear_wheel_per_million_revolutions", "mum"),
 )
-"""REXS has no attribute for the failure load stage of a micropitting test. The user enters this load stage on the page.
+"""Results about micropitting.
+
+These results need the failure load stage of a micropitting test. REXS has no attribute for this load stage, so the user
+enters it on the page.
 """
 RESULTS = {
     "/v1/scuffing": (
@@ -392,4 +407,7 @@ RESULTS = {
         ("losses.efficiency", "efficiency", "none"),
     ),
 }
-"""Numbers of an answer that are written into the file: path in the answer, attribute, unit of the attribute."""
+"""For each endpoint, the results that are written into the file.
+
+An entry has the path of the result in the answer, the name of the attribute, and the unit of the attribute.
+"""

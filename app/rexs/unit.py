@@ -1,4 +1,7 @@
-"""Content of a gear unit's file: stages with ready requests, load cases, and missing, assumed and ignored fields."""
+"""The answer about the file of a gear unit: the stages with their requests and load cases, and the faults of the file.
+
+For each stage, the answer also lists missing fields, assumed values and attributes that are not used.
+"""
 
 from collections.abc import Iterable, Iterator
 from itertools import chain, islice
@@ -15,14 +18,17 @@ from app.rexs.power import Flow, Pair, Train
 from app.rexs.reading import MESH, SCUFFING, SECTIONS, Reading, path_in, rounded
 from app.rexs.stages import SPEED, TORQUE, StageDraft, pairs
 
-MOST_FINDINGS = 1000  # largest number in an answer; more findings would not help the author of the file
-MOST_STAGES = 50  # chosen: far more than any gear unit has
+MOST_FINDINGS = 1000  # largest number of findings in an answer; more would not help the author of the file
+MOST_STAGES = 50  # largest number of stages; chosen: far more than any gear unit has
 MOST_CASES = 200  # largest number of load cases; further load cases of a file are not read
-MOST_DRAFTS = 2000  # largest number of stages times load cases; a draft takes 2 ms
-LONGEST_NAME, MOST_SPECTRUM_CASES = 100, 100  # limits of /v1/spectrum
+MOST_DRAFTS = 2000  # largest product of stages and load cases; each combination needs a draft, which takes 2 ms
+LONGEST_NAME, MOST_SPECTRUM_CASES = 100, 100  # length of a name and number of cases that /v1/spectrum accepts
 MOST_IGNORED = 2000  # largest number of ignored attributes per stage
 SHARES = {"operating_time_fraction": "", "load_duration_fraction": "", "operating_time": "h", "load_duration": "h"}
-"""Attributes that state the share of a load case in the operating time, and the units of these attributes."""
+"""Attributes that state the duration of a load case, as a share of the operating time or in hours.
+
+The keys are the names of the attributes, and the values are the units of the attributes.
+"""
 
 
 def gear_unit(model: Model) -> dict[str, Any]:
@@ -54,10 +60,10 @@ def gear_unit(model: Model) -> dict[str, Any]:
 
 
 def _stages(reading: Reading, all_pairs: list[Pair], base: Flow, flows: list[Flow]) -> list[dict[str, Any]]:
-    """Return the stages of the answer.
+    """Return the stages in the answer.
 
-    If a load case has unused attributes of components that belong to no stage, every stage lists these attributes as
-    ignored.
+    A stage lists the attributes that were not used. A load case may also have unused attributes of components that
+    belong to no stage; every stage lists these attributes.
     """
     rows, parts, all_parts = [], [], set[int]()
     for pair in all_pairs:
@@ -78,10 +84,10 @@ def _stages(reading: Reading, all_pairs: list[Pair], base: Flow, flows: list[Flo
 
 
 def _stage(pair: Pair, base: Flow, flows: list[Flow]) -> tuple[dict[str, Any], StageDraft]:
-    """Return a stage of the answer and its draft.
+    """Return a stage in the answer, and the draft of the stage.
 
-    The load is taken from the base model. If the base model states no load, the load is taken from the first load case
-    that states a load.
+    The load of the requests is taken from the model. If the model states no load, the load is taken from the first load
+    case that states a load.
     """
     flow = next((flow for flow in (base, *flows) if flow.knows(pair)), base)
     stage = _draft_of(pair, flow)
@@ -91,7 +97,7 @@ def _stage(pair: Pair, base: Flow, flows: list[Flow]) -> tuple[dict[str, Any], S
                 stage.note(
                     path, stage.fields[path], f"taken from the load case {case.name}, because the model states no value"
                 )
-    # Fields of the mesh come first, then fields of the oil.
+    # The fields of the sections in `MESH` come first, then the fields of oil and temperatures.
     paths = sorted({**stage.fields, **stage.missing}, key=lambda path: path.partition(".")[0] not in MESH)
     requests = {endpoint: stage.request(endpoint, paths) for endpoint in SECTIONS}
     if add_drive_train(stage):
@@ -123,7 +129,10 @@ def _draft_of(pair: Pair, flow: Flow, pinion: int | None = None) -> StageDraft:
 
 
 def _described_by(stage: StageDraft) -> Iterator[Component]:
-    """Yield the components that describe the mesh. Unused attributes of these components are listed as ignored."""
+    """Yield the components that describe a stage.
+
+    The answer lists the attributes of these components that are not used.
+    """
     model = stage.reading.model
     yield stage.stage
     for place, shaft in enumerate(stage.shafts):
@@ -140,7 +149,7 @@ def _described_by(stage: StageDraft) -> Iterator[Component]:
 
 
 class _Case(NamedTuple):
-    """A load case of a stage, with the changes that it makes to the fields of the draft."""
+    """A load case of a stage. `changes` holds the fields of the draft that have other values in this load case."""
 
     name: str
     share: float
@@ -148,7 +157,7 @@ class _Case(NamedTuple):
 
     @property
     def of_scuffing(self) -> dict[str, Any]:
-        """The case with the field names of a request to /v1/scuffing."""
+        """The case in the form of the answer, with paths of fields in a request of /v1/scuffing."""
         return {"name": self.name, "share": self.share, "overrides": self._in(SCUFFING)}
 
     def as_spectrum(self, endpoint: str) -> dict[str, Any]:
@@ -162,7 +171,7 @@ class _Case(NamedTuple):
 
 
 def _cases(stage: StageDraft, pair: Pair, flows: list[Flow]) -> list[_Case]:
-    """Return the load spectrum. Each load case changes torque, speed and possibly further inputs."""
+    """Return the load cases of a stage. A load case changes torque and speed, and it may change further inputs."""
     cases = []
     shares, reason = _shares([flow.reading for flow in flows])
     load_sources = stage.load_sources
@@ -188,10 +197,9 @@ def _rows(models: Iterable[BaseModel]) -> list[dict[str, Any]]:
 
 
 def _shares(readings: list[Reading]) -> tuple[list[float], str | None]:
-    """Return the shares of all load cases in the operating time.
+    """Return the share of each load case in the operating time, and a text or None.
 
-    If the file states no shares in attributes of the standard, also return a text that states how the shares were
-    chosen.
+    The text says where the shares come from if no attribute of the standard states the shares.
     """
     if not readings:
         return [], None
@@ -209,7 +217,7 @@ def _shares(readings: list[Reading]) -> tuple[list[float], str | None]:
 
 
 def _check_relations(reading: Reading) -> None:
-    """Record relations to absent components, and assemblies that contain themselves, as findings."""
+    """Record a finding for each relation to an absent component, and for each assembly that contains itself."""
     model = reading.model
     parents: dict[int, int] = {}
     for relation in model.relations:

@@ -1,4 +1,7 @@
-"""Admission of studies. A limited number of studies runs at once, on the service's own workers or on a cluster."""
+"""Admission of studies.
+
+The number of studies that run at once is limited. The studies run on the service's own workers or on a cluster.
+"""
 
 import asyncio
 import logging
@@ -19,14 +22,17 @@ logger = logging.getLogger("tribodrive")
 
 
 class StudyPool:
-    """The service's own workers for one study. The study has the same share of these workers as any other client."""
+    """The pool through which one study uses the service's own workers.
+
+    The study counts as one client of the workers, and gets the same share of the workers as any other client.
+    """
 
     def __init__(self, workers: WorkerPool) -> None:
         self._workers = workers
         self.slots = workers.size
 
     def submit(self, function: Callable[..., Any], *arguments: Any) -> asyncio.Future[Any]:
-        """Return the future of the result.
+        """Call the function in a worker as soon as a worker is free, and return the future of the function's result.
 
         The future raises WorkerLost, DeadlineExceeded, and the exceptions of the function.
         """
@@ -34,7 +40,10 @@ class StudyPool:
 
 
 class StudyAdmission:
-    """The limit on the number of studies that run at once, and the pool that solves their points."""
+    """The gate through which every study passes before it starts.
+
+    The gate limits the number of studies that run at once, and chooses the pool that solves the points of a study.
+    """
 
     def __init__(self, settings: Settings, workers: WorkerPool) -> None:
         self._settings = settings
@@ -59,21 +68,27 @@ class StudyAdmission:
             self._running -= 1
 
     def own(self) -> Pool:
-        """Return the service's own workers for one study.
+        """Return a pool through which one study uses the service's own workers.
 
         These workers draw the figures of the study, even if a cluster solves the points of the study.
         """
         return StudyPool(self._workers)
 
     async def pool(self) -> Pool:
-        """Return the pool that solves the points of a study. Raises SchedulerUnavailable if a cluster fails."""
+        """Return the pool that solves the points of a study: the cluster if there is one, else the service's workers.
+
+        Raises SchedulerUnavailable if the cluster cannot be used.
+        """
         if self._cluster is None:
             return self.own()
         return await self._cluster.ready()
 
     @asynccontextmanager
     async def open(self) -> AsyncIterator[None]:
-        """Prepare the cluster in the background, so that the first study need not wait; disconnect at the end."""
+        """Prepare the cluster in the background, so that the first study need not wait for the preparation.
+
+        Disconnect from the cluster when the context closes.
+        """
         preparation = asyncio.create_task(self._prepare())
         try:
             yield

@@ -1,6 +1,6 @@
-"""Studies on a Dask cluster, whose workers solve the chunks instead of the service's own processes.
+"""Studies on a Dask cluster. The workers of the cluster solve the points instead of the service's own processes.
 
-Only this module imports Dask, which is an extra: `pip install 'tribodrive[dask]'`.
+Only this module imports Dask. Dask is an optional dependency: `pip install 'tribodrive[dask]'`.
 """
 
 import asyncio
@@ -17,15 +17,18 @@ from app.studies.runner import OtherSources, PoolLost
 from app.workers.stages import STAGES, warm
 
 CONNECT_S = 10.0  # longest time of one call to the scheduler
-ANSWER_S = 15.0  # longest time of two calls: to connect and to list the workers
-WARM_S = 600.0  # longest time in which the workers load their kernels; they may have to compile the kernels first
-WATCH_S = 0.5  # time between two checks, during a call, that the cluster still runs
+ANSWER_S = 15.0  # longest time of the first two calls together: one call connects, the other lists the workers
+WARM_S = 600.0  # longest time in which a worker loads its kernels; the worker may have to compile the kernels first
+WATCH_S = 0.5  # during a call, the connection to the scheduler is checked at intervals of this length
 PACKAGES = ("tribodrive", "numpy", "scipy", "numba", "pydantic")  # packages whose versions change the results
 LOST = "the connection to the Dask scheduler is lost; start the study again"
 
 
 class DaskCluster:
-    """A Dask cluster whose workers have the versions of this service and have loaded their kernels."""
+    """A Dask cluster. Its workers must have the same package versions as this service.
+
+    Every worker loads the kernels of the solvers before it solves points.
+    """
 
     def __init__(self, address: str, deadline_s: float) -> None:
         self._address = address
@@ -39,9 +42,9 @@ class DaskCluster:
     async def ready(self) -> "DaskCluster":
         """Wait until the cluster is connected and every worker is prepared, and return the cluster.
 
-        Only one preparation runs at a time. The preparation continues even if the waiting study is refused, because a
-        call to a scheduler that does not answer cannot be cancelled. Raises SchedulerUnavailable if the scheduler does
-        not answer in time or cannot be used, or if the workers are still being prepared.
+        Raises SchedulerUnavailable if the scheduler cannot be used, if the scheduler does not answer in time, or if the
+        preparation of the workers takes too long. In the last two situations, the preparation continues after the
+        error, because a call to the scheduler cannot be cancelled. Only one preparation runs at a time.
         """
         if self._preparation is None or self._preparation.done():
             self._answered = False
@@ -64,7 +67,10 @@ class DaskCluster:
             raise SchedulerUnavailable(f"The Dask scheduler cannot be used: {reason}") from error
 
     def _prepare(self) -> None:
-        """Connect, then compare the versions and load the kernels on every new worker. This call blocks."""
+        """Connect to the scheduler. Then check the versions of every new worker, and load the kernels in this worker.
+
+        This call blocks.
+        """
         if self._client is None or self._client.status != "running":
             self.close()
             self._client = Client(self._address, timeout=CONNECT_S, set_as_default=False)
@@ -82,7 +88,7 @@ class DaskCluster:
         self.slots = sum(threads.values())
 
     def _call_on(self, function: Callable[[], Any], workers: set[str]) -> dict[str, Any]:
-        """Call a function on each of the workers, wait for the results, and return the results by worker."""
+        """Call a function on each of the workers, and wait for the results. Return a result for each worker."""
         assert self._client is not None
         calls = {name: self._client.submit(function, workers=[name], pure=False, retries=0) for name in workers}
         return {name: call.result(timeout=WARM_S) for name, call in calls.items()}
@@ -122,10 +128,11 @@ def prepare() -> None:
 
 
 def solved_with(sources: str, function: Callable[..., Any], *arguments: Any) -> Any:
-    """Return the result of a call. This function runs in a worker that may have joined the cluster during the study.
+    """Call a function in a worker of the cluster and return the result of the function.
 
-    `sources` is the hash of the service's solvers; the answers contain this hash. Raises OtherSources if the solvers of
-    the worker are not the same.
+    `sources` is the hash of the source code of the service's solvers; the answers contain this hash. Raises
+    OtherSources if the worker's solvers have another hash. The check is made at every call, because a worker may join
+    the cluster during the study.
     """
     if sources != SOURCES:
         raise OtherSources(
@@ -136,7 +143,7 @@ def solved_with(sources: str, function: Callable[..., Any], *arguments: Any) -> 
 
 
 def versions() -> dict[str, str]:
-    """Return the versions on which the results depend: Python, the solvers and the packages."""
+    """Return the versions on which the results depend: the versions of Python, of the solvers and of `PACKAGES`."""
     return {
         "python": platform.python_version(),
         "sources": SOURCES,

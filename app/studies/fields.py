@@ -1,4 +1,4 @@
-"""Single values of requests and answers. A study names these values by their dotted paths."""
+"""Access to single values of requests and answers. A study names a single value by the dotted path of its field."""
 
 import operator
 from collections.abc import Iterable
@@ -16,10 +16,11 @@ NUMBERS = frozenset({"number", "integer"})
 
 
 def scalar_at(model: type[Documented], path: str, place: str, unknown: str) -> Leaf:
-    """Return the leaf of a request or answer that holds the single value at this path.
+    """Return the `Leaf` that describes the single value at a path of a request or answer.
 
-    Raises Unprocessable at `place` of the study, with the code `not_scalar` if the path names a section or a list, and
-    with the code `unknown` if the path does not exist.
+    Raises Unprocessable with the code `not_scalar` if the path names a section or a list. Raises Unprocessable with the
+    code in the argument `unknown` if the path does not exist. The error is located at `place`, a dotted path in the
+    body of the study.
     """
     leaf = leaf_at(model, path)
     whole, _, item = path.rpartition(".")
@@ -41,7 +42,7 @@ def scalar_at(model: type[Documented], path: str, place: str, unknown: str) -> L
 
 
 def not_a_number(leaf: Leaf) -> str | None:
-    """Return what a field holds instead of a number, or None if the field holds a number."""
+    """Return a message that says what the field holds instead of a number; None if the field holds a number."""
     if leaf.options:
         return f"{leaf.path} is an option ({', '.join(map(str, leaf.options))}), not a number"
     if leaf.kind in NUMBERS:
@@ -51,13 +52,19 @@ def not_a_number(leaf: Leaf) -> str | None:
 
 
 def did_you_mean(path: str, known: Iterable[str]) -> str:
-    """Return a question that suggests the known path most similar to this path, or an empty text."""
+    """Return a question that suggests the known path most similar to `path`.
+
+    The question is empty if no known path is similar.
+    """
     near = get_close_matches(path, list(known), n=1)
     return f"; did you mean {near[0]}?" if near else ""
 
 
 def fault(leaf: Leaf, value: Scalar) -> tuple[str, str] | None:
-    """Return code and message of the reason why a field rejects a value; None if the field accepts the value."""
+    """Return the code and the message of the error if a field rejects a value.
+
+    Return None if the field accepts the value.
+    """
     code = "out_of_range"
     if value is None:
         wrong, message = not leaf.nullable, "null is not accepted here"
@@ -100,10 +107,11 @@ def is_number(value: Any) -> bool:
 
 
 def set_value(model: type[Documented], body: dict[str, Any], path: str, value: Scalar) -> None:
-    """Set the value at a dotted path of a request. Sections and lists that are missing on the path are inserted.
+    """Set the value at a dotted path of a request.
 
-    A list is inserted with its default items. Raises IndexError if a list is too short. If the request has a different
-    kind of value at the place of a section or a list, nothing is set, and the validation of the request reports the
+    If a section on the path is missing, an empty section is inserted. If a list on the path is missing, a list with the
+    default items is inserted. Raises IndexError if a list on the path is too short. If the request holds something else
+    where the path needs a section or a list, the value is not set. The later validation of the request reports this
     error.
     """
     parts = path.split(".")
@@ -134,7 +142,10 @@ def clear_excluded(model: type[Documented], body: dict[str, Any], path: str) -> 
 
 
 def indexed(path: str, case: dict[str, Any]) -> list[str]:
-    """Return one path per item of the lists on a path, with the index of the item inserted."""
+    """Return the paths of all items that a path with list markers stands for in this case.
+
+    A path has one marker per list. In each of the returned paths, an index replaces every marker.
+    """
     before, star, after = path.partition(f".{ITEM}")
     if not star:
         return [path]

@@ -1,4 +1,7 @@
-"""The points of a study: a grid, a list of cases or a random sample, checked against the schema."""
+"""The points of a study: a grid, a list of cases or a random sample.
+
+The functions check that the paths exist and that the fields accept the values.
+"""
 
 from collections.abc import Sequence
 from itertools import pairwise, product
@@ -18,8 +21,8 @@ from solvers.arrays import FloatArray
 from solvers.drive_train.uncertainty import uncertain_inputs
 from solvers.quantity import allowed
 
-CUT = 4.0  # in standard deviations; distance from the mean beyond which a distribution is cut off
-LEAST_SHARE = 1e-9  # least share of a distribution inside its field's range; values then have at least six true digits
+CUT = 4.0  # distance from the mean beyond which a distribution is cut off, in standard deviations
+LEAST_SHARE = 1e-9  # least permissible share of a distribution inside the field's range (see `_check_digits`)
 
 
 def common_unit(leaves: Sequence[Leaf]) -> str | None:
@@ -29,7 +32,7 @@ def common_unit(leaves: Sequence[Leaf]) -> str | None:
 
 
 class CheckedAxis(NamedTuple):
-    """An axis with its fields and values. `values` is None if the values are random."""
+    """An axis whose fields and values have been checked. `values` is None if the values are random."""
 
     path: str | list[str]
     leaves: tuple[Leaf, ...]
@@ -41,10 +44,11 @@ class CheckedAxis(NamedTuple):
 
 
 class PointSet(NamedTuple):
-    """Points in order.
+    """The points of a study, in order.
 
-    Each of the `rows` holds the coordinates of a point along the `axes`. If there are no axes, the row maps the paths
-    that the point sets to their values. `varied` holds the fields that differ between points.
+    `rows` holds one row per point. If there are `axes`, a row is a list with the coordinate of the point on each axis.
+    If there are no axes, a row is a dictionary: its keys are the paths of the fields that the point sets, and its
+    values are the values of these fields. `varied` holds the fields that differ between points.
     """
 
     axes: list[CheckedAxis]
@@ -57,7 +61,7 @@ class PointSet(NamedTuple):
         return len(self.rows)
 
     def overrides(self, index: int) -> Overrides:
-        """Return the values that a point changes in the base request, by path."""
+        """Return the values that a point changes in the base request. The keys are the paths of the values."""
         row = self.rows[index]
         if isinstance(row, dict):
             return row
@@ -74,19 +78,19 @@ def _values_of_fields(value: Scalar | list[Scalar], leaves: tuple[Leaf, ...]) ->
 
 
 def listed(cases: list[Overrides], base: BaseRequest, most: int, place: str) -> PointSet:
-    """Return the points of the cases listed at `place` of a study.
+    """Return one point per case. `place` is the path of the list of cases in the body of the study.
 
-    Raises Unprocessable if a case is wrong, or if there are more than `most` cases.
+    Raises Unprocessable if a case sets a field or value that is not allowed, or if there are more than `most` cases.
     """
     check_count(len(cases), most, place)
     return PointSet([], tuple(fields_set(cases, base, place + ".{}").values()), cases)
 
 
 def fields_set(cases: Sequence[Overrides], base: BaseRequest, place: str) -> dict[str, Leaf]:
-    """Return the fields that the cases set, by path.
+    """Return the fields that the cases set. The keys are the paths of the fields.
 
-    Raises Unprocessable if a path does not exist or if a field does not accept a value. The error is located at
-    `place`, with `{}` replaced by the number of the case.
+    Raises Unprocessable if a path does not exist or if a field does not accept a value. The location of the error is
+    the text `place`, in which the index of the case replaces `{}`.
     """
     fields: dict[str, Leaf] = {}
     for number, case in enumerate(cases):
@@ -98,9 +102,10 @@ def fields_set(cases: Sequence[Overrides], base: BaseRequest, place: str) -> dic
 
 
 def grid(axes: list[Axis], base: BaseRequest, most: int, place: str) -> PointSet:
-    """Return all combinations of the values of the axes that are at `place` of a study. The first axis varies slowest.
+    """Return one point per combination of the axes' values. The value on the first axis changes most slowly.
 
-    Raises Unprocessable if an axis is wrong, or if there are more than `most` points.
+    `place` is the path of the list of axes in the body of the study. Raises Unprocessable if an axis is not valid, or
+    if there are more than `most` points.
     """
     total = prod(_length(axis, f"{place}.{number}") for number, axis in enumerate(axes))
     check_count(total, most, place)
@@ -135,10 +140,10 @@ def _check_axis(axis: Axis, base: BaseRequest, place: str) -> CheckedAxis:
 
 
 def _spread(axis: Axis, leaves: tuple[Leaf, ...], place: str) -> list[Any]:
-    """Return values from start to stop with even steps or even ratios.
+    """Return the values of an axis from start to stop, with equal steps or, on a logarithmic axis, with equal ratios.
 
-    Raises Unprocessable, located at an end, if a field rejects the end, or if a logarithmic axis has an end that is not
-    positive.
+    Raises Unprocessable if a field does not accept start or stop, or if start or stop of a logarithmic axis is not
+    positive. The error is located at the faulty end, start or stop.
     """
     ends: dict[str, Any] = {"start": axis.start, "stop": axis.stop}
     for name, end in ends.items():
@@ -152,9 +157,10 @@ def _spread(axis: Axis, leaves: tuple[Leaf, ...], place: str) -> list[Any]:
 
 
 def scattering(scatters: Sequence[Range | Scatter], base: BaseRequest, place: str) -> tuple[Leaf, ...]:
-    """Return the fields that the distributions vary; `place` is the path of the distributions in the study.
+    """Return the fields that the distributions vary. `place` is the path of the list of distributions in the study.
 
-    Raises Unprocessable if a field cannot vary, or if a value is outside the range of its field.
+    Raises Unprocessable if a field cannot vary continuously, or if a parameter of a distribution (such as its mean) is
+    not a permissible value of the field.
     """
     check_distinct([scatter.path for scatter in scatters], place)
     leaves = []
@@ -181,8 +187,8 @@ def scattering(scatters: Sequence[Range | Scatter], base: BaseRequest, place: st
 def _check_digits(scatter: Range | Scatter, leaf: Leaf, place: str) -> None:
     """Raise Unprocessable if almost all of a normal distribution lies outside the range of its field.
 
-    The values inside the range are computed from cumulative probabilities. If almost all of the distribution lies
-    outside, these probabilities have too few digits.
+    The random values inside the range are computed from cumulative probabilities. If the share of the distribution
+    inside the range is smaller than `LEAST_SHARE`, rounding errors leave these values fewer than six correct digits.
     """
     if isinstance(scatter, Normal) and 1.0 - cut(scatter, leaf).cut_off < LEAST_SHARE:
         message = (
@@ -193,7 +199,10 @@ def _check_digits(scatter: Range | Scatter, leaf: Leaf, place: str) -> None:
 
 
 def anchors(scatter: Range | Scatter) -> dict[str, float]:
-    """Return those parameters of a distribution that have to be valid values of the field, in ascending order."""
+    """Return the parameters of a distribution that must be permissible values of the field, by name.
+
+    In a valid distribution, the parameters are in ascending order.
+    """
     return {name: getattr(scatter, name) for name in ("min", "mode", "mean", "median", "max") if hasattr(scatter, name)}
 
 
@@ -206,23 +215,26 @@ class Cut(NamedTuple):
 
     @property
     def shares(self) -> tuple[float, float]:
-        """The cumulative probabilities of the ends."""
+        """The cumulative probabilities at the two ends, in the distribution that is not cut off."""
         return float(self.law.cdf(self.low)), float(self.law.cdf(self.high))
 
     def drawn(self, share: FloatArray) -> FloatArray:
-        """Return the values whose cumulative probability within the cut distribution is `share`."""
+        """Return the values at the cumulative probabilities `share` of the cut distribution."""
         low, high = self.shares
         return np.asarray(np.clip(self.law.ppf(low + (high - low) * share), self.low, self.high))
 
     @property
     def cut_off(self) -> float:
-        """The share of the distribution beyond the ends; 0 if both ends are equal."""
+        """The share of the distribution that lies beyond the two ends; 0 if both ends are equal."""
         low, high = self.shares
         return low + 1.0 - high if self.low < self.high else 0.0
 
 
 def cut(scatter: Range | Scatter, leaf: Leaf) -> Cut:
-    """Return a distribution that is cut off at four standard deviations and at the ends of the range of its field."""
+    """Return the distribution of a field, cut off at the limits of the field's permissible range.
+
+    Normal and lognormal distributions are also cut off at four standard deviations.
+    """
     from scipy import stats  # noqa: PLC0415  half a second that only random samples need
 
     law: Any
@@ -246,7 +258,10 @@ def cut(scatter: Range | Scatter, leaf: Leaf) -> Cut:
 
 
 def drawn(scatters: Sequence[Range | Scatter], leaves: Sequence[Leaf], cube: FloatArray) -> FloatArray:
-    """Return the values of the fields at points of the unit cube, one row per point and one column per field."""
+    """Convert points of the unit cube into values of the fields, with one row per point and one column per field.
+
+    A coordinate of a point in the cube is the cumulative probability of the value of a field.
+    """
     columns = zip(scatters, leaves, cube.T, strict=True)
     return np.column_stack([cut(scatter, leaf).drawn(share) for scatter, leaf, share in columns])
 
@@ -254,8 +269,8 @@ def drawn(scatters: Sequence[Range | Scatter], leaves: Sequence[Leaf], cube: Flo
 def unit_cube(method: Method, count: int, dimensions: int, seed: Any, place: str) -> FloatArray:
     """Draw random points in the unit cube, one row per point.
 
-    `seed` is a number or a generator of NumPy. `place` is the location of the count in the study. A Sobol sample raises
-    Unprocessable at `place` if the count is not a power of two.
+    `seed` is a number or a random generator of NumPy. `place` is the path of the count in the body of the study. Raises
+    Unprocessable at `place` if the method is Sobol and the count is not a power of two.
     """
     from scipy.stats import qmc  # noqa: PLC0415  half a second that only random samples need
 
@@ -268,7 +283,10 @@ def unit_cube(method: Method, count: int, dimensions: int, seed: Any, place: str
 
 
 def usual_corners(request: Request) -> dict[str, Axis]:
-    """Return the uncertain inputs of a gear unit with their usual values, by quantity."""
+    """Return an axis with the usual values of each uncertain input of a gear unit.
+
+    The keys are the names of the uncertain quantities, such as "friction".
+    """
     axes = {}
     for uncertain in uncertain_inputs(request.inputs()):
         paths = [path for name in uncertain.names if (path := field_path(request, name))]
@@ -280,7 +298,7 @@ def usual_corners(request: Request) -> dict[str, Axis]:
 
 
 def _in_own_unit(path: str, value: float) -> Scalar:
-    """Convert a value of the solver to the unit of the field at this path, and round the result to 12 digits."""
+    """Convert a value from SI units to the unit of the field at this path, and round the result to 12 digits."""
     field = next(part for part in reversed(path.split(".")) if not part.isdecimal())
     unit = split_unit(field)[1]
     return float(f"{value if unit is None else unit.from_si(value):.12g}") + 0.0

@@ -1,6 +1,7 @@
 """The request that a study varies, and the solution of the points of the study in worker processes.
 
-The results at a point equal the results in the endpoint's answer to the request of this point.
+A point changes some values of the request. The results at the point are the same as if the changed request were sent to
+the endpoint.
 """
 
 import copy
@@ -21,13 +22,13 @@ from solvers.notices import Rank
 
 Status = Literal["ok", "ok_with_warnings", "no_solution", "refused", "failed"]
 SOLVED = ("ok", "ok_with_warnings")  # statuses of points that have an answer
-CHUNK_SECONDS = 0.25  # computing time of one chunk; after this time a study gives way to other work
+CHUNK_SECONDS = 0.25  # computing time of a chunk; after a chunk, the worker can do the work of another client
 COLD = "states.cold."
 BY_FILM = {
     DRIVE_TRAIN: {"safety.minimum"},
     "/v1/scuffing": {"film.min_at_psi", "film.thickness_ratio", "unsolved_points"},
 }
-"""Outputs of an endpoint that need the thermal film, in addition to outputs with `thermal_ehl` in their names."""
+"""For each endpoint, outputs that need the thermal film. Outputs with `thermal_ehl` in the path also need the film."""
 
 logger = logging.getLogger("tribodrive")
 
@@ -35,9 +36,9 @@ logger = logging.getLogger("tribodrive")
 class Point(NamedTuple):
     """The answer at a point, reduced to the requested outputs.
 
-    `error` is set if the point was refused or failed. `warnings` holds the codes of the warnings, the gravest warning
-    first; `ranks` holds the ranks of these warnings in the same order. `assumptions` is empty if the assumptions are
-    the same as at the preceding point of the chunk.
+    `out` holds the values of the requested outputs. `error` is set if the point was refused or failed. `warnings` holds
+    the codes of the warnings, the gravest warning first; `ranks` holds the ranks of these warnings in the same order.
+    `assumptions` is empty if the assumptions are the same as at the preceding point of the chunk.
     """
 
     status: Status
@@ -57,23 +58,25 @@ class Question(NamedTuple):
     deadline_s: float
 
     def failed(self, code: str, message: str) -> Point:
-        """Return a point that failed for a reason outside its request."""
+        """Return a point with status `failed`. The reason for the failure is not a fault in the point's request."""
         return Point("failed", [None] * len(self.outputs), [], {"pointer": "", "code": code, "message": message})
 
 
 class BaseRequest(NamedTuple):
-    """An endpoint, and the request to this endpoint that a study varies.
+    """An endpoint, and a request to this endpoint. The study varies the request.
 
-    The methods raise Unprocessable if a path cannot be used. `place` is the field of the study that holds the path.
+    The methods that take a path raise Unprocessable if the path cannot be used. Their argument `place` is the location
+    of the path in the body of the study; the error is shown there.
     """
 
     calculation: Calculation
     body: dict[str, Any]
 
     def leaf(self, path: str, place: str) -> Leaf:
-        """Return the leaf of a single value at a path of the request.
+        """Return the `Leaf` that describes the single value at a path of the request.
 
-        Also raises Unprocessable if a list on the path is too short, so that the value cannot be set.
+        Raises Unprocessable if the path cannot be used, or if a list on the path is too short for the index in the
+        path.
         """
         leaf = scalar_at(self.calculation.request, path, place, "unknown_path")
         try:
@@ -84,7 +87,7 @@ class BaseRequest(NamedTuple):
         return leaf
 
     def output(self, path: str, place: str) -> Leaf:
-        """Return the leaf of a single value at a path of the answer."""
+        """Return the `Leaf` that describes the single value at a path of the answer."""
         leaf = scalar_at(self.calculation.response, path, place, "unknown_output")
         if leaf.detail != "summary":
             raise Unprocessable(
@@ -93,17 +96,18 @@ class BaseRequest(NamedTuple):
         return leaf
 
     def outputs(self, wanted: list[str] | None) -> tuple[Leaf, ...]:
-        """Return the leaves of the outputs at the paths `wanted`, or of the headline numbers if `wanted` is None."""
+        """Return a `Leaf` for each output at the paths `wanted`, or for each headline number if `wanted` is None."""
         if wanted is None:
             return headlines(self.calculation.response)
         check_distinct(wanted, "outputs", numbered=True)
         return tuple(self.output(path, f"outputs.{number}") for number, path in enumerate(wanted))
 
     def checked(self, first: Overrides) -> Request:
-        """Return the request of the first point.
+        """Return the validated request of the first point. `first` holds the values that this point changes.
 
-        Raises InvalidBody, with pointers into the study, if the schema does not allow the request. If only the solver
-        refuses the request, the study goes on and this point is refused.
+        Raises InvalidBody if the schema does not allow the request; the pointers of the error are locations in the body
+        of the study. The checks of the solver are made later: if the solver refuses the request, the study goes on, and
+        only this point is refused.
         """
         try:
             return validated(self.calculation.request, with_overrides(self.calculation, self.body, first))
@@ -119,7 +123,10 @@ def check_count(count: int, most: int, place: str) -> None:
 
 
 def check_distinct(paths: Sequence[str], place: str, *, numbered: bool = False) -> None:
-    """Raise Unprocessable if a path is given twice. If `numbered` is set, the error names the index of the path."""
+    """Raise Unprocessable at `place` if a path is given twice.
+
+    If `numbered` is True, the location of the error is `place` followed by the index of the second occurrence.
+    """
     for number, path in enumerate(paths):
         if path in paths[:number]:
             raise Unprocessable("duplicate_path", f"{path} is given twice", f"{place}.{number}" if numbered else place)
@@ -131,9 +138,10 @@ def needs_film(endpoint: str, output: str) -> bool:
 
 
 def reduced_request(endpoint: str, request: dict[str, Any], outputs: Sequence[str]) -> dict[str, Any]:
-    """Return the request without the parts of the solution that no output needs.
+    """Return a request that does not ask for calculations that no output needs.
 
-    These parts are the thermal film and the unit in the cold state. The values of the outputs do not change.
+    These calculations are the thermal film and the gear unit in the cold state. The values of the outputs do not
+    change.
     """
     if endpoint not in BY_FILM:
         return request
@@ -146,7 +154,7 @@ def reduced_request(endpoint: str, request: dict[str, Any], outputs: Sequence[st
 
 
 def with_overrides(calculation: Calculation, base: dict[str, Any], overrides: Overrides) -> dict[str, Any]:
-    """Return the base request after setting the values of a point.
+    """Return a copy of the base request with the values of a point.
 
     If a point sets a field, the fields that must not be given together with this field are removed.
     """
@@ -161,14 +169,14 @@ def with_overrides(calculation: Calculation, base: dict[str, Any], overrides: Ov
 
 
 class Chunk(NamedTuple):
-    """The answers at the first few of the requested points, and the time in which these answers were computed [s]."""
+    """The answers at the first few of the requested points, and the computing time of these answers [s]."""
 
     points: list[Point]
     seconds: float
 
 
 def solve_chunk(question: Question, overrides: Sequence[Overrides]) -> Chunk:
-    """Solve consecutive points until the time of a chunk is used up. Solve at least one point."""
+    """Solve points in order until `CHUNK_SECONDS` have passed. Solve at least one point, and leave out the rest."""
     started = time.perf_counter()
     points: list[Point] = []
     preceding: tuple[dict[str, Any], ...] = ()

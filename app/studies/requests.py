@@ -1,4 +1,4 @@
-"""Common parts of the bodies of studies: paths and values of fields, axes, distributions, the request to study."""
+"""Common parts of the bodies of studies: paths and values of fields, axes, distributions, and the request to vary."""
 
 import json
 import re
@@ -12,7 +12,7 @@ from app.examples import examples
 from app.schema.quantities import Input
 
 MOST_FIELDS_TOGETHER = 50  # largest number of fields that one axis moves, chosen
-LARGEST = 1e300  # largest number accepted; the number itself is finite, although its square may overflow
+LARGEST = 1e300  # largest absolute value of a number in a study; chosen, below the largest finite float
 _PATH = re.compile(r"[A-Za-z0-9_]{1,60}(\.[A-Za-z0-9_]{1,60}){0,9}")
 
 
@@ -48,8 +48,8 @@ _NUMBER_SCHEMA = {"type": "number", "minimum": -LARGEST, "maximum": LARGEST}
 _SCALAR_SCHEMA = {"anyOf": [_NUMBER_SCHEMA, {"type": "string"}, {"type": "boolean"}, {"type": "null"}]}
 _SCALARS_SCHEMA = {"anyOf": [*_SCALAR_SCHEMA["anyOf"], {"type": "array", "items": _SCALAR_SCHEMA}]}
 
-# There is one validator per alternative, so that the location of an error is the value and not one of the alternative
-# types.
+# The types below are `Any` with one validator that tests all permitted types. With a union of types instead, pydantic
+# would report one error per type, and would add the name of the type to the location of the error.
 FieldPath = Annotated[Any, AfterValidator(_field_path), WithJsonSchema(_PATH_SCHEMA)]
 FieldPaths = Annotated[Any, AfterValidator(_field_paths), WithJsonSchema({"anyOf": [_PATH_SCHEMA, _PATHS_SCHEMA]})]
 Value = Annotated[Any, AfterValidator(_scalar), WithJsonSchema(_SCALAR_SCHEMA)]
@@ -59,9 +59,9 @@ Cases = Annotated[list[dict[str, Value]] | None, Field(min_length=1)]
 
 
 class Part(BaseModel):
-    """A part of a study; it refuses unknown fields and infinite numbers.
+    """Base class of the parts of a study's body. Unknown fields and infinite numbers are refused.
 
-    Exactly one of the fields in `exactly_one` must be given.
+    If `exactly_one` contains names of fields, exactly one of these fields must be given.
     """
 
     model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
@@ -84,7 +84,7 @@ class FieldsTogether(Part):
 
     @property
     def paths(self) -> list[str]:
-        """The fields."""
+        """The paths of the fields, as a list even if there is only one path."""
         return self.path if isinstance(self.path, list) else [self.path]
 
 
@@ -114,7 +114,7 @@ class Spread(Part):
 
 
 class Range(Spread):
-    """A uniform distribution between two ends."""
+    """A range of one field. The values are distributed uniformly between the two ends of the range."""
 
     min: Annotated[float, Input("lower end")]
     max: Annotated[float, Input("upper end")]
@@ -130,14 +130,14 @@ class Uniform(Range):
 
 
 class Triangular(Range):
-    """A triangular distribution: its density rises linearly from both ends to the most frequent value."""
+    """A triangular distribution. The density rises linearly from zero at both ends to the most frequent value."""
 
     distribution: Annotated[Literal["triangular"], KIND]
     mode: Annotated[float, Input("most frequent value")]
 
 
 class Normal(Spread):
-    """A normal distribution, cut off at four standard deviations and at the permissible range of the field."""
+    """A normal distribution, cut off at four standard deviations and at the limits of the field's permissible range."""
 
     distribution: Annotated[Literal["normal"], KIND]
     mean: Annotated[float, Input("mean")]
@@ -147,7 +147,8 @@ class Normal(Spread):
 class Lognormal(Spread):
     """A distribution in which the logarithm of the value is normally distributed.
 
-    It is cut off at four standard deviations and at the permissible range of the field.
+    The distribution is cut off at four standard deviations of the logarithm, and at the limits of the field's
+    permissible range.
     """
 
     distribution: Annotated[Literal["lognormal"], KIND]
@@ -206,7 +207,7 @@ class DriveTrainStudy(Part):
 
 
 EXAMPLES: dict[str, dict[str, Any]] = json.loads(files("app.studies").joinpath("examples.json").read_text("utf-8"))
-"""Example bodies by the path of the study. Each has the form of an OpenAPI example, with a `summary` and a `value`."""
+"""Example bodies for each path of a study. An example has the form of an OpenAPI example: a `summary` and a `value`."""
 
 for _bodies in EXAMPLES.values():
     for _each in _bodies.values():

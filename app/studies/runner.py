@@ -1,6 +1,8 @@
-"""The common part of all studies. A pool of processes solves the points in chunks, and the study returns lines.
+"""The common parts of all studies.
 
-The points are returned in order. Each kind of study declares an endpoint and a body, and has its own checks and lines.
+A pool of processes solves the points of a study. Points are sent to the processes in chunks, but come back in order.
+The answer of a study is a sequence of lines. `Study` is the base class of the kinds of study. A subclass declares the
+endpoint of the study and the model of the body. The subclass also checks the body and makes the lines.
 """
 
 import asyncio
@@ -29,8 +31,8 @@ from app.studies.points import CHUNK_SECONDS, BaseRequest, Chunk, Point, Questio
 from app.studies.requests import Overrides
 from solvers.arrays import FloatArray
 
-CHUNKS_PER_SLOT = 2  # one chunk is solved while one chunk waits, so that no worker is idle
-MOST_POINTS_IN_A_CHUNK = 1000  # even if points are solved very fast; keeps the answer of a chunk small
+CHUNKS_PER_SLOT = 2  # per process: one chunk is solved while another chunk waits, so that no process is idle
+MOST_POINTS_IN_A_CHUNK = 1000  # limit for points that are solved very fast, so that the answer of a chunk stays small
 PROGRESS_S = 2.0  # time between lines of progress; these lines show proxies and users that the study runs
 
 Line = dict[str, Any]
@@ -55,13 +57,13 @@ class Pool(Protocol):
 
 
 class PoolLost(Exception):
-    """The processes that solve points are lost; the last line of the study has the `code` of the reason."""
+    """The processes that solve points are lost. The `code` names the reason in the last line of the study."""
 
     code = "scheduler_lost"
 
 
 class OtherSources(PoolLost):
-    """The sources of the solvers in a worker differ from those in the service."""
+    """The source code of the solvers in a worker differs from the source code of the solvers in the service."""
 
     code = "other_sources"
 
@@ -84,14 +86,14 @@ class Clock:
         return {"type": "progress", "done": self.done, "total": self.total, "elapsed_s": self.elapsed_s}
 
     def error(self, code: str, message: str) -> Line:
-        """Return the line that ends a study early. Log and count this end."""
+        """Return the line of an error that ends a study early. Log the error, and count the study as unfinished."""
         STUDIES_UNFINISHED.inc()
         logger.warning("a study ended after %d of %d points: %s", self.done, self.total, message)
         return {"type": "error", "code": code, "message": message, "done": self.done}
 
 
 async def twice_if_lost(pool: Pool, function: Callable[..., Any], *arguments: Any) -> Any:
-    """Return the result of a single call. Repeat the call once if the process of the call is lost."""
+    """Call a function in a process of the pool and return its result. If the process is lost, repeat the call once."""
     try:
         return await pool.submit(function, *arguments)
     except WorkerLost:
@@ -101,12 +103,12 @@ async def twice_if_lost(pool: Pool, function: Callable[..., Any], *arguments: An
 async def in_order(
     pool: Pool, question: Question, overrides: Callable[[int], Overrides], indices: range, clock: Clock
 ) -> AsyncGenerator[tuple[range, list[Point]], None]:
-    """Yield consecutive points in order, with the range of their indices.
+    """Solve the points with the given indices. Yield the solved points chunk by chunk, with the range of the indices.
 
-    `overrides` returns, for the index of a point, the values that the point changes in the request of the question. If
-    the process of a chunk is lost, the points of the chunk are solved again one by one. If the caller leaves the
-    iteration, chunks that have not begun are cancelled. Chunks that have begun run to their end, but nobody waits for
-    their results.
+    The points are yielded in the order of their indices. `overrides` maps the index of a point to the values that the
+    point changes in the request `question.base`. If the process of a chunk is lost, the points of the chunk are solved
+    again one by one. If the caller leaves the iteration, chunks that have not begun are cancelled. Chunks that have
+    begun run to their end, but nobody waits for their results.
     """
 
     def submit(some: range) -> tuple[range, asyncio.Future[Chunk]]:
@@ -129,7 +131,7 @@ async def in_order(
             done, rest = sent[: len(chunk.points)], sent[len(chunk.points) :]
             if rest:
                 pending.appendleft(submit(rest))
-            seconds = max(chunk.seconds / len(done), CHUNK_SECONDS / MOST_POINTS_IN_A_CHUNK)  # per point
+            seconds = max(chunk.seconds / len(done), CHUNK_SECONDS / MOST_POINTS_IN_A_CHUNK)  # time per point
             size = max(1, round(CHUNK_SECONDS / seconds))
             clock.done += len(done)
             yield done, chunk.points
@@ -139,9 +141,10 @@ async def in_order(
 
 
 async def _solved_singly(pool: Pool, question: Question, overrides: list[Overrides], error: Exception) -> Chunk:
-    """Solve the points of a lost chunk one by one. Repeat a point once if the process of the point is lost.
+    """Solve the points of a chunk again, one by one, after the chunk failed with `error`.
 
-    A chunk of a single point that exceeded its deadline is not repeated.
+    A point is repeated once if its process is lost. If the chunk has only one point and this point exceeded its
+    deadline, the point is not solved again.
     """
     late = question.failed("deadline_exceeded", "the point took longer than the time limit of one calculation")
     if len(overrides) == 1 and isinstance(error, DeadlineExceeded):
@@ -159,19 +162,21 @@ async def _solved_singly(pool: Pool, question: Question, overrides: list[Overrid
 
 
 class Study(ABC):
-    """A study whose request has passed all checks; the docstring of a subclass is the description of its endpoint.
+    """Base class of the kinds of study. An object of this class is a study whose body has passed all checks.
 
-    A worker makes the study from three things: the content of the body (JSON objects or the validated model), the
-    largest number of points, and the deadline of a point [s]. The constructor raises InvalidBody and Unprocessable with
-    locations in the body. `outputs` are the first columns of `Point.out`.
+    The docstring of a subclass is the description of the study's endpoint in the API. A worker constructs the study.
+    The arguments are the content of the body (JSON objects or the validated model), the largest number of points, and
+    the deadline of a point [s]. If a check fails, the constructor raises InvalidBody or Unprocessable, with the
+    location of the fault in the body. `outputs` describes the first columns of `Point.out`; a subclass may add further
+    columns.
     """
 
-    path: ClassVar[str]  # of the endpoint; the last part of the path is the type of the first line
-    summary: ClassVar[str]  # of the endpoint
-    answer: ClassVar[str]  # the lines that the answer has
-    model: ClassVar[type[Any]]  # of the body
-    most: ClassVar[str] = "most_study_points"  # the setting that limits the number of points
-    is_reduced: ClassVar[bool] = True  # True if the film is calculated only if an output needs it
+    path: ClassVar[str]  # path of the study's endpoint; its last part is also the type of the first line
+    summary: ClassVar[str]  # summary of the endpoint in the API
+    answer: ClassVar[str]  # text that lists the lines of the answer
+    model: ClassVar[type[Any]]  # model of the body
+    most: ClassVar[str] = "most_study_points"  # name of the setting that limits the number of points
+    is_reduced: ClassVar[bool] = True  # True if calculations that no output needs are left out
 
     def __init__(self, content: Any, most: int, deadline_s: float) -> None:
         self.body = validated(self.model, content)
@@ -184,7 +189,7 @@ class Study(ABC):
         self.total = self._planned(base, most)
         try:
             self.case = case_of(self.path, self.body.model_dump(exclude={"from_index"}), SOURCES)
-        except ValueError:  # the error is in a field that every point replaces
+        except ValueError:  # the checks miss a faulty field if every point replaces the field
             message = "the request holds a number that is not finite, or text that is not Unicode"
             raise Unprocessable("not_json", message, "request") from None
 
@@ -194,24 +199,36 @@ class Study(ABC):
 
     @abstractmethod
     def _planned(self, base: BaseRequest, most: int) -> int:
-        """Check the remaining parts of the body, prepare the points and return their largest possible number."""
+        """Check the remaining parts of the body and prepare the points.
+
+        Return the number of points, or the largest possible number if the study may end early.
+        """
 
     @abstractmethod
     def lines(self, pool: Pool, clock: Clock) -> Lines:
-        """Yield all lines of the study in groups, as soon as they are known. `guarded` adds lines of progress."""
+        """Yield all lines of the study except the lines of progress that `guarded` adds.
+
+        The lines come in groups. A group is yielded as soon as its lines are known.
+        """
 
     def encoder(self, _: str) -> Callable[[Line], bytes]:
-        """Return the function that writes a line in a format. By default, this function writes JSON."""
+        """Return the function that converts a line into bytes in the requested format. Here, every format is JSON.
+
+        Subclasses with further formats override this method.
+        """
         return json_line
 
     def header(self, **content: Any) -> Line:
-        """Return a line with this content and the data that identify the study: type, endpoint, versions and case."""
+        """Return a line with the given content and with the data that identify the study.
+
+        These data are the type of the line, the endpoint, the versions, and the identifier of the case.
+        """
         identity = {"model_version": MODEL_VERSION, "sources": SOURCES, "case": self.case}
         return {"type": self.path.rpartition("/")[2], "endpoint": self.question.endpoint, **content, **identity}
 
 
 def output_header(leaf: Leaf) -> Line:
-    """Return the description of an output or input in the lines of a study."""
+    """Return the path, the unit and the title of an output or input, as the lines of a study state them."""
     return {"path": leaf.path, "unit": leaf.unit, "title": leaf.title}
 
 
@@ -226,9 +243,10 @@ def point_line(index: int, at: Any, point: Point) -> Line:
 
 
 class Tally:
-    """The number of points per status, the numbers of errors and warnings per code, the assumptions, and the outputs.
+    """Counter of the points of a study per status, and of the errors and warnings per code.
 
-    `assumptions` has one entry per field; the value of this entry is None if the value differs between points.
+    The tally also collects the assumptions and stores outputs. `assumptions` maps each assumed field to its assumption.
+    If different points assume different values for a field, the `value` in the assumption is None.
     """
 
     def __init__(self, outputs: Sequence[str]) -> None:
@@ -261,9 +279,9 @@ class Tally:
 
 
 async def guarded(lines: Lines, clock: Clock, seconds: float, progress_s: float = PROGRESS_S) -> Lines:
-    """Yield the lines, and a line of progress whenever no line has come for `progress_s` seconds.
+    """Yield the lines of a study. If no line comes for `progress_s` seconds, yield a line of progress.
 
-    If the study fails, or takes longer than `seconds`, the last line is an error.
+    If the study fails, or if the study takes longer than `seconds`, the last line is an error.
     """
     async with aclosing(lines):
         upcoming = asyncio.ensure_future(anext(lines, None))
@@ -291,7 +309,7 @@ async def guarded(lines: Lines, clock: Clock, seconds: float, progress_s: float 
 
 
 async def encoded(lines: Lines, encode: Callable[[Line], bytes]) -> AsyncGenerator[bytes, None]:
-    """Yield the lines as bytes. Lines that come in one group are sent as one piece."""
+    """Convert groups of lines into bytes. Yield one piece of bytes per group."""
     async with aclosing(lines):
         async for group in lines:
             if piece := b"".join(map(encode, group)):

@@ -1,10 +1,11 @@
 """Statistics of samples, and probabilities over a load spectrum with tolerances.
 
-The values of a spectrum are an array `[replicate, draw, case]`; NaN marks a point without solution.
+The values of an output over a spectrum are an array `[replicate, draw, case]`; NaN marks a point without solution.
 
 A draw is one machine. Each machine runs every case. The worst case of the machine decides whether the machine exceeds a
-limit. A normally distributed limit is integrated in closed form, so that only the tolerances cause noise. The
-replicates are independent, and their scatter gives the error of every mean.
+limit. If the limit is normally distributed, the probability is integrated over this distribution in closed form. Random
+errors then come only from the random draws of the tolerances. The replicates are independent samples. The scatter of
+their means gives the error of the overall mean.
 """
 
 from collections.abc import Sequence
@@ -16,9 +17,9 @@ from scipy.special import ndtr
 
 from solvers.arrays import FloatArray
 
-CONFIDENCE = 0.9  # two-sided confidence of all bounds
+CONFIDENCE = 0.9  # confidence of all intervals
 QUANTILES = (0.05, 0.5, 0.95)  # the median and the usual tails of 5 %
-MODERATE, HIGH = 0.1, 0.3  # limits of the classes of risk, AGMA 925-A03
+MODERATE, HIGH = 0.1, 0.3  # probabilities between low, moderate and high risk, AGMA 925-A03
 MOST_BINS = 40  # largest number of bins of a histogram that a user can read
 
 Side = Literal["above", "below"]
@@ -26,7 +27,11 @@ Risk = Literal["low", "moderate", "high"]
 
 
 class Limit(NamedTuple):
-    """A value that an output must not exceed (`above`) or fall below (`below`). A fixed limit has the deviation 0."""
+    """A limit on an output, either fixed or normally distributed.
+
+    Values above the limit are bad if `side` is `above`; values below the limit are bad if `side` is `below`. A fixed
+    limit has the `deviation` 0.
+    """
 
     side: Side
     mean: float
@@ -34,21 +39,27 @@ class Limit(NamedTuple):
     output: str = ""
 
     def exceeded(self, output: FloatArray) -> FloatArray:
-        """Return for each value the probability that the value is beyond the limit; NaN for a missing value."""
+        """Return for each value of the output the probability that the value is beyond the limit.
+
+        The probability is NaN if the value is NaN.
+        """
         beyond = output - self.mean if self.side == "above" else self.mean - output
         if self.deviation > 0.0:
             return np.asarray(ndtr(beyond / self.deviation))
         return np.where(np.isnan(beyond), np.nan, beyond > 0.0)
 
     def worst(self, outputs: FloatArray) -> FloatArray:
-        """Return the worst value of the solved cases along the last axis, or NaN if no case is solved."""
+        """Return the worst value along the last axis, which is the axis of the cases.
+
+        Unsolved cases are ignored. The worst value is NaN if no case is solved.
+        """
         return np.asarray((np.fmax if self.side == "above" else np.fmin).reduce(outputs, axis=-1))
 
 
 class Mean(NamedTuple):
-    """A mean over replicates, its standard error and its 90 % interval by Student's t.
+    """A mean over replicates, its standard error, and its 90 % confidence interval by Student's t distribution.
 
-    A single replicate has neither standard error nor interval.
+    If there is only one replicate, the standard error and the interval are None.
     """
 
     mean: float
@@ -59,9 +70,9 @@ class Mean(NamedTuple):
 class Estimate(NamedTuple):
     """A probability that a limit is exceeded.
 
-    For the lower of the `bounds`, no unsolved draw counts as beyond the limit. For the upper bound, all unsolved draws
-    count as beyond the limit. If the bounds differ, `probability` is None. `risk` is the class of risk of the upper
-    bound.
+    A draw is unsolved if one of its cases has no solution. The lower of the `bounds` is the probability from the solved
+    cases alone. The upper bound counts every unsolved draw as beyond the limit. If the bounds differ, `probability` is
+    None. `risk` is the class of risk that belongs to the upper bound.
     """
 
     probability: float | None
@@ -100,18 +111,22 @@ def of_spectrum(outputs: FloatArray, limit: Limit) -> Estimate:
 
 
 def of_case(outputs: FloatArray, limit: Limit) -> Estimate:
-    """Return the probability that one case is beyond the limit. `outputs` of the case are `[replicate, draw]`."""
+    """Return the probability that one case is beyond the limit.
+
+    `outputs` is the array `[replicate, draw]` of the outputs in this case.
+    """
     return of_spectrum(outputs[..., np.newaxis], limit)
 
 
 def _chances(chances: FloatArray, limit: Limit) -> Mean:
-    """Return the mean of the probabilities of the draws, with an interval between 0 and 1.
+    """Return the mean of the draws' probabilities `[replicate, draw]`, with a confidence interval between 0 and 1.
 
-    If the limit is fixed, each of the probabilities is 0 or 1, and the mean is a share of draws. The scatter of the
-    replicates gives no information in two situations. In the first, the number of draws beyond the limit, or the number
-    of draws within the limit, is smaller than the number of replicates. In the second, every replicate has the same
-    number of draws beyond the limit. In both situations the interval is the interval of Clopper and Pearson for a
-    count. If no draw or every draw is beyond the limit, this interval is one-sided and has the width 1 - 0.1^(1/draws).
+    The interval usually follows from the scatter of the replicates. If the limit is fixed, the probability of a draw is
+    0 or 1, and the mean is the share of draws beyond the limit. The scatter of the replicates is then useless in two
+    situations. In the first, fewer draws are beyond the limit than there are replicates, or fewer draws are within the
+    limit than there are replicates. In the second, every replicate has the same number of draws beyond the limit. In
+    both situations, the interval of Clopper and Pearson for a count is used instead. If no draw or every draw is beyond
+    the limit, this interval is one-sided and has the width 1 - 0.1^(1/draws).
     """
     from scipy.stats import binomtest  # noqa: PLC0415  half a second that only studies need
 
@@ -130,9 +145,10 @@ def _chances(chances: FloatArray, limit: Limit) -> Mean:
 
 
 def deciding(outputs: FloatArray, limit: Limit) -> list[float] | None:
-    """Return for each case the share of draws in which the case is the worst. Equally bad cases share a draw.
+    """Return for each case the share of draws in which this case is the worst case.
 
-    Only draws with a solution in every case count. The result is None if there are no such draws.
+    If several cases of a draw are equally bad, the draw is divided equally among them. Only draws with a solution in
+    every case count. The result is None if there are no such draws.
     """
     complete = outputs[~np.isnan(outputs).any(axis=-1)]
     if not complete.size:
@@ -142,22 +158,21 @@ def deciding(outputs: FloatArray, limit: Limit) -> list[float] | None:
 
 
 def mean(values: FloatArray) -> float | None:
-    """Return the mean of the values that are not NaN, or None if there are none."""
+    """Return the mean of the values that are not NaN, or None if all values are NaN."""
     finite = values[~np.isnan(values)]
     return float(finite.mean()) if finite.size else None
 
 
 def quantiles(values: FloatArray) -> list[float] | None:
-    """Return the 5, 50 and 95 % quantiles of the values that are not NaN, or None if there are none."""
+    """Return the 5, 50 and 95 % quantiles of the values that are not NaN, or None if all values are NaN."""
     finite = values[~np.isnan(values)]
     return [float(quantile) for quantile in np.quantile(finite, QUANTILES)] if finite.size else None
 
 
 def weighted_mean(outputs: FloatArray, shares: Sequence[float]) -> Mean | None:
-    """Return the mean over the cases, weighted with the shares of the cases.
+    """Return the mean of an output over the replicates, draws and cases, weighted with the shares of the cases.
 
-    For the mean of a replicate, only draws with a solution in every case count. If a replicate has no such draw, the
-    result is None.
+    Only draws with a solution in every case count. If a replicate has no such draw, the result is None.
     """
     per_draw = outputs @ np.asarray(shares)
     replicates = [draws[~np.isnan(draws)] for draws in per_draw]
@@ -167,9 +182,9 @@ def weighted_mean(outputs: FloatArray, shares: Sequence[float]) -> Mean | None:
 
 
 def histogram(values: FloatArray) -> tuple[list[float], list[float]]:
-    """Return the bin edges and the probability density in the bins for the values that are not NaN.
+    """Return the bin edges and the probability density in the bins, for the values that are not NaN.
 
-    Both lists are empty if all values are equal.
+    Both lists are empty if there are fewer than two such values, or if these values are too close together for bins.
     """
     finite = values[~np.isnan(values)]
     if finite.size < 2 or not np.ptp(finite) > 0.0:
@@ -183,7 +198,10 @@ def histogram(values: FloatArray) -> tuple[list[float], list[float]]:
 
 
 def rank_correlation(x: FloatArray, y: FloatArray) -> float | None:
-    """Return Spearman's coefficient; None if there are fewer than three points, or if x or y is constant."""
+    """Return Spearman's rank correlation of x and y.
+
+    The result is None if there are fewer than three points, or if x or y is constant.
+    """
     from scipy.stats import spearmanr  # noqa: PLC0415  half a second that only studies need
 
     if y.size < 3 or np.ptp(x) == 0.0 or np.ptp(y) == 0.0:
@@ -194,10 +212,11 @@ def rank_correlation(x: FloatArray, y: FloatArray) -> float | None:
 def of_sample(
     inputs: FloatArray, outputs: FloatArray, input_paths: list[str], output_paths: Sequence[str]
 ) -> dict[str, Any]:
-    """Return quantiles with bounds, and rank correlations, of a random sample. This function runs in a worker.
+    """Return, for each output of a random sample, quantiles with bounds, and the rank correlation with each input.
 
-    Each row of `inputs` and `outputs` is a point. The bounds of a quantile are the order statistics between which the
-    quantile lies with 90 % confidence, for any distribution; a bound is None if the sample is too small for this bound.
+    This function runs in a worker. Each row of `inputs` and `outputs` is a point. The bounds of a quantile are two
+    values of the sample between which the quantile lies with 90 % confidence, whatever the distribution is. A bound is
+    None if the sample is too small for this bound.
     """
     from scipy.stats import quantile_test  # noqa: PLC0415  half a second that only random samples need
 

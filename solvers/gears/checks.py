@@ -1,16 +1,17 @@
-"""Checks of the inputs of a gear pair; all models use the same checks."""
+"""Checks of the inputs of a gear pair. All models use the same checks."""
 
 from solvers.errors import InvalidInput
 from solvers.gears.gear import Gear, full_rack_tip_radius
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 
-# Publications print rounded values of centre distance, profile shift and module (for example 25.4/3 mm). A centre
-# distance that is too small by at most this share counts as the backlash-free centre distance.
+# Publications print rounded values of the centre distance, the profile shifts and the module (for example 25.4/3 mm).
+# If a given centre distance is smaller than the backlash-free centre distance by at most this share, the backlash-free
+# centre distance is used.
 PRINTED = 1e-4
 
 
 def check_rack(inputs: GearPairInputs, teeth: GearTeeth, name: str) -> None:
-    """Refuse a pointed rack, whose flanks meet before they reach the tip line.
+    """Refuse a rack if it is pointed: the two flanks of a rack tooth meet before they reach the tip line.
 
     Raises
     ------
@@ -42,7 +43,7 @@ def check_teeth(gear: Gear, name: str) -> None:
 
 
 def check_working_involute(value: float) -> None:
-    """Refuse a value of the involute function that belongs to no working pressure angle.
+    """Refuse a value of the involute function for which there is no working pressure angle.
 
     Raises
     ------
@@ -60,9 +61,9 @@ def check_working_involute(value: float) -> None:
 def centre_distance_in_use(given: float | None, backlash_free: float) -> float:
     """Return the centre distance in use [m].
 
-    This is the backlash-free centre distance if no centre distance is given, or if the given centre distance is smaller
-    than the backlash-free centre distance by no more than the rounding of printed values. Otherwise the given centre
-    distance is used.
+    If no centre distance is given, the backlash-free centre distance is used. If the given centre distance is smaller
+    than the backlash-free centre distance, but only by the rounding of printed values, the backlash-free centre
+    distance is also used. Otherwise the given centre distance is used.
 
     Raises
     ------
@@ -82,7 +83,7 @@ def centre_distance_in_use(given: float | None, backlash_free: float) -> float:
 
 
 def check_tips(pinion: Gear, wheel: Gear, centre_distance: float) -> None:
-    """Refuse a pair whose tooth tips do not reach into the mating gear, or touch the root of the mating gear.
+    """Refuse a pair if the tip circles do not overlap, or if the tips of a gear touch the root of the mating gear.
 
     Raises
     ------
@@ -116,14 +117,15 @@ def check_usable_flank(gear: Gear, name: str) -> None:
 
 
 def check_path(tip_start: float, tip_end: float, start: float, end: float) -> None:
-    """Refuse a pair if no path of contact remains between the tips, or between the fillets.
+    """Refuse a pair if the path of contact has no length.
 
-    All arguments are roll lengths of the pinion [m].
+    All arguments are roll lengths of the pinion [m]. The tips of the two gears limit the path to `tip_start` and
+    `tip_end`; the tips and the root fillets together limit the path to `start` and `end`.
 
     Raises
     ------
     InvalidInput
-        `no_contact` or `involute_interference`.
+        `no_contact` if the tips leave no path; `involute_interference` if only the fillets leave no path.
     """
     if tip_end <= tip_start:
         raise InvalidInput(

@@ -1,7 +1,8 @@
 """One gear in the transverse plane, cut by a rack: radii, thicknesses, involute and root fillet.
 
-The parameter `t` of a point on the arc of the rack tip is 0 on the tip line, and pi/2 - alpha_n at the transition to
-the straight flank. A half space angle is an angle that is measured from the centre line of the tooth space.
+The tip of the rack is rounded with an arc. The arc parameter `t` [rad] is 0 where the arc meets the tip line, and
+pi/2 - alpha_n where the arc meets the straight flank. A half space angle is the angle from the centre line of a tooth
+space to a point on the flank or the root of the tooth.
 """
 
 from dataclasses import dataclass
@@ -14,7 +15,7 @@ from scipy.optimize import brentq
 from solvers.compiled import kernel
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 
-_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(20)  # chosen number of points of the Gauss rule
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(20)  # the number of points of the Gauss rule is chosen
 
 
 def involute(angle: float) -> float:
@@ -26,7 +27,7 @@ def involute(angle: float) -> float:
 class Gear:
     """One gear in the transverse plane; lengths [m], angles [rad].
 
-    `form_roll_length` is the roll length at which the involute meets the fillet that the rack cuts. This length is
+    `form_roll_length` is the roll length at which the involute meets the fillet that the rack cuts. This roll length is
     negative if the gear is undercut.
     """
 
@@ -41,17 +42,17 @@ class Gear:
 
     @property
     def undercut(self) -> bool:
-        """Whether the rack cuts into the involute."""
+        """True if the rack cuts into the involute."""
         return self.form_roll_length < 0.0
 
     @property
     def usable_roll_length(self) -> float:
-        """Roll length at which the usable involute starts [m]; 0 (at the base circle) if the gear is undercut."""
+        """Roll length at which the usable involute starts [m]. It is 0, at the base circle, if the gear is undercut."""
         return max(self.form_roll_length, 0.0)
 
     @property
     def form_radius(self) -> float:
-        """Radius at which the usable involute starts [m]; if the gear is undercut, this is the base radius."""
+        """Radius at which the usable involute starts [m]. It is the base radius if the gear is undercut."""
         return hypot(self.base_radius, self.usable_roll_length)
 
     @property
@@ -61,7 +62,7 @@ class Gear:
 
     @property
     def tip_thickness(self) -> float:
-        """Thickness of a tooth on the tip circle [m]; negative if the tooth is pointed below the tip circle."""
+        """Thickness of a tooth on the tip circle [m]. It is negative if the flanks meet below the tip circle."""
         return 2 * self.tip_radius * self.half_tooth_angle(self.tip_radius)
 
     def half_tooth_angle(self, radius: float) -> float:
@@ -71,7 +72,10 @@ class Gear:
 
 
 def full_rack_tip_radius(dedendum: float, normal_pressure_angle: float) -> float:
-    """Return the largest possible tip radius of the rack, in normal modules; negative if the rack is pointed."""
+    """Return the largest possible tip radius of the rack, in normal modules.
+
+    The result is negative if the flanks of the rack meet below the tip line.
+    """
     room = pi / 4 - dedendum * tan(normal_pressure_angle)
     return room * cos(normal_pressure_angle) / (1.0 - sin(normal_pressure_angle))
 
@@ -91,7 +95,7 @@ def transverse_gear(inputs: GearPairInputs, teeth: GearTeeth) -> Gear:
 
 
 def virtual_gear(inputs: GearPairInputs, teeth: GearTeeth, base_helix_angle: float) -> Gear:
-    """Return the virtual spur gear of the normal section, cut by the rack of the real gear.
+    """Return the virtual spur gear that the rack of the real gear cuts in the normal section.
 
     Parameters
     ----------
@@ -119,8 +123,8 @@ def virtual_gear(inputs: GearPairInputs, teeth: GearTeeth, base_helix_angle: flo
 def _cut(inputs: GearPairInputs, teeth: GearTeeth, count: float, module: float, pressure_angle: float) -> Gear:
     """Return a gear with `count` teeth in a plane with the given module [m] and pressure angle [rad].
 
-    Heights are multiples of the normal module, even if `module` is the transverse module. A profile shift makes a tooth
-    thicker in proportion to the tangent of the pressure angle in this plane.
+    Addendum, dedendum and profile shift are multiples of the normal module, even if `module` is the transverse module.
+    A profile shift increases the tooth thickness in proportion to the tangent of `pressure_angle`.
     """
     height, normal_angle = inputs.normal_module, inputs.normal_pressure_angle
     radius = module * count / 2
@@ -140,7 +144,7 @@ def _cut(inputs: GearPairInputs, teeth: GearTeeth, count: float, module: float, 
 
 
 class RackFillet(NamedTuple):
-    """The rack tip that cuts a tooth root; lengths [m].
+    """The rounded rack tip that cuts the root fillet of a tooth; lengths [m].
 
     `centre_x` and `centre_y` are the coordinates of the centre of the tip arc in the normal plane. `centre_x` is
     measured from the centre line of the rack tooth; `centre_y` is measured from the reference circle. `end` is the arc
@@ -156,11 +160,10 @@ class RackFillet(NamedTuple):
 
 
 class RootProfile(NamedTuple):
-    """A tooth root, from the middle of the bottom land to the start of the involute.
+    """One half of the profile of a tooth root, from the middle of the bottom land to the start of the involute.
 
     `root_half_angle` [rad] is half the angle of the bottom land. `involute_roll` [m] is the roll length at which the
-    involute starts. `sector_area` [m^2] is the area between the centre of the gear and half the root, up to the start
-    of the involute.
+    involute starts. `sector_area` [m^2] is the area between the centre of the gear and this half of the root profile.
     """
 
     fillet: RackFillet
@@ -178,7 +181,7 @@ def fillet_point(fillet: RackFillet, t: float) -> tuple[float, float]:
     """
     y = fillet.centre_y - fillet.tip_radius * np.cos(t)
     x = (fillet.centre_x + fillet.tip_radius * np.sin(t)) / fillet.cos_helix
-    across = -y * np.tan(t) * fillet.cos_helix  # x + shift, because the normal passes through the pitch point
+    across = -y * np.tan(t) * fillet.cos_helix  # equal to x + shift: the normal passes through the pitch point
     shift = across - x
     up = y + fillet.reference_radius
     return np.hypot(across, up), np.arctan2(across, up) - shift / fillet.reference_radius
@@ -186,7 +189,7 @@ def fillet_point(fillet: RackFillet, t: float) -> tuple[float, float]:
 
 @kernel
 def fillet_sector_area(fillet: RackFillet, end: float) -> float:
-    """Return the area between the centre of the gear and the fillet from t = 0 to `end` [m^2].
+    """Return the area [m^2] between the centre of the gear and the part of the fillet from t = 0 to t = `end`.
 
     The area is 1/2 integral r^2 dpsi, where psi is the angle from the centre line of the tooth space.
     """
@@ -203,9 +206,10 @@ def fillet_sector_area(fillet: RackFillet, end: float) -> float:
 
 
 def root_profile(pair: GearPairInputs, teeth: GearTeeth, gear: Gear) -> RootProfile:
-    """Return the root of one gear of the pair.
+    """Return the root profile of one gear of the pair.
 
-    If the gear is undercut, the tooth space is the union of the areas that the tip and the flank of the rack sweep.
+    If the gear is undercut, the tip of the rack and the flank of the rack sweep different areas. The tooth space is the
+    union of both areas.
     """
     module, angle = pair.normal_module, pair.normal_pressure_angle
     tip = rack_tip_radius(pair, teeth) * module
@@ -219,7 +223,7 @@ def root_profile(pair: GearPairInputs, teeth: GearTeeth, gear: Gear) -> RootProf
         fillet = fillet._replace(end=end)
     radius, half_angle = fillet_point(fillet, fillet.end)
     root_half_angle = fillet_point(fillet, 0.0)[1]
-    step = _half_space_angle(gear, radius) - half_angle  # not 0 only if an undercut ends on the base circle
+    step = _half_space_angle(gear, radius) - half_angle  # 0, unless an undercut ends on the base circle
     area = root_half_angle * gear.root_radius**2 / 2 + fillet_sector_area(fillet, fillet.end) + step * radius**2 / 2
     return RootProfile(fillet, gear.root_radius, root_half_angle, roll, area)
 
@@ -229,7 +233,10 @@ def _half_space_angle(gear: Gear, radius: float) -> float:
 
 
 def _undercut_start(fillet: RackFillet, gear: Gear) -> tuple[float, float]:
-    """Return arc parameter [rad] and roll length [m] at which an undercutting fillet crosses the involute."""
+    """Return the arc parameter [rad] and the roll length [m] of the point at which the fillet crosses the involute.
+
+    If the fillet does not cross the involute, return the point at which the fillet crosses the base circle.
+    """
 
     def excess(t: float) -> float:
         radius, half_angle = fillet_point(fillet, t)

@@ -7,8 +7,8 @@ from solvers.errors import InvalidInput
 from solvers.quantity import quantities, quantity, record
 from solvers.sources import ISO_21771
 
-GROUND_FILLET = 0.25  # normal modules; usual tip radius of the rack for ground teeth
-RACK_A = 0.38  # normal modules; tip radius of rack A of ISO 53, assumed if the stiffness of the teeth matters
+GROUND_FILLET = 0.25  # usual tip radius of the rack for ground teeth, in normal modules
+RACK_A = 0.38  # tip radius of rack A of ISO 53, in normal modules; assumed if the tooth stiffness matters
 
 
 @record

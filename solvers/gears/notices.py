@@ -1,4 +1,4 @@
-"""Warnings about a gear pair and its load; all models give the same warnings."""
+"""Warnings about a gear pair and its load. All models give the same warnings."""
 
 from collections.abc import Iterator
 from math import cos
@@ -9,17 +9,20 @@ from solvers.gears.pair import PathOfContact
 from solvers.lubricants import hotter_than_gears
 from solvers.notices import Notice, unusual_value
 
-THIN_TIP = 0.2  # normal modules
-# Chosen limits; a value beyond its limit is unusual.
-WIDEST_FACE = 3.0  # pitch diameters of the pinion
-NARROWEST_FACE = 0.5  # modules
-FASTEST = 250.0  # m/s at the pitch line
-HIGHEST_ROOT_LOAD = 400e6  # Pa, F_t/(b m_n); the root stress is then four times as high, above the strength of steel
-LEAST_LOAD = 1e3  # N/m
+THIN_TIP = 0.2  # least usual tip thickness, in normal modules
+# The following limits are chosen. A value beyond a limit is unusual.
+WIDEST_FACE = 3.0  # face width in pitch diameters of the pinion
+NARROWEST_FACE = 0.5  # face width in modules
+FASTEST = 250.0  # pitch-line velocity [m/s]
+HIGHEST_ROOT_LOAD = 400e6  # F_t/(b m_n) [Pa]; the root stress is about four times F_t/(b m_n), so a steel tooth breaks
+LEAST_LOAD = 1e3  # line load [N/m]
 
 
 def pair_notices(path: PathOfContact) -> list[Notice]:
-    """Return the warnings about a limited rack tip radius, undercut, a thin tip, and a path that fillets shorten."""
+    """Return the warnings about the shape of the teeth and about the path of contact.
+
+    The subjects are a limited tip radius of the rack, undercut, thin tooth tips, and a path that a fillet shortens.
+    """
     inputs, notices = path.pair.inputs, []
     for gear, teeth, name in (
         (path.pair.pinion, inputs.pinion, "pinion"),
@@ -63,7 +66,7 @@ def _tooth_notices(gear: Gear, module: float, name: str) -> list[Notice]:
 
 
 def unusual_gears(pair: GearPairInputs, pinion_speed: float | None = None) -> Iterator[Notice]:
-    """Warn of an unusual face width, and of an unusual pitch-line velocity at this speed of the pinion [rad/s]."""
+    """Warn of an unusual face width. If `pinion_speed` [rad/s] is given, also warn of a high pitch-line velocity."""
     diameter, width = pitch_diameter(pair), pair.face_width
     if width > WIDEST_FACE * diameter:
         message = (
@@ -84,7 +87,7 @@ def unusual_gears(pair: GearPairInputs, pinion_speed: float | None = None) -> It
 
 
 def tooth_load(pair: GearPairInputs, torque: float, line_load: float) -> Iterator[Notice]:
-    """Warn if the torque of the pinion [N m] or the largest line load [N/m] is unusual for the teeth."""
+    """Warn if the torque of the pinion [N m] is too high, or if the largest line load [N/m] is too low."""
     root = 2 * torque / pitch_diameter(pair) / (pair.face_width * pair.module)
     if root > HIGHEST_ROOT_LOAD:
         message = f"the tooth force of {root / 1e6:.4g} N per mm of face width and mm of module breaks a steel tooth"
@@ -99,7 +102,7 @@ def tooth_load(pair: GearPairInputs, torque: float, line_load: float) -> Iterato
 
 
 def tooth_temperature(temperature: float | None, field: str = "temperatures.bulk") -> Iterator[Notice]:
-    """Warn of a temperature [K] of the teeth that is too high for gears in service."""
+    """Warn if the temperature of the teeth [K] is higher than the temperatures of gears in service."""
     if temperature is not None:
         yield from hotter_than_gears(temperature, field)
 

@@ -1,4 +1,7 @@
-"""An involute gear pair in the transverse plane (ISO 21771), and the path of contact A-E on the line of action."""
+"""An involute gear pair in the transverse plane (ISO 21771), and the path of contact on the line of action.
+
+The path of contact runs from A, where a pair of teeth comes into contact, to E, where the contact ends.
+"""
 
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
@@ -23,13 +26,13 @@ from solvers.gears.inputs import GearPairInputs, GearTeeth
 
 Real = TypeVar("Real", float, FloatArray)
 
-# A helical gear with a smaller overlap ratio is treated as a spur gear, because within rounding errors a contact line
-# would enter the mesh over the whole face at once.
+# A helical gear with a smaller overlap ratio is treated as a spur gear. Its contact lines would enter the mesh over the
+# whole face at once, up to rounding errors.
 LEAST_OVERLAP = 1e-9
-# Ratio of reduced radius to normal module below which pressure and flash temperature have no meaning: the formulas of
-# Hertz and Blok grow without limit as the radius falls to zero.
+# If the ratio of reduced radius to normal module is smaller, pressure and flash temperature have no meaning. The
+# formulas of Hertz and Blok give results that grow without limit as the radius falls to zero.
 LEAST_RADIUS = 0.02
-ROUNDING = 1e-9  # share of the line of action
+ROUNDING = 1e-9  # lengths below this share of the line of action count as 0
 
 
 def inverse_involute(value: float) -> float:
@@ -131,11 +134,12 @@ def _backlash_free_centre_distance(
 
 
 class ContactPlane(NamedTuple):
-    """Rectangle of the plane of action; x runs from A to E, y runs from the end of the face that meshes first [m].
+    """Rectangle in the plane of action within which the teeth touch.
 
-    Contact line number j has the equation x + y `tan_base_helix` = phase + j `base_pitch`. At x the roll length of the
-    pinion is `start` + x, and the roll length of the wheel is `line_of_action` minus `start` minus x. If the reduced
-    radius is below `least_radius`, which happens near a base circle, pressure and flash temperature have no meaning.
+    The coordinate x [m] runs from A to E. The coordinate y [m] is measured along the face, from the end that meshes
+    first. Contact line number j has the equation x + y `tan_base_helix` = phase + j `base_pitch`. At x, the roll length
+    of the pinion is `start` + x, and the roll length of the wheel is `line_of_action` - `start` - x. Near a base
+    circle, the reduced radius may be smaller than `least_radius`. Pressure and flash temperature then have no meaning.
     """
 
     path_length: float
@@ -168,9 +172,10 @@ def reduced_radius(plane: ContactPlane, x: Real) -> Real:
 
     Notes
     -----
-    The radius of curvature of an involute helicoid across its straight generator is r_K/cos beta_b, where r_K is the
-    transverse radius of curvature. Eq. 13 prints r_K cos^3 beta_b/(1 - 2 sin^2 beta_b). This expression agrees to
-    second order in beta_b, but is singular at 45 degrees.
+    The contact line is a straight generator of the involute helicoid. Across the contact line, the radius of curvature
+    of the helicoid is r_K/cos beta_b, where r_K is the transverse radius of curvature. Eq. 13 prints
+    r_K cos^3 beta_b/(1 - 2 sin^2 beta_b). This expression agrees with r_K/cos beta_b to second order in beta_b, but it
+    is singular at beta_b = 45 degrees.
     """
     s = plane.start + x
     return s * (plane.line_of_action - s) / (plane.line_of_action * plane.cos_base_helix)
@@ -178,10 +183,11 @@ def reduced_radius(plane: ContactPlane, x: Real) -> Real:
 
 @dataclass(frozen=True)
 class PathOfContact:
-    """Path of contact in roll lengths of the pinion [m]: `start` at A, `end` at E, `pitch_point` at C.
+    """Path of contact on the line of action.
 
-    `shortened_by` names the gears whose fillet limits the path. Without this limit, the path would extend to the tip of
-    the mating gear.
+    `start`, `end` and `pitch_point` are the roll lengths of the pinion [m] at the points A, E and C. `shortened_by`
+    names the gears whose root fillets shorten the path. Without the fillets, the path would extend to the tips of the
+    mating gears.
     """
 
     pair: GearPair
@@ -219,7 +225,7 @@ class PathOfContact:
 
     @cached_property
     def plane(self) -> ContactPlane:
-        """Rectangle of the plane of action in which contact lines move."""
+        """Rectangle in the plane of action through which the contact lines move."""
         pair, face_width = self.pair, self.pair.inputs.face_width
         helix = tan(pair.base_helix_angle)
         if face_width * helix < LEAST_OVERLAP * pair.transverse_base_pitch:
@@ -257,9 +263,9 @@ class PathOfContact:
 
         Notes
         -----
-        The velocity of a flank across the contact line is exactly omega times the transverse radius of curvature.
-        Instead, Eq. 18 takes the radius of curvature across the contact line; this radius is too large by the factor
-        1/cos beta_b.
+        The velocity of a flank in the direction across the contact line is exactly the angular speed omega times the
+        transverse radius of curvature. Eq. 18 prints the radius of curvature across the contact line instead of the
+        transverse radius. The printed radius is too large by the factor 1/cos beta_b.
         """
         s = self.start + x
         wheel_speed = pinion_speed * self.pair.pinion.teeth / self.pair.wheel.teeth
@@ -268,7 +274,7 @@ class PathOfContact:
 
 @lru_cache(maxsize=64)
 def meshing_path(gears: GearPairInputs) -> PathOfContact:
-    """Return the path of contact of a pair; the errors are those of `gear_pair` and `path_of_contact`."""
+    """Return the path of contact of a gear pair. Raises the errors of `gear_pair` and of `path_of_contact`."""
     return path_of_contact(gear_pair(gears))
 
 
@@ -288,8 +294,8 @@ def path_of_contact(pair: GearPair) -> PathOfContact:
     Raises
     ------
     InvalidInput
-        `form_diameter` if a fillet reaches the tip of its own gear; `no_contact` if the tips do not reach the line of
-        action; `involute_interference` if no part of the path is left between the fillets.
+        `form_diameter` if the fillet of a gear reaches the tip of the same gear; `no_contact` if the tips do not reach
+        the line of action; `involute_interference` if no part of the path is left between the fillets.
 
     Notes
     -----

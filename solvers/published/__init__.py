@@ -1,6 +1,6 @@
-"""Numbers from papers, books and standards, beside the numbers that the solvers compute.
+"""Statements with numbers from papers, books and standards, and the numbers that the solvers compute for comparison.
 
-The pages of the service and the tests read the same table.
+`STATEMENTS` holds all statements. Both the pages of the service and the tests use `STATEMENTS`.
 """
 
 from solvers.published import coupling, micropitting, pumping, scuffing

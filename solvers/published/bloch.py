@@ -1,4 +1,4 @@
-"""The coupling of Bloch's hand method (Improving Machinery Reliability, pp. 208-210)."""
+"""The coupling for which Bloch's book explains a hand method (Improving Machinery Reliability, pp. 208-210)."""
 
 from functools import cache
 from math import radians, tan
@@ -8,16 +8,17 @@ from solvers.coupling.model import solve
 from solvers.coupling.results import CouplingResult
 
 TORQUE, DIAMETER, FACE, FRICTION = 21806.0, 0.2286, 0.033, 0.3  # N m, m, m, -
-MISALIGNMENT = radians(0.057)  # 0.001 mm per mm
+MISALIGNMENT = radians(0.057)  # in the book: 0.001 mm per mm
 END_CONTACT = FACE / 2 * tan(radians(20.0)) / (DIAMETER / 2 * MISALIGNMENT)
-"""The crowning ratio at which the contact just reaches the end of the face."""
+"""The crowning ratio with which the contact just reaches the end of the tooth face."""
 
 
 @cache
 def bloch(crowning: float = 1.0, stiffness: float = 2.8e8, axial_velocity: float = 0.0) -> CouplingResult:
     """Solve Bloch's coupling.
 
-    The book does not give the number of teeth; 72 teeth of diametral pitch 8 agree with the diameter.
+    The book does not state the number of teeth. 72 teeth of diametral pitch 8 are assumed. These numbers agree with the
+    diameter in the book.
     """
     design = Coupling(
         teeth=72,

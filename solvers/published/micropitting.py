@@ -1,4 +1,7 @@
-"""Micropitting by method B of ISO/TR 15144-1: gears of the oil test, and FZG C gears with results of an FVA program."""
+"""Micropitting by method B of ISO/TR 15144-1, for two gear pairs: the gears of the oil test, and FZG C gears.
+
+The printed numbers for the FZG C gears include results of an FVA program.
+"""
 
 from collections.abc import Callable
 from functools import cache, partial
@@ -22,13 +25,13 @@ POINTS = ("A", "AB", "B", "C", "D", "DE", "E")
 
 
 def mineral(grade: float, thin: float, density_15: float | None = None) -> OilSheet:
-    """Return a mineral oil with these kinematic viscosities at 40 and 100 C [mm^2/s]."""
+    """Return a mineral oil. `grade` and `thin` are its kinematic viscosities at 40 and 100 C [mm^2/s]."""
     return OilSheet(grade * 1e-6, thin * 1e-6, density_15=density_15)
 
 
 @cache
 def gears_of_the_test() -> StandardFilms:
-    """Return the films of the gears of the oil test (type C-GF) at stage 8 with an oil of ISO VG 220."""
+    """Return the films of the gears of the oil test (type C-GF) at load stage 8 with an oil of ISO VG 220."""
     load = Load(oil_test.STAGE_TORQUE[8], oil_test.SPEED)
     given = LoadDistributionInputs(oil_test.GEARS, load, pinion_material=oil_test.STEEL, wheel_material=oil_test.STEEL)
     return solve_standard(given, meshing_path(oil_test.GEARS), mineral(220, 19.0), 90 + ZERO, "dip", 7)
@@ -36,7 +39,7 @@ def gears_of_the_test() -> StandardFilms:
 
 @cache
 def fzg_c() -> StandardFilms:
-    """Return the films of FZG C gears with K_v = 1.03 and K_Hbeta = 1.32."""
+    """Return the films of FZG C gears under a load with K_v = 1.03 and K_Hbeta = 1.32."""
     pinion, wheel = (
         GearTeeth(z, x, (tip - 4.5 * z) / 9 - x) for z, tip, x in ((16, 82.45, 0.1817), (24, 118.35, 0.1715))
     )
@@ -55,14 +58,18 @@ ASKED_FOR = {
     (220, 19.0): (0.398, 0.331, 0.271, 0.224, 0.185, 0.153),
     (460, 30.6): (0.567, 0.464, 0.375, 0.304, 0.245, 0.201),
 }
-"""Permissible film ratios at stages 5 to 10, read from the diagram with an accuracy of 0.003.
+"""Permissible film ratios at the load stages 5 to 10, read with an accuracy of 0.003 from `DIAGRAM`.
 
-The keys are the kinematic viscosities of a mineral oil at 40 and 100 C [mm^2/s].
+A film ratio is film thickness divided by roughness. The keys are the kinematic viscosities of a mineral oil at 40 and
+100 C [mm^2/s].
 """
 
 
 def asked_over_test() -> list[float]:
-    """Return each permissible film ratio of the diagram, divided by the film ratio in the oil test."""
+    """Return the permissible film ratio, divided by the film ratio that the solvers compute for the oil test.
+
+    The list has one item for each oil and load stage in `ASKED_FOR`.
+    """
     return [
         ratio / oil_test.film_of_test(mineral(*oil), stage).ratio
         for oil, ratios in ASKED_FOR.items()
@@ -81,7 +88,10 @@ def _ratio(solve: Callable[[], StandardFilms], point: str) -> float:
 def _of_case(
     words: str, solve: Callable[[], StandardFilms], friction: float, bulk: float, ratios: dict[str, float]
 ) -> tuple[Statement, ...]:
-    """Return the statements of the secondary source about a case."""
+    """Return the statements in `REPORT` about the films that `solve` computes.
+
+    `words` names the case in the statements. The other arguments are the numbers that the report prints.
+    """
     return (
         Says(REPORT, f"mean coefficient of friction, {words}").equals(friction, "-", lambda: solve().friction, PRINTED),
         Says(REPORT, f"bulk temperature, {words}").equals(bulk, "°C", lambda: solve().bulk - ZERO, PRINTED),

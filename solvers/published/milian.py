@@ -1,8 +1,9 @@
 """The gears of Milian, Distretti, Leoni and Velex (Gear Technology, May/June 2004), and their operating points.
 
-The tables give no face width, backlash, groove width or ambient conditions. A face width of 200 mm, a backlash of 0.3
-mm, a groove width of 16 mm, and ambient conditions of 101325 Pa and 50 degC are assumed. The module of the tables must
-be the normal module, because only then do the centre distances have the round values of 590 and 455 mm.
+The tables of the paper do not state face width, backlash, groove width and ambient conditions. These values are
+assumed: a face width of 200 mm, a backlash of 0.3 mm, a groove width of 16 mm, and ambient conditions of 101325 Pa and
+50 degC. The module in the tables must be the normal module, because only then do the centre distances have the round
+values of 590 and 455 mm.
 """
 
 from dataclasses import replace
@@ -14,7 +15,8 @@ from solvers.pumping import Closure, Flow, Gap, Groove, PumpingInputs, PumpingMo
 from solvers.pumping.model import solve
 from solvers.pumping.results import SpacesResult
 
-# Gears of Table 1, and gears of Tables 2 and 3. The speeds for Tables 2 and 3 are stated in the text of the paper.
+# The gears of Table 1, of Table 2 (case 1) and of Table 3 (case 2). The text of the paper states the speeds of cases 1
+# and 2.
 TABLE_1 = GearPairInputs(
     GearTeeth(47, 0.291, 1.0, 1.475),
     GearTeeth(103, 0.322, 1.0, 1.474),
@@ -43,9 +45,9 @@ CASE_2 = GearPairInputs(
     centre_distance=0.455,
     rack_tip_radius=GROUND_FILLET,
 )
-SPEED_1, SPEED_2 = 9267.0, 8962.0  # rpm of the pinion
+SPEED_1, SPEED_2 = 9267.0, 8962.0  # speed of the pinion [rpm]
 GROOVE = (Groove(0.1, 0.016),)  # in the middle of the face, as in the paper; the width of the groove is assumed
-PRINTED = PumpingModel(wall_transport=False, spaces=Spaces.PINION)  # the model of the paper's equations
+PRINTED = PumpingModel(wall_transport=False, spaces=Spaces.PINION)  # the model that the paper's equations describe
 TIP = replace(PRINTED, gap=Gap.TIP)
 CHAIN = replace(PRINTED, flow=Flow.POCKET_CHAIN)
 ISENTROPIC = replace(CHAIN, closure=Closure.ISENTROPIC)
@@ -61,12 +63,12 @@ def run(
     backlash: float = 0.3e-3,
     grooves: tuple[Groove, ...] = (),
 ) -> PumpingResult:
-    """Solve one operating point at a speed [rpm] of the pinion; the result is cached."""
+    """Solve one operating point. `speed` is the speed of the pinion [rpm]. The result is cached."""
     setup = PumpingSetup(gears, backlash, grooves, model=replace(model, slices=slices))
     return solve(PumpingInputs(setup, speed * pi / 30))
 
 
 def pinion(result: PumpingResult) -> SpacesResult:
-    """Return the result for the tooth spaces of the pinion; the paper calculates no other spaces."""
+    """Return the result for the tooth spaces of the pinion. The paper calculates no other tooth spaces."""
     assert result.pinion_spaces is not None
     return result.pinion_spaces

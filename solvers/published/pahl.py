@@ -1,4 +1,7 @@
-"""The coupling in the figures of Pahl 1978, with 52 teeth of module 3 mm, and the numbers read from these figures."""
+"""The coupling in the figures of Pahl 1978, and functions that compute the numbers in these figures.
+
+The coupling has 52 teeth of module 3 mm.
+"""
 
 from dataclasses import replace
 from functools import cache
@@ -38,7 +41,7 @@ def pahl_coupling(
     model: ModelOptions | None = None,
     **coupling: Any,
 ) -> CouplingInputs:
-    """Return the inputs for the coupling of the paper; the keywords `coupling` replace fields of the coupling."""
+    """Return the inputs for the coupling of the paper. Further keywords replace fields of `Coupling`."""
     steel = Coupling(teeth=TEETH, module=3e-3, face_width=24e-3, tooth_height=6e-3)
     return CouplingInputs(
         coupling=replace(steel, **coupling),
@@ -50,21 +53,22 @@ def pahl_coupling(
 
 @cache
 def pahl(misalignment_deg: float, **changes: Any) -> CouplingResult:
-    """Solve the coupling of the paper; the result is cached."""
+    """Solve the coupling of the paper. `changes` holds further arguments of `pahl_coupling`. The result is cached."""
     return solve(pahl_coupling(misalignment_deg, **changes))
 
 
 def harmonic_pitch_errors(*orders: tuple[int, float, float]) -> tuple[float, ...]:
-    """Return the pitch deviations [m] of all teeth: the sum of amplitude cos(order phi + phase) over `orders`.
+    """Return the pitch deviations [m] of all teeth.
 
-    An item of `orders` is (order, amplitude [m], phase [rad]).
+    An item of `orders` is (order, amplitude [m], phase [rad]). The pitch deviation of the tooth at the angle phi is the
+    sum of amplitude cos(order phi + phase) over all items.
     """
     phi = 2.0 * pi / TEETH * np.arange(TEETH)
     return tuple(sum(amplitude * np.cos(order * phi + phase) for order, amplitude, phase in orders))
 
 
 def concentration(misalignment_deg: float) -> float:
-    """Return the ratio of the largest to the mean force of the teeth (Fig. 3)."""
+    """Return the ratio of the largest tooth force to the mean tooth force (Fig. 3)."""
     return pahl(misalignment_deg).load_distribution.load_concentration or 0.0
 
 
@@ -75,13 +79,16 @@ def loaded(misalignment_deg: float) -> float:
 
 @cache
 def _orbit(misalignment_deg: float) -> OrbitResult:
-    """Solve the orbit at 1000 1/s, for pitch deviations with a first and a third harmonic of 2 um each (Fig. 5)."""
+    """Solve the orbit of the sleeve at 1000 1/s (Fig. 5).
+
+    The pitch deviations have a first and a third harmonic, both with an amplitude of 2 um.
+    """
     errors = harmonic_pitch_errors((1, 2e-6, 0.0), (3, 2e-6, 0.7))
     return solve_orbit(pahl_coupling(misalignment_deg, speed=1000.0, pitch_errors=errors))
 
 
 def third_over_first(misalignment_deg: float) -> float:
-    """Return the ratio of the third to the first harmonic of the inertia force (Fig. 5)."""
+    """Return the ratio of the inertia force's third harmonic to its first harmonic (Fig. 5)."""
     harmonics = _orbit(misalignment_deg).inertia_force.harmonics_y
     return float(harmonics[3] / harmonics[1])
 
@@ -114,23 +121,29 @@ def least_friction(crowning: float, low: float, high: float) -> tuple[float, flo
 
 
 def fraction(speed: float) -> float:
-    """Return the ratio of the thrust at 0.05 deg and this speed [1/s] to the coaxial thrust (Figs. 15, 16)."""
+    """Return the axial thrust at 0.05 deg of misalignment, divided by the coaxial thrust (Figs. 15, 16).
+
+    `speed` is the angular speed [1/s].
+    """
     return pahl(0.05, speed=speed, axial_velocity=CREEP).axial_thrust.fraction_of_limit or 0.0
 
 
 def offset_thrust(friction: float = 0.2, hub_distance: float = 0.2) -> float:
-    """Return the self-induced thrust [N] of the parallel offset arrangement at 0.1 deg (Fig. 13)."""
+    """Return the self-induced thrust [N] in the parallel offset arrangement at 0.1 deg of misalignment (Fig. 13)."""
     return pahl(0.1, arrangement="parallel_offset", friction=friction, hub_distance=hub_distance).axial_thrust.force
 
 
 def friction_exponent() -> float:
-    """Return the exponent of the coefficient of friction in the self-induced thrust (Fig. 17)."""
+    """Return the exponent n with which the self-induced thrust depends on the coefficient of friction (Fig. 17).
+
+    The self-induced thrust grows as the coefficient of friction to the power n.
+    """
     return log(offset_thrust(0.3) / offset_thrust(0.05)) / log(6.0)
 
 
 @cache
 def crowning(low_deg: float, high_deg: float) -> float:
-    """Return the crowning ratio that the model recommends for a range of misalignment."""
+    """Return the crowning ratio that the model recommends for misalignments between two limits [deg]."""
     recommendation = recommend(
         RecommendationInputs(pahl_coupling(0.1, friction=None), radians(low_deg), radians(high_deg))
     )

@@ -18,7 +18,7 @@ def case(
     model: PumpingModel = PRINTED,
     face_width: float = 0.2,
 ) -> PumpingResult:
-    """Solve one of the two cases of the paper at a speed [rpm]; if the speed is None, use the speed in the paper."""
+    """Solve case 1 or case 2 of the paper. `speed` is the speed of the pinion [rpm], by default the paper's speed."""
     gears, own = CASES[number]
     return run(replace(gears, face_width=face_width), own if speed is None else speed, model, grooves=grooves)
 
@@ -37,7 +37,7 @@ def _hottest(number: int) -> float:
 
 
 def _relief(number: int) -> float:
-    """Return the share of the temperature rise that a groove prevents."""
+    """Return the reduction of the temperature rise by a groove, as a share of the rise without a groove."""
     return 1.0 - _rise(case(number, grooves=GROOVE)) / _rise(case(number))
 
 

@@ -1,4 +1,4 @@
-"""Gears of standards: FZG type A of ISO 14635-1, and example 1 of ISO/TR 6336-30."""
+"""Two gear pairs from standards: FZG type A (ISO 14635-1), and example 1 of ISO/TR 6336-30."""
 
 from math import radians
 
@@ -29,9 +29,9 @@ EXAMPLE_1 = GearPairInputs(
 
 
 def fzg_pressure(torque: float) -> float:
-    """Return the Hertzian pressure [MPa] of FZG type A at the pitch point for a pinion torque [N m].
+    """Return the Hertzian pressure [MPa] at the pitch point of FZG type A gears. `torque` is the pinion torque [N m].
 
-    One tooth pair carries the whole load.
+    At the pitch point, one tooth pair carries the whole load.
     """
     path = meshing_path(FZG_A)
     return _pitch_pressure(FZG_A, torque / path.pair.pinion.base_radius / path.plane.cos_base_helix / 20e-3)
@@ -40,14 +40,14 @@ def fzg_pressure(torque: float) -> float:
 def example_stress() -> float:
     """Return the nominal contact stress [MPa] of example 1, divided by the helix factor.
 
-    The torque is 9 kN m. The load is divided by the transverse contact ratio.
+    The torque is 9 kN m. The line load is the load per face width, divided by the transverse contact ratio.
     """
     path = meshing_path(EXAMPLE_1)
     return _pitch_pressure(EXAMPLE_1, 9000 / path.pair.pinion.base_radius / (0.1 * path.transverse_contact_ratio))
 
 
 def example_stiffness() -> float:
-    """Return the theoretical single stiffness of example 1 [N/(mm um)]."""
+    """Return the theoretical single stiffness [N/(mm um)] of the gears in example 1."""
     return standard_stiffness(meshing_path(EXAMPLE_1)).theoretical * 1e-9
 
 

@@ -1,4 +1,4 @@
-"""One published statement with a number, and the number that is computed here."""
+"""A published statement with a number, and the number that the solvers compute for comparison."""
 
 from collections.abc import Callable
 from math import inf
@@ -10,7 +10,7 @@ INDEPENDENT = "the paper shows a curve; the number is an independent calculation
 
 @record
 class Row:
-    """A published statement with the number that is computed here."""
+    """A published statement, and the number that the solvers compute for comparison."""
 
     statement: str = described("What the source says.")
     source: str = described("Paper, and its equation, table or figure.")
@@ -24,7 +24,11 @@ class Row:
 
 @record
 class Statement:
-    """A published statement: a number with its tolerance, or a bound."""
+    """A published statement, and the function that computes the number for comparison.
+
+    The source prints a number, a bound or a range. The statement holds if the computed number lies between `least` and
+    `most`.
+    """
 
     says: str = described("What the source says.")
     source: str = described("Paper, and its equation, table or figure.")
@@ -37,7 +41,7 @@ class Statement:
     remark: str = described("Why the statement does not hold; empty if it holds.", default="")
 
     def row(self) -> Row:
-        """Compute the number, and return this number beside the statement."""
+        """Compute the number, and return a row with the statement and the computed number."""
         computed = self.compute()
         deviation = None if not self.number else computed / self.number - 1.0
         holds = self.least <= computed <= self.most
@@ -46,7 +50,10 @@ class Statement:
 
 @record
 class Says:
-    """The words of a source; the methods add the printed number and the function that computes this number here."""
+    """The words of a source, from which the methods make a `Statement`.
+
+    `compute` is the function that computes the number with the solvers.
+    """
 
     source: str
     words: str
@@ -54,7 +61,7 @@ class Says:
     def equals(
         self, number: float, unit: str, compute: Callable[[], float], tolerance: float, remark: str = ""
     ) -> Statement:
-        """Return the statement that the computed number equals a printed number; `tolerance` is relative."""
+        """Return the statement that the computed number equals a printed number. `tolerance` is relative."""
         least, most = number - tolerance * abs(number), number + tolerance * abs(number)
         return Statement(self.words, self.source, f"{number:g}", unit, compute, least, most, number, remark)
 
@@ -73,10 +80,10 @@ class Says:
     def not_reproduced(
         self, number: float, unit: str, compute: Callable[[], float], by_equations: float, remark: str
     ) -> Statement:
-        """Return a statement whose printed number disagrees with the equations of the source.
+        """Return a statement whose printed number disagrees with the equations of the same source.
 
-        The statement holds if the computed number is within 3 % of `by_equations`, the number that follows from the
-        equations.
+        `by_equations` is the number that follows from these equations. The statement holds if the computed number
+        differs from `by_equations` by at most 3 %.
         """
         least, most = 0.97 * by_equations, 1.03 * by_equations
         return Statement(self.words, self.source, f"{number:g}", unit, compute, least, most, number, remark)

@@ -1,11 +1,11 @@
-"""One module per kind of study, with its request, its points, its last lines and its page.
+"""The kinds of study, one per module. A module declares the request, the points, the lines and the page of its study.
 
-sweep           one or two fields varied, a list of cases, or a random sample
+sweep           the results over a grid of field values, at a list of cases, or at a random sample
 sensitivity     the inputs that change an output most
-spectrum        a load spectrum with tolerances: probabilities and losses
-corners         the worst combination of uncertain inputs
+spectrum        probabilities of exceeding limits, and losses, for a load spectrum with tolerances
+corners         the results at all combinations of the uncertain inputs
 design          the flank correction that gives the best result at the worst corner
 
-The service finds a module by the name `PAGE` in the module. `PAGE` is a `StudyPage`, and its attribute `plan` is the
-class of the study. There is no list of the modules.
+The service uses every module of this package, so a new module need not be registered. The service expects a class
+`PAGE` in each module. `PAGE` is a subclass of `StudyPage`, and its attribute `plan` is the class of the study.
 """

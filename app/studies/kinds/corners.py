@@ -1,6 +1,7 @@
-"""Corners: a sweep over every combination of the uncertain inputs of a gear unit.
+"""Corners: a sweep over all combinations of the values of a gear unit's uncertain inputs.
 
-A corner is one of these combinations. The page shows an output at all corners, and the load at the worst corner.
+A corner is one of these combinations. The page shows how an output varies over the corners, and the load along the face
+at the worst corner.
 """
 
 from dataclasses import replace
@@ -51,7 +52,7 @@ DESIGN = "design"
 
 
 class CornersRequest(DriveTrainStudy):
-    """A gear unit at every combination of its uncertain inputs."""
+    """A gear unit, and the ranges of its uncertain inputs."""
 
     sample: ClassVar[None] = None
     best: ClassVar[None] = None
@@ -62,13 +63,14 @@ class CornersRequest(DriveTrainStudy):
 
 
 class Corners(Sweep):
-    """The answer of the endpoint at every corner, for at most 256 corners.
+    """The results of a gear unit at every corner, for at most 256 corners.
 
-    The lines `extremes` give the least and the largest value of each output.
+    A corner is a combination of the values of the uncertain inputs. There is a line for each corner. The lines
+    `extremes` give the least and the largest value of each output.
 
     If no output needs the thermal film, the film is not calculated. The study is then twenty times as fast and has
-    fewer warnings. If some corners have no solution, the last line has the warning `no_convergence_of_corner`, and the
-    lines of these corners state the reasons.
+    fewer warnings. If some corners have no solution, the last line has the warning `no_convergence_of_corner`. The
+    lines of these corners state why there is no solution.
     """
 
     path = "/v1/drive-train/corners"
@@ -90,7 +92,10 @@ class Corners(Sweep):
         return grid(ranges, base, min(most, MOST_CORNERS), "ranges")
 
     def _closing(self, summary: Summary, end: Line) -> list[Line]:
-        """Return the extremes of every output, and the end with a warning if some corners have no solution."""
+        """Return a line with the extremes of each output, and then the line `end`.
+
+        The line `end` has a warning if some corners have no solution.
+        """
         extremes: list[Line] = []
         for path, extreme in summary.extremes.items():
             ends = {name: {"value": value, "at": self.points.overrides(at)} for name, (value, at) in extreme.items()}
@@ -102,15 +107,15 @@ class Corners(Sweep):
 
 
 def control_of(quantity: str) -> str:
-    """Return the name of the control of an uncertain input."""
+    """Return the name of the form control for an uncertain input."""
     return f"{CORNER}{quantity.replace(' ', '_')}"
 
 
 class UnitPage(StudyPage):
-    """The page of a study over the corners of a gear unit.
+    """Base class of the pages that show a study over the corners of a gear unit.
 
-    `corners` is the name of the member of the body that contains the corners. The uncertain inputs in `left_alone` keep
-    the values of the case, unless the user types values for them.
+    `corners` is the name of the field of the body that contains the ranges of the uncertain inputs. The uncertain
+    inputs in `left_alone` keep their values in the case, unless the user types values for these inputs.
     """
 
     names = frozenset(map(control_of, UNCERTAIN))
@@ -120,16 +125,20 @@ class UnitPage(StudyPage):
 
     @cached_property
     def uncertain(self) -> dict[str, Axis]:
-        """The uncertain inputs with their usual values, by quantity; empty if the case is rejected."""
+        """The axes of the uncertain inputs with their usual values. The keys are the names of the quantities.
+
+        The dictionary is empty if the service rejects the case.
+        """
         try:
             return usual_corners(BaseRequest(self.calculation, self.asked.body).checked({}))
         except REFUSED:
             return {}
 
     def declared(self) -> tuple[Control, ...]:
-        """Return one control per uncertain input, for the values of this input. The defaults are the usual values.
+        """Return one control per uncertain input. In the control, the user types the values of this input.
 
-        Errors that concern all axes together are shown at the first control. An input in `left_alone` has no default.
+        By default, a control contains the usual values of its input. A control of an input in `left_alone` is empty.
+        Errors that concern all uncertain inputs together are shown at the first control.
         """
         controls: list[Control] = []
         for quantity, axis in self.uncertain.items():
@@ -140,7 +149,7 @@ class UnitPage(StudyPage):
         return (*(Control(first.name, self.corners, sets=False) for first in controls[:1]), *controls)
 
     def controls(self) -> tuple[Controls, ...]:
-        """Return a form field for the values of each of the uncertain inputs."""
+        """Return a group with one form field per uncertain input, for the values of this input."""
         fields = []
         for quantity, axis in self.uncertain.items():
             rows = [row if isinstance(row, list) else [row] for row in axis.values or ()]
@@ -162,15 +171,20 @@ class UnitPage(StudyPage):
 
 
 def _typed(axis: Axis, text: str) -> dict[str, Any]:
-    """Return the axis with the typed values. Semicolons separate the values; a value may contain blanks."""
+    """Return the axis with the values that the user typed.
+
+    Semicolons separate the values of the axis. If the axis moves several fields together, blanks separate the values of
+    these fields.
+    """
     rows = [[number_of(part) for part in row.split()] for row in text.split(";")]
     return {"path": axis.path, "values": [row[0] if len(row) == 1 else row for row in rows]}
 
 
 def load_figure(case: Case, reference: Case, name: str, finding: str) -> dict[str, Figure]:
-    """Return the figure of the load along the face: solid lines at a corner, dashed lines for the case as entered.
+    """Return the figure of the load along the face: solid lines for `case`, dashed lines for `reference`.
 
-    The result is empty if one of the cases has no load.
+    `name` is the name of `case` in the legend. `finding` is put before the finding of the figure. The result is empty
+    if `case` or `reference` has no data for this figure.
     """
     try:
         own, given = (LOAD_ALONE.figure(drawn_case.request, drawn_case.response) for drawn_case in (case, reference))
@@ -201,9 +215,10 @@ class CornersPage(UnitPage):
     study: Corners
 
     def body(self) -> dict[str, Any]:
-        """Return the body with the typed or usual corners.
+        """Return the body with the values of the uncertain inputs, as typed or else the usual values.
 
-        The body requests the output that the page shows, and all headline numbers that do not need the thermal film.
+        The body requests the output that the page shows. It also requests all headline numbers that need neither the
+        thermal film nor the cold state.
         """
         output, paths = self.output.path, [leaf.path for leaf in headlines(self.calculation.response)]
         deciding = [path for path in paths if not (needs_film(DRIVE_TRAIN, path) or path.startswith(COLD))]
@@ -214,7 +229,12 @@ class CornersPage(UnitPage):
         }
 
     def result(self, lines: list[Line]) -> Result:
-        """Return the effect of each uncertain input, and the load at the worst corner and for the case as entered."""
+        """Return two figures and two tables.
+
+        One figure shows the effect of each uncertain input. The other compares the load along the face at the worst
+        corner with the load of the case as entered. The tables list the extremes of each output, and the inputs at the
+        worst corner.
+        """
         end, output = lines[-1], self.output
         extremes = {line["output"]: line for line in lines if line["type"] == "extremes"}
         progress = f"{end['points']} corners in {shown(end['elapsed_s'], 2)} s"
@@ -237,7 +257,8 @@ class CornersPage(UnitPage):
     def _rows(self, lines: list[Line], worst: Overrides) -> list[Row]:
         """Return one row per uncertain input. The row has one dot per value of the input.
 
-        A dot lies at the worst output among all corners in which the input has this value.
+        The position of a dot is the worst output among all corners at which the input has the value of this dot. A
+        value has no dot if none of these corners has a solution.
         """
         points = [line for line in lines if line["type"] == "point" and line["out"][0] is not None]
         pick = min if self.output.view.greatest_is_best else max
@@ -258,7 +279,10 @@ class CornersPage(UnitPage):
         return rows
 
     def _extremes(self, extremes: dict[str, Line], case: Case) -> Table:
-        """Return a table of the least and the largest value of each output. Each value is a link to its case."""
+        """Return a table of the least and the largest value of each output.
+
+        Each value is a link to the case at the corner where the value occurs.
+        """
         rows = []
         for leaf in self.study.outputs:
             if leaf.path in extremes:

@@ -1,7 +1,7 @@
-"""Design: a search for those values of some inputs that give the best result in the worst case.
+"""Design: a search for the values of some inputs of a gear unit that give the best result in the worst case.
 
-On the page of the study, the inputs are the flank correction of a gear unit. The page shows the correction as a sheet
-for the grinder, and the course of the search.
+On the page of the study, these inputs are the flank correction. The page shows the best correction as a sheet for the
+grinder, and it shows the course of the search.
 """
 
 from collections.abc import Sequence
@@ -48,21 +48,21 @@ from solvers.arrays import FloatArray
 from solvers.drive_train.uncertainty import MOST_CORNERS
 from solvers.errors import NoSolution
 
-FIRST_STEP = 0.15  # as a share of the range of a variable
-LAST_STEP = 2e-3  # as a share of the range of a variable, chosen
-LEAST_GAIN = 1e-3  # as a share of the objective at the start; the search ends if a restart gains less than this
-VALUE_SCALE = 0.2  # objectives are divided by this share of the objective at the start, variables by their ranges
-PENALTY = 5.0  # in scaled objectives; excess of a point without solution over the worst point so far
-MOST_STEPS = 100  # largest number of COBYQA steps per evaluation; steps that change only the level need no evaluation
+FIRST_STEP = 0.15  # trust radius at the start of the search, as a share of the range of a variable
+LAST_STEP = 2e-3  # trust radius at the end of the search, as a share of the range of a variable; chosen
+LEAST_GAIN = 1e-3  # the search ends if a restart gains less than this share of the objective at the start
+VALUE_SCALE = 0.2  # the unit of the scaled objectives, as a share of the objective at the start
+PENALTY = 5.0  # scaled objective of a point without solution, minus the scaled objective of the worst point so far
+MOST_STEPS = 100  # largest number of COBYQA steps per evaluation; a step that only moves the level is no evaluation
 
-EVALUATIONS = 40  # default number of evaluations on the page, chosen
-STEP_UM = 0.5  # a correction is rounded to multiples of this step
+EVALUATIONS = 40  # default of the largest number of evaluations on the page; chosen
+STEP_UM = 0.5  # the page rounds the best correction to multiples of this step
 SLOPE, CROWNING = "modifications.helix_slope_um", "modifications.lead_crowning_um"
 TIP, ROOT = "modifications.tip_relief_um", "modifications.root_relief_um"
 
 
 class Variable(FieldsTogether):
-    """A number that the search varies, and its range."""
+    """A variable of the search: a field, or several fields with the same value, and the range of this value."""
 
     path: Annotated[FieldPaths, Input("field to choose", text="dotted path, or several fields of one value")]
     min: Annotated[float, Input("lower end")]
@@ -74,7 +74,7 @@ class Variable(FieldsTogether):
 
 
 class DesignRequest(DriveTrainStudy):
-    """A gear unit for which the flank correction with the best result at its worst corner is sought."""
+    """A gear unit, the variables of its flank correction, and the cases in which a correction is judged."""
 
     variables: Annotated[list[Variable], Field(min_length=1, max_length=10), Input("variables")]
     corners: Annotated[Ranges, Input("corners", text=RANGES, default_text="the request's own")] = None
@@ -94,14 +94,15 @@ class DesignRequest(DriveTrainStudy):
 
 
 class Design(Study):
-    """A search with the method COBYQA that starts from the correction in the request.
+    """A search for the best correction of a gear unit. It starts from the correction in the request.
 
-    The objective of a correction is the value of the chosen output at the worst operating point and corner. The output
-    `safety.minimum` needs the thermal film, which takes one second per corner. The search is twenty times as fast with
-    the output `safety.blok_flank`, or if `model.lubrication` is `closed_form`.
+    The method of the search is COBYQA. The objective of a correction is the value of the chosen output at the worst
+    combination of operating point and corner. The output `safety.minimum` needs the thermal film, which takes one
+    second per corner. The search is twenty times as fast with the output `safety.blok_flank`, or if `model.lubrication`
+    is `closed_form`.
 
-    If variables have a `step`, `rounded` in the last line is the best correction rounded to whole steps. The objective
-    of this correction is calculated in the same way.
+    If variables have a `step`, the last line has the member `rounded`. It holds the best correction, rounded to whole
+    steps, and the objective of the rounded correction.
     """
 
     path = "/v1/drive-train/design"
@@ -111,7 +112,7 @@ class Design(Study):
     body: DesignRequest
 
     def _outputs(self, base: BaseRequest) -> tuple[Leaf, ...]:
-        """Return the objective as the only output."""
+        """Return the output that is the objective. The study has no other outputs."""
         objective = base.output(self.body.objective, "objective")
         if objective.kind not in NUMBERS:
             raise Unprocessable("unknown_output", f"{objective.path} is not a number", "objective")
@@ -126,14 +127,14 @@ class Design(Study):
             message = f"{objective.path} has no safe side of its own; state whether to maximise or minimise it"
             raise Unprocessable("direction_missing", message, "direction")
         self.direction = body.direction or ("maximise" if objective.view.greatest_is_best else "minimise")
-        self.start = [_share(variable, case) for variable in body.variables]  # as shares of the ranges
+        self.start = [_share(variable, case) for variable in body.variables]  # start of the search in the unit cube
         self.is_rounded = any(variable.step is not None for variable in body.variables)
         total = (body.evaluations + self.is_rounded) * len(self.cases)
         check_count(total, most, "evaluations")
         return total
 
     async def lines(self, pool: Pool, clock: Clock) -> Lines:
-        """Yield the header, a line for each trial, and the end."""
+        """Yield the header, a line for each correction tried, and the line `end`."""
         variables = zip(self.body.variables, self.units, strict=True)
         yield [
             self.header(
@@ -184,11 +185,12 @@ class Design(Study):
         ]
 
     async def _trial(self, pool: Pool, clock: Clock, values: list[float]) -> tuple[Line, list[float] | None]:
-        """Return the content of a trial's line, and the objectives of all cases.
+        """Try a correction. Return the content of the line about this trial, and a list of the objectives of all cases.
 
-        The line has the values of the variables, the objective in the worst case, and the worst case itself. The signs
-        of the objectives of all cases are such that smaller objectives are better. The trial ends at the first case
-        without solution. Then the objective in the line is None, and None is returned for the objectives of all cases.
+        The line has the values of the variables, the objective in the worst case, and the worst case itself. If the
+        objective is to be maximised, the signs in the list are reversed, so that a smaller number is always better. The
+        trial ends at the first case without solution. Then the objective in the line is None, and None is returned
+        instead of the list.
         """
         pairs = zip(self.body.variables, values, strict=True)
         at: Overrides = {path: value for variable, value in pairs for path in variable.paths}
@@ -209,7 +211,11 @@ class Design(Study):
 
 
 def _unit(variable: Variable, base: BaseRequest, place: str) -> str | None:
-    """Return the common unit of a variable's fields. Raises Unprocessable if a field does not accept the range."""
+    """Check a variable, and return the common unit of its fields, or None if the units differ.
+
+    Raises Unprocessable if a field does not accept the range of the variable, if the range is empty, or if no multiple
+    of the step lies in the range.
+    """
     leaves = [base.leaf(path, f"{place}.path") for path in variable.paths]
     for leaf in leaves:
         if leaf.kind != "number":
@@ -225,7 +231,10 @@ def _unit(variable: Variable, base: BaseRequest, place: str) -> str | None:
 
 
 def _cases(request: DesignRequest, base: BaseRequest) -> list[Overrides]:
-    """Return the values that each case changes. The cases are all combinations of operating point and corner."""
+    """Return one item per case: the values that the case changes in the request.
+
+    The cases are all combinations of an operating point and a corner.
+    """
     corners: list[Overrides] = [{}]
     if request.corners is not None:
         combined = grid(request.corners, base, MOST_CORNERS, "corners")
@@ -241,13 +250,19 @@ def _cases(request: DesignRequest, base: BaseRequest) -> list[Overrides]:
 
 
 def _share(variable: Variable, case: dict[str, Any]) -> float:
-    """Return the position of the case's value in the range of a variable, from 0 to 1; 0 if the case has no value."""
+    """Return the position of the case's value in the range of a variable. 0 is the lower end, and 1 is the upper end.
+
+    The position is 0 if the case has no value.
+    """
     own = value_at(case, variable.paths[0])
     return 0.0 if own is None else min(max((own - variable.min) / (variable.max - variable.min), 0.0), 1.0)
 
 
 def _rounded(variable: Variable, value: float) -> float:
-    """Return the nearest multiple of the variable's step inside the range, or the value itself if there is no step."""
+    """Round a value to the nearest multiple of the variable's step that lies inside the range of the variable.
+
+    If the variable has no step, return the value itself.
+    """
     step, low, high = variable.step, variable.min, variable.max
     if step is None:
         return value
@@ -256,21 +271,21 @@ def _rounded(variable: Variable, value: float) -> float:
 
 
 class _Unknown(Exception):
-    """The search needs the objectives at a new point; the point is the argument of the exception."""
+    """Interruption of the search, because the objectives at a new point are needed. The argument is the new point."""
 
 
 def next_place(start: Sequence[float], told: Sequence[list[float] | None], most: int) -> list[float] | None:
     """Return the point of the unit cube that the search evaluates next, or None if the search has ended.
 
-    This function runs in a worker. The search minimises the largest objective with at most `most` evaluations. `told`
-    holds the objectives at all points evaluated so far, in the order of evaluation; an item is None if the point has no
-    solution. Each call repeats the search up to the first new point. This takes some milliseconds per point. In return,
-    no thread has to wait for the objectives.
+    The search minimises the largest of the objectives, with at most `most` evaluations. `told` holds the objectives at
+    all points evaluated so far, in the order of evaluation; an item is None if the point has no solution. This function
+    runs in a worker. Each call repeats the search from the start to the first point that has not been evaluated. The
+    repetition takes some milliseconds per point, but no thread has to wait for the objectives of a point.
 
-    The method is COBYQA, which needs no derivatives. COBYQA minimises a level under the constraint that no objective
-    exceeds the level. COBYQA therefore has one smooth model per objective, even along a ridge on which two objectives
-    are equally large. The method is restarted at the best point as long as a restart improves the result. Raises
-    NoSolution with the code `design` if the start has no solution.
+    The method is COBYQA, which needs no derivatives. COBYQA minimises an additional variable, the level, under the
+    constraint that no objective exceeds the level. In this form, COBYQA has one smooth model per objective, even along
+    a ridge on which two objectives are equally large. The method is restarted at the best point as long as a restart
+    improves the result. Raises NoSolution with the code `design` if the start has no solution.
     """
     if len(told) == most:
         return None
@@ -280,7 +295,7 @@ def next_place(start: Sequence[float], told: Sequence[list[float] | None], most:
     evaluated = {_name(np.array(start)): np.array(first) / scale}
 
     def scaled(place: FloatArray) -> FloatArray:
-        """Return the scaled objectives at a place. The last component of the place is the level."""
+        """Return the scaled objectives at a point. `place` holds the coordinates of the point, and then the level."""
         name = _name(place[:-1])
         if name not in evaluated:
             if len(evaluated) == len(told):
@@ -314,12 +329,13 @@ def next_place(start: Sequence[float], told: Sequence[list[float] | None], most:
 
 
 def _name(place: FloatArray) -> bytes:
-    """Return a key for a place in the unit cube. Places that differ only by rounding errors have the same key."""
+    """Return a key for a point of the unit cube. Points that differ only by rounding errors have the same key."""
     return np.clip(place, 0.0, 1.0).round(12).tobytes()
 
 
-# The corrections that may be ground: label, fields that get the same value, and the default range of the search [um].
-# The ranges are chosen. They are wider than usual for modules of a few millimetres; the user may change the ranges.
+# The corrections that may be ground. Each entry has a label, the fields that get the value of the correction, and the
+# ends of the default range of the search [um]. The ranges are chosen. They are wider than the corrections that are
+# usual for modules of a few millimetres. The user may change the ranges.
 GROUND = (
     ("helix slope", (SLOPE,), -100.0, 100.0),
     ("crowning", (CROWNING,), 0.0, 20.0),
@@ -334,7 +350,7 @@ ENDS = tuple(
         Control(f"high.{place}", f"variables.{place}.max", high, label=f"{label}, to", unit="µm"),
     )
 )
-"""The controls for both ends of the search range of each correction."""
+"""Two controls per correction, for the ends of the range that is searched."""
 
 
 class DesignPage(UnitPage):
@@ -355,13 +371,14 @@ class DesignPage(UnitPage):
     names = UnitPage.names | {control.name for control in (TRIALS, *ENDS)}
     figures = ("lead", LOAD_ALONE.name, GAP.name, "search")
     grows = True
-    left_alone = ("pinion clearance", "wheel clearance", "thrust fraction")  # these inputs change the result least
+    left_alone = ("pinion clearance", "wheel clearance", "thrust fraction")  # the uncertain inputs with least influence
     plan = Design
 
     def body(self) -> dict[str, Any]:
-        """Return the body with the typed or usual ranges, and with the corners.
+        """Return the body with the ranges of the corrections and the values of the uncertain inputs.
 
-        If the user types no corners, the usual corners are used, but the inputs in `left_alone` are not varied.
+        The usual ranges and values are used where the user types nothing. An input in `left_alone` is varied only if
+        the user types values for this input.
         """
         output, given = self.output, self.given()
         for (_, paths, *_), variable in zip(GROUND, given["variables"], strict=True):
@@ -374,18 +391,29 @@ class DesignPage(UnitPage):
         }
 
     def declared(self) -> tuple[Control, ...]:
-        """Return the controls of the number of trials, of the ranges to grind, and of the uncertain inputs."""
+        """Return the controls for the number of trials, the ranges of the corrections and the uncertain inputs.
+
+        Further controls only show errors. Errors of a correction are shown at the control for the lower end of the
+        correction's range. Errors of the objective are shown at the menu of outputs.
+        """
         whole = (Control(f"low.{place}", f"variables.{place}", sets=False) for place in range(len(GROUND)))
         objective = Control(OUTPUT.name, "objective", sets=False)
         return (TRIALS, *ENDS, *whole, objective, *super().declared())
 
     def controls(self) -> tuple[Controls, ...]:
-        """Return the controls of the number of trials, of the ranges and of the uncertain inputs."""
+        """Return two groups of form fields.
+
+        One group contains the number of trials and the ranges of the corrections. The other group contains the values
+        of the uncertain inputs.
+        """
         fields = tuple(map(self.field_of, (TRIALS, *ENDS)))
         return Controls("Search", fields=fields), *super().controls()
 
     def result(self, lines: list[Line]) -> Result:
-        """Return the grinding sheet, tables of the effect of grinding, and figures of lead, load, gap and search."""
+        """Return the sheet for the grinder, further tables, and figures of the lead, the load, the gap and the search.
+
+        While the search runs, return only the best correction so far and the figure of the search.
+        """
         trials = [line for line in lines if line["type"] == "trial"]
         solved_trials = [line for line in trials if line["objective"] is not None]
         if not solved_trials:
@@ -425,7 +453,7 @@ class DesignPage(UnitPage):
         )
 
     def _so_far(self, start: Line, best: Line) -> Table:
-        """Return a table of the best correction so far, for the page while the search runs."""
+        """Return the table that the page shows while the search runs: the best correction so far."""
         rows = []
         for path, value in best["at"].items():
             leaf = self.input(path)
@@ -435,7 +463,7 @@ class DesignPage(UnitPage):
         return Table("Best so far", ("correction", Number("as described"), Number("best so far"), "unit"), rows)
 
     def _sheet(self, case: Case, at: Overrides) -> Table:
-        """Return the sheet for the grinder, with gear, place, amount and tolerance of each correction."""
+        """Return the sheet for the grinder: gear, place on the flank, amount and tolerance of each correction."""
         inputs = case.response.inputs
         slope = float(at[SLOPE] or 0.0)
         deep, high = _ends(case) if slope < 0.0 else reversed(_ends(case))
@@ -465,9 +493,10 @@ class DesignPage(UnitPage):
         return Table("What to grind", ("gear", "correction", "where", *numbered, "unit"), rows, note)
 
     def _before_and_after(self, end: Line, wanted: Line, case: Case, ground: Case) -> Table:
-        """Return a table of the output before and after grinding, at the worst corner and for the case as entered.
+        """Return a table of the output with the correction as entered and with the best correction.
 
-        The table has a note if grinding worsens the output for the case as entered.
+        One row is for the worst corner of each of the two corrections. The other row is for the uncertain inputs as
+        entered. The table has a note if the best correction worsens the output in the second row.
         """
         output = self.output
         before, after = (value_at(unit_case.response, output.path) for unit_case in (case, ground))
@@ -484,7 +513,10 @@ class DesignPage(UnitPage):
         return Table("What it brings", (output.title, Number("as described"), Number("ground so"), "unit"), rows, note)
 
     def _lead_chart(self, case: Case, at: Overrides) -> Figure:
-        """Return the figure of the lead from helix slope and crowning, with tolerances. Dashed lines show the case."""
+        """Return the figure of the lead that results from helix slope and crowning, with its tolerance band.
+
+        The solid line is the lead to grind, and the dashed line is the lead of the case as entered.
+        """
         curves, inputs = case.response.misalignment.curves, case.response.inputs
         position = values(curves.position_mm)
         wanted = Lead(*(float(at[path] or 0.0) for path in (SLOPE, CROWNING)))
@@ -494,7 +526,7 @@ class DesignPage(UnitPage):
 
 
 def _ends(case: Case) -> tuple[str, str]:
-    """Return the names of both ends of the face: the end that meshes first, and the end that leaves the mesh last."""
+    """Return the names of the end of the face that meshes first and of the end that leaves the mesh last."""
     first, *_, last = case.response.misalignment.curves.z_mm
     drive = case.request.pinion_shaft.torque_position_mm
     if drive is None:
@@ -504,7 +536,10 @@ def _ends(case: Case) -> tuple[str, str]:
 
 
 def _numbers(case: Case, end: Line, at: Overrides) -> Table:
-    """Return a table that explains why the pages of this unit show different values of helix slope and crowning."""
+    """Return a table that compares all values of helix slope and crowning on the pages of this unit.
+
+    The pages show different values, because they answer different questions.
+    """
     misalignment, inputs = case.response.misalignment, case.response.inputs
     estimate = "first estimate: inputs as described, load spread evenly over the face"
     entries = (
@@ -524,7 +559,8 @@ def _numbers(case: Case, end: Line, at: Overrides) -> Table:
 def _gap(ground: Case, case: Case) -> dict[str, Figure]:
     """Return the figure of the gap over the face: solid lines after grinding, dashed lines for the case as entered.
 
-    Neither gap contains the changes of the worst corner. The result is empty if one of the gaps does not exist.
+    Both gaps are calculated with the uncertain inputs as entered, not at the worst corner. The result is empty if one
+    of the two cases has no data for the figure.
     """
     try:
         own, given = (GAP.figure(unit_case.request, unit_case.response) for unit_case in (ground, case))

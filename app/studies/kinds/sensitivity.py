@@ -1,8 +1,8 @@
 """Sensitivity: derivatives of each output with respect to each number of a case, from finite differences.
 
-A count is moved by 1, and any other input by its tolerance. An input without a tolerance is moved by 1 K if it is a
-temperature, or else by 1 %. The slope over a tolerance is compared with the slope over half the tolerance. The page
-shows a figure and a table of the inputs, sorted by the change of the output that the inputs cause.
+An integer is moved by 1, and any other input by its tolerance. An input without a tolerance is moved by 1 K if it is a
+temperature, or else by 1 %. If the step is a tolerance, the slope over the step is compared with the slope over half
+the step. The page shows a figure and a table of the inputs. The input that changes the output most comes first.
 """
 
 from collections import Counter
@@ -31,15 +31,15 @@ from app.studies.points import BaseRequest, Point, check_count, check_distinct
 from app.studies.requests import FieldPath, Overrides, StudyRequest
 from app.studies.runner import Clock, Line, Lines, Pool, Study, output_header
 
-RELATIVE_STEP = 0.01  # as a share of the value; small against the input's range, large against the solver's tolerance
-KELVIN_STEP = 1.0  # for temperatures, because zero degrees Celsius has no physical meaning
+RELATIVE_STEP = 0.01  # step as a share of the value; much smaller than usual ranges, much larger than solver errors
+KELVIN_STEP = 1.0  # step of temperatures; a share of a temperature in degrees Celsius has no physical meaning
 DISAGREEMENT = 0.1  # relative difference above which two slopes count as different
 NOISE = 1e-7  # relative change of an output that the tolerance of an iteration can cause
-MOST_ROWS = 40  # largest number of rows of the table, so that a user can read it; the file has all rows
+MOST_ROWS = 40  # largest number of rows of the table, so that a user can read the table; the file has all rows
 
 
 class SensitivityRequest(StudyRequest):
-    """A request whose inputs are moved one at a time, to see how much each of the outputs changes."""
+    """A request, the inputs that are moved one at a time, and the outputs whose changes are calculated."""
 
     inputs: Annotated[
         list[FieldPath] | None,
@@ -50,10 +50,10 @@ class SensitivityRequest(StudyRequest):
 
 @dataclass(frozen=True, slots=True)
 class Perturbation:
-    """An input, its value and the step by which the value is moved.
+    """An input, its value, and the step by which the value is moved.
 
-    A step that is a tolerance may be large. The slope over such a step is therefore compared with the slope over half
-    the step, `half`. For other steps `half` is None.
+    If the step is the tolerance of the input, the step may be large. The slope over the step is then compared with the
+    slope over half the step. `half` is half the step if the step is a tolerance, and None otherwise.
     """
 
     leaf: Leaf
@@ -63,9 +63,9 @@ class Perturbation:
 
     @property
     def places(self) -> list[float]:
-        """The values to which the input is moved, as far as the range of the input allows these values.
+        """The values to which the input is moved. Values outside the permissible range of the input are left out.
 
-        The input is moved by a step down, a step up, half a step down and half a step up, in this order.
+        The order is: a step down, a step up, half a step down, half a step up.
         """
         steps = [self.step] if self.half is None else [self.step, self.half]
         number = int if self.leaf.kind == "integer" else float
@@ -74,7 +74,11 @@ class Perturbation:
 
 
 def perturbation(leaf: Leaf, value: float) -> Perturbation:
-    """Return the perturbation of an input. The step is 1 for a count, the tolerance, 1 K for a temperature, or 1 %."""
+    """Return the perturbation of an input.
+
+    The step of an integer is 1, and the step of any other input is its tolerance. Without a tolerance, the step is 1 K
+    for a temperature and 1 % of the value for any other input.
+    """
     if leaf.kind == "integer":
         return Perturbation(leaf, value, 1.0)
     if leaf.declared.tolerance is not None:
@@ -90,17 +94,21 @@ def differences(moved: Perturbation, outputs: dict[float, float | None]) -> Line
     result are:
 
     `derivative`: the central difference quotient [output per input], or a one-sided quotient if one side has no answer.
-    `elasticity`: the change of the output in per cent per 1 % of the input. It is None if the input or the output is
-    zero, and for temperatures in degrees Celsius.
+    `elasticity`: the change of the output in per cent if the input changes by 1 %. It is None if the input or the
+    output is zero, or if the unit of the input is degrees Celsius.
     `step`: the step of the input.
-    `change`: the change of the output by one step upwards, computed with the steeper of the slopes on both sides.
-    `kink`: whether the slopes of both sides differ by more than a tenth; None if one of the slopes is missing.
-    `curved`: whether half the step gives a derivative that differs by more than a tenth; None if there is no half step.
+    `change`: the change of the output by one step upwards, computed with the steeper of the two one-sided slopes.
+    `kink`: True if the two one-sided slopes differ by more than a tenth; None if one of these slopes is missing.
+    `curved`: True if the derivative over the step and the derivative over half the step differ by more than a tenth;
+    None if there is no half step.
     """
     base, step, half = outputs[moved.value], moved.step, moved.half
 
     def slope(below: float, above: float) -> float | None:
-        """Return the difference quotient between two offsets. An offset without an answer is replaced by 0."""
+        """Return the difference quotient between two offsets from the value of the input.
+
+        An offset without an answer is replaced by the offset 0.
+        """
         places = [moved.value + offset for offset in (below, 0, above)]
         pairs = [(place, value) for place in places if (value := outputs.get(place)) is not None]
         if base is None or pairs[0][0] == pairs[-1][0]:
@@ -129,13 +137,13 @@ def differences(moved: Perturbation, outputs: dict[float, float | None]) -> Line
 class Sensitivity(Study):
     """Derivatives of the outputs with respect to the numbers of the case, by finite differences.
 
-    The step of an input is its tolerance. If an input has no tolerance, a temperature is moved by 1 K and any other
-    input by 1 %. An integer is always moved by 1.
+    The step of an integer is 1, and the step of any other input is its tolerance. Without a tolerance, the step is 1 K
+    for a temperature and 1 % of the value for any other input.
 
     `change` is the change of the output by one step of the input. `elasticity` is the change of the output in per cent
-    if the input changes by 1 %. `kink` is true if the slopes on the two sides of the value differ by more than 10 %.
-    `curved` is true if half the step gives a derivative that differs by more than 10 %; it is null for integers and for
-    inputs without a tolerance.
+    if the input changes by 1 %. `kink` is true if the slopes below and above the value of the input differ by more than
+    10 %. `curved` is true if the derivative over the step and the derivative over half the step differ by more than
+    10 %; it is null for integers and for inputs without a tolerance.
     """
 
     path = "/v1/sensitivity"
@@ -154,7 +162,10 @@ class Sensitivity(Study):
         return total
 
     async def lines(self, pool: Pool, clock: Clock) -> Lines:
-        """Yield a line for each output and input, the most influential input of an output first. Then yield the end."""
+        """Yield a line for each pair of an output and an input, and then the line `end`.
+
+        Among the lines of an output, the line of the most influential input comes first.
+        """
         overrides: list[Overrides] = [{}]  # the first point is the case itself
         overrides += [{moved.leaf.path: place} for moved in self.perturbations for place in moved.places]
         points: list[Point] = []
@@ -177,7 +188,7 @@ class Sensitivity(Study):
         yield [{**end, "type": "end", "elapsed_s": clock.elapsed_s}]
 
     def _ranked(self, column: int, points: list[Point]) -> list[Line]:
-        """Return the lines of the output in `column`, with the most influential input first."""
+        """Return one line per input for the output in `column`. The most influential input comes first."""
         base, *others = (_number(point.out[column]) for point in points)
         rest = iter(others)
         lines: list[Line] = []
@@ -194,7 +205,10 @@ def _number(value: Any) -> float | None:
 
 
 def _every_number(base: BaseRequest, case: dict[str, Any]) -> list[Leaf]:
-    """Return all inputs with a number in this case, given or assumed, except the options of model and resolution."""
+    """Return all inputs that have a number in this case. The number may be given or assumed.
+
+    Options of the model and of the resolution are left out.
+    """
     return [
         replace(leaf, path=path, dimensions=0)
         for leaf in leaves(base.calculation.request)
@@ -235,7 +249,10 @@ class SensitivityPage(StudyPage):
         return {"endpoint": self.calculation.path, "request": self.asked.body, "outputs": outputs}
 
     def result(self, lines: list[Line]) -> Result:
-        """Return a bar chart and a table of the changes of the output due to one step of each input, largest first."""
+        """Return a bar chart and a table of the inputs, with the change of the output by one step of each input.
+
+        The input that changes the output most comes first.
+        """
         end, output = lines[-1], self.output
         inputs = {moved["path"]: moved for moved in end["inputs"]}
         steps, rows = list[Influence](), []

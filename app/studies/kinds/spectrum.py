@@ -1,4 +1,4 @@
-"""Load spectra: a machine with tolerances in all cases of its spectrum, and the probability that a limit is exceeded.
+"""Load spectra: the probability that a machine with tolerances exceeds a limit in a case of its load spectrum.
 
 On the page of the study, the user pastes the cases as a table, chooses the fields that scatter, and states a tolerance
 for each of these fields.
@@ -56,28 +56,28 @@ from app.studies.statistics import Limit
 from solvers.arrays import FloatArray
 
 PROGRESS_S = 0.5  # time between two lines of progress
-KILOWATTS = {"W": 1e-3, "kW": 1.0}  # per unit
+KILOWATTS = {"W": 1e-3, "kW": 1.0}  # size of each unit in kilowatts
 RELATIVE_DEVIATION = 0.15  # AGMA 925-A03; taken from a secondary source and not compared with the standard
 LIMIT_VARIES = 1e-9  # relative range of the scuffing temperature above which a note says that the temperature varies
-SHARES_OFF = 0.01  # largest permissible difference between the sum of the shares and 1
+SHARES_OFF = 0.01  # the sum of the given shares may differ from 1 by at most this amount
 ASSUMED_DEVIATION = (
     "the scuffing temperature is normally distributed with 0.15 of itself as deviation (AGMA 925-A03, secondary source)"
 )
 
-RARE = 0.005  # probability below which the intervals contain the true value less often than stated
+RARE = 0.005  # if a probability is smaller, its 90 % interval contains the true value in less than 90 % of all samples
 RARE_NOTE = (
     "a probability is below 0.5 %. The means of the replicates are then skewed, and a 90 % interval covers less than "
     "90 %, for example about 80 % at a probability of 0.1 % with 8 replicates of 128 machines; draw more machines"
 )
-NOT_USED = "not used"  # first words of the reason for an assumed value that has no effect on the results
+NOT_USED = "not used"  # the reason of an assumption begins with these words if the field has no effect on the results
 
 NAME, SHARE = "name", "share"
-REPLICATES = 8  # number of independent samples on the page; the scatter of the samples gives the error of a mean
+REPLICATES = 8  # number of independent samples on the page; the scatter of their means gives the error of a mean
 MACHINES = (("", "256"), ("64", "64"), ("1024", "1024"), ("4096", "4096"))
 LAWS = (("", "normal"), ("uniform", "uniform"), ("triangular", "triangular"), ("lognormal", "lognormal"))
 SIDES = (("", "by the output"), ("above", "above is bad"), ("below", "below is bad"))
-AROUND_UNIT = " ,;[]()"  # characters before and after the unit in the heading of a column
-# Fields that a case of the spectrum usually changes, for the first table on the page.
+AROUND_UNIT = " ,;[]()"  # characters that may stand before and after the unit in the heading of a column
+# Fields that a case of the spectrum usually changes. The page suggests a table of cases with these fields.
 USUAL = (
     *("load.power_kw", "load.pinion_torque_n_m", "load.pinion_speed_rpm"),
     *("operation.power_kw", "operation.pinion_torque_n_m", "operation.torque_n_m"),
@@ -91,7 +91,7 @@ LOSSES = {
     DRIVE_TRAIN: ("losses.coupling_w", "losses.pumping_w", "losses.mesh_w", "losses.bearings_w"),
 }
 MOST_BARS = 40  # number of bars that fit side by side on a page
-TOLERANCES = tuple(f"t{place}" for place in range(12))  # fields that may scatter on the page
+TOLERANCES = tuple(f"t{place}" for place in range(12))  # names of the tolerances in the form; no more are possible
 
 
 class LoadCase(Part):
@@ -128,14 +128,14 @@ class Threshold(Part):
 
     @model_validator(mode="after")
     def one_kind(self) -> Self:
-        """Refuse a limit that is neither fixed nor distributed."""
+        """Refuse a limit unless it has either a fixed value, or a mean and a standard deviation."""
         if (self.mean is None) != (self.deviation is None) or (self.value is None) == (self.mean is None):
             raise PydanticCustomError("value_or_mean", "Give either the value alone, or both mean and deviation")
         return self
 
 
 class SpectrumLimit(Part):
-    """A limit on one output of every case."""
+    """A limit on one output. The limit is the same in every case."""
 
     exactly_one = ("above", "below")
     output: Annotated[FieldPath, Input("limited output", text="dotted path of a single number of the answer")]
@@ -169,7 +169,7 @@ class SpectrumRequest(StudyRequest):
 
 
 class Scuffing(NamedTuple):
-    """The paths of contact temperature and scuffing temperature in an answer."""
+    """The path of the contact temperature and the path of the scuffing temperature in the answer of an endpoint."""
 
     contact: str
     limit: str
@@ -182,17 +182,19 @@ SCUFFING = {
 
 
 class Spectrum(Study):
-    """Probabilities that machines exceed the limits. The machines are drawn from the tolerances.
+    """The probability that a machine exceeds a limit. The machines are drawn at random from the tolerances.
 
-    Each machine runs every case, and its worst case is compared with the limits.
+    Each machine runs every case. The worst case of the machine is compared with the limits.
 
-    For each limit, the last line has the probability of exceeding the limit with its 90 % interval, for the spectrum
-    and for each case alone. It also has the share of machines for which a case is the worst one (`decides`), and the
-    rank correlation of the output in the worst case with each tolerance. For each output, the last line has the mean
-    over the operating time, the extremes, and the 5, 50 and 95 % quantiles in each case.
+    For each limit, the last line has the probability of exceeding the limit and the 90 % confidence interval of this
+    probability, both over the spectrum and in each case alone. For each limit and each case, the last line also has the
+    share of machines for which this case is the worst case (`decides`). For each limit and each field that scatters,
+    the last line has the rank correlation between this field and the output in the worst case. For each output, the
+    last line has the mean over the operating time, the extremes, and the 5, 50 and 95 % quantiles in each case.
 
-    Draws without a solution are counted. If there are such draws, only the `bounds` of the probability are known. If no
-    output needs the thermal film, the film is not calculated. A line `progress` comes every half second.
+    Machines without a solution in some case are counted. If there are such machines, only the `bounds` of the
+    probability are known. If no output needs the thermal film, the film is not calculated. A line `progress` comes
+    every half second.
     """
 
     path = "/v1/spectrum"
@@ -203,9 +205,10 @@ class Spectrum(Study):
     body: SpectrumRequest
 
     def _outputs(self, base: BaseRequest) -> tuple[Leaf, ...]:
-        """Return the requested outputs, or the headline numbers if the request names no outputs.
+        """Return the outputs of the study.
 
-        Also return the outputs that have a limit.
+        These are the requested outputs, or the headline numbers if the request names no outputs. The outputs that have
+        a limit are always added.
         """
         body = self.body
         outputs = {f"outputs.{place}": leaf for place, leaf in enumerate(base.outputs(body.outputs))}
@@ -230,7 +233,7 @@ class Spectrum(Study):
             if leaf.path in set_by_cases:
                 message = f"{leaf.path} has a value in a case and also scatters; give either the value or the tolerance"
                 raise Unprocessable("duplicate_path", message, f"tolerances.inputs.{place}.path")
-        if body.limits is None and body.endpoint in SCUFFING:  # further columns after the columns of the outputs
+        if body.limits is None and body.endpoint in SCUFFING:  # the default limit needs the scuffing temperature
             columns = dict.fromkeys([*self.question.outputs, *SCUFFING[body.endpoint]])
             self.question = self.question._replace(outputs=list(columns))
         typical = {scatter.path: next(iter(anchors(scatter).values())) for scatter in inputs}
@@ -241,13 +244,13 @@ class Spectrum(Study):
             message = _too_many(self.question, {**typical, **body.cases[0].set}, total, most)
             raise Unprocessable("too_many_points", message, "tolerances.count" if tolerances else "cases")
         self.cases = _with_shares(body.cases)
-        # There is one row per machine, replicate after replicate, with the values that scatter. If nothing scatters,
-        # there are no columns.
+        # The array has one row per machine and one column per field that scatters. The machines of the first replicate
+        # come first, then the machines of the second replicate, and so on.
         self.machines = _machines(tolerances, self.scattering) if tolerances else np.empty((1, 0))
         return total
 
     def overrides(self, index: int) -> Overrides:
-        """Return the values that a point changes in the base request, by path.
+        """Return the values that a point changes in the base request. The keys are the paths of the values.
 
         The first points are the cases of the first machine. The cases of the second machine follow, and so on.
         """
@@ -256,7 +259,10 @@ class Spectrum(Study):
         return machine | self.cases[case].set
 
     async def lines(self, pool: Pool, clock: Clock) -> Lines:
-        """Yield the header, the points if the request asks for points, lines of progress, and the end."""
+        """Yield the header, then the lines of progress, and at last the line `end`.
+
+        If the request asks for points, also yield a line for each point.
+        """
         yield [
             self.header(
                 cases=[case.model_dump() for case in self.cases],
@@ -298,7 +304,10 @@ class Spectrum(Study):
         ]
 
     def _tolerances_header(self) -> Line | None:
-        """Return the tolerances for the first line of the study, and the share of each distribution that is cut off."""
+        """Return the description of the tolerances for the first line of the study; None if there are no tolerances.
+
+        The description of a distribution states the share of the distribution that is cut off.
+        """
         if self.body.tolerances is None:
             return None
         inputs = [
@@ -308,7 +317,7 @@ class Spectrum(Study):
         return {**self.body.tolerances.model_dump(), "inputs": inputs}
 
     def _ignored(self, assumptions: Sequence[Line]) -> list[str]:
-        """Return notes about fields that scatter although the model does not use these fields in this request."""
+        """Return a note for each field that scatters without effect, because the model does not use the field."""
         reasons = {
             assumption["field"]: assumption["reason"]
             for assumption in assumptions
@@ -319,7 +328,7 @@ class Spectrum(Study):
 
 
 def evaluated(study: Spectrum, values: FloatArray) -> Line:
-    """Return the content of the last line from the outputs `[replicate, draw, case, output]`.
+    """Compute the statistical content of the last line from the outputs `[replicate, draw, case, output]`.
 
     This function runs in a worker.
     """
@@ -349,7 +358,11 @@ def evaluated(study: Spectrum, values: FloatArray) -> Line:
 
 
 def _limits(study: Spectrum, columns: dict[str, FloatArray]) -> tuple[list[Limit], list[Line], list[str]]:
-    """Return limits, assumptions and notes. The only possible assumption is the default limit."""
+    """Return the limits of the study, and the assumptions and notes about these limits.
+
+    If the request has no limits, the scuffing temperature is the default limit of the contact temperature. The only
+    possible assumption is the standard deviation of this default limit.
+    """
     paths = SCUFFING.get(study.question.endpoint)
     if study.body.limits is not None or paths is None:
         return [_limit(given) for given in study.body.limits or ()], [], []
@@ -358,7 +371,7 @@ def _limits(study: Spectrum, columns: dict[str, FloatArray]) -> tuple[list[Limit
         missing = "no limit is given, and the request has no scuffing temperature; give one of the two"
         return [], [], [missing]
     first = columns[paths.limit][..., 0]
-    mean = float(np.nanmedian(temperatures if np.isnan(first).all() else first))  # the median of all machines
+    mean = float(np.nanmedian(temperatures if np.isnan(first).all() else first))  # median over the machines
     limit = Limit("above", mean, RELATIVE_DEVIATION * abs(mean), paths.contact)
     assumption = {"field": "limits", "value": limit.deviation, "reason": ASSUMED_DEVIATION}
     varies = np.ptp(temperatures) > LIMIT_VARIES * abs(mean)
@@ -370,10 +383,11 @@ def _limits(study: Spectrum, columns: dict[str, FloatArray]) -> tuple[list[Limit
 
 
 def _of_limit(study: Spectrum, limit: Limit, outputs: FloatArray) -> Line:
-    """Return the content of the last line for a limit.
+    """Return the part of the last line that concerns one limit.
 
-    The content has three parts: the probability over the spectrum; for each case, the share of machines for which this
-    case is the worst case; and for each field that scatters, the rank correlation with the output in the worst case.
+    It contains the probability over the spectrum. For each case, it contains the share of machines for which this case
+    is the worst case. For each field that scatters, it contains the rank correlation between the field and the output
+    in the worst case. It also contains the quantiles and the histogram of the output in the worst case.
     """
     worst = limit.worst(outputs)
     edges, density = statistics.histogram(worst)
@@ -397,7 +411,10 @@ def _of_limit(study: Spectrum, limit: Limit, outputs: FloatArray) -> Line:
 
 
 def _of_output(study: Spectrum, leaf: Leaf, column: FloatArray) -> Line:
-    """Return mean and extremes of an output over the spectrum, and the energy per year if the output is a power."""
+    """Return the mean and the extremes of an output over the spectrum.
+
+    If the output is a power and the request states the operating hours, also return the energy per year.
+    """
     mean = statistics.weighted_mean(column, [case.share or 0.0 for case in study.cases])
     content: Line = mean._asdict() if mean else {"mean": None, "standard_error": None, "interval": None}
     scale = KILOWATTS.get(leaf.unit or "")
@@ -420,7 +437,7 @@ def _limit(given: SpectrumLimit) -> Limit:
 
 
 def _with_shares(cases: Sequence[LoadCase]) -> list[LoadCase]:
-    """Return the cases with names, and with shares of the operating time that add up to 1.
+    """Return copies of the cases. Every copy has a name and a share of the operating time. The shares add up to 1.
 
     Raises Unprocessable if only some cases have a share, or if the given shares do not add up to 1.
     """
@@ -439,7 +456,10 @@ def _with_shares(cases: Sequence[LoadCase]) -> list[LoadCase]:
 
 
 def _machines(tolerances: Tolerances, leaves: Sequence[Leaf]) -> FloatArray:
-    """Draw the values that scatter, with one row per machine. Each replicate is an independent random sample."""
+    """Draw the values of the fields that scatter, with one row per machine and one column per field.
+
+    Each replicate is an independent random sample of machines.
+    """
     seeds = np.random.SeedSequence(tolerances.seed).spawn(tolerances.replicates)
     cubes = [
         unit_cube(tolerances.method, tolerances.count, len(leaves), np.random.default_rng(seed), "tolerances.count")
@@ -450,7 +470,7 @@ def _machines(tolerances: Tolerances, leaves: Sequence[Leaf]) -> FloatArray:
 
 def _too_many(question: Question, overrides: Overrides, total: int, most: int) -> str:
     """Return the message about a study with too many points. The message estimates the computing time."""
-    solve_point(question, overrides)  # not timed, because the first solution may load kernels
+    solve_point(question, overrides)  # this solution is not timed, because it may have to load kernels
     started = perf_counter()
     solve_point(question, overrides)
     seconds = perf_counter() - started
@@ -461,9 +481,10 @@ def _too_many(question: Question, overrides: Overrides, total: int, most: int) -
 
 
 class Column(NamedTuple):
-    """A column of the table of cases. The column contains names, shares, or the values of the field at `path`.
+    """A column of the table of cases.
 
-    The numbers in the column are multiplied by ten to the `power`.
+    `path` is the path of a field whose values are in the column, or "name" or "share". The numbers in the column are
+    multiplied by ten to the `power`.
     """
 
     path: str
@@ -487,18 +508,19 @@ def cases_of(calculation: Calculation, text: str) -> list[dict[str, Any]]:
 
 
 def _column(calculation: Calculation, heading: str) -> Column:
-    """Return the column of a heading. A heading may be a path, a name or a label of the form, with or without a unit.
+    """Return the column that a heading describes.
 
-    Raises Unprocessable if the heading fits several fields. A heading that fits no field is kept as the path, so that
-    the study reports an unknown path.
+    A heading is "name", "share", the path of a field, the last part of such a path, or the label of a field in the
+    form. A unit may follow the label. Raises Unprocessable if the heading fits several fields. If the heading fits no
+    field, it is used as the path, so that the study reports an unknown path.
     """
     plain = heading.lower()
     if leaf_at(calculation.request, heading) or plain in {NAME, SHARE}:
         return Column(heading if plain not in {NAME, SHARE} else plain)
     if plain.startswith(SHARE) and plain.removeprefix(SHARE).strip(AROUND_UNIT) == "%":
         return Column(SHARE, -2)
-    # `alike` holds columns by the length of the matching label. At equal length, a label that the form shows has
-    # priority.
+    # The longest label with which the heading begins has priority. Among labels of equal length, a label that the form
+    # shows has priority.
     alike: dict[tuple[int, bool], dict[str, Column]] = {}
     for leaf in (leaf for leaf in leaves(calculation.request) if leaf.is_scalar and ITEM not in leaf.path):
         name = leaf.path.rpartition(".")[2]
@@ -516,9 +538,9 @@ def _column(calculation: Calculation, heading: str) -> Column:
 
 
 def _case(calculation: Calculation, columns: list[Column], row: list[str], line: int) -> dict[str, Any]:
-    """Return the case in a row of the table. Raises Unprocessable if the row is not valid.
+    """Return the case that a row of the table describes. Raises Unprocessable if the row is not valid.
 
-    A cell whose content the field does not accept is kept as text, so that the study reports this content.
+    If a field does not accept the content of its cell, the content is kept as text. The study then reports it.
     """
     if any(cell.strip() for cell in row[len(columns) :]):
         raise Unprocessable("table", f"line {line} has more columns than the first line", "cases")
@@ -544,7 +566,7 @@ def _case(calculation: Calculation, columns: list[Column], row: list[str], line:
 
 
 def table_of(calculation: Calculation, cases: list[dict[str, Any]]) -> str:
-    """Return the text of a table of these cases, with the labels of the form in the first line.
+    """Return the text of a table of these cases. The first line has the labels of the fields in the form.
 
     `cases_of` can read this text.
     """
@@ -558,7 +580,7 @@ def table_of(calculation: Calculation, cases: list[dict[str, Any]]) -> str:
 
 
 def _heading(calculation: Calculation, path: str) -> str:
-    """Return the label of a field with its unit, or the path of the field if the label fits several fields."""
+    """Return the heading of a field's column: the label with the unit, or the path if the label fits several fields."""
     leaf = leaf_at(calculation.request, path)
     if leaf is None:
         return path
@@ -583,13 +605,16 @@ TOLERANCE = (
     Control(".about", "mean"),
     Control(".by", "deviation"),
 )
-"""The controls of a tolerance, with the last parts of their names. Mean and width define every distribution."""
+"""The controls of a tolerance, with only the last parts of their names.
+
+In the form, every distribution is defined by a mean and a width, here called `deviation`.
+"""
 STATED = {"normal": ("mean", "deviation"), "lognormal": ("median", "factor")}
-"""Names of the parameters that are mean and width of these distributions. Other distributions have `min` and `max`."""
+"""Names of the two parameters that stand for mean and width. Distributions not listed here have `min` and `max`."""
 
 
 def _tolerance(place: int, name: str, about: Any = None, by: Any = None) -> list[Control]:
-    """Return the controls of a tolerance. The defaults are a value and the usual deviation from this value."""
+    """Return the controls of a tolerance. The default of the mean is `about`, and the default of the width is `by`."""
     usual = {"mean": about, "deviation": by}
     return [
         part._replace(
@@ -602,7 +627,10 @@ def _tolerance(place: int, name: str, about: Any = None, by: Any = None) -> list
 
 
 def _stated(law: str, about: Any, by: Any) -> dict[str, Any]:
-    """Convert mean and width into the parameters of a distribution. An unknown distribution has no parameters."""
+    """Convert mean and width into the parameters of a distribution.
+
+    The result is empty if the distribution is not known; the validation of the body then reports the error.
+    """
     if names := STATED.get(law):
         return dict(zip(names, (about, by), strict=True))
     ends = {"uniform": ("min", "max"), "triangular": ("min", "mode", "max")}.get(law, ())
@@ -610,7 +638,7 @@ def _stated(law: str, about: Any, by: Any) -> dict[str, Any]:
 
 
 def _typed(scatter: dict[str, Any]) -> dict[str, Any]:
-    """Return mean and width of a distribution for the controls. This function is the inverse of `_stated`."""
+    """Convert a distribution in the body into the values of the controls. This function is the inverse of `_stated`."""
     law = scatter["distribution"]
     if names := STATED.get(law):
         about, by = (scatter[name] for name in names)
@@ -622,9 +650,10 @@ def _typed(scatter: dict[str, Any]) -> dict[str, Any]:
 def address_of(
     endpoint: Calculation, request: Pairs, body: dict[str, Any], file: Mapping[str, str] = MappingProxyType({})
 ) -> str:
-    """Return the address of the page for the body of a study. Only the first of the limits is part of the address.
+    """Return the address of the page that shows the study with this body.
 
-    `file` names the file from which the study was read.
+    If the body has several limits, the address contains only the first limit. `file` names the file from which the
+    study was read.
     """
     inputs, views = [_typed(scatter) for scatter in (body.get("tolerances") or {"inputs": []})["inputs"]], dict(file)
     given = {
@@ -643,7 +672,7 @@ def address_of(
 
 
 class SpectrumPage(StudyPage):
-    """The page that shows a machine with tolerances, evaluated over a load spectrum."""
+    """The page that shows the study of a load spectrum."""
 
     link = StudyLink(
         "spectrum",
@@ -665,7 +694,10 @@ class SpectrumPage(StudyPage):
     study: Spectrum
 
     def body(self) -> dict[str, Any]:
-        """Return the body with the typed cases, tolerances and limit, and with the shown output and the losses."""
+        """Return the body with the typed cases, tolerances and limit.
+
+        The requested outputs are the output that the page shows, and the losses.
+        """
         calculation, output, given = self.calculation, self.output.path, self.given()
         tolerances = given["tolerances"]
         typed = tolerances.get("inputs", [])
@@ -685,13 +717,13 @@ class SpectrumPage(StudyPage):
         }
 
     def _given(self) -> list[str]:
-        """Return the names of the tolerances that are filled in. There may be empty tolerances between these names."""
+        """Return the names of the tolerances that the user has filled in, in the order of the form."""
         return [name for name in TOLERANCES if self.views.get(name)]
 
     def declared(self) -> tuple[Control, ...]:
-        """Return the controls of cases, machines, hours and tolerances.
+        """Return the controls for cases, machines, hours of operation, limit and tolerances.
 
-        The default mean of a tolerance is the value of the case.
+        The default mean of a tolerance is the value of the field in the case.
         """
         controls = [
             *CONTROLS,
@@ -709,7 +741,7 @@ class SpectrumPage(StudyPage):
         return (*controls, *(Control(name, "tolerances.inputs", sets=False) for name in self._given()[:1]))
 
     def _scatter(self, given: dict[str, Any], where: str) -> dict[str, Any]:
-        """Return the distribution of a field in the form of the body, from law, mean and deviation."""
+        """Convert the typed distribution, mean and width of a field into the distribution for the body of the study."""
         leaf = scalar_at(self.calculation.request, given["path"], f"{where}.path", "unknown_path")
         about: Any = given.get("mean")
         by: Any = given.get("deviation")
@@ -721,14 +753,15 @@ class SpectrumPage(StudyPage):
 
     @property
     def _assumes_limit(self) -> bool:
-        """True if the output is compared with the scuffing temperature whenever the user gives no limit."""
+        """True if the scuffing temperature is the default limit of the output that the page shows."""
         scuffing = SCUFFING.get(self.calculation.path)
         return scuffing is not None and (self.views.get("show") or self.usual_output.path) == scuffing.contact
 
     def _limits(self, given: dict[str, Any]) -> list[dict[str, Any]] | None:
-        """Return the typed limit, or else the usual limit of the output.
+        """Return a list with the typed limit, or else with the usual limit of the output.
 
-        The result is None if the scuffing temperature is the limit, and empty if there is no limit.
+        The list is empty if the output has no limit. The result is None if the scuffing temperature is the default
+        limit, because the study then adds this limit itself.
         """
         view, scatter, value = self.output.view, given.get("deviation"), given.get("value")
         if value is None and view.bound and isinstance(view.limit, int | float) and not self._assumes_limit:
@@ -746,7 +779,10 @@ class SpectrumPage(StudyPage):
         return [{"output": self.output.path, side: threshold}]
 
     def controls(self) -> tuple[Controls, ...]:
-        """Return the controls of the table of cases, of the filled-in tolerances, and of two further tolerances."""
+        """Return a group of form fields for the table of cases, and one group per tolerance.
+
+        Two empty tolerances follow the last tolerance that is filled in, as far as the form has names for them.
+        """
         case = self.case
         text = as_typed(self.views.get("cases", "")) or _suggested(self.calculation, case)
         about = (
@@ -771,7 +807,7 @@ class SpectrumPage(StudyPage):
         return tuple(groups)
 
     def shows(self) -> tuple[FieldView, ...]:
-        """Return the fields for the limit of the output, for the number of machines, and for the hours of operation."""
+        """Return the form fields for the limit of the output, the number of machines and the hours of operation."""
         assumed = self._assumes_limit and not self.views.get("limit")
         deviation = f"{percent(RELATIVE_DEVIATION)} of it" if assumed else "none"
         return (
@@ -793,7 +829,11 @@ class SpectrumPage(StudyPage):
         return starters
 
     def result(self, lines: list[Line]) -> Result:
-        """Return the probability of exceeding the limit, the deciding cases, the influences and the losses."""
+        """Return the figures and tables of the study.
+
+        They show the probability of exceeding the limit, the cases that are most often the worst case, the influence of
+        the tolerances, and the losses.
+        """
         header, end, output = lines[0], lines[-1], self.output
         cases = len(self.study.cases)
         machines = end["points"] // cases
@@ -845,7 +885,7 @@ class SpectrumPage(StudyPage):
         return Limited(axis_of(self.output), limit, [case for case in cases if case in worst], influences)
 
     def _losses(self, end: Line) -> dict[str, Figure]:
-        """Return the figure of the mean losses of the cases [kW]. Return no figure if no loss has a mean."""
+        """Return the figure of the mean losses in each case [kW]. The result is empty if no loss has a mean."""
         wanted, outputs = LOSSES.get(self.calculation.path, ()), end["outputs"]
         titles = {leaf.path: leaf.title for leaf in self.study.outputs}
         drawn_losses = {path: titles[path] for path in wanted if outputs[path]["mean"] is not None}
@@ -860,7 +900,7 @@ class SpectrumPage(StudyPage):
         return {"losses": losses(cases, mean, None if None in years else sum(years) / 1e3)}
 
     def _limit_table(self, end: Line, limit: Line) -> Table:
-        """Return a table of the limit with its deviation and its source."""
+        """Return a table that states the limit, its standard deviation and its source."""
         reasons = (assumption["reason"] for assumption in end["assumptions"] if assumption["field"] == "limits")
         reason = next(reasons, None)
         row = (
@@ -874,7 +914,11 @@ class SpectrumPage(StudyPage):
         return Table("Limit", ("output", "side", Number("limit"), Number("deviation"), "unit", "source"), (row,))
 
     def _cases_table(self, end: Line, limit: Line | None) -> Table:
-        """Return a table of the cases with share, probability, output, and how often the case is the worst case."""
+        """Return a table with one row per case.
+
+        A row has the share of the operating time, the probability of exceeding the limit, the share of machines for
+        which the case is the worst case, and the quantiles of the output.
+        """
         output, rows = self.output, list[tuple[str | Link, ...]]()
         for index, (case, content) in enumerate(zip(self.study.cases, end["cases"], strict=True)):
             row: list[str | Link] = [Link(content["name"], self.address(case.set)), percent(content["share"])]
@@ -890,7 +934,10 @@ class SpectrumPage(StudyPage):
         return Table("Cases", ("case", *map(Number, heads)), rows, f"{note} A name leads to the nominal case.")
 
     def _outputs_table(self, end: Line) -> Table:
-        """Return a table of means over the operating time, and of extremes with links to the cases of the extremes."""
+        """Return a table of each output's mean over the operating time and of its extremes.
+
+        An extreme is a link to the machine and the case in which the extreme occurs.
+        """
         rows = []
         for leaf in self.study.outputs:
             content = end["outputs"][leaf.path]
@@ -907,13 +954,17 @@ class SpectrumPage(StudyPage):
 
 
 def _deviation(value: float | None, unit: str | None, digits: int) -> str:
-    """Return a difference of two values as text. The text states the unit of the difference if this is not `unit`."""
+    """Return a difference of two values as text.
+
+    `unit` is the unit of the values. If a difference has another unit (K instead of degrees Celsius), the text states
+    this other unit.
+    """
     own = difference_unit(unit)
     return shown(value, digits) if own == unit or value is None else number(value, own, digits)
 
 
 def _suggested(calculation: Calculation, case: dict[str, Any]) -> str:
-    """Return a first table for the user to change, with the case itself and with half the load of the case."""
+    """Return a table of cases that the user can change. It has two rows: the case itself, and the case at half load."""
     full = {path: value for path in USUAL if isinstance(value := value_at(case, path), int | float)}
     half = {path: value / 2 if "power" in path or "torque" in path else value for path, value in full.items()}
     return table_of(
@@ -922,10 +973,10 @@ def _suggested(calculation: Calculation, case: dict[str, Any]) -> str:
 
 
 def _tolerances_table(header: Line, limit: Line | None) -> Table:
-    """Return a table of the fields that scatter.
+    """Return a table of the fields that scatter, with their distributions.
 
-    The table states the correlation of each field with the worst case, and the share of each distribution that is cut
-    off.
+    For each field, the table states the share of the distribution that is cut off, and the rank correlation of the
+    field with the output in the worst case.
     """
     numbers = ("mean", "deviation", "median", "factor", "min", "mode", "max")
     ranks = (limit and limit["rank_correlation"]) or {}

@@ -1,7 +1,7 @@
-"""Sweeps: one request at many points, with the endpoint's own answer at each of the points.
+"""Sweeps: one request is solved at many points. The results at a point are the endpoint's results for this point.
 
-There is one line per point, and at the end extremes and statistics. On the page of the study, one or two fields of a
-case are varied. The page draws a curve, several curves or a map while the points arrive.
+The study returns one line per point. The last line has the extremes and the statistics. On the page of the study, one
+or two fields of a case are varied. The page draws a curve, several curves or a map while the points arrive.
 """
 
 import json
@@ -50,18 +50,18 @@ from app.studies.requests import (
 from app.studies.runner import Clock, Line, Lines, Pool, Study, output_header, paths_of
 from app.studies.statistics import of_sample
 
-AROUND = 0.5  # half the usual range of a field, as a share of the field's value in the case
-TOLERANCES = 4.0  # half the usual range of a field whose value is zero, in tolerances
-INSIDE = 1e-3  # as a share of the range; distance from an end of the range if the end itself is not allowed
+AROUND = 0.5  # half the width of a field's usual range, as a share of the field's value in the case
+TOLERANCES = 4.0  # half the width of a field's usual range if the value is zero, in tolerances of the field
+INSIDE = 1e-3  # distance of a usual end from a bound that is not itself permissible, as a share of the range
 COUNTS = {"x": 21, "y": 5}  # default numbers of points: 21 make a smooth curve, and 5 curves are easy to tell apart
 MOST_WHOLE = 10_000  # largest number of whole numbers on an axis
-FIRST = "vary.0"  # the axis along which a curve runs
+FIRST = "vary.0"  # location of the first axis, which is the abscissa of the curves
 MOST_ROWS = 200  # largest number of rows of a table on a page; the file has all rows
-MOST_REASONS = 6  # largest number of remarks on points, so that a user can read them; the most frequent are shown
+MOST_REASONS = 6  # largest number of remarks about points on a page; the most frequent remarks are shown
 
 
 class Sample(Part):
-    """Random points, either uniform over ranges or drawn from distributions."""
+    """A random sample of points. The fields are distributed uniformly over ranges, or according to distributions."""
 
     exactly_one = ("ranges", "inputs")
     method: Annotated[Method, METHOD] = "latin_hypercube"
@@ -93,7 +93,7 @@ class Best(Part):
 
     @property
     def output(self) -> str:
-        """The path of the output that decides."""
+        """The path of the output that is minimised or maximised."""
         return str(self.minimise or self.maximise)
 
 
@@ -125,7 +125,10 @@ class Summary(runner.Tally):
         self._least = inf
 
     def add(self, point: Point) -> None:
-        """Include the next point. Points come in order; of several points with the same value, the first counts."""
+        """Include the next point. Points must be added in order.
+
+        If several points have the same extreme or best value, the first of these points is stored.
+        """
         index = self._first + self.counts.total()
         super().add(point)
         for path, value in zip(self.outputs, point.out, strict=True):
@@ -139,7 +142,10 @@ class Summary(runner.Tally):
             self._compare(self._best, index, point.out)
 
     def _compare(self, best: Best, index: int, out: list[Any]) -> None:
-        """Store the point if the point is inside all limits and better than all earlier points."""
+        """Store the point as the best point if it keeps all limits and is better than all earlier points.
+
+        Only points that keep all limits are compared.
+        """
         values = dict(zip(self.outputs, out, strict=True))
         is_inside = all(
             is_number(values[bound.output])
@@ -153,11 +159,11 @@ class Summary(runner.Tally):
 
 
 class Sweep(Study):
-    """The answer of the endpoint at every point.
+    """The results of one endpoint at many points.
 
-    The first line is `sweep`. Then there is a line `point` for each point; the first axis varies most slowly. A line
-    `progress` comes if no other line was sent for two seconds. The last line is `end`. A line `error` ends a study
-    early; in a table it is the last row.
+    The first line is `sweep`. Then there is a line `point` for each point; the value on the first axis changes most
+    slowly. A line `progress` comes if no other line was sent for two seconds. The last line is `end`. If the study ends
+    early, the last line is `error`; in a table, the last row is then the row of the error.
 
     A stream that has neither `end` nor `error` was cut off. A request with `from_index` continues the study: the points
     stay the same, and the lines start at that index.
@@ -184,7 +190,10 @@ class Sweep(Study):
         return self.points.total - first
 
     def _points(self, base: BaseRequest, most: int) -> PointSet:
-        """Return the points that the body requests. Raises Unprocessable if the points are not valid."""
+        """Return the points that the body requests.
+
+        Raises Unprocessable if the points or the criterion for the best point are not valid.
+        """
         body: SweepRequest = self.body
         if body.best is not None:
             _check_best(body.best, self.outputs)
@@ -195,7 +204,7 @@ class Sweep(Study):
         return grid(body.vary or [], base, most, "vary")
 
     async def lines(self, pool: Pool, clock: Clock) -> Lines:
-        """Yield the header, a line for each point, and the closing lines."""
+        """Yield the header, a line for each point, and then the lines that `_closing` returns."""
         points, first, outputs = self.points, self.body.from_index, self.question.outputs
         yield [
             self.header(
@@ -232,11 +241,11 @@ class Sweep(Study):
         yield self._closing(summary, end)
 
     def _closing(self, _: Summary, end: Line) -> list[Line]:
-        """Return the lines after the points; `end` is the last of these lines."""
+        """Return the lines that follow the last point. A subclass may put further lines before the line `end`."""
         return [end]
 
     def encoder(self, written_as: str) -> Callable[[Line], bytes]:
-        """Return the function that writes a line in the format `written_as`: as JSON, or as a row of a table."""
+        """Return the function that converts a line into bytes: a row of a table if the format is "csv", else JSON."""
         if written_as == "csv":
             return partial(table_row, self.points, self.outputs)
         return super().encoder(written_as)
@@ -245,8 +254,8 @@ class Sweep(Study):
 def table_row(points: PointSet, outputs: tuple[Leaf, ...], line: Line) -> bytes:
     """Return a line of a sweep as a row of comma-separated values.
 
-    The first line becomes the heading with units, and an error becomes a row with its message. Lines of progress and
-    the end have no row.
+    The first line of the sweep becomes the heading with units. A line `error` becomes a row with the message of the
+    error. A line `progress` or `end` has no row, so the result is empty.
     """
     error = line if line["type"] == "error" else line.get("error")
     message = f"{error['code']}: {error['message']}" if error else None
@@ -280,7 +289,7 @@ def _sampled(sample: Sample, base: BaseRequest, most: int) -> PointSet:
 
 
 def _check_best(best: Best, outputs: tuple[Leaf, ...]) -> None:
-    """Raise Unprocessable if the criterion for the best point is not a numeric output of the sweep."""
+    """Raise Unprocessable if the criterion for the best point, or one of its limits, names no numeric output."""
     leaf_by_path = {leaf.path: leaf for leaf in outputs}
     judged = {"best.minimise" if best.minimise else "best.maximise": best.output}
     judged |= {f"best.where.{place}.output": bound.output for place, bound in enumerate(best.where)}
@@ -300,7 +309,10 @@ AXIS = (
     Control(".count", "count", label="points"),
     Control(".scale", "scale", "linear", str, label="steps", options=(("", "even steps"), ("log", "even ratios"))),
 )
-"""The controls of an axis. The name of the axis is put before each name, and the path of the axis before each path."""
+"""The controls of an axis, with incomplete names and paths.
+
+The name of the axis is put before the name of a control, and the path of the axis before the path of a control.
+"""
 
 
 class SweepPage(StudyPage):
@@ -322,16 +334,17 @@ class SweepPage(StudyPage):
     study: Sweep
 
     def _own(self, leaf: Leaf) -> float | None:
-        """Return the number that the case has in a field, or None if the field has no number."""
+        """Return the value of a field in the case, or None if the value is not a number."""
         value = value_at(self.case, leaf.path)
         return float(value) if is_plain_number(value) else None
 
     def _usual_ends(self, leaf: Leaf) -> tuple[float, float] | tuple[None, None]:
         """Return the ends between which a field is varied if the user types no ends.
 
-        The ends lie around the value of the case, inside the range of the field. If the case has no value, the ends are
-        the ends of the range, or (None, None) if the range is not finite. The ends of an integer field are integers;
-        other ends are rounded to four significant digits.
+        The ends lie on both sides of the value in the case, inside the permissible range of the field. If the case has
+        no value, or if the value is 0 and the field has no tolerance, the ends are those of the permissible range, or
+        (None, None) if this range is infinite. The ends of an integer field are integers; all other ends are rounded to
+        four significant digits.
         """
         if numbers := [option for option in leaf.options if is_plain_number(option)]:
             return min(numbers), max(numbers)
@@ -353,8 +366,8 @@ class SweepPage(StudyPage):
     def declared(self) -> tuple[Control, ...]:
         """Return the controls of the axes.
 
-        Errors of one axis are shown at the control for the start of this axis. Errors that concern all axes are shown
-        at `x.count`.
+        Errors that concern a whole axis are shown at the control for the start of this axis. Errors that concern all
+        axes together are shown at the control `x.count`.
         """
         controls = [Control("x.count", "vary", sets=False)]
         for place, name in enumerate(AXES):
@@ -371,9 +384,12 @@ class SweepPage(StudyPage):
     def _axis(self, given: dict[str, Any], where: str) -> dict[str, Any]:
         """Return the axis of a field from its ends, its number of points and its scale.
 
-        If the field accepts only a fixed set of values, the axis has all these values; if the values are numbers, the
-        axis has the values between the ends. Integers are spread as evenly as possible, and no integer occurs twice.
-        Raises Unprocessable at `where`; the validation of the body reports all other errors.
+        `given` holds what the user typed for the axis. If the field accepts only a fixed set of values, the axis has
+        these values. If these values are numbers, the axis has only the values between the ends. On an axis of
+        integers, the integers are spread as evenly as possible, and no integer occurs twice.
+
+        Raises Unprocessable at `where` if an end is missing, if both ends are equal, or if a field without numbers is
+        on the first axis. The later validation of the body reports all other errors.
         """
         leaf = scalar_at(self.calculation.request, given["path"], f"{where}.path", "unknown_path")
         axis, choices = {"path": leaf.path}, choices_of(leaf)
@@ -411,7 +427,10 @@ class SweepPage(StudyPage):
         return best == "greatest"
 
     def body(self) -> dict[str, Any]:
-        """Return the body with the typed or usual axes, the output, and the criterion for the best output."""
+        """Return the body with the axes, the output that the page shows, and the criterion for the best output.
+
+        The usual ends of an axis are used where the user types nothing.
+        """
         goal = "maximise" if self.is_greatest_best else "minimise"
         x, y = map(self.views.get, AXES)
         if y and not x:
@@ -427,7 +446,10 @@ class SweepPage(StudyPage):
         }
 
     def controls(self) -> tuple[Controls, ...]:
-        """Return a menu of fields for each axis, and controls for its range. The placeholders are the usual ends."""
+        """Return a group of controls for each axis: a menu of fields, and form fields for the range of the axis.
+
+        The placeholders of the form fields are the usual ends and the usual number of points.
+        """
         fields = dict(zip(AXES, self.study.points.varied, strict=False)) if self.study else {}
         groups = []
         for name, title, empty in (("x", "Vary", "choose …"), ("y", "and, as curves or a map", "nothing else")):
@@ -449,18 +471,21 @@ class SweepPage(StudyPage):
         return (self.field("best", "the best is", options=ends),)
 
     def starters(self) -> Sequence[Starter | StudyExample]:
-        """Return links to ready studies. The studies vary the examples, or the case if the query has a case."""
+        """Return links to ready studies. They vary the case if the query has a case, and otherwise the examples."""
         if not self.asked.pairs:
             return studies_of(self.calculation)
         return studies_of_case(self.calculation, self.asked.pairs, self.case)
 
     def result(self, lines: list[Line]) -> Result:
-        """Return the figures. After the end of the study, also return a table of the points with links to cases."""
+        """Return the figures. After the end of the study, also return a table of the points.
+
+        Each row of the table has a link to the case at its point.
+        """
         received = [line for line in lines if line["type"] == "point"]
         grid = self._grid(received)
         figures = figures_of(grid)
         first = next(iter(figures))
-        if lines[-1]["type"] in {"sweep", "point"}:  # further points will arrive
+        if lines[-1]["type"] in {"sweep", "point"}:  # the study still runs
             return Result("", {first: figures[first]})
         progress = f"{len(received)} points in {shown(lines[-1].get('elapsed_s'), 2)} s"
         reasons = Counter(text for line in received for text in _remarks(line)).most_common(MOST_REASONS)
@@ -474,7 +499,10 @@ class SweepPage(StudyPage):
         )
 
     def _grid(self, received: list[Line]) -> Grid:
-        """Return the data of the figures. Points without solution and points that have not yet arrived are NaN."""
+        """Return the data of the figures.
+
+        The output is NaN at points without solution and at points that have not yet arrived.
+        """
         points = self.study.points
         outputs = np.full(points.total, nan)
         outputs[: len(received)] = [nan if line["out"][0] is None else float(line["out"][0]) for line in received]
@@ -499,7 +527,11 @@ class SweepPage(StudyPage):
         )
 
     def _coordinate(self, name: str, leaf: Leaf, axis_in_sweep: CheckedAxis) -> tuple[Coordinate, list[int]]:
-        """Return the values of a field in ascending order, and the positions of these values on the axis."""
+        """Return the coordinate of a figure for one axis of the sweep, and the order of its values.
+
+        Numbers are sorted in ascending order; other values keep their order. The order is a list of indices into
+        `axis_in_sweep.values`.
+        """
         in_sweep = axis_in_sweep.values or []
         if not all(map(is_plain_number, in_sweep)):
             order = list(range(len(in_sweep)))
@@ -528,13 +560,14 @@ class SweepPage(StudyPage):
         return Table("Points", (*titles, "status", "case"), rows, note, folded=True)
 
     def point_address(self, index: int) -> str:
-        """Return the address of the page of the case at a point."""
+        """Return the address of the page that shows the case at a point."""
         return self.address(self.study.points.overrides(index))
 
     def _script(self, received: list[Line], figure: Figure) -> str:
-        """Return the data with which the page's script finds the point under the pointer and opens the case there.
+        """Return data for the script of the page, as JSON.
 
-        The result is empty if the form has no field for one of the axes.
+        With these data, the script finds the point of the figure under the mouse pointer, and opens the case at this
+        point. The result is empty if the form has no field for one of the axes.
         """
         points = self.study.points
         if None in [leaf_at(self.calculation.request, leaf.path) for leaf in points.varied]:
@@ -564,7 +597,7 @@ def _remarks(point: Line) -> list[str]:
 
 
 def _invalid(point: Line) -> str | None:
-    """Return the warnings that make the values of a point invalid, or None if there are none."""
+    """Return the warnings that make the values of a point invalid, as one text; None if there are no such warnings."""
     codes = [words(code) for code, rank in zip(point["warnings"], point["ranks"], strict=True) if rank == "invalid"]
     return ", ".join(codes) or None
 
