@@ -19,6 +19,7 @@ import pytest
 from app.examples import examples
 from tests.support.caches import copy_of_cache
 from tests.support.server import (
+    FAULTY,
     PATIENCE_S,
     ROOT,
     descendants,
@@ -170,8 +171,8 @@ def test_the_unspecified_address_serves_both_families(tmp_path: Path) -> None:
 
 
 def answer_after_a_start(cache: Path, log: Path) -> bytes:
-    """What the service answers to a coupling with this cache."""
-    with started_server(environment={"NUMBA_CACHE_DIR": str(cache)}, log=log, workers=2) as (process, address):
+    """What a service with the kernels of few stages answers to a coupling with this cache."""
+    with started_server(FAULTY, environment={"NUMBA_CACHE_DIR": str(cache)}, log=log, workers=2) as (process, address):
         wait_until_warm(process, address)
         answer = httpx.post(address + COUPLING.endpoint, json=COUPLING.request, timeout=20)
     assert answer.status_code == 200

@@ -3,13 +3,14 @@
 import subprocess
 import sys
 import zipfile
+from contextlib import suppress
 from pathlib import Path
 
 import httpx
 import pytest
 
 from app.examples import examples
-from tests.support.server import ROOT, started_server, wait_until_warm
+from tests.support.server import ROOT, START_UP_S, started_server, wait_until
 
 pytestmark = pytest.mark.service
 
@@ -43,6 +44,11 @@ def test_the_command_serves_from_a_folder_that_has_an_app_of_its_own(wheel: Path
     (other / "__init__.py").write_text("raise SystemExit('another app')")
     command = ["env", "-C", str(tmp_path), f"PYTHONPATH={installed}", str(installed / "bin" / "tribodrive")]
     coupling = examples()["pahl-axial-displacement"]
-    with started_server(command) as (process, address):
-        wait_until_warm(process, address)
-        assert httpx.post(address + coupling.endpoint, json=coupling.request, timeout=20).status_code == 200
+    with started_server(command) as (_, address):
+
+        def is_answered() -> bool:
+            with suppress(httpx.TransportError):
+                return httpx.post(address + coupling.endpoint, json=coupling.request, timeout=60).status_code == 200
+            return False
+
+        wait_until(is_answered, START_UP_S)
