@@ -80,6 +80,6 @@ def maximum_pressure(line_load: Real, radius: Real, modulus: float) -> Real:
 
     Notes
     -----
-    Eq. E1: p_H = sqrt(w E'/(2 pi R)). The mean pressure is pi/4 p_H.
+    Eq. E1: p_H = sqrt(w E'/(2 pi R)). The mean pressure is (pi/4) p_H.
     """
     return cast("Real", np.sqrt(line_load * modulus / (2.0 * np.pi * radius)))

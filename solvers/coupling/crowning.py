@@ -214,8 +214,8 @@ def crowning_window(state: Callable[[float], CrowningState]) -> tuple[float, flo
 def _root(state: Callable[[float], CrowningState], constraint: str) -> float:
     """Find the crowning ratio at which a constraint reaches 1.
 
-    If the constraint is below 1, or above 1, at every ratio between `MIN_CROWNING_RATIO` and `MAX_CROWNING_RATIO`,
-    return the end of this range at which the constraint is nearer to 1.
+    If the constraint does not reach 1 between `MIN_CROWNING_RATIO` and `MAX_CROWNING_RATIO`, return the end of this
+    range at which the constraint is nearer to 1.
     """
 
     def excess(logarithm: float) -> float:
@@ -287,8 +287,8 @@ def recommend(inputs: RecommendationInputs) -> Recommendation:
 def _best_ratio(state: Callable[[float], CrowningState], low: float, high: float) -> float:
     """Find the crowning ratio with the largest load capacity between `low` and `high`.
 
-    The search compares a row of crowning ratios in this range. The search then refines the best of these ratios between
-    its neighbours.
+    The search first compares several crowning ratios in this range. The search then continues between the two
+    neighbours of the best of these ratios.
     """
     grid = np.geomspace(low, high, _WINDOW_POINTS)
     capacity = [state(float(ratio)).load_capacity_coefficient for ratio in grid]

@@ -253,10 +253,9 @@ def axial_thrust(inputs: CouplingInputs, geometry: Geometry, loaded: LoadedMesh,
 def self_induced_thrust(inputs: CouplingInputs, geometry: Geometry, friction: float) -> SelfInducedThrust:
     """Compute the thrust of two meshes without axial velocity, and the closed forms of this thrust.
 
-    One closed form holds for one pair of opposite teeth per mesh, the other for equal loads on all teeth. In both
-    cases, the moments of friction in the two meshes are opposite in the angular arrangement, and the sleeve requires no
-    lateral force at the teeth. Therefore both closed forms are zero in the angular arrangement. The paper explains this
-    only by "for reasons of symmetry".
+    One closed form holds for one pair of opposite teeth per mesh, the other for equal loads on all teeth. In the
+    angular arrangement both closed forms are zero: the moments of friction in the two meshes are opposite, so that the
+    sleeve requires no lateral force at the teeth. The only explanation in the paper is "for reasons of symmetry".
     """
     coupling, torque = inputs.coupling, inputs.operation.torque
     equilibrium = sleeve_equilibrium(inputs, geometry, friction, 0.0)
@@ -358,13 +357,16 @@ def contact_shift_moment(inputs: CouplingInputs, geometry: Geometry, loaded: Loa
 
     Notes
     -----
-    Eq. C27. z_c is the axial position of the contact, and n_x is the x component of the flank normal n. Both are
-    harmonics of phi; their product is a sum of terms in sin^2, sin cos and cos^2. With `tangential` kinematics z_c is
-    the contact position s_1 on the hub flank, and n_x contains only the tangential part of n. For equal loads the
-    moment is then R_t delta T/(2 r_o). With `spatial` kinematics z_c = s_1 - delta r_o cos phi is the position of the
-    contact in the frame of the sleeve, and n_x contains the tangential and the radial part of n. With both kinematics
-    the moment equals sum F_t df_t/d delta. With `spatial` kinematics the y components of n cause a further moment
-    T delta/2 about the pivot direction. The power balance of the hub already contains this further moment.
+    Eq. C27. Here z_c is the axial position of the contact, and n_x is the x component of the flank normal n. Both z_c
+    and n_x are harmonics of phi; their product is a sum of terms in sin^2, sin cos and cos^2. With both kinematics the
+    moment M_s equals sum F_t df_t/d delta.
+
+    With `tangential` kinematics, z_c is the contact position s_1 on the hub flank, and n_x contains only the tangential
+    part of n. If all tooth loads are equal, the moment M_s is then R_t delta T/(2 r_o).
+
+    With `spatial` kinematics, z_c is the contact position in the frame of the sleeve, which is s_1 - delta r_o cos phi.
+    The component n_x then contains the tangential and the radial part of n. The y components of n cause a further
+    moment T delta/2 about the pivot direction. The power balance of the hub already contains this further moment.
     """
     motion, sums = loaded.motion, loaded.sums
     arm_sin, arm_cos, normal_sin, normal_cos = motion.travel_sin, 0.0, -motion.side, 0.0

@@ -8,10 +8,10 @@ residual of this module. The tests also differentiate this module by complex ste
 derivatives that the kernels compute. Therefore every function also accepts complex arrays. For the same reason, no
 function uses the absolute value of an unknown, or the larger of two unknowns.
 
-n nodes lie along the contact. Across the film lie k = m + 1 nodes, with m intervals of equal height between the nodes.
-The symbols are those of the chapter: P = p/p_H, X = x/b, H = h R/b^2 and G = h dp/dx [Pa]. zeta is z/h - 1/2, where z
-is the height above surface 1; zeta is 0 half way across the film. `t` is the temperature, for which the chapter writes
-theta. `vartheta` is the fraction of the gap that oil fills.
+The mesh has n nodes along the contact and k nodes across the film. The nodes across the film bound m = k - 1 intervals
+of equal height. The symbols are those of the chapter: P = p/p_H, X = x/b, H = h R/b^2, G = h dp/dx [Pa] and
+zeta = z/h - 1/2. Here z is the height above surface 1, so that zeta is 0 half way across the film. The code writes `t`
+for the temperature; the chapter writes theta. The code writes `vartheta` for the fraction of the gap that oil fills.
 """
 
 from typing import Any, NamedTuple
@@ -34,9 +34,9 @@ class Columns(NamedTuple):
 
     Three fields have one value per interval (n, m): `density` [kg/m^3], the shear stress `stress` [Pa] and the shear
     rate `rate` [1/s]. Three fields have one value per column (n,): `mid_stress`, the shear stress half way across the
-    film [Pa], and the flow coefficients `a` [s] and `b` [kg/(m^2 s)]. Two fields have one value per node (n, k).
-    `couette` is the stream function of the flow without pressure gradient [kg/(s m)]. `poiseuille` is the profile of
-    the flow due to the pressure gradient; this profile rises from 0 at surface 1 to 1 at surface 2.
+    film [Pa], and the flow coefficients `a` [s] and `b` [kg/(m^2 s)]. Two fields have one value per node (n, k):
+    `couette`, the stream function of the flow without pressure gradient [kg/(s m)], and `poiseuille`, the profile of
+    the flow due to the pressure gradient. This profile rises from 0 at surface 1 to 1 at surface 2.
     """
 
     density: Numbers
@@ -53,7 +53,8 @@ class Carried(NamedTuple):
     """Flow quantities in the heat balance. A Newton step holds these quantities fixed.
 
     After the step the quantities are computed again. `psi` (n, k) is the stream function [kg/(s m)]. `vartheta` (n,) is
-    the fraction of the gap that oil fills. `density` (n, m) is the density in the heat of compression [kg/m^3].
+    the fraction of the gap that oil fills. `density` (n, m) is the density of the oil [kg/m^3], from which the heat of
+    compression is computed.
     """
 
     psi: Numbers
@@ -375,9 +376,9 @@ def pressure_gradient(grid: Grid, pressure: Numbers, cavitated: BoolArray) -> Nu
 
 
 def balance_of_load(grid: Grid, pressure: Numbers) -> Any:
-    """Return the difference between the integral of P and pi/2 (Eq. 22).
+    """Return the residual of the load: the integral of P, minus pi/2 (Eq. 22).
 
-    The pressure carries the load if this difference is zero.
+    If this residual is zero, the pressure carries the load.
 
     Parameters
     ----------
@@ -651,10 +652,10 @@ def _layers(psi: Numbers) -> Numbers:
 
 
 def _edges(psi: Numbers) -> Numbers:
-    """Return the stream function (n, k + 1) at the edges of the cells, at the right face of every column.
+    """Return, for the right face of every column, the stream function (n, k + 1) at the edges of the cells.
 
-    A face lies half way between two columns. At the last column, the result is the stream function of this column
-    itself.
+    The right face of a column lies half way to the next column. The last column has no next column. For the last
+    column, the result is the stream function of this column itself.
     """
     layers = _layers(psi)
     return np.asarray(0.5 * (layers + np.concatenate([layers[1:], layers[-1:]])))

@@ -25,7 +25,7 @@ PLACE = floats("p", "g", "h")
 class FlowCoefficients(NamedTuple):
     """Flow coefficients ln A and B, with their derivatives. The mass flux is m = B h - A h^3 dp/dx.
 
-    `log_a` and `b` (n,) hold one record of type COEFFICIENT per node. At first, the derivatives hold at fixed
+    `log_a` and `b` (n,) hold one record of type COEFFICIENT per node. The derivatives are first computed for fixed
     temperatures. In a thermal contact, p, G and h also change the temperatures; `newton.include_temperature` adds this
     effect to the derivatives.
     """
@@ -66,9 +66,9 @@ def evaluate_columns(
 def flow_moments(i: int, film: Film) -> None:
     """Compute integrals across column i: F0 = int phi, F1 = int phi zeta, N0 = int phi R, N1 = int phi zeta R.
 
-    phi is the shear rate divided by the stress. zeta is the height above the middle of the film, divided by h. R(zeta)
-    is the integral of the density from zeta to surface 2. The function also computes the mean density, which is the
-    integral of the density across the whole film.
+    Here phi is the shear rate divided by the stress, and zeta is the height above the middle of the film, divided by h.
+    R(zeta) is the integral of the density from zeta to surface 2. The function also computes the mean density, which is
+    the integral of the density across the whole film.
     """
     rho, effective, moments = film.shear.density, film.shear.effective, film.moments
     m = rho.shape[1]
@@ -149,8 +149,8 @@ def flow_slopes(problem: Problem, i: int, p: float, film: Film, coefficients: Fl
     """Compute the derivatives of ln A and B of column i with respect to p, G, h and the nodal temperatures.
 
     The derivatives with respect to p, G and h hold at fixed temperatures. An interval contributes through its density
-    and through phi, which is the shear rate divided by the stress. phi depends directly on p and on the temperature.
-    phi also depends on the stress, and therefore on every quantity that changes the mid-film stress tau_m.
+    and through the ratio phi of shear rate to stress. The ratio phi depends directly on p and on the temperature. The
+    ratio also depends on the stress, and therefore on every quantity that changes the mid-film stress tau_m.
     """
     shear, moments, flows, mid = film.shear, film.moments[i], film.flow, film.mid
     m, u1, du = shear.density.shape[1], problem.speed_1, problem.speed_2 - problem.speed_1

@@ -42,7 +42,8 @@ def deflection_matrix(x: FloatArray) -> FloatArray:
     Notes
     -----
     K P is the integral -(1/pi) int P ln|X - X'| dX' of Eq. 21. The E of the paper is the E' of `reduced_modulus`. The
-    ln|x - s| of the paper leaves the unit of length open; here the unit is b. Another unit would change H0 only.
+    paper takes the logarithm of a length, ln|x - s|, but does not state the unit of this length. Here the unit is b.
+    Another unit would change H0 only.
     """
     n = x.size
     matrix = np.zeros((n, n))

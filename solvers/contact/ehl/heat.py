@@ -56,8 +56,9 @@ class Convection(NamedTuple):
     """Inflow into the cells from the left and right columns (n, k), and stream function at the cells' edges (n, k + 1).
 
     The edges of a column lie on the right face of the column, which is half way to the next column. The inflow is a
-    heat capacity flux per area [W/(m^2 K)]. The rows of the walls become equations for temperatures. In these rows
-    `linearise_balances` scales the inflow to a number without unit.
+    heat capacity flux per area [W/(m^2 K)]. For the half cells at the walls, `linearise_balances` turns the heat
+    balances into equations for the surface temperatures. The inflow into these half cells is then a number without
+    unit.
     """
 
     from_left: FloatArray
@@ -115,8 +116,9 @@ def heat_arrays(nodes: int, film_nodes: int) -> Heat:
 def face_edges(stream: FloatArray, edges: FloatArray) -> None:
     """Compute the stream function at the edges of the cells (n, k + 1) from the stream function at the nodes (n, k).
 
-    An edge lies at the face between two columns, half way between two nodes across the film. The outermost edges lie on
-    the surfaces. At the last column, the result is the stream function of this column itself.
+    The edges of a column lie on the right face of the column, which is half way to the next column. On this face, the
+    inner edges lie half way between two nodes across the film, and the outermost edges lie on the surfaces. The last
+    column has no next column. For the last column, the result is the stream function of this column itself.
     """
     n, nodes = stream.shape
     for i in range(n):
@@ -129,7 +131,7 @@ def face_edges(stream: FloatArray, edges: FloatArray) -> None:
 
 @inlined_kernel
 def surface_history(problem: Problem, i: int, surface_matrix: FloatArray, surfaces: Surfaces) -> None:
-    """Compute the flash temperatures that heat fluxes upstream cause at column i, and the gains of column i.
+    """Compute the flash temperatures at column i due to the heat fluxes upstream, and the gains of column i.
 
     A gain is the temperature rise of a surface per heat flux at the column itself [K m^2/W].
 
@@ -188,10 +190,11 @@ def balance_columns(
 
     Notes
     -----
-    c [d(psi_zeta t)/dx - d(psi_x t)/dzeta] = (lambda/h) t_zetazeta + h (tau rate + (0.00065 rho0/rho) t u p'), in cells
-    around the nodes (Eqs. E8, E15). The flow across the film follows from continuity; Eq. 23 of the paper leaves out
-    this flow. Half cells at the walls give the heat fluxes q1 = lambda t_z and q2 = -lambda t_z. Eq. 24 prints no sign,
-    but heat must flow into both solids. The residuals of the half cells are converted to differences of temperature.
+    The cells lie around the nodes. The heat balance of a cell (Eqs. E8, E15) is
+    c [d(psi_zeta t)/dx - d(psi_x t)/dzeta] = (lambda/h) t_zetazeta + h (tau rate + (0.00065 rho0/rho) t u p').
+    The flow across the film follows from continuity; Eq. 23 of the paper leaves out this flow. Half cells at the walls
+    give the heat fluxes q1 = lambda t_z and q2 = -lambda t_z. Eq. 24 prints no sign, but heat must flow into both
+    solids. The residuals of the half cells are converted to differences of temperature.
     """
     surfaces, last = heat.surfaces, temperature.shape[1] - 1
     for i in range(start, stop):
@@ -368,7 +371,7 @@ def factor_columns(start: int, stop: int, film: Film, heat: Heat) -> None:
     Thomas' algorithm factors the tridiagonal part, and the Sherman-Morrison formula adds the rank-one part. All arrays
     are changed in place. `pivot` becomes the inverse pivots, `lower` becomes the factors of the forward substitution,
     and `upper` becomes the factors of the backward substitution. Warmer oil shears at a lower stress. In a sliding film
-    the rank-one part describes this effect, which makes the system more stable.
+    this effect makes the system more stable. The rank-one part contains this effect.
     """
     column, by_temperature = heat.column, film.mid.by_temperature
     lower, pivot, upper, responses = column.lower, column.pivot, column.upper, column.responses

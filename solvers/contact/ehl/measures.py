@@ -19,7 +19,7 @@ PEAK_ZONE = 0.1  # half widths downstream of the centre; a maximum upstream of t
 
 
 def load_error(attempt: Attempt) -> float:
-    """Return the relative difference between the integral of the pressure and the load."""
+    """Return the relative difference between the load and the integral of the pressure."""
     return abs(float(attempt.grid.weights @ attempt.state.pressure) / (0.5 * np.pi) - 1.0)
 
 
@@ -37,7 +37,7 @@ def temperature_range(attempt: Attempt) -> float:
 
 
 def at_place(attempt: Attempt, values: FloatArray, place: float = 0.0) -> float:
-    """Interpolate values linearly between the nodes at a place [half widths], by default at the centre."""
+    """Return the value at a place [half widths], by default at the centre, by linear interpolation of `values`."""
     return float(np.interp(place, attempt.grid.x, values))
 
 

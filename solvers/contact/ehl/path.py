@@ -139,9 +139,10 @@ def _guess(states: Sequence[State]) -> State:
 def _extrapolated(rows: FloatArray) -> FloatArray:
     """Extrapolate `rows` (m, ...) to the next row by Newton's backward differences.
 
-    The result is the last row plus one difference per order. The difference of order m is the error with which the
-    orders below m would have predicted the last row. Therefore an order is added only if the difference of the next
-    order is smaller.
+    The result is the last row plus differences of rising order. The difference of order q is the error with which the
+    orders below q would have predicted the last row. Therefore the difference of order q is added only if the
+    difference of order q + 1 is smaller. If one difference is not added, the differences of higher order are not added
+    either. The difference of the highest order has no such condition of its own, because there is no higher order.
     """
     differences = [rows[-1]]
     while len(rows) > 1:

@@ -177,9 +177,10 @@ def dowson_higginson_film(inputs: LineContactInputs) -> float:
 class Problem(NamedTuple):
     """Constants of a contact for the kernels, in SI units.
 
-    surface_heating_i = (b/(pi rho_i c_i u_i lambda_i))^1/2 [K m^2/W]. The flash temperature of surface i is
-    surface_heating_i times Wt q, where Wt is the matrix `Grid.heat` and q is the heat flux. `flux_scale` is the unit of
-    mass fluxes, rho0 um b^2/R [kg/(m s)]. `rheology` is the position of the law of shear in `inputs.Rheology`.
+    For each surface i, the field `surface_heating_i` is (b/(pi rho_i c_i u_i lambda_i))^1/2 [K m^2/W]. The flash
+    temperature of surface i is `surface_heating_i` times Wt q, where Wt is the matrix `Grid.heat` and q is the heat
+    flux. `flux_scale` is the unit of mass fluxes, rho0 um b^2/R [kg/(m s)]. `rheology` is the position of the law of
+    shear in `inputs.Rheology`.
     """
 
     laws: FluidLaws

@@ -259,17 +259,20 @@ def _steepest_fall(attempt: Attempt) -> float:
 
 
 def _kink(attempt: Attempt, surface: int) -> float:
-    """Return the largest excess [K] of a surface temperature over the mean temperature of both neighbours.
+    """Return the largest excess [K] of the surface temperature at a node over the mean at both neighbouring nodes.
 
     Only nodes downstream of the centre are considered. Such an excess arises if the heat of a pressure spike affects
-    only one node. If this node lay nearer to the spike, its temperature would be higher by the same excess again.
+    only one node. If this node lay nearer to the spike, the temperature at the node would be higher. This further rise
+    would be as large as the excess.
     """
     t = attempt.state.temperature[attempt.grid.x > 0.0, surface]
     return float((t[1:-1] - 0.5 * (t[:-2] + t[2:])).max())
 
 
 def _parts(inputs: LineContactInputs, constants: Problem, attempt: Attempt) -> dict[str, tuple[float, ...]]:
-    """Return the results of a contact without local maxima, as a tuple of parts for each name of `MeshError`.
+    """Return the results of a contact, as a tuple of parts for each name of `MeshError`.
+
+    Local maxima of pressure, shear stress and film temperature are left out.
 
     Friction, heat and flash temperatures have two parts: one upstream and one downstream of the place where pressure
     spikes begin. On a finer mesh the film is thicker, so less heat arises upstream of this place. The spike is also

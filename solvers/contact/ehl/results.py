@@ -84,7 +84,7 @@ class ContactTemperature:
 
 @record
 class ContactFriction:
-    """Coefficients of friction from the stress in the middle of the film and at both surfaces, and sliding power.
+    """Sliding power, and coefficients of friction from the stress in the middle of the film and at both surfaces.
 
     The sliding power is mu w |du| per length of contact. `max_pressure_stress` is the largest |h dp/dx| [Pa].
     `traction_ratio` is the largest tau/p at the nodes whose pressure exceeds a limit. The limit is a tenth of p_H, or a

@@ -1,4 +1,4 @@
-"""Reynolds' equation: mass flux between columns, conservation of mass and load, and where the film is broken."""
+"""Reynolds' equation: mass flux between columns, conservation of mass and load, and nodes of broken film."""
 
 from typing import NamedTuple
 
@@ -108,8 +108,8 @@ def pressure_gradients(x: FloatArray, pressure: FloatArray, cavitated: BoolArray
 def _log_mean(a: float, b: float) -> tuple[float, float]:
     """Return the logarithmic mean of e^a and e^b, and d(ln mean)/da.
 
-    e^a and e^b are the values of a coefficient at two nodes. The mean is exact if the coefficient varies exponentially
-    between the nodes.
+    The numbers e^a and e^b are the values of a coefficient at two nodes. The mean is exact if the coefficient varies
+    exponentially between the nodes.
     """
     half = 0.5 * (a - b)
     middle = np.exp(0.5 * (a + b))
@@ -182,8 +182,9 @@ def mass_flux_slopes(
     """Compute the derivatives of the mass fluxes with respect to the pressures and film thicknesses.
 
     The flux through a face depends on P and H of the nodes around the face. B and ln A of a node depend on p,
-    G = h dp/dx and h of this node. First, B and ln A of each node are differentiated with respect to three quantities:
-    P of the node, P of the neighbouring nodes, and H of the node.
+    G = h dp/dx and h of this node. First, the function differentiates B and ln A of each node with respect to three
+    quantities: P of the node, P of the neighbouring nodes, and H of the node. The chain rule then gives the derivatives
+    of the fluxes.
     """
     n, (couette_scale, _), b, log_a = grid.x.size, _flux_scales(problem), coefficients.b, coefficients.log_a
     slope = problem.maximum_pressure / problem.half_width
@@ -344,9 +345,9 @@ def apply_pressure_step(
 ) -> tuple[float, bool]:
     """Change (P, H0) by `scale` times the step (n + 1,), or by less if the film would close.
 
-    Nodes downstream of the centre whose pressure would fall below zero join the broken film. The result is the scale
-    that was used, and whether any node joined the broken film. The pressure at both ends is set to zero, because a
-    state from another mesh may have other values there.
+    If the pressure at a node downstream of the centre would fall below zero, this node joins the broken film. The
+    result is the scale that was used, and whether any node joined the broken film. The pressure at both ends is set to
+    zero, because a state from another mesh may have other values there.
     """
     n = grid.x.size
     trial, film = np.empty(n), np.empty(n)

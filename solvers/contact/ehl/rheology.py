@@ -29,7 +29,7 @@ STRESS_LIMIT = 300.0  # largest |h dp/dx|/(2 tau0); exp(300)^2 does not overflow
 def softened(problem: Problem, stress: float) -> Problem | None:
     """Return a copy of the problem with the law of Ree and Eyring and with `stress` [Pa] as the Eyring stress.
 
-    Return None if the problem already has this law, and its Eyring stress is not higher than `stress`.
+    If the problem already has the law of Ree and Eyring with an Eyring stress of at most `stress`, return None.
     """
     if problem.rheology == REE_EYRING and stress >= problem.eyring_stress:
         return None

@@ -168,8 +168,8 @@ def evaluate_state(problem: Problem, grid: Grid, state: State, work: Work) -> bo
 def linearise_state(problem: Problem, state: State, work: Work, damping: float) -> None:
     """Compute the derivatives of stress, flow and heat balance of all columns of an evaluated state.
 
-    Three quantities in the heat balance are held fixed: the stream function, the fluid fraction, and the density in the
-    heat of compression. `linearise_balances` explains `damping`.
+    Three quantities in the heat balance are held fixed: the stream function, the fluid fraction, and the density from
+    which the heat of compression is computed. `linearise_balances` explains `damping`.
     """
     n = work.at.size
     linearise_columns(problem, FIRST, n, work.at, work.film, work.coefficients)

@@ -105,11 +105,11 @@ def temperature_step(
 ) -> None:
     """Solve the linearised heat balance of all columns for the temperature step `step` (n, k).
 
-    The solution marches along the flow. In some columns oil may flow backward. The columns up to the last column with
-    backward flow are then first swept forward and backward several times. In these sweeps, each column uses the latest
-    step of its right neighbour. `given` (n, k) is the temperature change that a change of pressure causes at fixed
-    temperatures upstream. The residual is multiplied by `weight`. `weight` is 1 for a Newton step, and 0 if only the
-    effect of `given` is wanted.
+    The solution marches along the flow. If oil flows backward in some columns, several sweeps precede this march. A
+    sweep runs forward and then backward over all columns up to the last column with backward flow. In a sweep, each
+    column uses the latest step of its right neighbour. `given` (n, k) is the temperature change that a change of
+    pressure causes at fixed temperatures upstream. The residual is multiplied by `weight`, which is 1 for a Newton step
+    and 0 if only the effect of `given` is wanted.
     """
     n, last = step.shape[0], step.shape[1] - 1
     surfaces, residual = heat.surfaces, heat.column.residual
