@@ -359,7 +359,7 @@ class RotorSamples:
 
 
 def friction_reversals(mesh: MeshMotion, axial_velocity: float) -> list[float]:
-    """Return the tooth angles [rad] at which the sliding velocity is 0, or plus or minus the axial velocity."""
+    """Return the tooth angles [rad] at which the sliding velocity is 0, v or -v, where v is the axial velocity."""
     angles = [0.0, pi]
     if abs(axial_velocity) < abs(mesh.sliding):
         reversal = asin(axial_velocity / mesh.sliding)
@@ -371,8 +371,9 @@ def rotor_samples(coupling: Coupling, mesh: MeshMotion, axial_velocity: float) -
     """Return Gauss points between the rotor angles at which the friction of some tooth reverses.
 
     The friction of a tooth jumps if the relative velocity of the tooth changes sign. The rotor angles of these jumps
-    divide the pitch into parts. In each part the integrand is therefore continuous, and has kinks only where a tooth
-    comes under load. The Gauss points are at least as accurate as a midpoint rule with several hundred points.
+    divide the pitch into parts. In each part the integrand of a mean over the rotor angles is therefore continuous, and
+    has kinks only where a tooth comes under load. The Gauss points are at least as accurate as a midpoint rule with
+    several hundred points.
     """
     uneven = coupling.pitch_errors is not None
     return _samples(coupling.teeth, uneven, tuple(friction_reversals(mesh, axial_velocity)))

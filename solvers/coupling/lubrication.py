@@ -81,8 +81,8 @@ def max_normal_force(inputs: CouplingInputs, mesh: MeshMotion) -> float:
     """Compute the largest normal tooth force [N] while one tooth is at 90 degrees, in the tilt position.
 
     If the pitch deviations of the teeth differ, the result is the largest force in a whole revolution. With `spatial`
-    kinematics the displacement of a tooth is not largest in the tilt position, but somewhat beyond this position. A
-    tooth therefore carries more a little beyond the tilt position than in the tilt position.
+    kinematics the displacement of a tooth is not largest in the tilt position, but somewhat beyond this position. Just
+    beyond the tilt position a tooth therefore carries a larger force than in the tilt position.
     """
     if len(set(inputs.coupling.pitch_errors or ())) <= 1:
         return float(_largest_forces(inputs, mesh, _positions_at(pi / 2, inputs.coupling.teeth)).max())
@@ -426,8 +426,9 @@ def regime_friction(overlap: float, load_capacity_coefficient: float, mixed: flo
     -----
     Eq. C18. The paper states only a band of friction for each area. The law used here interpolates between the end
     values of these bands. The law lies inside the bands of areas 1.1, 1.3, 2.1, 2.2, 2.3 and 3.1. In area 1.2 the law
-    is a smooth transition. Near overlap 1 the law may leave the band of area 3.2; the paper itself calls the boundaries
-    of the areas "fluid". The coefficient of friction never rises when the load capacity coefficient rises.
+    is a smooth transition. Near overlap 1 the law may leave the band of area 3.2; according to the paper itself, the
+    boundaries of the areas are not sharp ("fluid"). The coefficient of friction never rises when the load capacity
+    coefficient rises.
     """
     if overlap > 2.0:
         return _poorly_supplied(overlap, load_capacity_coefficient)

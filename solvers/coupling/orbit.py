@@ -119,8 +119,9 @@ def _settled_path(
 ) -> _SettledPath:
     """Repeat sweeps over the rotor angles until the path settles.
 
-    The sweeps start with `force` (rows, 2) [N], a guess of the inertia force. While teeth come under load, the change
-    of the path may grow from sweep to sweep. After at most about a dozen sweeps, this change begins to fall.
+    The sweeps start with `force` (rows, 2) [N], a guess of the inertia force. As long as further teeth come under load,
+    the change of the path may grow from sweep to sweep. This change begins to fall after about a dozen sweeps at the
+    latest.
     """
     coupling, operation = inputs.coupling, inputs.operation
     mesh = mesh_motion(coupling, tooth_geometry(coupling), operation, inputs.model.kinematics)
@@ -200,7 +201,7 @@ def _check_holding(force: FloatArray, limit: float) -> None:
 
 
 def _harmonics(force: FloatArray) -> FloatArray:
-    """Compute the amplitudes 2 |c_k| of orders 0 to 12; the amplitude of order 0 is |mean|."""
+    """Compute the amplitudes of orders 0 to 12: the magnitude |c_0| of the mean, then 2 |c_k| for k = 1 to 12."""
     amplitude = 2.0 * np.abs(np.fft.rfft(force)) / force.size
     amplitude[0] /= 2.0
     return amplitude[: HIGHEST_ORDER + 1]

@@ -119,9 +119,10 @@ class LoadDistribution:
 class Regime:
     """An area of the paper's map of friction conditions (Fig. 9), and the friction band of this area.
 
-    If the paper states no lower or no upper end of the band, this end is None. `distance_to_boundary` is the smallest
-    |ln(coordinate/boundary)|, where the coordinates are the overlap and the load capacity coefficient. This distance is
-    None if all boundaries of the map are infinitely far away, which happens without misalignment.
+    If the paper states no lower end of the band, `friction_min` is None. If the paper states no upper end,
+    `friction_max` is None. `distance_to_boundary` is the smallest |ln(coordinate/boundary)|, where the coordinates are
+    the overlap and the load capacity coefficient. This distance is None if all boundaries of the map are infinitely far
+    away, which happens without misalignment.
     """
 
     area: str = quantity("friction area", None, f"{PAHL}, Fig. 9", text="area of the map of friction conditions")
@@ -355,8 +356,8 @@ class Orbit:
 class InertiaForce:
     """Inertia force of the part of the sleeve's mass that is assigned to one mesh, at the rotor angles of the orbit.
 
-    The harmonics are the amplitudes 2 |c_k| of the orders k = 0, 1, 2 and so on, where c_k is the Fourier coefficient.
-    The amplitude of order 0 is the magnitude of the mean.
+    The harmonics are the amplitudes of the orders k = 0, 1, 2 and so on. The amplitude of order 0 is the magnitude of
+    the mean, |c_0|. The amplitude of every other order is 2 |c_k|, where c_k is the Fourier coefficient.
     """
 
     x: FloatArray = quantity(

@@ -50,11 +50,11 @@ _LIMIT_MARGIN = 0.9999  # chosen share of the force that the teeth can hold
 
 
 class Unbalance(NamedTuple):
-    """Residual of the sleeve's force balance, and its derivatives with the opposite sign.
+    """Residual Phi(g) - g of the sleeve's force balance, and the derivatives of g - Phi(g).
 
-    `x` and `y` are the components of the residual Phi(g) - g, and `size` is its magnitude. `xx`, `xy`, `yx` and `yy`
-    are the derivatives of g - Phi(g) with respect to g; for example, `xy` is the derivative of the x component with
-    respect to g_y.
+    `x` and `y` are the components of the residual, and `size` is the magnitude of the residual. `xx`, `xy`, `yx` and
+    `yy` are the derivatives of g - Phi(g) with respect to g; for example, `xy` is the derivative of the x component
+    with respect to g_y.
     """
 
     size: float
@@ -102,9 +102,9 @@ def unbalanced_force(
 ) -> Unbalance:
     """Return the residual Phi(g) - g of the sleeve's force balance, with g on the left mesh and -g on the right mesh.
 
-    The function balances both meshes under these forces. The balance starts from the values in `places`, and replaces
-    them by the solution. The function writes the interference of the teeth to `ahead` (2, teeth). The size of the
-    residual is inf if a mesh cannot hold the force.
+    The function balances both meshes under these forces. The balance of each mesh starts from the values in `places`;
+    the solution replaces these values. The function writes the interference of the teeth to `ahead` (2, teeth). The
+    size of the residual is inf if a mesh cannot hold the force.
     """
     moment_x, moment_y, xx, xy, yx, yy = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     for mesh in range(2):

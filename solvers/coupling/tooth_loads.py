@@ -78,7 +78,7 @@ class Places(NamedTuple):
 
 
 class Hessian(NamedTuple):
-    """Second derivatives of the energy: the sums over the loaded teeth of 1, -d_x, -d_y, d_x^2, d_x d_y and d_y^2."""
+    """Second derivatives of the energy: sums of 1, -d_x, -d_y, d_x^2, d_x d_y and d_y^2 over the loaded teeth."""
 
     loaded: float
     x: float
@@ -196,11 +196,11 @@ def add_up(ahead: FloatArray, normal: FloatArray) -> tuple[Motion, Hessian]:
 def solve_loaded(hessian: Hessian, right: Motion) -> tuple[Motion, float, float]:
     """Solve `hessian` times motion = `right` in the directions in which the loaded teeth have stiffness.
 
-    Returns the motion, and the part of the lateral force (x, y) of `right` in the directions without stiffness. The
-    rotation is eliminated first. The matrix of the remaining equations is the scatter of the flank normals of the
-    loaded teeth; the equations are solved along the principal directions of this matrix. If fewer than three teeth are
-    loaded, there is no stiffness in one or both of these directions. The sleeve does not move in a direction without
-    stiffness.
+    Returns the motion. Also returns the part of the lateral force (x, y) in `right` that acts in the directions without
+    stiffness. The rotation is eliminated first. The matrix of the remaining equations is the scatter of the flank
+    normals of the loaded teeth; the equations are solved along the principal directions of this matrix. If fewer than
+    three teeth are loaded, there is no stiffness in one or both of these directions. The sleeve does not move in a
+    direction without stiffness.
     """
     loaded = max(hessian.loaded, 1.0)
     mean_x, mean_y = hessian.x / loaded, hessian.y / loaded
@@ -368,10 +368,12 @@ def floating_rows(
 def largest_value(angles: FloatArray, values_at: Callable[[FloatArray], FloatArray]) -> float:
     """Find the largest value at evenly spaced rotor angles [rad] and between these angles.
 
-    `values_at` takes rotor angles (rows) and returns one value per angle. After the given angles, two searches follow.
-    The steps of each search are eight times finer than the steps before. A local maximum is searched only if it would
-    reach the largest value by rising further for half a step. The searches are necessary because with few loaded teeth
-    a peak lasts only a fraction of a pitch, and each tooth has its own peak.
+    `values_at` takes rotor angles (rows) and returns one value per angle. Two searches follow the evaluation at the
+    given angles. The steps of the first search are eight times finer than the given steps, and the steps of the second
+    search are eight times finer again. A local maximum is searched only if a value larger than the largest value so far
+    is possible beside this maximum. To decide this, the rise from the lower neighbour to the local maximum is
+    extrapolated by half a step. The searches are necessary because with few loaded teeth a peak lasts only a fraction
+    of a pitch, and each tooth has its own peak.
     """
     coarse, step = values_at(angles), angles[1] - angles[0]
     places = angles[:, None] + step * np.array([-1.0, 0.0, 1.0])

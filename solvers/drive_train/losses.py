@@ -41,8 +41,8 @@ def force_balance(unit: Unit, equilibrium: Equilibrium, torques: tuple[float, fl
     """Return the largest unbalanced force and the largest unbalanced moment on a shaft.
 
     The forces on a shaft are added up in both planes. The moments are added up in both planes and about Z. In
-    equilibrium all these sums are 0. `torques` [N m] drive the pinion and brake the wheel; `force` is F_bt [N]. The
-    results are divided by F_bt and by F_bt b.
+    equilibrium all these sums are 0. `torques` [N m] drive the pinion and brake the wheel; `force` is F_bt [N]. In the
+    result, the largest force is divided by F_bt, and the largest moment is divided by F_bt b.
     """
     if force == 0.0:
         return ForceBalance(None, None)
@@ -58,7 +58,7 @@ def force_balance(unit: Unit, equilibrium: Equilibrium, torques: tuple[float, fl
 
 
 def _sums(side: ShaftPorts, loads: FloatArray, reactions: list[FloatArray]) -> tuple[FloatArray, FloatArray]:
-    """Return the sum of all forces on a shaft, and the sum of all moments about Z = 0, in both planes."""
+    """Return the sum of all forces on a shaft in each plane, and the sum of all moments about Z = 0 in each plane."""
     nodal = side.loads @ loads + side.fixed
     nodes = side.model.z.size
     sums = nodal[:, :nodes].sum(axis=1) + sum(reactions)

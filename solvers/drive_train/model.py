@@ -1,4 +1,4 @@
-"""Results of a drive train at the gap over the face at which couplings, shafts, bearings and mesh are in balance."""
+"""Results of a drive train whose couplings, shafts, bearings and mesh are in balance."""
 
 from dataclasses import replace
 from functools import partial
@@ -32,7 +32,7 @@ def solve(inputs: DriveTrainInputs, start: FloatArray | None = None) -> DriveTra
     inputs : DriveTrainInputs
         The unit.
     start : FloatArray of shape (stations,), optional
-        Gap due to the shafts of a similar unit, from which the iteration starts [m].
+        Start value of the iteration: the gap due to the shafts of a similar unit [m].
 
     Returns
     -------

@@ -192,7 +192,8 @@ class CouplingResult:
 class FlashPlaces:
     """Largest flash temperatures by Blok's formula; these values are None if the contact reaches a base circle.
 
-    `contact_max` is the largest sum of bulk and flash temperature at one place.
+    `contact_max` is the largest contact temperature. The contact temperature at a place is the sum of the bulk
+    temperature and the flash temperature at this place.
     """
 
     feature: float | None = quantity("flash temperature on the feature line", "Δθ_fl,1", unit="k")

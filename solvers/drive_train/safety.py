@@ -126,8 +126,9 @@ def flank_heat(inputs: DriveTrainInputs, mesh: LoadDistribution, flash: FlashMap
 def _feature_points(inputs: DriveTrainInputs, mesh: LoadDistribution, bulk: FaceFunction) -> FloatArray:
     """Return the positions psi of the points on the feature line.
 
-    The points are equidistant. Two further points are the places of the largest flash temperature and of the largest
-    contact temperature by Blok. Without these two points the maxima would depend on the number of points.
+    The points are equidistant, except for two points that are added: the place of the largest flash temperature and the
+    place of the largest contact temperature, both by Blok. Without these two points the maxima would depend on the
+    number of points.
     """
     given, plane, psi = inputs.mesh.distribution, mesh.path_of_contact.plane, np.linspace(0.0, 1.0, SURVEY_POINTS)
     across = psi * plane.face_width

@@ -19,7 +19,7 @@ def solve(inputs: DriveTrainInputs, start: FloatArray | None = None) -> DriveTra
     inputs : DriveTrainInputs
         The unit.
     start : FloatArray of shape (stations,), optional
-        Gap due to the shafts of a similar unit, from which the iteration starts [m].
+        Start value of the iteration: the gap due to the shafts of a similar unit [m].
 
     Returns
     -------

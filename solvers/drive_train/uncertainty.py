@@ -38,7 +38,7 @@ class Range:
 def uncertain_inputs(inputs: DriveTrainInputs) -> tuple[Range, ...]:
     """Return the ranges of the uncertain inputs of a unit.
 
-    The wall response and the bearing clearances of each shaft are uncertain. Three inputs of each coupling are
+    The wall response is uncertain, and so are the bearing clearances of each shaft. Three inputs of each coupling are
     uncertain as well: the friction, the direction of the offset, and the thrust. The clearances of a shaft's two
     bearings change by 10 % in opposite senses, because the same change in both bearings would not tilt the shaft. All
     couplings change together. If the couplings varied independently, a unit with two couplings would need 2,048 runs.
@@ -76,7 +76,7 @@ def _together(inputs: DriveTrainInputs, quantity: str, name: str, values: tuple[
 
 
 def _offsets(inputs: DriveTrainInputs) -> Range:
-    """Return the range of the coupling offsets: all offsets that are not zero, turned in quarter revolutions."""
+    """Return the range of the coupling offsets: every offset that is not zero, turned by 0, 90, 180 and 270 degrees."""
     given = [(k, coupling.offset) for k, coupling in enumerate(inputs.acting_couplings) if any(coupling.offset)]
     names = tuple(f"couplings.{k}.offset.{axis}" for k, _ in given for axis in range(2))
     turned = ([pair for _, (x, y) in given for pair in turn(x, y)] for turn in QUARTERS)

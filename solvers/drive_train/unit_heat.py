@@ -71,7 +71,7 @@ def warm_unit(inputs: DriveTrainInputs, start: FloatArray | None = None) -> Warm
     inputs : DriveTrainInputs
         The unit with a known oil and its cooling.
     start : FloatArray, optional
-        Gap due to the shafts of a similar unit, from which the iteration starts [m].
+        Start value of the iteration: the gap due to the shafts of a similar unit [m].
 
     Returns
     -------
@@ -248,7 +248,7 @@ def _operate(bearing: JournalBearing, load: float, speed: float, viscosity: floa
 
 
 def _places(shaft: Shaft) -> Iterator[tuple[float, float, float, float]]:
-    """Yield start, end, outer and inner diameter of every section [m]."""
+    """Yield start, end, outer diameter and inner diameter of every section [m]."""
     start = shaft.start
     for section in shaft.sections:
         yield start, start + section.length, section.outer_diameter, section.inner_diameter
@@ -258,7 +258,7 @@ def _places(shaft: Shaft) -> Iterator[tuple[float, float, float, float]]:
 def _sections_between(
     shaft: Shaft, face: tuple[float, float], bearing: float
 ) -> tuple[tuple[float, float, float], ...]:
-    """Return length, outer and inner diameter of the sections between the gear's face and a bearing's centre [m]."""
+    """Return length, outer and inner diameters of the sections between the gear's face and a bearing's centre [m]."""
     low, high = (face[1], bearing) if bearing > face[1] else (bearing, face[0])
     if high - low < SHORTEST_ROD:  # the bearing lies under the face or at the edge of the face
         low, high = bearing - SHORTEST_ROD / 2, bearing + SHORTEST_ROD / 2

@@ -122,7 +122,8 @@ def solve(inputs: WarmUpInputs) -> UnitWarmUp:
 
     Notes
     -----
-    The losses are the losses of the warm unit, but change with the viscosity during the warm-up (Eq. H24).
+    During the warm-up the losses change only with the viscosity of the oil. The losses of the warm unit are the
+    reference for this change (Eq. H24).
     """
     unit = inputs.unit
     if not asks_for_balance(unit):

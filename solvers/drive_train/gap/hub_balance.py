@@ -208,10 +208,10 @@ def _raise_loads(unit: Unit, force: FloatArray, free: HubLoads) -> HubLoads:
     """Follow the tilts of the hubs while the coupling loads grow from zero to their full value.
 
     The path begins at `free`, the hubs without coupling loads. If friction falls with the sliding velocity, a hub can
-    jump between sliding and sticking. At such a jump the share of the coupling loads decreases along the path. The
-    steps are therefore taken along the length of the path. For this length, the tilts of each hub are divided by the
-    size of the hub's tilt. The next point of the path lies in the plane that is normal to the step and contains the end
-    of the step; Newton's iteration finds this point (Allgower and Georg 2003, chapter 2).
+    jump between sliding and sticking. At such a jump the share of the coupling loads decreases along the path. The size
+    of a step is therefore not a change of the share, but a distance along the path. In this distance, a change of a
+    hub's tilt is divided by the size of this tilt. The next point of the path lies in the plane that is normal to the
+    step and contains the end of the step; Newton's iteration finds this point (Allgower and Georg 2003, chapter 2).
     """
     share, state, length = 0.0, _evaluate(unit, force, free, 0.0), LONGEST
     direction = np.append(np.zeros(free.tilts.size), 1.0)
@@ -234,14 +234,15 @@ def _raise_loads(unit: Unit, force: FloatArray, free: HubLoads) -> HubLoads:
 
 
 def _sizes(tilts: FloatArray) -> FloatArray:
-    """Return the scales of both components of every tilt. Both scales are the size of the tilt [rad]."""
+    """Return the size of every tilt [rad] twice: as the scale of the first and of the second component of this tilt."""
     return np.repeat(np.maximum(np.hypot(tilts[::2], tilts[1::2]), LEAST_SIZE), 2)
 
 
 def _path_direction(state: _State, scale: FloatArray, direction: FloatArray) -> FloatArray:
     """Return the unit vector along the path, with tilts divided by their scales.
 
-    The vector continues the last direction, `direction`, and does not reverse it.
+    Of the two directions along the path, the result is the direction at an acute angle to `direction`, the direction of
+    the last step.
     """
     tangent = solve_linear(_path_matrix(state, scale, direction), np.append(np.zeros(scale.size), 1.0))
     return np.asarray(tangent / np.linalg.norm(tangent))

@@ -86,8 +86,7 @@ def _curves(
 ) -> GapCurves:
     """Return the gaps over the face.
 
-    The gap due to the modifications contains only the lead modifications. The mean of this gap over the face is
-    subtracted from the gap.
+    The gap due to the modifications contains only the lead modifications, minus their mean over the face.
     """
     plane, count = mesh.prepared.path.plane, unit.stations.size
     form = mesh.prepared.mesh.gap._replace(profile_slope=0.0, profile_crowning=0.0, tip_relief=0.0, root_relief=0.0)

@@ -30,9 +30,10 @@ EXPANSION = 12e-6  # 1/K; coefficient of thermal expansion of steel
 
 @dataclass(frozen=True, slots=True)
 class GasHeat:
-    """Temperature rise [K] of the gas in the tooth spaces above the ambient temperature, at positions on the face [m].
+    """Rise of the gas temperature in the tooth spaces [K] at positions on the face [m].
 
-    `power` [W] is the total pumping power; `powers` [W] are the pumping powers of pinion and wheel.
+    The rise is the difference from the ambient temperature. `power` [W] is the total pumping power; `powers` [W] are
+    the pumping powers of pinion and wheel.
     """
 
     pinion_position: FloatArray
@@ -48,9 +49,9 @@ class GasHeat:
 class ThermalLead:
     """Gap that heat causes, and temperature rise of the metal due to pumping [K].
 
-    `lead` [m] is the gap at the stations; its mean is 0. `profile_slope` [m] belongs to the lead: only lead and profile
-    slope together keep parallel contact lines parallel. `base_pitch` [m] is the growth of the pinion's base pitch minus
-    the growth of the wheel's base pitch.
+    `lead` [m] is the gap at the stations; its mean is 0. `profile_slope` [m] belongs to the lead. Contact lines that
+    are parallel without heat stay parallel only if lead and profile slope are applied together. `base_pitch` [m] is the
+    growth of the pinion's base pitch minus the growth of the wheel's base pitch.
     """
 
     lead: FloatArray

@@ -103,7 +103,7 @@ def coupling_port(
     """Return the coupling with the torque, speed and rotation of its shaft.
 
     `down` (X, Y) is the unit vector in the direction of gravity, and `gravity` is the acceleration of gravity [m/s^2].
-    Warm supports raise the shaft of the machine against `down`.
+    If the supports are warm, the shaft of the machine rises in the direction opposite to `down`.
     """
     offset = np.array(inputs.offset) - (0.0 if inputs.alignment is None else inputs.alignment.growth) * down
     distance = inputs.coupling.hub_distance if inputs.machine_side == "plus" else -inputs.coupling.hub_distance
@@ -173,7 +173,7 @@ def elastic_plastic(ratio: float) -> tuple[float, float]:
     Parameters
     ----------
     ratio : float
-        Tilt divided by the tilt at which sliding begins, beta [-].
+        Ratio beta of the tilt to the tilt at which sliding begins [-].
 
     Returns
     -------
@@ -192,7 +192,7 @@ def elastic_plastic(ratio: float) -> tuple[float, float]:
 
 
 def regularised(ratio: float) -> tuple[float, float]:
-    """Return the moments as `elastic_plastic` does, but for a hub that slides at all except the smallest tilts.
+    """Return loss moment and elastic moment like `elastic_plastic`, but for teeth that slide unless the tilt is tiny.
 
     This friction law is for comparison only.
     """

@@ -1,8 +1,8 @@
 """The axial forces on both shafts.
 
 The axial force of the mesh is known. The axial force that friction causes in a coupling has a known limit, but an
-unknown sign. API 613 (5th ed., 2003) adds the magnitudes of both forces, and allows a load on the thrust bearing of at
-most half the bearing's ultimate rating.
+unknown sign. API 613 (5th ed., 2003) adds the magnitudes of both forces. According to API 613, the load on the thrust
+bearing must not exceed half the ultimate rating of the bearing.
 """
 
 from solvers.drive_train.inputs import DriveTrainInputs
