@@ -36,8 +36,8 @@ def guarded(
     Returns
     -------
     callable
-        The solver with these guards, which users call. In addition to the errors of `solve`, it raises InvalidInput
-        (`out_of_range`) with the dotted name of the input that is outside its range.
+        The solver with these guards. Users call this solver. In addition to the errors of `solve`, this solver raises
+        InvalidInput (`out_of_range`) with the dotted name of the input that is outside its range.
     """
 
     @wraps(solve)

@@ -33,8 +33,8 @@ class Lubricant:
 
     The default values describe the oil of Xue, Zhang and Wang at 360 K. (Two tables of their paper are numbered 2; the
     values are from the second of these tables.) An incompressible oil has the same density at every pressure and
-    temperature. The fields have no ranges, because the models also compute `Lubricant` objects for any temperature. The
-    API declares ranges where it asks users for these values.
+    temperature. The fields have no ranges, because the models also create `Lubricant` objects themselves, for any
+    temperature. Where the API asks users for these values, the API declares ranges.
     """
 
     viscosity: float = quantity(

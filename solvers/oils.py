@@ -435,7 +435,7 @@ def sheet_of_index(
     kind: OilKind = "mineral",
     density_15: float | None = None,
 ) -> OilSheet:
-    """Return an oil that has this viscosity at 40 C and this viscosity index.
+    """Return an oil with a given viscosity at 40 C and a given viscosity index.
 
     Parameters
     ----------

@@ -201,8 +201,9 @@ def _capacities(unit: DriveTrainInputs, warm: WarmUnit) -> Capacities:
 def _rotor(shaft: Shaft, material: Solid, solid: float, reference: float) -> float:
     """Return the heat capacity of a rotor [J/K].
 
-    A section whose outer diameter is at least `solid` [m] carries the teeth. Such a section counts as a cylinder with
-    at least the diameter `reference` [m]. This cylinder has the heat capacity of the toothed section.
+    A section whose outer diameter is at least `solid` [m] carries the teeth. If the outer diameter of such a section is
+    smaller than `reference` [m], the section counts as a cylinder with the outer diameter `reference`. This cylinder
+    has the heat capacity of the section with its teeth.
     """
     sections = tuple(
         (
@@ -218,9 +219,15 @@ def _rotor(shaft: Shaft, material: Solid, solid: float, reference: float) -> flo
 def _times(course: WarmUp) -> FloatArray:
     """Return the five points in time of the alignment.
 
-    One point is the time at which the temperature difference between the gear bodies is greatest. The other points are
-    the start, a time between the start and this time, a time between this time and the end, and the end. If the
-    difference is greatest at the start or at the end, the five points are equidistant.
+    Let t_max be the time at which the temperature difference between the gear bodies is greatest. The points are:
+
+    - the start of the warm-up,
+    - a time between the start of the warm-up and t_max,
+    - t_max,
+    - a time between t_max and the end of the warm-up,
+    - the end of the warm-up.
+
+    If t_max is the start or the end of the warm-up, the five points are equidistant.
     """
     end = float(course.curves.time[-1])
     greatest = course.greatest_difference_at

@@ -11,7 +11,9 @@ PRINTED = 1e-4
 
 
 def check_rack(inputs: GearPairInputs, teeth: GearTeeth, name: str) -> None:
-    """Refuse a rack if it is pointed: the two flanks of a rack tooth meet before they reach the tip line.
+    """Refuse a pointed rack.
+
+    A rack is pointed if the two flanks of a rack tooth meet before they reach the tip line.
 
     Raises
     ------
@@ -119,8 +121,8 @@ def check_usable_flank(gear: Gear, name: str) -> None:
 def check_path(tip_start: float, tip_end: float, start: float, end: float) -> None:
     """Refuse a pair if the path of contact has no length.
 
-    All arguments are roll lengths of the pinion [m]. The tips of the two gears limit the path to `tip_start` and
-    `tip_end`; the tips and the root fillets together limit the path to `start` and `end`.
+    All arguments are roll lengths of the pinion [m]. The tips of the two gears leave a path from `tip_start` to
+    `tip_end`. The tips and the root fillets together leave a path from `start` to `end`.
 
     Raises
     ------

@@ -1,8 +1,8 @@
 """One gear in the transverse plane, cut by a rack: radii, thicknesses, involute and root fillet.
 
 The tip of the rack is rounded with an arc. The arc parameter `t` [rad] is 0 where the arc meets the tip line, and
-pi/2 - alpha_n where the arc meets the straight flank. A half space angle is the angle from the centre line of a tooth
-space to a point on the flank or the root of the tooth.
+pi/2 - alpha_n where the arc meets the straight flank. The half angle of a tooth space is the angle from the centre line
+of the tooth space to a point on the flank or the root of the tooth.
 """
 
 from dataclasses import dataclass
@@ -47,12 +47,18 @@ class Gear:
 
     @property
     def usable_roll_length(self) -> float:
-        """Roll length at which the usable involute starts [m]. It is 0, at the base circle, if the gear is undercut."""
+        """Roll length at which the usable involute starts [m].
+
+        If the gear is undercut, the usable involute starts at the base circle, where the roll length is 0.
+        """
         return max(self.form_roll_length, 0.0)
 
     @property
     def form_radius(self) -> float:
-        """Radius at which the usable involute starts [m]. It is the base radius if the gear is undercut."""
+        """Radius at which the usable involute starts [m].
+
+        If the gear is undercut, this radius is the base radius.
+        """
         return hypot(self.base_radius, self.usable_roll_length)
 
     @property
@@ -62,11 +68,17 @@ class Gear:
 
     @property
     def tip_thickness(self) -> float:
-        """Thickness of a tooth on the tip circle [m]. It is negative if the flanks meet below the tip circle."""
+        """Thickness of a tooth on the tip circle [m].
+
+        If the flanks meet below the tip circle, the thickness is negative.
+        """
         return 2 * self.tip_radius * self.half_tooth_angle(self.tip_radius)
 
     def half_tooth_angle(self, radius: float) -> float:
-        """Return half the angular thickness of a tooth [rad] at a radius [m] not smaller than the base radius."""
+        """Return half the angular thickness of a tooth [rad] at a radius [m].
+
+        The radius must not be smaller than the base radius.
+        """
         pressure_angle = acos(min(self.base_radius / radius, 1.0))
         return self.reference_half_angle + self.reference_involute - involute(pressure_angle)
 
@@ -235,7 +247,8 @@ def _half_space_angle(gear: Gear, radius: float) -> float:
 def _undercut_start(fillet: RackFillet, gear: Gear) -> tuple[float, float]:
     """Return the arc parameter [rad] and the roll length [m] of the point at which the fillet crosses the involute.
 
-    If the fillet does not cross the involute, return the point at which the fillet crosses the base circle.
+    If the fillet does not cross the involute, return the values of the point at which the fillet crosses the base
+    circle.
     """
 
     def excess(t: float) -> float:

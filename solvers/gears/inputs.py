@@ -60,7 +60,7 @@ class GearTeeth:
 
 @record
 class GearPairInputs:
-    """An external gear pair with parallel axes, spur or helical; the pinion drives."""
+    """An external gear pair, spur or helical, with parallel axes; the pinion drives."""
 
     pinion: GearTeeth = quantity("pinion", text="the driving gear")
     wheel: GearTeeth = quantity("wheel", text="the driven gear")

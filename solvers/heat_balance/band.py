@@ -19,8 +19,8 @@ MEASURED_WITHIN = 3.0  # K, chosen: uncertainty of a measured temperature
 class Extreme:
     """Cooling by the oil at one end of the band.
 
-    If `rewetting_share` is None, the nominal rewetting share is kept. `measured` [K] is added to the measured
-    temperature of a gear.
+    If `rewetting_share` is None, the nominal rewetting share is kept. If the temperature of a gear was measured,
+    `measured` [K] is added to this temperature; at the well cooled end, `measured` is negative.
     """
 
     wetting_share: float
@@ -54,8 +54,8 @@ def extreme_network(network: Network, cooling: Cooling, extreme: Extreme) -> Net
     Notes
     -----
     Eq. H21. If the temperature of a gear was measured, the uncertainty is added to the measured temperature or
-    subtracted from it, and the wetting share is fitted to the result. If no share gives this temperature, the share
-    that comes nearest to this temperature is used.
+    subtracted from it. The wetting share is then fitted to the temperature that results. If no wetting share gives
+    this temperature, the largest or the smallest wetting share is used.
     """
     spray = network.spray
     if cooling.fling_off_factor is None:
@@ -72,7 +72,8 @@ def extreme_network(network: Network, cooling: Cooling, extreme: Extreme) -> Net
 def _fitted_again(network: Network, node: str, temperature: float) -> Network:
     """Return the network with the wetting share at which the node has the given temperature [K].
 
-    If no share gives this temperature, the share that comes nearest to this temperature is used.
+    If the node stays too warm even with the largest share, the network gets the largest share. If the node stays too
+    cold with every share, the network gets the smallest share.
     """
     place, wanted = network.nodes.index(node), temperature - network.oil.inlet
     all_oil = wetted(network, MOST_WETTING)

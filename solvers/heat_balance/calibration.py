@@ -165,8 +165,11 @@ def _fitted(network: Network, place: int, wanted: float, drain: float | None) ->
 
     If `drain` is given, the oil in the drain also has the temperature rise `drain` [K]. Newton's method finds these
     unknowns together: the rises of all other nodes, the logarithm of the wetting share and, if `drain` is given, the
-    other losses. The start value of the wetting share is 1. The function returns None if the method does not converge,
-    if the wetting share is not from 0.02 to 1, or if the network has no equilibrium with this share.
+    other losses. The start value of the wetting share is 1. The function returns None in these cases:
+
+    - Newton's method does not converge.
+    - The wetting share lies outside the range from 0.02 to 1.
+    - The network has no equilibrium with this wetting share.
     """
     try:
         start = equilibrium(wetted(network, MOST_WETTING)).rises

@@ -52,7 +52,7 @@ def face_convection(speed: float, radius: float) -> float:
 
 
 def recovery_rise(speed: float, radius: float, recovery: float = RECOVERY) -> float:
-    """Compute the temperature rise in the mist that air friction at the tooth tips causes.
+    """Compute the temperature rise that air friction at the tooth tips causes in the mist.
 
     Parameters
     ----------

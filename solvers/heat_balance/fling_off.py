@@ -1,12 +1,13 @@
 """Fling-off cooling: an oil film takes heat from the teeth while the rotation throws the film off (own derivation).
 
-A jet lays a fresh film on the flanks once per turn. The centrifugal acceleration omega^2 r drives the film along the
-tooth height H. The thickness of the film decreases as h = min(h0, sqrt(nu x/(omega^2 r t))). Meanwhile heat is
-conducted through the film, from an isothermal wall to an adiabatic free surface. If times are divided by t* = sqrt(nu
-H/(a r))/omega and thicknesses by sqrt(a t*), the heat per turn depends only on the thickness of the film as laid and on
-the duration of the turn. Here nu is the kinematic viscosity and a is the thermal diffusivity of the oil; omega is the
-speed and r is the radius of the gear; x is the distance along the tooth height, t is the time since the jet, and h0 is
-the thickness as laid.
+A jet lays a fresh film of thickness h0 on the flanks once per turn. The centrifugal acceleration omega^2 r drives the
+film along the tooth height H. The thickness of the film decreases as h = min(h0, sqrt(nu x/(omega^2 r t))). Meanwhile
+heat is conducted through the film, from an isothermal wall to an adiabatic free surface. All times are divided by
+t* = sqrt(nu H/(a r))/omega, and all thicknesses are divided by sqrt(a t*). The scaled heat per turn then depends on two
+numbers only: the scaled thickness of the fresh film, and the scaled duration of the turn.
+
+The oil has the kinematic viscosity nu and the thermal diffusivity a. The gear has the speed omega and the radius r.
+The distance along the tooth height is x, and the time since the jet is t.
 """
 
 from dataclasses import dataclass
@@ -72,7 +73,7 @@ def heat_number(film: float, turn: float) -> float:
     Parameters
     ----------
     film : float
-        Thickness of the film as laid, divided by sqrt(a t*) [-].
+        Thickness h0 of the fresh film, divided by sqrt(a t*) [-].
     turn : float
         Duration of a turn, divided by t* [-].
 
@@ -112,8 +113,8 @@ def fling_off_time(oil: CoolingOil, teeth: TurningTeeth, temperature: float) -> 
 
     Notes
     -----
-    Eq. H3: t* = sqrt(nu H/(a r))/omega. At the time t*, the rotation has thinned the film at the end of the tooth
-    height to sqrt(a t*). This is also the thickness of the layer that the heat of the flank has reached by then.
+    Eq. H3: t* = sqrt(nu H/(a r))/omega. At the time t*, the rotation has thinned the film at x = H to the thickness
+    sqrt(a t*). By this time, the heat of the flank has reached a layer of the same thickness.
     """
     viscosity = oil.viscosity(temperature) / oil.density
     return sqrt(viscosity * teeth.height / (oil.diffusivity * teeth.radius)) / teeth.speed
@@ -147,8 +148,8 @@ class FlingOff:
 
     `film` [m] is the thickness of the film that the jets lay per turn. `conductance` [W/K] is the conductance of this
     film. A flank is flooded if a thicker film would not take more heat. `flooded` [W/K] is the conductance of the film
-    on a flooded flank. `turn_film` [m] is the thickness of a film that takes 0.9 of the heat of the film on a flooded
-    flank. `limited` is true if the heat capacity of the oil flow limits the conductance.
+    on a flooded flank. `turn_film` [m] is the thickness of a film that takes 90 % of the heat that the film on a
+    flooded flank takes. `limited` is true if the heat capacity of the oil flow limits the conductance.
     """
 
     conductance: float

@@ -29,8 +29,8 @@ def over_the_flow(inputs: HeatBalanceInputs, flows: FloatArray) -> FlowCurve:
     Parameters
     ----------
     inputs : HeatBalanceInputs
-        The pair or unit. If these inputs contain measured temperatures, the model is calibrated with these temperatures
-        at the oil flow of these inputs.
+        The pair or unit. If the inputs contain measured temperatures, the model is first calibrated with the measured
+        temperatures. The calibration uses the oil flow of the inputs.
     flows : FloatArray
         Flows to the gears, rising [m^3/s].
 

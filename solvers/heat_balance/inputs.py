@@ -320,7 +320,8 @@ class Cooling:
         ------
         InvalidInput
             `exclusive` if measured temperatures are given for both the flank and the body of one gear. Also `exclusive`
-            if the wetting share or the other losses are given although a measured temperature determines this value.
+            if the wetting share is given together with a measured temperature of a gear, or if the other losses are
+            given together with a measured temperature of the drain.
         """
         measured = self.measured
         for gear in ("pinion", "wheel"):

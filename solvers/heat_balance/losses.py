@@ -1,7 +1,7 @@
 """Losses of a gear pair: friction of the mesh as a function of temperature, windage, and acceleration of the oil.
 
-The friction of the mesh is computed with the load distribution. This module only adapts the friction to the viscosity
-of the oil.
+The friction of the mesh is computed with the load distribution, not in this module. `MeshHeat.at` adapts the computed
+friction to the viscosity of the oil at another temperature.
 """
 
 import numpy as np

@@ -286,7 +286,7 @@ def _estimates(inputs: HeatBalanceInputs) -> BulkEstimates:
 def _deviation(network: Network, cooling: Cooling, rises: FloatArray) -> float | None:
     """Return the calculated minus the measured temperature of the wheel [K].
 
-    The result is None if no temperature of the wheel, or no temperature of the pinion, was measured.
+    If a temperature was measured at one gear only, or at no gear, the result is None.
     """
     rotors = list(cooling.measured.rotors.items())
     if len(rotors) < 2:

@@ -47,10 +47,10 @@ def equilibrium(network: Network, start: FloatArray | None = None) -> Equilibriu
 
     Notes
     -----
-    Eq. H18. J is the Jacobian of the residual. -J is an M-matrix if -J has no positive element off the diagonal, and if
-    every node becomes warmer when every node gains a little more heat. The equilibrium is then stable. If all row sums
-    of -J are positive, there is no second equilibrium. If hot flanks get little oil, a row sum may be negative; such a
-    case is solved nevertheless.
+    Eq. H18. J is the Jacobian of the residual. The matrix -J is an M-matrix if two conditions hold: it has no positive
+    element off the diagonal, and every node becomes warmer when every node gains a little more heat. If -J is an
+    M-matrix, the equilibrium is stable. If all row sums of -J are positive, there is no second equilibrium. If hot
+    flanks get little oil, a row sum may be negative; such a case is solved nevertheless.
     """
     rises = np.zeros(network.size) if start is None else np.array(start, dtype=float)
     residual = network.residual(rises)
@@ -105,7 +105,7 @@ def _residual_where_defined(network: Network, rises: FloatArray) -> FloatArray |
 
 
 def _check_stability(network: Network, slopes: FloatArray) -> None:
-    """Raise NoSolution (`thermal_runaway`) if one more watt at every node would not make every node warmer."""
+    """Raise NoSolution (`thermal_runaway`) if some node does not become warmer when every node gains one more watt."""
     response = np.linalg.solve(-slopes, np.ones(network.size))
     if float(response.min()) <= 0.0:
         node = network.nodes[int(np.argmin(response))]

@@ -1,6 +1,7 @@
-"""Warm-up of a gear pair or gear unit: the temperatures of the nodes over time, with the nodes' heat capacities.
+"""Warm-up of a gear pair or gear unit: the temperatures of the nodes as functions of time.
 
-The unit runs at full speed and load from the beginning. The losses change only with the viscosity of the oil.
+The heat capacities of the nodes determine how fast the temperatures change. The unit runs at full speed and load from
+the beginning. The losses change only with the viscosity of the oil.
 """
 
 from typing import Any

@@ -17,8 +17,8 @@ END_CONTACT = FACE / 2 * tan(radians(20.0)) / (DIAMETER / 2 * MISALIGNMENT)
 def bloch(crowning: float = 1.0, stiffness: float = 2.8e8, axial_velocity: float = 0.0) -> CouplingResult:
     """Solve Bloch's coupling.
 
-    The book does not state the number of teeth. 72 teeth of diametral pitch 8 are assumed. These numbers agree with the
-    diameter in the book.
+    The book does not state the number of teeth. The calculation assumes 72 teeth of diametral pitch 8. These numbers
+    agree with the diameter in the book.
     """
     design = Coupling(
         teeth=72,

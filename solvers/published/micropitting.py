@@ -66,9 +66,9 @@ A film ratio is film thickness divided by roughness. The keys are the kinematic 
 
 
 def asked_over_test() -> list[float]:
-    """Return the permissible film ratio, divided by the film ratio that the solvers compute for the oil test.
+    """Return one quotient of film ratios for each oil and load stage in `ASKED_FOR`.
 
-    The list has one item for each oil and load stage in `ASKED_FOR`.
+    The quotient is the permissible film ratio divided by the film ratio that the solvers compute for the oil test.
     """
     return [
         ratio / oil_test.film_of_test(mineral(*oil), stage).ratio
@@ -90,7 +90,7 @@ def _of_case(
 ) -> tuple[Statement, ...]:
     """Return the statements in `REPORT` about the films that `solve` computes.
 
-    `words` names the case in the statements. The other arguments are the numbers that the report prints.
+    `words` names the case in the statements. The report prints the numbers `friction`, `bulk` and `ratios`.
     """
     return (
         Says(REPORT, f"mean coefficient of friction, {words}").equals(friction, "-", lambda: solve().friction, PRINTED),

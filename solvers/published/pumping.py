@@ -24,7 +24,7 @@ def case(
 
 
 def table_1(flow: Flow = Flow.INCOMPRESSIBLE, discharge: float = 1.0, slices: int | None = None) -> PumpingResult:
-    """Solve, at 1000 rpm, the spur gears of Table 1, including their tip gaps."""
+    """Solve the spur gears of Table 1 at 1000 rpm; the calculation includes the tip gaps."""
     return run(TABLE_1, 1000.0, replace(TIP, flow=flow, discharge_coefficient=discharge), slices, 0.0)
 
 
@@ -37,7 +37,7 @@ def _hottest(number: int) -> float:
 
 
 def _relief(number: int) -> float:
-    """Return the reduction of the temperature rise by a groove, as a share of the rise without a groove."""
+    """Return the share by which a groove reduces the temperature rise in the case `number`."""
     return 1.0 - _rise(case(number, grooves=GROOVE)) / _rise(case(number))
 
 

@@ -2,9 +2,9 @@
 
 Data pass through the modules in this order: inputs, checks -> space -> flow -> one of the flow models (gas, chain,
 incompressible) -> resolution, lead_correction, pulsation. `space` describes shape, section and stroke of a tooth space,
-and divides the face between grooves. `flow` holds what all flow models use: the properties of the gas, the duct, and
-the records of a calculation. `spaces` prepares everything that does not depend on the speed, and calls the flow model.
-`model`, `choking` and `speed_scan` use `spaces`.
+and divides the face into the stretches between the grooves. `flow` holds what all flow models use: the properties of
+the gas, the duct, and the records of a calculation. `spaces` prepares everything that does not depend on the speed, and
+calls the flow model. `model`, `choking` and `speed_scan` use `spaces`.
 """
 
 from solvers.guards import guarded

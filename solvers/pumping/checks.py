@@ -88,8 +88,9 @@ def check_speed(pinion_speed: float) -> None:
 def refuse_cost(pinion_speed: float, parts: list[Stretch], excess: float) -> NoReturn:
     """Refuse a march that needs `excess` times the permitted number of steps.
 
-    Raises InvalidInput: narrow_land if the reason is the thin slices of a short stretch between grooves, else
-    too_many_steps. The message states the inputs with which the march would be permitted.
+    Raises InvalidInput. If a stretch between grooves is so short that its slices are very thin, the code is
+    narrow_land. Otherwise the code is too_many_steps. The message states the inputs with which the march would be
+    permitted.
     """
     narrowest, widest = min(part.width for part in parts), max(part.width for part in parts)
     if narrowest < NARROW * widest:

@@ -82,9 +82,10 @@ def choking_speeds(inputs: ChokingInputs) -> ChokingSpeeds:
 class _Demand:
     """Distance of a space from choking, as a function of the speed.
 
-    `radial` returns the logarithm of the largest pressure divided by the pressure at which the radial gap chokes.
-    `axial` returns the logarithm of the exit Mach number; the exit chokes at Mach 1. The argument of both functions is
-    the logarithm of the pinion speed. The flow at a speed is computed only once.
+    `radial` returns the logarithm of a ratio: the largest pressure divided by the pressure at which the radial gap
+    chokes. `axial` returns the logarithm of the exit Mach number. If `radial` returns at least 0, the radial gap is
+    choked. If `axial` returns at least 0, the exit is choked. The argument of both functions is the logarithm of the
+    pinion speed. The flow at a speed is computed only once.
     """
 
     def __init__(self, mesh: Mesh, space: Space, slices: int) -> None:

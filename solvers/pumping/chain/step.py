@@ -76,9 +76,10 @@ class Side(NamedTuple):
 
 
 class Passage(NamedTuple):
-    """Flow of mass or heat through an opening from left to right.
+    """Flow of mass or heat through an opening, and the derivatives of this flow.
 
-    The other fields are the derivatives of this flow by the states on both sides of the opening.
+    `flow` is positive from left to right. The other fields are the derivatives of `flow` by the pressures and the
+    masses on both sides of the opening.
     """
 
     flow: float
@@ -223,10 +224,10 @@ def _assemble(
 
 @kernel
 def _store(gas: Gas, pockets: RecordArray, low: int, high: int, isentropic: bool) -> None:
-    """Set the residuals and derivatives of closed pockets; `_leak` and `_exchange` add the flows.
+    """Set the residuals and derivatives that the pockets would have if no gas flowed in or out.
 
-    A closed pocket keeps its mass. It also keeps its entropy if `isentropic` is true. Otherwise, its energy changes by
-    the wall work only.
+    `_leak` and `_exchange` then add the flows. Without flows, a pocket keeps its mass. If `isentropic` is true, the
+    pocket also keeps its entropy. If `isentropic` is false, only the wall work changes the energy of the pocket.
     """
     g = gas.exponent
     for i in range(low, high):

@@ -13,9 +13,10 @@ class Duct(NamedTuple):
     """A stretch of a tooth space cut into equal cells.
 
     `start` is the distance from the end that meshes first [m]; `width` is the width of a cell [m], and `cells` is
-    the number of cells. `lag` is the angle by which the stroke begins later per metre of face [rad/m]. `speed` is the
-    speed of the owner, the gear to which the space belongs [rad/s]. Row k of `table` (`wall_table`) holds the walls at
-    the angle `first_angle` + k `angle_step` [rad]. `discharge` is the discharge coefficient.
+    the number of cells. At the distance z from the end that meshes first, the stroke begins later by the angle `lag` z;
+    `lag` has the unit [rad/m]. The owner is the gear to which the space belongs, and `speed` is the speed of the owner
+    [rad/s]. `wall_table` builds `table`. Row k of `table` holds the walls at the angle `first_angle` + k `angle_step`
+    [rad]. `discharge` is the discharge coefficient.
     """
 
     start: float
@@ -52,7 +53,8 @@ def wall_table(area: FloatArray, clearance: FloatArray, carried: FloatArray) -> 
 def wall_at(duct: Duct, z: float, angle: float) -> Wall:
     """Interpolate the walls at the position z [m] for an `angle` [rad] of the gear to which the space belongs.
 
-    Before and after the stroke, return the walls at the start and at the end of the stroke.
+    Before the stroke, return the walls at the start of the stroke. After the stroke, return the walls at the end of the
+    stroke.
     """
     position = (angle - duct.lag * z - duct.first_angle) / duct.angle_step
     table = duct.table

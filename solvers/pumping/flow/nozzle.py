@@ -97,9 +97,10 @@ def flux_squared(gas: Gas, upstream: float, density: float, drop: float) -> tupl
 
 @kernel
 def _expansion(power: float, drop: float) -> tuple[float, float]:
-    """Compute the density ratio y = x^power of an isentropic expansion, and y - x; x = 1 - drop is the pressure ratio.
+    """Compute the density ratio y of an isentropic expansion, and the difference y - x.
 
-    For small drops x and y are nearly equal. The difference y - x is then computed from the series
+    Here x = 1 - drop is the pressure ratio, and y = x^power. If the drop is small, x and y are nearly equal. The
+    difference y - x is then computed from the series
     1 - y = power drop (1 + (1 - power)/2 drop (1 + (2 - power)/3 drop (1 + ...))).
     """
     if drop > _SMALL:

@@ -171,9 +171,9 @@ def _fill(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, new_low: int,
 def _border(gas: Gas, duct: Duct, cells: Cells, low: int, high: int) -> State:
     """Compute the state of the gas with which the next cells begin their stroke.
 
-    This state is the state of the moving border (`front_face`) while the border is at the centre of the next cell. The
-    state of the gas behind the border is extrapolated by one cell width from the states of the last two active cells.
-    If no cell is active yet, the next cells begin with ambient gas at rest.
+    The state of the gas behind the moving border is extrapolated by one cell width from the states of the last two
+    active cells. From the extrapolated state, `front_face` computes the state at the border. The next cells begin with
+    the state at the border. If no cell is active yet, the next cells begin with ambient gas at rest.
     """
     if not low < high < duct.cells:
         return State(gas.density, 0.0, gas.pressure)
@@ -209,9 +209,9 @@ def _record_ends(
 ) -> None:
     """Record the flow out of both ends of the row of active cells.
 
-    Each end of the row is either an end of the duct or a border to idle cells. An end of the duct counts as an end of
-    the duct only for the share of the step in which the stroke is under way there. For the remaining share of the step,
-    this end counts as a border to idle cells.
+    Each end of the row is either an end of the duct or a border to idle cells. At an end of the duct, the stroke may be
+    under way for only a share of the step. The flow in this share of the step is recorded as flow out of the duct. The
+    flow in the rest of the step is recorded as flow to idle cells.
     """
     dt = turn / duct.speed
     for end in range(2):
@@ -233,11 +233,14 @@ def _record_cells(
 ) -> None:
     """Record wall losses, mean temperatures and extremes of the active cells.
 
-    Mean temperatures follow from the trapezoidal rule. The extremes leave out two kinds of cells. A cell whose stroke
-    ends within the step is closed for the remainder of the step and collects the inflow. A cell whose stroke has just
-    begun starts from the state of the border; the leakage of this cell settles within a fraction of a step, so the
-    implicit scheme of second order overshoots. `longest` is the largest permitted turn of a step [rad]. A stroke counts
-    as just begun during the first `_UNSETTLED` turns of this size.
+    Mean temperatures follow from the trapezoidal rule. The extremes leave out two kinds of cells:
+
+    - A cell whose stroke ends within the step. For the rest of the step, this cell is closed and collects the inflow.
+    - A cell whose stroke has just begun. This cell starts from the state of the border. The leakage of this cell
+      settles within a fraction of a step, so the implicit scheme of second order overshoots.
+
+    `longest` [rad] is the largest permitted turn of a step. A stroke has just begun if the owner has turned by less
+    than `_UNSETTLED` times `longest` since the stroke began.
     """
     old, new, loss, dt = cells.state, cells.next_state, cells.loss, turn / duct.speed
     for i in range(low, high):
@@ -268,7 +271,10 @@ def _take_over(cells: Cells, low: int, high: int) -> None:
 def _record_field(
     gas: Gas, duct: Duct, cells: Cells, record: Record, low: int, high: int, k: int, angle: float
 ) -> None:
-    """Record the gas at the angle with the number k in the active cells whose stroke is not over."""
+    """Record the gas in the active cells at the angle with the number k.
+
+    Cells whose stroke is over at this angle are left out.
+    """
     for i in range(low, high):
         if phase_of(duct, i, angle) <= stroke_end(duct):
             rho, u, p = cells.state[i].density, cells.state[i].velocity, cells.state[i].pressure

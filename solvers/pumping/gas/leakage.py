@@ -82,8 +82,8 @@ def implicit_stage(
 
     Notes
     -----
-    Eq. P7. In the code, `stiffness` [m^2] is the internal energy before the stage divided by the pressure after the
-    stage, for a cell without gaps. Such a cell does work on its walls and loses gas with the flanks.
+    Eq. P7. A cell without gaps does work on its walls, and loses the gas that the flanks carry out. For such a cell,
+    `stiffness` [m^2] in the code is the internal energy before the stage divided by the pressure after the stage.
     """
     g, area = gas.exponent, walls.area
     into, carried = max(-walls.transport, 0.0) * gas.density, max(walls.transport, 0.0) / area
@@ -146,15 +146,15 @@ def _is_settled(change: float, content: float, drop: float) -> bool:
 
     The step has changed the `content` of the cell [kg/m] by `change` [kg/m]. `drop` is the relative pressure drop.
     The linearised law leaves out the second derivative. Therefore the relative error of the flux is about
-    (change / content)^2 divided by the relative pressure drop, times a factor of 1 to 2. The factor results from the
-    powers with which pressure and density of the cell fall.
+    f (change / content)^2 / drop, where the factor f lies between 1 and 2. This factor depends on how steeply the
+    pressure and the density of the cell fall when the cell loses gas.
     """
     return 2.0 * change**2 <= _TOLERANCE * content**2 * max(drop, 0.0)
 
 
 @inlined_kernel
 def _outflow(gas: Gas, walls: Walls, stiffness: float, mass: float, inner: float, h: float, guess: float) -> float:
-    """Compute the leakage out of a cell above ambient pressure [kg/(s m)].
+    """Compute the leakage out of a cell whose pressure is above ambient pressure [kg/(s m)].
 
     `inner` is the internal energy of the cell before the leakage [J/m]. The pressure after the stage is inner /
     resistance. The resistance [m^2] is the stiffness plus a term for the enthalpy that leaks out.
@@ -184,7 +184,7 @@ def _outflow(gas: Gas, walls: Walls, stiffness: float, mass: float, inner: float
 def _inflow(
     gas: Gas, walls: Walls, stiffness: float, energy: float, momentum: float, mass: float, h: float, guess: float
 ) -> float:
-    """Compute the leakage into a cell below ambient pressure [kg/(s m)]."""
+    """Compute the leakage into a cell whose pressure is below ambient pressure [kg/(s m)]."""
     gap, heat, ambient = walls.gap, gas.heat_capacity * gas.temperature, 1.0 / (stiffness * gas.pressure)
     inflow = guess
     for _ in range(_NEWTON_LIMIT):

@@ -4,8 +4,8 @@
  d(A rho u)/dt     + d(A (rho u^2 + p))/dz     = p dA/dz - q u_q
  d(A rho E)/dt     + d(A u (rho E + p))/dz     = -p dA/dt - q h_q
 
-Here A is the area of the section, and E is the energy of the gas per unit mass, internal plus kinetic. q is the
-leakage, u_q is the velocity of the leaking gas, and h_q is the stagnation enthalpy of this gas.
+Here A is the area of the section, and E is the energy of the gas per unit mass, internal plus kinetic. The leakage
+is q, the velocity of the leaking gas is u_q, and the stagnation enthalpy of this gas is h_q.
 
 The MUSCL-Hancock method is of second order in space and time. States at the faces come from a limited linear
 reconstruction and a half-step predictor. The leakage q and the wall work are integrated by an implicit Runge-Kutta
