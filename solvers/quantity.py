@@ -4,8 +4,8 @@
     class Coupling:
         face_width: float = quantity("face width", "b", "ISO 21771", unit="mm", ge=0.1, le=2000, tolerance=0.1)
 
-The value of the attribute is in SI units. In the declaration, range, default and tolerance are in the unit in which the
-quantity is shown (here mm).
+The value of the attribute is in SI units. The declaration states the range, the default and the tolerance in the unit
+in which the quantity is shown (here mm).
 """
 
 import re

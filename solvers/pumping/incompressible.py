@@ -1,6 +1,7 @@
 """Incompressible flow out of a single spur tooth space (Rosen's theory), for checks at low speed.
 
-Gas dynamics does not tend to this model at low speed, because gas dynamics lets the pressure vary along the face.
+Even at low speed the results of this model differ from the results of gas dynamics. In gas dynamics the pressure varies
+along the face; in this model it does not.
 """
 
 import numpy as np

@@ -62,7 +62,10 @@ class Groove:
 
 @record
 class Ambient:
-    """The mist around the mesh, modelled as a perfect gas; pressure [Pa], temperature [K], molar mass [kg/mol]."""
+    """The mist around the mesh, modelled as a perfect gas.
+
+    The pressure is in [Pa], the temperature is in [K], and the molar mass is in [kg/mol].
+    """
 
     pressure: float = quantity(
         "ambient pressure",

@@ -96,10 +96,10 @@ def lead_correction(pair: GearPair, position: FloatArray, temperature_rise: Floa
 
 
 def _elongation(position: FloatArray, strain: FloatArray) -> FloatArray:
-    """Integrate the strain from the end of the face to the positions [m].
+    """Integrate the strain from the end z = 0 of the face to the positions [m].
 
-    The strain is linear between two positions, even if a groove lies between these positions. From the end of the face
-    to the first position, the strain is constant and equal to the strain at the first position.
+    The strain is linear between two positions, even if a groove lies between these positions. From the end z = 0 to the
+    first position, the strain is constant and equal to the strain at the first position.
     """
     parts = 0.5 * (strain[1:] + strain[:-1]) * np.diff(position)
     elongation: FloatArray = strain[0] * position[0] + np.concatenate([[0.0], np.cumsum(parts)])

@@ -30,8 +30,9 @@ def pulsation(meshing_frequency: float, flows: list[tuple[SpaceFlow, float, floa
     meshing_frequency : float
         Meshing frequency f_m [Hz].
     flows : list of tuple
-        For each gear: the flow of one stroke of its spaces; the speed of the gear [rad/s]; the share of a mesh period
-        by which the spaces reach the line of centres later than the pinion's spaces.
+        For each gear: the flow of one stroke of its spaces; the speed of the gear [rad/s]; the delay of its spaces. If
+        the spaces reach the line of centres later than the pinion's spaces, the delay is the time difference divided by
+        the mesh period. For the pinion the delay is 0.
 
     Returns
     -------

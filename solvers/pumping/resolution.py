@@ -5,10 +5,15 @@ first order, Roache's grid convergence index gives the uncertainty of the finer 
 between the grids (J. Fluids Eng. 116, 1994, 405).
 
 Extremes need more care. An extreme may lie between two slices, and two grids may agree on an extreme by
-chance. Therefore the estimate does three more things. It also uses a third grid, which has a quarter of the resolution.
-It increases the uncertainty of an extreme by a fifth. It includes places at which the value is not the highest yet, but
-rises with the resolution. In a test, 800 random gear pairs were computed again with twice the number of slices. Only
-one result changed by more than its uncertainty. This change was 1 % larger than the uncertainty.
+chance. Therefore the estimate does three more things:
+
+- It uses a third grid, which has a quarter of the resolution.
+- It increases the uncertainty of an extreme by a fifth.
+- It includes lower local maxima that rise with the resolution, because such a maximum may become the extreme on a finer
+  grid.
+
+In a test, 800 random gear pairs were computed again with twice the number of slices. Only one result changed by more
+than its uncertainty. This change was 1 % larger than the uncertainty.
 
 Two grids may also agree on an extreme but not on the pressure around it, because both grids damp the waves alike.
 Therefore the difference of the pressures close to an extreme is included. If the meshing line moves along the face
@@ -121,9 +126,10 @@ def compressed(gas: Gas, jump: float) -> float:
 def net_uncertainty(grids: Grids, jumped: float) -> float:
     """Estimate the uncertainty of the net mass through an end in a stroke [kg] from the flow at half the resolution.
 
-    The net mass is the difference between outflow and inflow, and may change little by chance. The uncertainty is
-    therefore at least the change of the outflow plus the change of the inflow. If jumps of the area change the pressure
-    by the share `jumped`, the uncertainty is also at least this share of all mass that passes the ends.
+    The net mass is the difference between outflow and inflow. Outflow and inflow change with the resolution, but by
+    chance their difference may change little. The uncertainty is therefore at least the change of the outflow plus the
+    change of the inflow. If jumps of the area change the pressure by the share `jumped`, the uncertainty is also at
+    least this share of all mass that passes the ends.
     """
     here, there = grids.flow.ends, grids.halved.ends
     ends = ((here.front, there.front), (here.rear, there.rear))
@@ -197,7 +203,8 @@ def _mach_reach(fine: SpaceFlow, half: SpaceFlow) -> float:
     """Estimate the value that the largest Mach number of all ends and slices may reach with more slices.
 
     The Mach number of a choked end is 1 on every grid. As the slices get shorter, the Mach number of the slices beside
-    an end tends to the Mach number of the end. The estimate includes slices that may exceed the Mach number of the end.
+    an end tends to the Mach number of the end. With more slices, the Mach number of a slice may exceed the Mach number
+    of the end; the estimate includes such slices.
     """
     slices, end = float(fine.peak_mach.max()), fine.largest_mach
     if slices == end:
@@ -221,9 +228,10 @@ def _profiles(gas: Gas, flow: SpaceFlow) -> dict[str, FloatArray]:
 
 
 def _reach(position: FloatArray, here: FloatArray, coarse: FloatArray, there: FloatArray, times: float = RISE) -> float:
-    """Compute the largest of the local maxima over the face after a further rise of every maximum.
+    """Estimate the value that the largest maximum over the face may reach with more slices.
 
-    The last rise of a maximum is the rise from the coarse to the fine grid. The further rise is `times` the last rise.
+    From the coarse to the fine grid, every local maximum has risen by a certain amount. With more slices, every local
+    maximum is assumed to rise further by `times` this amount.
     """
     edged = np.pad(here, 1, constant_values=-np.inf)
     tops = (here >= edged[:-2]) & (here >= edged[2:])

@@ -31,8 +31,9 @@ _ANGLES = 201  # number of angles at which fields are recorded, enough for figur
 class Space:
     """The tooth spaces of one gear.
 
-    `speed_ratio` is the speed of the gear divided by the speed of the pinion. `lag` is the angle of the gear by which
-    the stroke begins later per metre of face [rad/m].
+    `speed_ratio` is the speed of the gear divided by the speed of the pinion. The stroke begins at the end of the face
+    that meshes first, and later at every other place of the face. During this delay, the gear turns by the angle `lag`
+    [rad/m] per metre of distance between the place and this end.
     """
 
     of_pinion: bool
@@ -126,9 +127,10 @@ def flow_at(
 def coarser_flow_at(mesh: Mesh, space: Space, pinion_speed: float, slices: int, times: int) -> SpaceFlow:
     """Compute the stroke of `flow_at` at a resolution that is `times` times lower.
 
-    Gas dynamics gets fewer slices. Because a step never passes a recorded angle, gas dynamics also gets fewer recorded
-    angles. The pocket chain gets fewer steps, because the number of pockets is a constant of the model. The
-    incompressible model gets fewer positions. Raises the errors of `flow_at` except too_many_steps and narrow_land.
+    Gas dynamics gets fewer slices, and also fewer recorded angles, so that its steps can be longer: a step ends at the
+    next recorded angle at the latest. The pocket chain gets fewer steps, because the number of pockets is a constant of
+    the model. The incompressible model gets fewer positions. Raises the errors of `flow_at` except too_many_steps and
+    narrow_land.
     """
     if mesh.setup.model.flow is Flow.INCOMPRESSIBLE:
         return _single_pocket(mesh, space, pinion_speed, space.table.coarser(times))

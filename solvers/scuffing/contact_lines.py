@@ -52,8 +52,8 @@ def contact_lengths(path: PathOfContact) -> ContactLengths:
     Raises
     ------
     InvalidInput
-        `no_contact` if L_min = 0, because then no pair of teeth is in contact at some roll positions; `overlap_range`
-        if more than 100 lines are in contact at the same time.
+        `no_contact` if L_min = 0, because there are then roll positions at which no pair of teeth is in contact;
+        `overlap_range` if more than 100 lines are in contact at the same time.
 
     Notes
     -----
@@ -110,8 +110,8 @@ def roll_positions(
     """Return at least `count` roll positions, equidistant between neighbouring corners.
 
     `along_path` contains the x [m] of kinks of the gap, and `along_face` contains the y [m] of kinks of the gap. These
-    kinks and the edges of the plane are straight lines in the plane of action. A contact line passes the point (x, y)
-    at the roll position (x + y tan beta_b) mod p_bt. If two of the straight lines cross at this point, the roll
+    kinks and the edges of the plane are straight lines in the plane of action. If two of these straight lines cross at
+    the point (x, y), a contact line passes this point at the roll position (x + y tan beta_b) mod p_bt. This roll
     position is called a corner.
     """
     pitch = plane.base_pitch
@@ -143,8 +143,8 @@ def line_ends(plane: ContactPlane, phase: float, side: float) -> tuple[float, fl
     phase : float
         The x of the line at y = 0 [m].
     side : float
-        If the line of a spur gear lies at an end of the path: 1 for the limit from above, -1 for the limit from below.
-        Otherwise 0.
+        Limit that is taken if the line of a spur gear lies at an end of the path: 1 for the limit from above, -1 for
+        the limit from below, 0 for none.
 
     Returns
     -------
@@ -155,9 +155,9 @@ def line_ends(plane: ContactPlane, phase: float, side: float) -> tuple[float, fl
 
     Notes
     -----
-    Eq. L3: the line is x = phase - y tan beta_b. If the line of a spur gear lies at an end of the path, the line is in
-    contact if `side` selects the limit from inside the path. If the line of a helical gear only meets a corner of the
-    rectangle, the line is not in contact. Otherwise rounding errors would decide whether such a line counts when the
+    Eq. L3: the line is x = phase - y tan beta_b. The line of a spur gear may lie at an end of the path. Such a line is
+    in contact if `side` selects the limit from inside the path. The line of a helical gear may meet the rectangle at a
+    corner only. Such a line is not in contact. If it were, rounding errors would decide whether it counts when the
     least gap of the unloaded teeth is determined.
     """
     if plane.tan_base_helix == 0.0:

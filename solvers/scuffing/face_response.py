@@ -102,9 +102,9 @@ def _respond(
 
     At every roll position the force at station a is the sum of w dl hat_a over the slices, where hat_a is the hat
     function of the station. The derivative is k k^T / (1^T k) - P, where P_ab = sum (dw/ddelta) dl hat_a hat_b,
-    k = P 1, and 1 is the vector of ones. Forces and derivatives are multiplied by `share`: the weight of the roll
-    position in the average over the base pitch, times cos beta_b, so that the forces are transverse forces. Returns the
-    largest relative residual of the load balance.
+    k = P 1, and 1 is the vector of ones. Forces and derivatives are multiplied by `share`. The `share` of a roll
+    position is cos beta_b times the weight of this position in the average over the base pitch. The factor cos beta_b
+    converts the forces to transverse forces. Returns the largest relative residual of the load balance.
     """
     table, worst = slice_table(mesh, slices), 0.0
     springs = np.zeros(spread.size)

@@ -44,8 +44,8 @@ def face_load_factor(balance: LoadBalance, y: float) -> float:
     follows the idea of ISO 6336-1, annex E. The mean value of q is computed from the transmitted force and the face
     width. To find the largest value, q is first computed at equidistant places, at kinks of the gap and at `y`, without
     substeps between roll positions. Then q is computed on finer grids around the place with the largest q. If lines are
-    loaded over a part of their length only, q without substeps is inexact. In this case, finer grids are used around up
-    to three local maxima of q that are nearly as large.
+    loaded over a part of their length only, q without substeps is inexact. In this case, finer grids are also used
+    around up to two other local maxima of q that are nearly as large as the largest q.
     """
     plane = balance.mesh.plane
     evenly = np.linspace(0.0, plane.face_width, FACE_POINTS)

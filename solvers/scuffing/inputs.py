@@ -588,8 +588,9 @@ class MicropittingCheck:
 class ScuffingInputs:
     """Inputs of a scuffing check.
 
-    If `oil` is given, the calculation replaces `lubricant` by this oil at the bulk temperature. If neither `oil` nor
-    `lubricant` is given, film, contact temperature and safety factor are not computed.
+    If `oil` is given, a given `lubricant` is not used; the calculation computes `lubricant` from `oil` at the bulk
+    temperature. If neither `oil` nor `lubricant` is given, film, contact temperature and safety factor are not
+    computed.
 
     If `friction` is "given", the coefficient of friction in `distribution` is used. If `friction` is "iso_tr_13989",
     Blok's flash temperature uses the mean coefficient of ISO/TR 13989-1, and the losses use Schlenk's coefficient.

@@ -95,9 +95,9 @@ def _press(table: Slices, count: int, logarithmic: float, error: float) -> tuple
     """Take one iteration step for the load of every slice, at the transmission error `error` [m].
 
     Returns four values: the force [N]; the derivative of the force with respect to `error` [N/m]; an estimate of the
-    error of the force [N], because the loads of the slices have not converged; and the distance of `error` from the
-    nearest kink [m]. The load of a slice, as a function of `error`, has two kinks. At one kink the slice comes into
-    contact. At the other kink the compliance of the slice begins to be held constant.
+    inaccuracy of the force [N]; and the distance of `error` from the nearest kink [m]. The force is inaccurate as long
+    as the loads of the slices have not converged. The load of a slice, as a function of `error`, has two kinks. At one
+    kink the slice comes into contact. At the other kink the compliance of the slice begins to be held constant.
     """
     force, slope, unsettled, nearest = 0.0, 0.0, 0.0, np.inf
     for i in range(count):
@@ -202,7 +202,7 @@ class LoadBalance:
     `force` is the force [N] that the contact lines carry together; it is 0 without load. `transmission_error` is TE.
     `unloaded_error` is TE without load; this value equals the least gap over the lines. Both errors are measured along
     the transverse line of action [m]. `residual` is the residual of the load balance divided by the force. `steps` is
-    the number of Newton steps. `bent_steps` is the number of steps between neighbouring roll positions over which TE is
+    the number of Newton steps. `bent_steps` is the number of pairs of neighbouring roll positions between which TE is
     still not linear.
     """
 
@@ -299,7 +299,8 @@ def _bent_steps(balance: LoadBalance) -> IntArray:
 def _merged(balance: LoadBalance, added: LoadBalance, places: IntArray) -> LoadBalance:
     """Insert the roll positions of `added` into `balance`; both are balances of the same mesh.
 
-    For every added roll position, `places` contains the index of the roll position in `balance` that follows it.
+    `places` contains one index for every added roll position. The added roll position is inserted before the roll
+    position of `balance` that has this index.
     """
 
     def together(old: Any, new: Any) -> Any:
@@ -327,10 +328,10 @@ def _settle(
     """Solve the balance of a roll position at which lines are loaded over a part of their length only.
 
     `at` contains phase and side of the roll position. The start value `error` is the TE [m] of slices that cover whole
-    lines. Every pass cuts those parts of the lines that are loaded at the TE of the previous pass into slices, and
-    solves the balance again. The load is zero at the ends of a loaded part. An error of TE in one pass therefore causes
-    only a second-order error in the next pass. Returns the cover, TE [m], the relative residual, and the number of
-    steps.
+    lines. Every pass determines the parts of the lines that are loaded at the TE of the previous pass. The pass cuts
+    only these parts into slices, and solves the balance again. The load is zero at the ends of a loaded part. An error
+    of TE in one pass therefore causes only a second-order error in the next pass. Returns the cover, TE [m], the
+    relative residual, and the number of steps.
     """
     covers, steps, settled = 0, 0.0, False
     phase, side = at

@@ -20,8 +20,8 @@ from solvers.sources import ISO_6336, SCHLENK, XUE
 class Place:
     """A point of the flank.
 
-    The point is given by the profile parameter or the fraction of the path from A, and by the fraction of the face from
-    the end that meshes first.
+    The position along the path is given in two ways: by the profile parameter, and by the fraction of the path from A.
+    The position on the face is given by the fraction of the face from the end that meshes first.
     """
 
     gamma: float = quantity("profile parameter", "Γ", text="profile parameter, 0 at the pitch point")

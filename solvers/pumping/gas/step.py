@@ -255,7 +255,11 @@ def _predict(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, dt: float)
 
 @kernel
 def _own_flux(g: float, area: float, edge: State) -> Conserved:
-    """Compute the flux of a cell's own state at an edge; unlike in `ram_pressure`, the velocity is squared first."""
+    """Compute the flux of a cell's own state at an edge.
+
+    The ram pressure is computed as the density times the squared velocity. `ram_pressure` multiplies in another order,
+    which leads to other rounding errors.
+    """
     return flux(g, area, edge, edge.density * edge.velocity**2)
 
 
@@ -323,7 +327,11 @@ def _set_end(gas: Gas, cells: Cells, cell: int, face: int, end: int) -> None:
 
 @kernel
 def _correct(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, dt: float) -> bool:
-    """Compute the content at the end of the step from the fluxes in the middle of the step and two implicit stages."""
+    """Compute the content at the end of the step.
+
+    The content follows from the fluxes in the middle of the step, and from the exchange with the walls. The exchange is
+    computed in two implicit stages.
+    """
     fluxes, area, c, h = cells.flux, cells.face_area, cells.content, _DIAGONAL * dt
     loss, leak = cells.loss, cells.leak
     for i in range(low, high):

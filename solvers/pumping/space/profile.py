@@ -20,7 +20,7 @@ _GOLDEN = 0.6180339887498949  # (sqrt(5) - 1) / 2, the golden section
 
 @kernel
 def involute(roll: float, base: float) -> float:
-    """Compute the polar angle [rad] between the start of an involute and its point at a roll length [m]."""
+    """Compute the polar angle [rad] between the start of an involute and the point at the roll length `roll` [m]."""
     angle: float = roll / base - np.arctan(roll / base)
     return angle
 

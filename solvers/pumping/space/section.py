@@ -97,7 +97,7 @@ def _carried(space: ToothSpace, roll: float, gap: float) -> float:
     """Compute the area of gas [m^2] that rolling flanks have carried through a section of width `gap` [m].
 
     The area is positive if the gas moves towards growing roll lengths. The velocity of the gas is the mean of the
-    rolling velocities of both flanks. The integral of each rolling velocity over time begins at the angle at which this
+    rolling velocities of both flanks. Each rolling velocity is integrated over time, from the instant at which this
     velocity is 0.
     """
     facing = space.line_of_action - gap
@@ -113,8 +113,9 @@ def _side(space: ToothSpace, angle: float, mate_angle: float, gap: float) -> tup
     Flanks that face each other close the space on the line of action, where they are `gap` [m] apart. If the gap is 0,
     the involutes are used down to the base circles even if the gear is undercut. The path of contact is computed in the
     same way.
-    A wide gap is not always the narrowest place of the side, because a tip corner may be closer to the root fillet. The
-    distance of the tip corner is then the clearance, but the section that bounds the area stays on the line of action.
+    If the gap is wide, a tip corner may be closer to the other gear (for example to the root fillet) than the flanks
+    are to each other. The clearance is then the distance between the tip corner and the other gear. The section that
+    bounds the area stays on the line of action even in this case.
     """
     roll = space.pitch_roll + space.base_radius * (angle - space.pitch_half_angle)
     mate_roll = space.line_of_action - roll - gap

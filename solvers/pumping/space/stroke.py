@@ -24,10 +24,11 @@ class StrokeTable:
     """One stroke of a tooth space at equal steps of the owner's angle [rad], arrays of shape (positions,).
 
     `area` is in [m^2]; `clearance_left` and `clearance_right` are in [m]. `carried` is the area of the gas that the
-    flanks have carried out of the space through its narrowest sections since the stroke began [m^2]. The table holds
-    this accumulated area instead of its rate. At the angle at which a section passes from a tip corner to the flanks,
-    the rate jumps, and the slope of `area` changes. If `area` and `carried` are both interpolated between two
-    positions, they stay consistent.
+    flanks have carried out of the space through its narrowest sections since the stroke began [m^2].
+
+    The table holds this accumulated area, not its rate. If a section passes from a tip corner to the flanks between two
+    positions, the rate jumps and the slope of `area` changes between these positions. An interpolated rate would then
+    be inconsistent with the interpolated `area`. The interpolated `carried` is consistent with the interpolated `area`.
     """
 
     limits: StrokeLimits

@@ -75,7 +75,7 @@ def circumferential_backlash(pair: GearPair, normal_backlash: float) -> float:
     Returns
     -------
     float
-        Circumferential backlash of centre distance and thinned tooth together [m].
+        Circumferential backlash; the sum of the parts due to the centre distance and due to the thinner tooth [m].
 
     Notes
     -----

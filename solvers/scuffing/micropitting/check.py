@@ -52,7 +52,8 @@ def check_micropitting(
     Parameters
     ----------
     inputs : ScuffingInputs
-        Inputs of the scuffing check. Friction, temperatures and oil must be numbers; estimates are already computed.
+        Inputs of the scuffing check. If the friction, a temperature or a value of the oil is estimated, the inputs must
+        already contain the estimate.
     distribution : LoadDistribution
         Load distribution of the pair.
     grid : FlashMap

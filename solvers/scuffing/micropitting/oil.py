@@ -1,7 +1,8 @@
 """Viscosity and pressure-viscosity coefficient of an oil for the film of ISO/TR 15144-1.
 
-The film depends on both values at the temperature of each contact, and this temperature differs between contacts. If
-the oil is given by its data sheet, the laws of the oil therefore give both values at any temperature.
+The film of a contact depends on both values at the temperature of this contact. The temperature differs between
+contacts. Both values are therefore needed at any temperature. If the oil is given by its data sheet, the laws of the
+oil give these values.
 """
 
 from math import log10
