@@ -212,8 +212,8 @@ def _or_along(distribution: LoadDistribution, line: _Line, thinnest: Peak) -> Pe
     """Return `thinnest`, or the thinnest film on the profile line `line` if this film is thinner.
 
     Both films are computed by the formula of Dowson and Higginson. This function is called even if the profile line is
-    not checked. The reason is that a spur pair and its mirror image have different feature lines, so that the profile
-    line may be checked for only one of the two pairs. But the two pairs must have the same thinnest film.
+    not checked, because a spur pair and its mirror image must have the same thinnest film. The two pairs have different
+    feature lines, so that the profile line may be checked for only one of the two pairs.
     """
     if np.isnan(line.film).all():
         return thinnest

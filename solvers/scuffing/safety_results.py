@@ -95,7 +95,7 @@ class Flash:
 class ContactTemperature:
     """Bulk temperature t_M and largest contact temperature t_B = t_M + t_f [K] (Eq. 16).
 
-    t_f is the flash temperature; t_B is None if t_f is None. t_B by thermal EHL is the larger of two temperatures: the
+    t_f is the flash temperature; t_B is None if t_f is None. By thermal EHL, t_B is the larger of two temperatures: the
     temperature of the pinion and the temperature of the wheel. The temperature of a gear is the sum of the bulk
     temperature of this gear and the flash temperature of this gear.
     """
@@ -267,9 +267,9 @@ class ScuffingPath:
     """Results along a line from A to E: Blok's flash temperature [K], film [m] and ratio of the film to the roughness.
 
     The feature line is the diagonal y = psi b; the profile line lies at the face position of the hottest point. The
-    points of a line are equidistant, except for one or two added points. On both lines, the point with the largest
-    flash temperature by Blok is added. On the feature line, the point with the thinnest film by Dowson and Higginson is
-    also added.
+    points of a line are equidistant, except for a few added points. On both lines, the point with the largest flash
+    temperature by Blok is added. On the feature line, the point with the thinnest film by Dowson and Higginson is also
+    added.
 
     A point without load or motion has the status "unloaded"; its film and its ratio are NaN, and its flash temperature
     by Blok is 0. A loaded point at which the reduced radius vanishes has the status "refused"; all its values are NaN.

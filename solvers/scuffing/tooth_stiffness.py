@@ -421,8 +421,8 @@ def _half_space(path: PathOfContact, x: FloatArray, members: list[Member]) -> tu
     The compliance of the half-spaces is (Johnson 1985; Weber)
     delta_H / w = sum_i (1 - nu_i^2)/(pi E_i) [2 ln(2 d_i / b_H) - nu_i/(1 - nu_i)],  b_H^2 = 8 w R_n/(pi E').
     As a function of the load, delta_H / w is offset - slope ln w. The contact therefore contributes the part
-    offset / slope - ln w to omega. This part decreases as the load w increases. If w is so large that the half width
-    b_H is half the depth d_i of the half-space, this part is the third value, the least omega of the contact.
+    offset / slope - ln w to omega. This part decreases as the load w increases, until the half width b_H is half the
+    depth d_i of the half-space. The third value is the value of this part at this limit.
     """
     modulus = reduced_modulus(members[0].material, members[1].material)
     radius = np.maximum(reduced_radius(path.plane, x), LEAST_RADIUS * path.pair.inputs.normal_module)

@@ -104,9 +104,9 @@ def with_friction(inputs: ScuffingInputs, distribution: LoadDistribution) -> tup
 def with_temperatures(inputs: ScuffingInputs, distribution: LoadDistribution, flash: FlashMap) -> ScuffingInputs:
     """Return the inputs with numbers for bulk and scuffing temperature, and with the oil at the bulk temperature.
 
-    If no oil is given, the bulk temperature and the lubricant are None. Both are also None if the bulk temperature must
-    be estimated but the flash temperature is NaN at some point. The estimate needs the mean of the flash temperature,
-    and this mean is not defined if the flash temperature is NaN at some point.
+    If no oil is given, the bulk temperature and the lubricant are None. If `bulk_method` is "estimated", the bulk
+    temperature is computed from the mean flash temperature. This mean is not defined if the flash temperature is NaN at
+    some point; in this case the bulk temperature and the lubricant are also None.
 
     Raises
     ------
