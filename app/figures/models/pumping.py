@@ -109,8 +109,8 @@ def choking(inputs: ChokingInputs, result: ChokingSpeeds, curves: ChokingCurves)
 
     The exit Mach number is the Mach number after an expansion to ambient pressure. But if the gas in the outermost
     slice is itself supersonic, the Mach number in this slice is drawn instead. (The gas in a slice can be supersonic
-    only in the gas-dynamics model.) The Mach number in the slice is smaller than the Mach number after an expansion. The curve
-    therefore bends at the speed at which the gas in the outermost slice becomes supersonic.
+    only in the gas-dynamics model.) The Mach number in the slice is smaller than the Mach number after an expansion.
+    The curve therefore bends at the speed at which the gas in the outermost slice becomes supersonic.
     """
     critical, mach, peak = critical_ratio(inputs.setup), curves.exit_mach, curves.peak_pressure_ratio
     clearances = [Level(critical, f"clearances sonic, {number(critical)}", limit=True)]
