@@ -13,8 +13,8 @@ INTERRUPTED = 130  # exit status that shells report if Ctrl-C has ended a proces
 def main() -> None:
     """Run the command line.
 
-    While uvicorn serves, uvicorn itself handles Ctrl-C. When uvicorn has stopped serving, it sends the signal to this
-    process once more.
+    While uvicorn serves, uvicorn itself handles Ctrl-C. After uvicorn has stopped serving, uvicorn sends the signal of
+    Ctrl-C to this process once more.
     """
     # Ctrl-C must not raise an exception: a module that is being imported could lose the exception or change its type.
     signal.signal(signal.SIGINT, lambda *_: os._exit(INTERRUPTED))

@@ -194,7 +194,7 @@ class _Study(Generic[Http]):
         self._bar: Any = None
 
     def _begin(self) -> float:
-        """Prepare a run of the study. Return the time [s] at which to give up if the service is still busy then."""
+        """Prepare a run of the study. Return the time [s] until which the client waits for a busy service."""
         self.header, self.end = {}, {}
         if self._progress:
             from tqdm.auto import tqdm  # noqa: PLC0415  only progress bars need it
@@ -256,8 +256,8 @@ class _Study(Generic[Http]):
 class Study(_Study[httpx.Client]):
     """A study. Iterate over its results, or call `frame` for a table of all results.
 
-    `header` is the first line of the study, and `end` is the last line. Each of them is empty until the line has been
-    read.
+    `header` is the first line of the study, and is empty until the first line has been read. `end` is the last line,
+    and is empty until the last line has been read.
     """
 
     def __iter__(self) -> Iterator[Json]:

@@ -132,7 +132,8 @@ def _tell(name: str, percent: int) -> None:
 def _print_json(content: dict[str, Any]) -> None:
     """Print JSON. Use escapes if the standard output cannot encode a character.
 
-    If printing fails, exit with the reason. If the reader of a pipe has closed the pipe, continue instead.
+    If printing fails because the reader of a pipe has closed the pipe, continue. If printing fails for any other
+    reason, exit with this reason.
     """
     text = json.dumps(content, indent=1, ensure_ascii=False)
     try:
@@ -170,7 +171,7 @@ def serve(application: str) -> None:
 def open_standard_streams() -> None:
     """Replace closed standard streams by the null device.
 
-    Otherwise a socket could get the file number of a closed stream.
+    If a standard stream stayed closed, a socket could get the file number of this stream.
     """
     for name in ("stdin", "stdout", "stderr"):
         if getattr(sys, name) is None:

@@ -223,11 +223,13 @@ def case_of(endpoint: str, inputs: dict[str, Any], sources: str) -> str:
 def _assumptions(
     section: Section, derived: dict[str, Any], prefix: str = "", unused: frozenset[str] = frozenset()
 ) -> Iterator[dict[str, Any]]:
-    """Yield the field, the value used and the reason for each assumed default on which the result depends.
+    """Yield a dictionary for each assumed default on which the result depends.
+
+    The dictionary holds the field, the value used and the reason for the assumption.
 
     `derived` holds the values that the calculation used. The keys are the names of the fields. Groups and lists in
-    `derived` are named like the sections of the request. `unused` holds the dotted names of fields that the sections
-    around this section mark as unused.
+    `derived` are named like the sections of the request. `unused` holds the dotted names of unused fields. These fields
+    are marked as unused by the sections that contain `section`.
     """
     unused |= {prefix + name for name, left_out in section.unused().items() if left_out}
     for member in members(type(section)):

@@ -37,8 +37,8 @@ class Example(ExampleSummary):
 def examples() -> dict[str, Example]:
     """Return all examples. The keys are the names of the examples.
 
-    Starters come first, then starters outside the limits of their models, then all other examples. Each of these groups
-    is in alphabetical order.
+    Starters within the limits of their models come first, then starters outside these limits, then all other examples.
+    Each of these groups is in alphabetical order.
     """
     stored = [path for path in files("app.examples").iterdir() if path.name.endswith(".json")]
     texts = {path.name.removesuffix(".json"): path.read_text("utf-8") for path in stored}

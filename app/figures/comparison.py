@@ -35,7 +35,7 @@ def _key(panel: Panel) -> tuple[str, str | None]:
 
 
 def _overlaid(panel: Panel, other: Panel, name: str) -> Panel:
-    """Add those parts of `other` to the panel that differ from the panel's own parts.
+    """Return `panel` with further parts: the parts of `other` that differ from the parts of `panel`.
 
     Parts are curves, edges of filled shapes, bars, rows and limits. Marks are added only if the panel has areas.
     """

@@ -38,7 +38,7 @@ def orders(title: str, y: Axis, first: int, series: Mapping[str, Sequence[float]
 
 
 def extreme(curves: Sequence[Line], unit: str | None = None, *, least: bool = False) -> list[Mark]:
-    """Return one mark at the greatest value of all lines, or at the least value if `least` is set.
+    """Return a list with one mark at the greatest value of all lines, or at the least value if `least` is set.
 
     The text of the mark is this value. The list is empty if no point has a value.
     """

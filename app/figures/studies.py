@@ -302,8 +302,9 @@ def influence(output: Axis, value: float, influences: list[Influence]) -> Figure
 def corners(output: Axis, rows: list[Row], nominal: float | None) -> Figure:
     """Draw a row for each uncertain input, with a dot for each value of the input.
 
-    The dot of a value lies at the worst output that is possible with this value. The `value` of a row is the output at
-    the worst corner. The dot at this output is red. `nominal` is the output of the case as described.
+    An input has the same value at several corners. The dot for this value lies at the worst output of these corners.
+    The field `value` of every row in `rows` is the output at the worst of all corners. The dot at this output is red.
+    `nominal` is the output of the case as described.
     """
     levels = []
     if nominal is not None:

@@ -179,11 +179,12 @@ def _lines(
     """Return the list of lines to check, and the profile line through the hottest point.
 
     The feature line is always in the list. The profile line is in the list only if it is clearly hotter than the
-    feature line (`AS_HOT`). The second result is the profile line in both cases; it is None if `hottest` is None.
+    feature line (`AS_HOT`). The second result is the profile line even if the profile line is not in the list. If
+    `hottest` is None, there is no profile line, and the second result is None.
 
-    The points of a line are equidistant. The hottest point of each line is added to them. The point with the thinnest
-    film (Dowson and Higginson) is also added to the feature line. Without the added points, the largest flash
-    temperature and the thinnest film would depend on the number of points.
+    Every line has equidistant points and, in addition, its hottest point. The feature line also has the point with the
+    thinnest film (Dowson and Higginson). Without the added points, the largest flash temperature and the thinnest film
+    would depend on the number of points.
     """
     line_at = partial(_line_at, inputs.distribution, distribution, film_at)
     even = np.linspace(0.0, 1.0, inputs.path_points)
@@ -210,9 +211,9 @@ def _lines(
 def _or_along(distribution: LoadDistribution, line: _Line, thinnest: Peak) -> Peak:
     """Return `thinnest`, or the thinnest film on the profile line `line` if this film is thinner.
 
-    Both are films of Dowson and Higginson. A spur pair and its mirror image have different feature lines. The profile
-    line may therefore be checked for only one of the two pairs. This function is called even if the profile line is not
-    checked, so that the pair and its mirror image have the same thinnest film.
+    Both films are computed by the formula of Dowson and Higginson. This function is called even if the profile line is
+    not checked, because a spur pair and its mirror image must have the same thinnest film. The two pairs have different
+    feature lines, so that the profile line may be checked for only one of the two pairs.
     """
     if np.isnan(line.film).all():
         return thinnest
@@ -231,8 +232,9 @@ def _contact_temperature(
 ) -> ContactTemperature:
     """Return the largest contact temperatures [K], which are sums of bulk and flash temperature.
 
-    Blok's flash temperature is added to the mean bulk temperature `bulk`. A flash temperature by thermal EHL belongs to
-    one of both surfaces, and is added to the bulk temperature of this surface.
+    Blok's flash temperature is added to the mean bulk temperature `bulk`. The thermal EHL solution has one flash
+    temperature for the pinion and one for the wheel. The flash temperature of a gear by thermal EHL is added to the
+    bulk temperature of this gear.
     """
     thermal = None
     if flash.thermal_ehl_max is not None:

@@ -95,8 +95,9 @@ class Flash:
 class ContactTemperature:
     """Bulk temperature t_M and largest contact temperature t_B = t_M + t_f [K] (Eq. 16).
 
-    t_f is the flash temperature; t_B is None if t_f is None. A heat balance gives pinion and wheel different bulk
-    temperatures. A flash temperature by thermal EHL is therefore added to the bulk temperature of the same surface.
+    t_f is the flash temperature; t_B is None if t_f is None. By thermal EHL, t_B is the larger of two temperatures: the
+    temperature of the pinion and the temperature of the wheel. The temperature of a gear is the sum of the bulk
+    temperature of this gear and the flash temperature of this gear.
     """
 
     bulk: float = quantity(
@@ -239,10 +240,10 @@ class ScuffingDerived:
 class ThermalPath:
     """The thermal EHL solution at the points of a line; temperatures [K], films [m], pressure [Pa], friction [-].
 
-    The values are NaN at unsolved points. If the solver refuses a point because its load is too light, the point is
-    solved under the lightest load that the solver accepts. `flash_bound` [K] and `film_bound` [m] are the flash
-    temperature and the film of the point under this load. The real flash temperature of the point is not higher than
-    `flash_bound`, and the real film is not thinner than `film_bound`.
+    The curves are NaN at points that are not solved under their own load. If the solver refuses a point because the
+    load is too light, the point is solved under the lightest load that the solver accepts. `flash_bound` [K] and
+    `film_bound` [m] are the flash temperature and the film of the point under this lightest load. The real flash
+    temperature of the point is not higher than `flash_bound`, and the real film is not thinner than `film_bound`.
     """
 
     status: tuple[PointStatus, ...]
@@ -266,8 +267,9 @@ class ScuffingPath:
     """Results along a line from A to E: Blok's flash temperature [K], film [m] and ratio of the film to the roughness.
 
     The feature line is the diagonal y = psi b; the profile line lies at the face position of the hottest point. The
-    points of a line are equidistant. The point with the largest flash temperature by Blok is added to them. On the
-    feature line, the point with the thinnest film by Dowson and Higginson is also added.
+    points of a line are equidistant, except for a few added points. On both lines, the point with the largest flash
+    temperature by Blok is added. On the feature line, the point with the thinnest film by Dowson and Higginson is also
+    added.
 
     A point without load or motion has the status "unloaded"; its film and its ratio are NaN, and its flash temperature
     by Blok is 0. A loaded point at which the reduced radius vanishes has the status "refused"; all its values are NaN.

@@ -4,9 +4,10 @@ At a slice of a contact line, the flanks approach each other by delta along the 
 line load w. There are two contact models:
     linear contact      delta = C w
     half-space contact  delta = a w omega,  omega = A/a - ln w      (w in N/m)
-The load of a half-space contact is w = delta / (a omega). Here omega is the solution of
-omega - ln omega = A/a + ln(a / delta), which is a branch of Lambert's function. C, A and a are compliances [1/Pa]. a is
-the same at all points of the path of contact; C and A depend on the point. `PairCompliance` contains these compliances.
+The load of a half-space contact is w = delta / (a omega). Here omega is the solution of the equation
+omega - ln omega = A/a + ln(a / delta). This solution is a branch of Lambert's function. C, A and a are compliances
+[1/Pa]. The compliance a is the same at all points of the path of contact; the compliances C and A depend on the point.
+`PairCompliance` contains these compliances.
 """
 
 from dataclasses import dataclass, replace
@@ -306,7 +307,7 @@ class Member:
     """One gear of the pair.
 
     `radius` [m] and `bending` [1/Pa] are arrays over the points of the compliance table. `radius` is the radius at
-    which the tooth is loaded, and `bending` is the bending compliance of the tooth under this load.
+    which the load acts on the tooth. `bending` is the bending compliance of the tooth under a load at this radius.
     """
 
     gear: Gear
@@ -420,8 +421,8 @@ def _half_space(path: PathOfContact, x: FloatArray, members: list[Member]) -> tu
     The compliance of the half-spaces is (Johnson 1985; Weber)
     delta_H / w = sum_i (1 - nu_i^2)/(pi E_i) [2 ln(2 d_i / b_H) - nu_i/(1 - nu_i)],  b_H^2 = 8 w R_n/(pi E').
     As a function of the load, delta_H / w is offset - slope ln w. The contact therefore contributes the part
-    offset / slope - ln w to omega. This part decreases as the load increases. The third value is this part under the
-    load at which the half width b_H is half the depth d_i of the half-space.
+    offset / slope - ln w to omega. This part decreases as the load w increases, until the half width b_H is half the
+    depth d_i of the half-space. The third value is the value of this part at this limit.
     """
     modulus = reduced_modulus(members[0].material, members[1].material)
     radius = np.maximum(reduced_radius(path.plane, x), LEAST_RADIUS * path.pair.inputs.normal_module)
@@ -503,8 +504,8 @@ def line_load_near(
     The equation omega - ln omega = A/a + ln(a / delta) is solved by the iteration of Fritsch, Shafer and Crowley (1973)
     for Lambert's function. This iteration needs one logarithm per step and converges from any guess. After a step, the
     error of omega is of the order of the fourth power of the step. The derivative is dw/d(delta) = 1 / (a (omega - 1)).
-    The guess is given as ln w, because from one roll position to the next ln w changes less than omega. If `approach`
-    exceeds `limit`, the returned ln w belongs to `limit`.
+    The guess is given as ln w and not as omega, because ln w changes less than omega between neighbouring roll
+    positions. If `approach` exceeds `limit`, the returned ln w belongs to `limit`.
     """
     if approach <= 0.0:
         return 0.0, 0.0, log_load, 0.0

@@ -55,7 +55,8 @@ class Place(NamedTuple):
     """Position of the axes of a panel in the image.
 
     `box` holds left, top, width and height as fractions of the image. `x` describes the abscissa, and `y` describes the
-    ordinate. Either of them holds the two ends of the axis, and True if the axis is logarithmic.
+    ordinate. The first two items of `x` and of `y` are the ends of the axis. The third item is True if the axis is
+    logarithmic.
     """
 
     panel: Panel
@@ -249,7 +250,8 @@ def _thin_ticks(axes: Axes) -> None:
 def _overhang(axes: Axes) -> float:
     """Return the length [in] by which texts extend beyond the right end of axes.
 
-    Only the texts at rows and half of the last tick label can extend beyond this end.
+    Two kinds of text can extend beyond this end: the texts beside rows, and the last tick label. At most half of the
+    tick label lies beyond the end.
     """
     rows = dict[float, float]()
     for text in (text for text in axes.texts if text.get_gid() is None):

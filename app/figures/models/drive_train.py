@@ -213,9 +213,10 @@ def journals(_: DriveTrainInputs, result: DriveTrainResult) -> Figure:
 
 
 def _locus(x: float, y: float, reaction: Vector2) -> tuple[Values, Values]:
-    """Return the path of a journal from the middle of the clearance to its displacement as the load grows.
+    """Return the path on which a growing load moves a journal from the middle of the clearance to (x, y).
 
-    The displacement (x, y) and the path are divided by the clearance. The direction of the load does not change.
+    The point (x, y) is the displacement of the journal under the full load. The displacement and the path are divided
+    by the clearance. The direction of the load does not change.
     """
     load = atan2(-reaction[1], -reaction[0])
     side = copysign(1.0, sin(atan2(y, x) - load))

@@ -107,9 +107,10 @@ def scan(inputs: ChokingInputs, result: ChokingSpeeds) -> ChokingCurves:
 def choking(inputs: ChokingInputs, result: ChokingSpeeds, curves: ChokingCurves) -> Figure:
     """Draw peak pressure and exit Mach number over the speed, with the limits of sonic flow and the choking speeds.
 
-    The exit Mach number is the Mach number after an expansion to ambient pressure. If the gas in the outermost slice is
-    itself supersonic (possible in gas dynamics only), the smaller Mach number of this slice is drawn instead. The curve
-    bends at the speed at which the gas in this slice becomes supersonic.
+    The exit Mach number is the Mach number after an expansion to ambient pressure. But if the gas in the outermost
+    slice is itself supersonic, the Mach number in this slice is drawn instead. (The gas in a slice can be supersonic
+    only in the gas-dynamics model.) The Mach number in the slice is smaller than the Mach number after an expansion.
+    The curve therefore bends at the speed at which the gas in the outermost slice becomes supersonic.
     """
     critical, mach, peak = critical_ratio(inputs.setup), curves.exit_mach, curves.peak_pressure_ratio
     clearances = [Level(critical, f"clearances sonic, {number(critical)}", limit=True)]

@@ -99,8 +99,8 @@ def contact_temperature(inputs: ScuffingInputs, result: Scuffing) -> Figure:
 def _bulk_of(result: Scuffing, surface: str) -> float:
     """Return the bulk temperature [°C] of a surface.
 
-    If there is a heat balance, pinion and wheel have different bulk temperatures. Otherwise, and for other names of
-    surfaces, the bulk temperature of the pair is returned.
+    If there is a heat balance and `surface` is "pinion" or "wheel", the bulk temperature of this gear is returned. In
+    all other cases, the bulk temperature of the pair is returned.
     """
     if result.heat is not None and surface in {"pinion", "wheel"}:
         return result.heat.pinion.flank if surface == "pinion" else result.heat.wheel.flank
@@ -314,7 +314,7 @@ def _unsolved(result: Scuffing) -> int:
 
 
 def _warned(path: ScuffingPath) -> list[Span]:
-    """Return the ranges of a path whose points have warnings. Only the first range has a name.
+    """Return the ranges of a path in which all points have warnings. Only the first range has a name.
 
     A range ends midway between a point with warnings and a point without warnings.
     """

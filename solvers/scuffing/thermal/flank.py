@@ -40,7 +40,7 @@ ContactFunction = Callable[[ContactPoints], FloatArray]
 
 @dataclass(frozen=True, slots=True)
 class FlashMap:
-    """Blok's flash temperature `flash` [K] over a grid of the flank; NaN at points where it has no limit.
+    """Blok's flash temperature `flash` [K] over a grid of the flank; NaN at points without a finite flash temperature.
 
     The grid has the coordinates x (n,) along the path and y (m,) along the face [m]. Values over the grid have the
     shape (n, m); a row contains the points with the same x. `load` is the line load [N/m]. `heaviest` contains one
@@ -140,8 +140,8 @@ def find_hottest(
         The result of `map_flash` for the pair and its load distribution.
     bulk : callable, optional
         Function that returns the bulk temperature [K] at distances y [m] from the end that meshes first. If `bulk` is
-        given, the largest sum of bulk and flash temperature is searched. Otherwise the largest flash temperature is
-        searched.
+        given, the result is the largest sum of bulk and flash temperature. If `bulk` is None, the result is the largest
+        flash temperature.
 
     Returns
     -------
@@ -236,8 +236,8 @@ def _or_beside(distribution: LoadDistribution, peak: Peak, function: FlankFuncti
     """Return `peak`, or a higher value on certain lines of the flank.
 
     The profile line through `peak` is searched. For spur pairs, one diagonal of the flank is also searched: the feature
-    line of the mirror image of the pair. The feature line of the pair itself is searched elsewhere. A pair and its
-    mirror image therefore have the same largest value.
+    line of the mirror image of the pair. Other functions search the second diagonal, which is the feature line of the
+    pair itself. Both diagonals are searched so that a pair and its mirror image have the same largest value.
     """
     peak = max(peak, _peak_at_kinks(distribution, function, peak), key=_height)
     if distribution.path_of_contact.plane.tan_base_helix > 0.0:
@@ -248,10 +248,10 @@ def _or_beside(distribution: LoadDistribution, peak: Peak, function: FlankFuncti
 def _peak_at_kinks(distribution: LoadDistribution, function: FlankFunction, peak: Peak) -> Peak:
     """Find the largest value on the profile line through `peak`, at the roll positions of the load balance.
 
-    At every roll position, the contact lines cross the profile line at certain points; these points are searched. Where
-    another pair of teeth begins to carry load, the load has a sharp maximum. This maximum lies at a roll position,
-    because the approach is linear between roll positions. The search over the grid can miss this maximum, because roll
-    positions may lie closer together than the points of the grid.
+    Where another pair of teeth begins to carry load, the load has a sharp maximum. This maximum lies at a roll position
+    of the load balance, because the approach of the flanks is linear between roll positions. The search over the grid
+    can miss this maximum, because roll positions may lie closer together than the points of the grid. This function
+    therefore searches, for every roll position, the points at which the contact lines cross the profile line.
     """
     plane, rolls = distribution.path_of_contact.plane, distribution.balance.rolls
     # At the other roll positions the load of a spur gear jumps; the map contains both sides of these jumps.

@@ -42,7 +42,7 @@ def lubricant_factor(viscosity: float, kind: OilKind) -> float:
     Notes
     -----
     X_L = eta_oil^-0.05 with eta_oil in mPa s (Eq. R6). For polyalphaolefins this value is multiplied by 0.8, and for
-    polyglycols by 0.7. No such number is known for esters; esters are treated as mineral oils.
+    polyglycols by 0.7. For esters no multiplier is known; esters are treated as mineral oils.
     """
     return float(OIL_KIND_FACTOR[kind] * (viscosity * 1e3) ** -0.05)
 

@@ -59,10 +59,12 @@ def in_force(inputs: ScuffingInputs, distribution: LoadDistribution) -> InForce:
     """Replace every estimate in the inputs and in the load distribution by a number.
 
     Estimates are made for the friction, the temperatures and the oil. If `bulk_method` is "heat_balance", the heat
-    balance of the pair is solved, except in two cases. If no oil is given, it cannot be solved. If the flank
-    temperatures are given, it is not needed: they are given for a pair in a gear unit, because the heat balance of the
-    unit is solved before the pair is checked. Raises the errors of `with_friction`, `pair_heat` and
-    `with_temperatures`.
+    balance of the pair is solved, except in two cases:
+    - No oil is given. The heat balance cannot be solved without an oil.
+    - The flank temperatures are given. This is the case if the pair belongs to a gear unit, because the heat balance of
+      the unit is solved before the pair is checked.
+
+    Raises the errors of `with_friction`, `pair_heat` and `with_temperatures`.
     """
     inputs, distribution = with_friction(inputs, distribution)
     flash = map_flash(inputs.distribution, distribution)
@@ -102,8 +104,9 @@ def with_friction(inputs: ScuffingInputs, distribution: LoadDistribution) -> tup
 def with_temperatures(inputs: ScuffingInputs, distribution: LoadDistribution, flash: FlashMap) -> ScuffingInputs:
     """Return the inputs with numbers for bulk and scuffing temperature, and with the oil at the bulk temperature.
 
-    If no oil is given, the bulk temperature and the lubricant are None. Both are also None if the bulk temperature
-    cannot be estimated, because the flash temperature is NaN at some point and therefore has no mean.
+    If no oil is given, the bulk temperature and the lubricant are None. If `bulk_method` is "estimated", the bulk
+    temperature is computed from the mean flash temperature. This mean is not defined if the flash temperature is NaN at
+    some point; in this case the bulk temperature and the lubricant are also None.
 
     Raises
     ------
@@ -175,7 +178,7 @@ def oil_notices(inputs: ScuffingInputs, path: PathOfContact) -> Iterator[Notice]
 
 
 def _material_notices(inputs: ScuffingInputs) -> Iterator[Notice]:
-    """Warn if a gear is not made of steel, but estimates use formulas for steel gears."""
+    """Warn if a gear is not made of steel and a value of the pair is estimated by a formula for steel gears."""
     estimates = {
         "the coefficient of friction": inputs.friction == "iso_tr_13989",
         "the bulk temperature": inputs.temperatures.bulk_method == "estimated",

@@ -184,7 +184,8 @@ def _any_number(values: FloatArray) -> bool:
 def _what_leaves_no_film(distribution: LoadDistribution) -> str:
     """Return the name of the input that causes points without a film.
 
-    This input is the torque or the speed if its value is 0. Otherwise the modifications are the cause.
+    If the teeth transmit no force, the cause is the torque. If the teeth transmit a force but do not move, the cause is
+    the speed. In all other cases the modifications are the cause.
     """
     if distribution.balance.force == 0.0:
         return "pinion_torque"
