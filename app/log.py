@@ -1,8 +1,8 @@
 """Log and metrics of the service.
 
-A separate thread writes the log. If the reader of the log stops reading, requests are therefore not delayed. Lines that
-do not fit into the queue of this thread are dropped and counted. Lines about answered requests go to the standard
-output. All other lines go to the standard error.
+A separate thread writes the log, so that requests are not delayed if the reader of the log stops reading. Lines that do
+not fit into the queue of this thread are dropped and counted. Lines about answered requests go to the standard output.
+All other lines go to the standard error.
 """
 
 import logging

@@ -1,4 +1,4 @@
-"""A route that reads its JSON body by strict rules. Then FastAPI validates the body by the signature of the handler."""
+"""A route that reads its JSON body by strict rules before FastAPI validates the body by the handler's signature."""
 
 from collections.abc import Callable, Coroutine
 from typing import Any, cast

@@ -69,7 +69,7 @@ def _common(calculation: Calculation, name: str) -> str:
     """Return the shared name of a field.
 
     For calculations of gears, the shared name is the name of the field in requests of scuffing. If these requests do
-    not have the field, its name stays the same.
+    not have the field, the shared name is `name`.
     """
     if subject_of(calculation) != "pair" or not name.startswith(OPERATION):
         return name

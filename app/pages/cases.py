@@ -48,11 +48,11 @@ class Asked:
     no field was filled in.
 
     Addresses that people may store contain a hash of the solvers' source code. If such an address is opened later, the
-    page can therefore tell the reader whether the numbers may have changed.
+    page compares this hash with the present hash, and tells the reader whether the numbers may have changed.
 
-    A case that is too long for a link is sent by POST. The addresses of its figures then contain `answered`. These are
-    the hashes of the case and of the variant, as the answers state them. Such an address works as long as both answers
-    are kept.
+    A case that is too long for a link is sent by POST. The addresses of the figures of such a case contain `answered`.
+    The field `answered` holds two hashes: the hash of the case and the hash of the variant. The answers state these
+    hashes. The address of a figure works as long as both answers are kept.
     """
 
     path: str
@@ -124,8 +124,8 @@ class Asked:
     def written(self) -> str:
         """The value of the form's hidden field `written`.
 
-        This value holds the texts that the service writes into the form, but would read differently if a user typed
-        them.
+        The service fills in the form with texts. Some of these texts would have another meaning if a user typed them.
+        The value holds these texts with the names of their fields.
         """
         return written_of(self.calculation.request, self.pairs)
 

@@ -27,9 +27,9 @@ class Chart:
     """A figure on a page.
 
     `image` is the address of the image. `dark` is the address of a second image for dark pages, or an empty text. The
-    values of the figure are either at the address `values`, or in `content` and `table`; `content` is JSON. `study` is
-    JSON too; the field holds the points of a sweep and the links to the cases at these points. `size` is width and
-    height in pixels. `size` is None if the data of the figure are still to be computed.
+    values of the figure are either at the address `values`, or in `content` and `table`. `study` holds the points of a
+    sweep and the links to the cases at these points. `content` and `study` are JSON texts. `size` is width and height
+    in pixels, or None if the data of the figure are still to be computed.
     """
 
     name: str
@@ -64,7 +64,8 @@ def figures_of(
 ) -> tuple[list[tuple[Declaration, Figure | None]], list[tuple[str, NoFigure]]]:
     """Return the figures that the page of a case shows, and the titles of missing figures with the reasons.
 
-    If `compute` is False, None replaces each figure that needs more data than the answer holds.
+    Some figures need more data than the answer holds. If `compute` is False, these figures are not made, and the list
+    of figures has None in their places.
     """
     figures, missing = [], []
     for declaration in case.calculation.figures:
@@ -125,9 +126,9 @@ def data_address(figure: Figure, theme: ThemeName = "light") -> str:
 def in_columns(figures: Iterable[Figure]) -> list[Figure]:
     """Narrow the figures to the columns of a report, and return them in the order of the report.
 
-    The report has two columns. Figures that fit into a column come in pairs: the first remaining figure, and the figure
-    whose height is nearest to the height of this first figure. Figures that need the whole width are not narrowed and
-    come last.
+    The report has two columns. Figures that fit into a column come first, in pairs. The first figure of a pair is the
+    next figure in the given order. The second figure of the pair is the remaining figure whose height is nearest to the
+    height of the first figure. Figures that need the whole width are not narrowed and come last.
     """
     from app.figures.drawing.image import narrowed, size  # noqa: PLC0415  only workers draw
 

@@ -32,9 +32,9 @@ class State:
 
     `texts` holds the texts of the fields, `faults` holds the messages about their faults, and `resolved` holds the
     values that an answer used for the fields. `assumed` are the fields whose default is our own assumption. `required`
-    is the remark beside every field that must be given. The remark says whether the field must always be given, or only
-    if the optional section of the field is used. `deciding` are the fields on which a verdict depends; the sections of
-    these fields are open. `endpoint` is the endpoint to which the form belongs.
+    is the remark beside required fields. The remark says that these fields are always required, or that they are
+    required only if their optional section is used. `deciding` are the fields on which a verdict depends; the sections
+    of these fields are open. `endpoint` is the endpoint to which the form belongs.
     """
 
     texts: Mapping[str, str] = field(default_factory=dict)
@@ -101,10 +101,14 @@ class Choice:
 class Section:
     """A part of the form.
 
-    There are three kinds of sections. In a `section`, fields, choices and inner sections stand below each other. `rows`
-    are the items of a list of sections; the last item is empty, so that the user can add an item. `twins` are sections
-    of the same model that stand side by side, with one line per field; `columns` holds the titles of these sections
-    under their paths. `switch` is the field by which the user adds or removes an optional section.
+    `kind` is one of three words:
+
+    - `section`: the part shows fields, choices and inner sections one below the other.
+    - `rows`: the part shows the items of a list of sections. The last item is empty, so that the user can add an item.
+    - `twins`: the part shows sections of the same model side by side, with one line per field. `columns` holds the
+      titles of these sections; the keys are the paths of the sections.
+
+    `switch` is the field by which the user adds or removes an optional section.
     """
 
     path: str
@@ -288,8 +292,8 @@ def _blocks(branch: Branch, prefix: str, state: State) -> Iterator[Block]:
 def _choices(branch: Branch) -> dict[str, tuple[Leaf, ...]]:
     """Return the groups of alternative fields. Only one field of each group may be given.
 
-    The keys are the paths of all fields in these groups, and the value of a key is the group of this field. If a field
-    is in several groups, only the first of these groups counts.
+    A key is the path of a field, and the value under this key is the group that contains the field. If a field is in
+    several groups, only the first of these groups counts.
     """
     fields = {_last(leaf.path): leaf for leaf in branch.leaves}
     choices: dict[str, tuple[Leaf, ...]] = {}

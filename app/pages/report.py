@@ -105,11 +105,11 @@ def _with_origin(sections: list[Section], origins: frozenset[str]) -> list[Secti
 
 
 def _left(sections: list[Section]) -> list[tuple[str, list[tuple[Leaf, str, bool]]]]:
-    """Return the title of each section, and those inputs of the section for which defaults are used.
+    """Return the title of each section, and those inputs of the section that have their default value or no value.
 
-    Every input comes with a text and a boolean. If the boolean is True, the text is the default value. Otherwise the
-    input is empty and has no default value. The text then says what replaces the value, for example the quantity from
-    which the value is estimated.
+    Every input comes with a text and a boolean. If the boolean is True, the input has a default value, and the text is
+    this value. If the boolean is False, the input has no value, and the text says what replaces the value. An example
+    is the quantity from which the value is estimated.
     """
     left = []
     for title, _, rows in sections:

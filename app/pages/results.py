@@ -207,8 +207,9 @@ def resolved(response: Response) -> dict[str, Any]:
 def cards(response: Documented, inputs: dict[str, Any], before: Documented | None = None) -> list[Row]:
     """Return the headline numbers, sorted by rank.
 
-    If several numbers have the same rank, only the number with the worst verdict is returned. If their verdicts are
-    equal, only the largest of these numbers is returned. If a warning makes the answer doubtful, no verdict is good.
+    If several numbers have the same rank, only the number with the worst verdict is returned. If several of these
+    numbers have the worst verdict, only the largest of them is returned. If a warning makes the answer doubtful, the
+    level `near` replaces the level `good`.
     """
     values, old = values_by_path(response), values_by_path(before)
     judged = verdicts(response) if isinstance(response, Response) else {}

@@ -77,11 +77,14 @@ def studies_of_case(
 ) -> list[Starter]:
     """Return links that apply the ready studies of a calculation to a case.
 
-    The ranges of the varied fields lie around the values of the case. `derived` holds values that the case does not
-    state, under the paths of these values. An example is the power that follows from a given torque. `file` names the
-    REXS file from which the case was read. A study is left out if it varies a number that the case neither states nor
-    implies. A field is varied over the range of the example if its value in the case is zero. The same holds for an
-    empty field with options.
+    `derived` holds values that the case does not state but implies, for example the power that follows from a given
+    torque. The keys are the paths of these values. `file` holds the name of the REXS file from which the case was read.
+
+    The range of a varied field depends on the value of the field in the case:
+
+    - If the case states or implies a value, the range lies around this value.
+    - If the value is zero, or if the field has options and is empty, the range is that of the example.
+    - If the case neither states nor implies a number, the study is left out.
     """
     address, starters = f"{page_path(calculation)}/{VARY}", []
     for example in studies_of(calculation):

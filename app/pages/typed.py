@@ -225,10 +225,11 @@ def _has_several(item: str) -> bool:
 
 
 def _settled(item: str, decimal: set[str]) -> str:
-    """Add a zero as fourth decimal to a doubtful number if the list shows that the number's mark is a decimal mark.
+    """Add a zero to the end of a doubtful number if the list shows that the mark in the number is a decimal mark.
 
-    The list shows this if other numbers in the list use the same mark as their decimal mark. A number with four
-    decimals is not doubtful.
+    A doubtful number has three digits after its mark, a point or a comma. This mark may separate decimals or thousands.
+    `decimal` contains the marks that are decimal marks in other numbers of the list. With the zero, the number has four
+    decimals and is no longer doubtful.
     """
     doubtful = _DOUBTFUL.match(item)
     return f"{item[: doubtful.end()]}0{item[doubtful.end() :]}" if doubtful and doubtful[2] in decimal else item

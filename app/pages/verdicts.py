@@ -39,7 +39,7 @@ def conclusion(response: Response) -> str:
 def _of_pumping(response: PumpingResponse) -> dict[str, Verdict]:
     """Judge choking, and mark uncertain numbers as doubtful.
 
-    These numbers are the power, the temperature rise, the pressure and the Mach number.
+    The power, the temperature rise, the pressure and the Mach number are marked if they are uncertain.
     """
     judged = {
         f"{gear}_spaces.{name}": judge(gear, space, response)
@@ -56,9 +56,9 @@ def _of_pumping(response: PumpingResponse) -> dict[str, Verdict]:
 
 
 def _thrust(response: CouplingResponse) -> Verdict:
-    """Compare the thrust in motion with the limit of coaxial shafts, and the design thrust with 0.25 T/D.
+    """Compare the thrust in motion with the limit of coaxial shafts, and the design thrust with the customary thrust.
 
-    0.25 T/D is the customary thrust, where T is the torque and D is the shaft diameter.
+    The customary thrust is 0.25 T/D, where T is the torque and D is the shaft diameter.
     """
     thrust = response.axial_thrust
     share, customary, held = thrust.fraction_of_limit, thrust.customary_force_n, thrust.design_force_n

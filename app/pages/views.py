@@ -76,7 +76,7 @@ def _deciding(calculation: Calculation) -> frozenset[str]:
 
 
 def result(asked: Asked, media: Literal["json", "csv"]) -> Shown:
-    """Return the answer as JSON, as the API gives it, or as a CSV table of all values or of one curve."""
+    """Return the JSON answer of the API, or a CSV table. The table contains all values, or only one curve."""
     case = solved(asked.calculation, asked.pairs, asked.kept, "curves" if media == "json" else "fields")
     if media == "json":
         content = json_written(case.response)
@@ -190,8 +190,8 @@ def _answered(asked: Asked, case: Case, variant: Case | None, trouble: str, *, c
 def _elsewhere(asked: Asked) -> list[tuple[str, str, list[str]]]:
     """Return the other calculations whose pages show further figures of the case.
 
-    An item has the title of the calculation, the address at which its page shows the case, and the titles of the
-    figures.
+    An item has the title of the other calculation, the address of the case on the page of that calculation, and the
+    titles of the figures.
     """
     pages, declarations = [], asked.calculation.figures
     for path in dict.fromkeys(declaration.shown_at for declaration in declarations if declaration.shown_at):
@@ -206,8 +206,9 @@ def _elsewhere(asked: Asked) -> list[tuple[str, str, list[str]]]:
 def _both(asked: Asked) -> tuple[Case, Case | None, str]:
     """Return the case, the variant, and the reason why the variant cannot be computed.
 
-    The page compares the case with the variant. The variant is None if the query names no variant, or if the variant
-    cannot be computed. The reason is empty unless the variant cannot be computed.
+    The page compares the case with the variant. If the query names no variant, the variant is None and the reason is
+    empty. If the variant cannot be computed, the variant is None and the reason says why. In all other cases the reason
+    is empty.
     """
     case = solved(asked.calculation, asked.pairs, asked.kept)
     if not asked.ref and asked.kept_ref is None:

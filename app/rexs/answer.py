@@ -95,7 +95,8 @@ def with_results(content: bytes, most_bytes: int, stage: int, request: bytes | N
     """Calculate a stage, and return the file with the results of the stage.
 
     `request` is the request of the stage after the user edited it. If `request` is None, the request is made from the
-    file. The request is then a drive-train request if the file describes a drive train, else a request of /v1/scuffing.
+    file: a drive-train request if the file describes a drive train, else a request of /v1/scuffing.
+
     Raises Unprocessable if the file is not readable or does not contain the stage. If the request is not valid, raises
     the same errors as the endpoint of the request.
     """

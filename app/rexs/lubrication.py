@@ -40,8 +40,8 @@ class Lubrication:
     def _base_oil(self, oil: Component) -> None:
         """Fill in the kind of base oil.
 
-        The kind is taken from an attribute for the lubricant type. If these attributes do not name the kind, the kind
-        is taken from other texts about the oil. A kind of oil that is not modelled is recorded as a finding.
+        The kind is taken from the attributes for the lubricant type. If none of these attributes names the kind, the
+        kind is taken from other texts about the oil. A kind of oil that is not modelled is recorded as a finding.
         """
         path, texts = "lubricant.kind", {}
         for name in (*table.OIL_TYPES, *table.OIL_WORDS):

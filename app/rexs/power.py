@@ -164,7 +164,7 @@ class Train:
     def _loads(self, speeds: dict[int, float], reading: Reading) -> tuple[dict[int, float], set[int]]:
         """Return the sum of the stated torques on each group [N m], and the groups that carry unknown torques as well.
 
-        An unknown torque is a torque that enters or leaves the unit at this group, but that the file does not state.
+        A torque is unknown if it enters or leaves the unit at a group and the file does not state its value.
         """
         torques: dict[int, float] = defaultdict(float)
         opened, leaving = set(self._elsewhere), set()

@@ -68,7 +68,7 @@ class Fault(BaseModel, frozen=True):
 
 
 class MissingValue(BaseModel):
-    """A field of a request that a calculation needs but that does not follow from the file."""
+    """A field that has no value, because the value does not follow from the file. A calculation needs this value."""
 
     field: Annotated[str, Output("dotted path of the field, or the endpoint that cannot be asked")]
     component: Annotated[int | None, Output("component in the file that could give it")]
@@ -299,10 +299,10 @@ class Draft:
         self.missing.setdefault(path, MissingValue(field=path, component=id_, attribute=attribute, message=message))
 
     def take(self, row: Row, component: Component | None, prefix: str = "") -> float | None:
-        """Copy the number that a row describes from the file into the field of the row.
+        """Copy a number from the file into a field of the draft.
 
-        `prefix` is put before the path of the field. Return the number, or None if the file does not contain the
-        number.
+        `row` names the attributes of `component` that may contain the number, and it names the field. `prefix` is put
+        before the path of the field. Return the number, or None if the file does not contain the number.
         """
         number = self.reading.first_of(component, row.attributes, row.unit)
         if component is None or number is None:
@@ -313,9 +313,9 @@ class Draft:
     def request(self, endpoint: str, paths: Iterable[str]) -> dict[str, Any]:
         """Return a request of an endpoint. The request has the fields of the draft that are in `paths`.
 
-        Fields that the endpoint does not have are left out. Fields whose values the endpoint rejects are also left out;
-        they are recorded as findings with the permitted range, and as missing. If a field that the endpoint requires
-        has no value, the field is recorded as missing.
+        Fields that the endpoint does not have are left out. If the endpoint rejects the value of a field, this field is
+        left out too: a finding states the permitted range, and the field is recorded as missing. If the endpoint
+        requires a field that has no value, this field is also recorded as missing.
         """
         replaced = endpoint == SCUFFING and SCUFFING_FACTOR in self.fields
         places = {

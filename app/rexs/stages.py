@@ -202,10 +202,10 @@ class StageDraft(Draft):
     def position(self, part: Component, shaft: Component) -> float | None:
         """Return the position of the middle of a part along the axis of the pinion's shaft [mm].
 
-        Return None if the position is not known. The file may state the origin of the part, which is the middle of the
-        part's width, and a coordinate on the shaft. If the file states both, the origin is used, and a fault is
-        recorded if the two positions differ. No fault is recorded if the two positions differ by half the width,
-        because the coordinate is then the position of an end of the part.
+        Return None if the position is not known. The file may state the position in two ways: as the origin of the
+        part, which is the middle of the part's width, and as a coordinate on the shaft. If the file states both, the
+        origin is used. If the two positions differ by half the width, the coordinate is the position of an end of the
+        part, and no fault is recorded. If they differ by any other amount, a fault is recorded.
         """
         reading = self.reading
         stated = reading.number(part, table.POSITION)
@@ -287,9 +287,10 @@ class StageDraft(Draft):
     def _helix_angle(self, gear: Component) -> float | None:
         """Return the helix angle at the reference circle [deg]; None if the file does not state a helix angle.
 
-        If the file states only the helix angle at the base circle, the angle is computed from this base helix angle.
-        The equation is sin beta = sin beta_b / cos alpha_n. If the file states only the transverse pressure angle, the
-        equation is tan beta = tan beta_b / cos alpha_t.
+        If the file states only the helix angle beta_b at the base circle, the helix angle beta at the reference circle
+        is computed from beta_b and a pressure angle. With the normal pressure angle alpha_n, the equation is
+        sin beta = sin beta_b / cos alpha_n. If the file states only the transverse pressure angle alpha_t and not
+        alpha_n, the equation is tan beta = tan beta_b / cos alpha_t.
         """
         stated = self.reading.number(gear, table.HELIX_ANGLE)
         base = self.reading.number(gear, table.BASE_HELIX_ANGLE) if stated is None else None
@@ -603,9 +604,10 @@ class Involute:
         self.base_diameter = self.reference_diameter * cos(self.transverse_angle)
 
     def roll_length(self, diameter: float) -> float:
-        """Return the roll length at a diameter [mm]: the distance from the base tangent point along the line of action.
+        """Return the roll length [mm] at a diameter [mm].
 
-        The diameter is in mm. Inside the base circle, the roll length is 0.
+        The roll length is the distance from the base tangent point along the line of action. Inside the base circle,
+        the roll length is 0.
         """
         return sqrt(max(diameter**2 - self.base_diameter**2, 0.0)) / 2.0
 

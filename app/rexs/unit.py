@@ -197,9 +197,9 @@ def _rows(models: Iterable[BaseModel]) -> list[dict[str, Any]]:
 
 
 def _shares(readings: list[Reading]) -> tuple[list[float], str | None]:
-    """Return the share of each load case in the operating time, and a text or None.
+    """Return the share of each load case in the operating time, and a remark about the source of the shares.
 
-    The text says where the shares come from if no attribute of the standard states the shares.
+    If an attribute of the standard states the shares, or if there are no load cases, the remark is None.
     """
     if not readings:
         return [], None

@@ -34,7 +34,7 @@ class GearCooling(Section, of=si.Cooling):
     """The supply of oil to the teeth, further losses that heat the oil, and measured temperatures."""
 
     def unused(self) -> dict[str, bool]:
-        """Mark a field as unused if another given value determines its value.
+        """Mark fields as unused if their values follow from other inputs that are given.
 
         The oil flow determines the rise of the oil temperature. The measured temperature of a gear determines the
         wetting share. The measured temperature of the drained oil determines the other losses.

@@ -232,8 +232,8 @@ class FrictionRegime(Group, of=results.Regime):
 class CouplingLubrication(Group, of=results.Lubrication):
     """Contact and film of the most heavily loaded tooth.
 
-    This is the tooth with the largest load while one of the teeth is in the tilt position. If there are pitch
-    deviations, it is the tooth with the largest load in a whole revolution.
+    If all pitches are equal, this tooth has the largest load of all teeth while one of the teeth is in the tilt
+    position. If there are pitch deviations, this tooth has the largest load in a whole revolution.
     """
 
     views: ClassVar = {
@@ -349,8 +349,8 @@ class SleeveOrbitResponse(Response, of=results.OrbitResult):
 class RecommendationResponse(Response, of=crowning.Recommendation):
     """The recommended crowning ratio for a range of misalignment.
 
-    Of all permissible crowning ratios, this ratio has the largest load capacity. The load capacity of a ratio is the
-    smallest value in the range.
+    Of all permissible crowning ratios, the recommended ratio has the largest load capacity. The load capacity depends
+    on the misalignment. For each ratio, the smallest load capacity in the range of misalignment counts.
     """
 
     derived: CouplingDerived

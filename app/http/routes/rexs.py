@@ -34,7 +34,7 @@ UPLOAD_WITH_REQUEST = _body((), request={"type": "string", "description": "the s
 
 
 class Upload(NamedTuple):
-    """A file that was sent: content, name if a form states a name, and the request that was sent with the file."""
+    """The content and the name of a file, and the request that was sent with the file. The name may be empty."""
 
     content: bytes
     name: str = ""
@@ -94,7 +94,7 @@ async def ask_for_unit(http: Request) -> Response:
 
 @pages.post("/rexs", response_class=HTMLResponse)
 async def open_unit(http: Request) -> Response:
-    """Redirect to the page of the unit, so that the back button of the browser returns to this page.
+    """Redirect to the page of the unit. The back button of the browser can then return to the page of the unit.
 
     A page that is too large to keep is sent at once. If the file cannot be read, the answer states the reason.
     """

@@ -118,9 +118,12 @@ class StudyPage(ABC):
     plan
         The class of the study. Its arguments are the body, the largest number of points, and the deadline of a point
         [s].
-    case, study, faults
-        The case, as far as the query states the case; the study, or None until the query has been accepted; the errors
-        of a rejected query, each with the name of the control at which the error is shown.
+    case
+        The case, as far as the query states the case.
+    study
+        The study, or None until the query has been accepted.
+    faults
+        The errors of a rejected query. An error has the name of the control at which the error is shown.
 
     """
 
@@ -401,7 +404,8 @@ def report_progress(page: StudyPage, done: int, *, has_ended: bool = False, prob
 def report(page: StudyPage, lines: list[Line], host: str) -> bytes:
     """Return the style sheet and the body of a case's report, with a section about the study.
 
-    Both are sent after the parts that show the progress. If the case has no answer, return a part that says so.
+    The style sheet and the body are sent after the parts that show the progress. If the case itself cannot be
+    calculated, return a part of the document with a message about this problem.
     """
     section = {
         "title": page.link.label,
