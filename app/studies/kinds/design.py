@@ -297,7 +297,7 @@ def next_place(start: Sequence[float], told: Sequence[list[float] | None], most:
     evaluated = {_name(np.array(start)): np.array(first) / scale}
 
     def scaled(place: FloatArray) -> FloatArray:
-        """Return the scaled objectives at a point. `place` holds the coordinates of the point, followed by the level."""
+        """Return the scaled objectives at a point. The last item of `place` is the level, not a coordinate."""
         name = _name(place[:-1])
         if name not in evaluated:
             if len(evaluated) == len(told):
