@@ -1,4 +1,4 @@
-"""Conversion of rows into CSV whose cells spreadsheets do not take for formulas."""
+"""Conversion of rows into CSV. Spreadsheets do not take a cell of this CSV for a formula."""
 
 import csv
 import re

@@ -335,8 +335,8 @@ class DriveTrainRequest(MeshInOil):
     def bodies_hold_the_pumped_heat(self) -> Self:
         """Set `thermal.bulk_includes_pumping` if the bulk temperature comes from the heat balance.
 
-        The heat of pumping is already part of the heat balance. A request that sets the field to false is therefore
-        refused.
+        The heat of pumping is part of the heat balance. If the bulk temperature comes from the heat balance, a request
+        that sets the field to false is therefore refused.
         """
         if not self.is_balanced:
             return self
@@ -431,13 +431,13 @@ class WarmUpRequest(DriveTrainRequest, of=warm_up.WarmUpInputs):
 
 
 class BearingLoad(Group, of=results.BearingResult):
-    """Results of a bearing; values that only a plain bearing has are null for other bearings."""
+    """Results of a bearing. If the bearing is not a plain bearing, the values for plain bearings are null."""
 
 
 class ShaftThrust(Group, of=thrust_budget.Thrust):
     """Axial forces on a shaft, positive towards +Z.
 
-    Of the axial friction force in the couplings, only the limit is known. The load on the thrust bearing therefore lies
+    Only the limit of the axial friction force in the couplings is known. The load on the thrust bearing therefore lies
     between the two bounds `lower_n` and `upper_n`.
     """
 
@@ -488,8 +488,8 @@ class TrainLoad(Group, of=results.FaceLoad):
 class TrainSafety(Group, of=results.TrainSafety):
     """Safety factors against scuffing.
 
-    The factors by thermal EHL are null if `model.lubrication` is `closed_form`. Such a factor is also null if the
-    temperature at one of the points on its line is not known.
+    The factors by thermal EHL are null if `model.lubrication` is `closed_form`. Each of these factors belongs to a line
+    on the flank. The factor is also null if the temperature at a point of this line is not known.
     """
 
     views: ClassVar = {
@@ -553,16 +553,17 @@ class DriveTrainDerived(MeshDerived, of=derived.Derived):
 
 
 class MisalignmentParts(Group, of=results.Parts):
-    """Slope of the gap that the shafts cause over the face, with one part per cause.
+    """Contributions to the slope of the gap over the face, one contribution per cause.
 
-    The parts are computed for the load distribution at the end of the iteration between shafts and mesh.
+    The gap is the gap due to the shafts. The contributions are computed for the load distribution at the end of the
+    iteration between shafts and mesh.
     """
 
     member_unit: ClassVar = "um"
 
 
 class MisalignmentSummary(Group, of=results.Misalignment, without=("curves",)):
-    """The gap that the shafts and the heat cause over the face.
+    """The gap over the face due to the shafts and due to heat.
 
     A negative slope means that the gap opens towards the end that meshes first. This end then carries less load.
     """
@@ -571,7 +572,7 @@ class MisalignmentSummary(Group, of=results.Misalignment, without=("curves",)):
 
 
 class MisalignmentState(MisalignmentSummary, of=results.Misalignment):
-    """The gap that the shafts and the heat cause over the face, with curves.
+    """The gap over the face due to the shafts and due to heat, with curves.
 
     A negative slope means that the gap opens towards the end that meshes first. This end then carries less load.
     """

@@ -27,9 +27,9 @@ class Leaf:
     """A field that holds values and is not a section of further fields.
 
     `declared` says what the field means. `view` says how a result in this field is judged. `title` is unique within the
-    request or answer: if fields of several sections are declared with the same title, each `title` also names a
-    section. `dimensions` is 0 for a scalar, 1 for a list and 2 for a matrix. `axes` holds the full paths of the fields
-    that are the axes, one path per dimension. `axes` is empty if the field has no axes.
+    request or answer. If several fields are declared with the same title, the title of a section is therefore added to
+    the `title` of each of these fields. `dimensions` is 0 for a scalar, 1 for a list and 2 for a matrix. `axes` holds
+    the full paths of the fields that are the axes, one path per dimension. `axes` is empty if the field has no axes.
     """
 
     path: str
@@ -210,8 +210,10 @@ def _below(model: type[Documented], above: _Way, titles: dict[str, str]) -> tupl
 def _leaf(model: type[Documented], way: _Way, titles: dict[str, str]) -> Leaf:
     """Return the leaf at the end of a way.
 
-    If the field declares a level of detail other than `summary`, the leaf has this level. Otherwise the nearest section
-    that declares another level than `summary` gives the level. If there is no such section, the level is `summary`.
+    If the field declares a level of detail other than `summary`, the leaf has this level. If the field declares
+    `summary`, the sections around the field are searched from the innermost to the outermost. The leaf has the level of
+    the first section that declares a level other than `summary`. If there is no such section, the leaf has the level
+    `summary`.
     """
     member, path = way[-1], _path(way)
     info, meaning, prefix = member.info, member.meaning, path.rpartition(".")[0]
@@ -278,8 +280,8 @@ def _meant(model: type[Documented], wanted: _Names) -> _Names | None:
     """Return the interface names on the way to the field or list item that a solver calls `wanted`.
 
     If several ways match, return the shortest way. If no way matches, return None. `wanted` may leave out sections, but
-    not lists. `wanted` may begin with parts of the solver's inputs that the request does not have. The name after these
-    parts must then be at the root of the request.
+    not lists. `wanted` may begin with names that do not belong to the request, because the request does not have these
+    parts of the solver's inputs. The first name that belongs to the request must then be at the root of the request.
     """
     request_names: dict[_Names, _Names] = {}
     for way in _ways(model):

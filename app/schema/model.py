@@ -88,11 +88,11 @@ class Documented(BaseModel):
         has a field, the field is not changed, unless the class body declares it again.
 
         `of` may list several dataclasses. A request section fills all of them. In a response, the solver's result is an
-        instance of the first dataclass, and members of the result are instances of the other dataclasses. Such a member
-        may be None; its fields are then null.
+        instance of the first dataclass, and members of the result are instances of the other dataclasses. If such a
+        member is None, the response fields that are read from this member are null.
 
-        If `stands` is set and neither `only` nor `without` is given, the model represents its first dataclass: other
-        models use this model wherever the dataclass occurs.
+        If `stands` is set and neither `only` nor `without` is given, the model represents its first dataclass. If a
+        field of another model then has this dataclass as its type, this model takes the place of the dataclass.
 
         Raises TypeError if two models represent the same dataclass, or if `only` or `views` names a field that is not
         declared.
@@ -273,8 +273,9 @@ def from_si(group: type[Documented], result: Any, detail: Detail) -> dict[str, A
 def _sources(group: type[Documented], record: Any, detail: Detail) -> tuple[tuple[Member, str | None], ...]:
     """Return the fields of a response group that are read from a solver's result of the type `record`.
 
-    Fields above the level of detail are left out. Each field comes with the name of the member of the result that holds
-    the field. This name is None if the result itself holds the field.
+    Fields above the level of detail are left out. Some fields are not read from the result itself, but from a dataclass
+    that is a member of the result. Each field therefore comes with the name of this member. If the field is read from
+    the result itself, the name is None.
     """
     held = {name: inner for name, hint in get_type_hints(record).items() if (inner := _record_in(hint))}
     sources = []
@@ -296,7 +297,7 @@ def _displayed(value: Any, member: Member, detail: Detail) -> Any:
 
 
 def _with_choices(document: dict[str, Any], section: type[Any]) -> None:
-    """Add `x-exclusive` to the JSON schema: the groups of fields that exclude each other."""
+    """Add the groups of fields that exclude each other to the JSON schema, under the key `x-exclusive`."""
     if section.exclusive:
         document["x-exclusive"] = [list(group) for group in section.exclusive]
 
@@ -326,9 +327,9 @@ class Section(Documented):
 
     @model_validator(mode="after")
     def one_of_each_choice(self) -> Self:
-        """Refuse two given fields of one group in `exclusive`.
+        """Refuse a request that gives more than one field of a group in `exclusive`.
 
-        If `choice_missing` is set, also refuse a group of which no field is given.
+        If `choice_missing` is set, also refuse a request that gives no field of a group.
         """
         for group in self.exclusive:
             given = [name for name in group if getattr(self, name) is not None]
@@ -343,9 +344,10 @@ class Section(Documented):
     def si(self, kind: type[T], /, *others: "Section", **values: Any) -> T:
         """Return the solver's dataclass `kind` in SI, filled from this section and from the sections `others`.
 
-        If several of these sections have a value for the same field, the value of the first section is used. A section
-        inside a section is converted into the dataclass that the corresponding field of `kind` holds. `values` are
-        values in SI that are used unchanged. They take precedence over values from the sections.
+        If several of these sections have a value for the same field, the value of the first section is used. If a
+        section contains another section, the inner section is converted into the dataclass that is the type of the
+        corresponding field of `kind`. `values` are values in SI that are used unchanged. If `values` and a section have
+        a value for the same field, the value in `values` is used.
         """
         return kind(**self.filling(kind, *others, **values))
 

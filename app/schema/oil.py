@@ -25,7 +25,10 @@ RARELY = "by the kind of oil; a data sheet rarely gives it"
 
 
 def _of_a_sheet(name: str, ge: float, le: float, text: str, assumed: str | None = None) -> Input:
-    """Return the declaration of an oil property. The property follows from the grade or data sheet if one is given."""
+    """Return the declaration of an oil property.
+
+    If a grade or data sheet is given, the property follows from the grade or data sheet.
+    """
     return Input.of(
         Lubricant,
         name,
@@ -129,7 +132,7 @@ class SheetOil(Section):
     def unused(self) -> dict[str, bool]:
         """Mark the fields that supplement a grade or data sheet as unused if neither of the two is given.
 
-        Otherwise, mark the viscosity at 100 °C as unused if the viscosity index is given.
+        If a grade or data sheet is given together with the viscosity index, mark the viscosity at 100 °C as unused.
         """
         of_a_sheet = ("kinematic_viscosity_100_mm2_per_s", "viscosity_index", "density_15_kg_per_m3")
         by_index = {"kinematic_viscosity_100_mm2_per_s": self.viscosity_index is not None}
@@ -189,9 +192,9 @@ class Oil(SheetOil, of=Lubricant):
     @model_validator(mode="before")
     @classmethod
     def properties_follow_the_sheet(cls, given: Any) -> Any:
-        """Use null as the default of the properties, unless the viscosity alone describes the oil.
+        """Make null the default of the oil's properties, unless the viscosity alone describes the oil.
 
-        If a grade or data sheet is given, the null properties follow from the grade or data sheet.
+        If a grade or data sheet is given, each property that is null follows from the grade or data sheet.
         """
         if not isinstance(given, dict) or (given.get("viscosity_pa_s") is not None and not _names_a_sheet(given)):
             return given

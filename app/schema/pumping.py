@@ -53,7 +53,7 @@ class _PumpingSetup(Request, of=si.PumpingSetup, without=("normal_backlash",)):
         return super().options() | {"slices": self.model.si(si.PumpingModel).slice_count}
 
     def assumed_by_the_model(self) -> dict[str, str]:
-        """Return the assumption that the stagnation temperature counts the axial speed only.
+        """Return the assumption that only the axial speed contributes to the stagnation temperature.
 
         The incompressible model does not make this assumption.
         """

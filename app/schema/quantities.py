@@ -21,9 +21,9 @@ Bound = Literal["upper", "lower"]
 class _Declaration(Quantity):
     """A declaration that documents its field in the JSON schema.
 
-    `origin` is the pair of the solver's dataclass from which the declaration was taken and the name of the field in
-    this dataclass. `origin` is None if the declaration was not taken from a dataclass. `in_schema` lists the attributes
-    of the declaration that are written into the JSON schema. For example, `default_text` is written as
+    If the declaration was taken from a dataclass of a solver, `origin` is a pair: this dataclass, and the name of the
+    field in this dataclass. If the declaration was not taken from a dataclass, `origin` is None. `in_schema` lists the
+    attributes of the declaration that are written into the JSON schema. For example, `default_text` is written as
     `x-default-text`.
     """
 

@@ -367,7 +367,7 @@ class MeshModel(LoadDistributionModel, FilmModel, of=si.ScuffingInputs, without=
 
 
 class ScuffingModel(MeshModel, of=si.ScuffingInputs, only=("line",)):
-    """Model options of the load distribution and of the film, and the choice of the lines that are checked."""
+    """Model options of the load distribution and of the film, and the part of the flank that is checked."""
 
 
 PRACTICAL_FRICTION = Input.of(
@@ -407,8 +407,9 @@ def _is_given(sent: Any, path: str) -> bool:
 class MeshInOil(Request):
     """The parts that requests about scuffing have in common: a loaded pair, an oil, temperatures, a law of friction.
 
-    `methods` maps the name of a method field, such as `model.friction`, to the names of value fields. If a request
-    gives a value in one of the value fields and does not give the method, the method is "given".
+    The keys of `methods` are the paths of fields that choose a method, such as `model.friction`. The values of
+    `methods` are the paths of the fields that hold a given value for this method. If a request gives such a value but
+    does not choose the method, the method is set to "given".
     """
 
     balance_is_default: ClassVar = False  # whether the heat balance is the default at low speeds, too
@@ -441,9 +442,11 @@ class MeshInOil(Request):
     def balance_where_the_estimate_ends(self) -> Self:
         """Choose the heat balance for the bulk temperature if the request gives no method and the balance fits.
 
-        The balance fits if an oil is given, jets supply the oil, and one of three conditions is met. The heat balance
-        is the default, or the request gives the cooling, or the pair is too fast for the estimate of the bulk
-        temperature.
+        The balance fits if an oil is given, if jets supply the oil, and if at least one of these conditions is met:
+
+        - The heat balance is the default of this kind of request.
+        - The request gives the cooling.
+        - The pair is too fast for the estimate of the bulk temperature.
         """
         temperatures = self.temperatures
         if "bulk_method" in temperatures.model_fields_set or temperatures.oil_supply != "spray":

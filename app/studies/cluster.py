@@ -43,8 +43,8 @@ class DaskCluster:
         """Wait until the cluster is connected and every worker is prepared, and return the cluster.
 
         Raises SchedulerUnavailable if the scheduler cannot be used, if the scheduler does not answer in time, or if the
-        preparation of the workers takes too long. In the last two situations, the preparation continues after the
-        error, because a call to the scheduler cannot be cancelled. Only one preparation runs at a time.
+        preparation of the workers takes too long. If the reason is that time ran out, the preparation continues after
+        the error, because a call to the scheduler cannot be cancelled. Only one preparation runs at a time.
         """
         if self._preparation is None or self._preparation.done():
             self._answered = False
@@ -67,9 +67,10 @@ class DaskCluster:
             raise SchedulerUnavailable(f"The Dask scheduler cannot be used: {reason}") from error
 
     def _prepare(self) -> None:
-        """Connect to the scheduler. Then check the versions of every new worker, and load the kernels in this worker.
+        """Connect to the scheduler and prepare every new worker.
 
-        This call blocks.
+        To prepare the new workers, first check the versions of all new workers, and then load the kernels in each of
+        them. This call blocks.
         """
         if self._client is None or self._client.status != "running":
             self.close()

@@ -142,9 +142,9 @@ def clear_excluded(model: type[Documented], body: dict[str, Any], path: str) -> 
 
 
 def indexed(path: str, case: dict[str, Any]) -> list[str]:
-    """Return the paths of all items that a path with list markers stands for in this case.
+    """Return the paths that result if indices replace the list markers in a path.
 
-    A path has one marker per list. In each of the returned paths, an index replaces every marker.
+    A path has one marker per list. The result has one path for every item that the lists have in this case.
     """
     before, star, after = path.partition(f".{ITEM}")
     if not star:

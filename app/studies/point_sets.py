@@ -140,10 +140,11 @@ def _check_axis(axis: Axis, base: BaseRequest, place: str) -> CheckedAxis:
 
 
 def _spread(axis: Axis, leaves: tuple[Leaf, ...], place: str) -> list[Any]:
-    """Return the values of an axis from start to stop, with equal steps or, on a logarithmic axis, with equal ratios.
+    """Return the values of an axis from start to stop.
 
-    Raises Unprocessable if a field does not accept start or stop, or if start or stop of a logarithmic axis is not
-    positive. The error is located at the faulty end, start or stop.
+    The values have equal steps on a linear axis, and equal ratios on a logarithmic axis. Raises Unprocessable if a
+    field does not accept one of the ends, start or stop. Also raises Unprocessable if the axis is logarithmic and one
+    of the ends is not positive. The error is located at the faulty end.
     """
     ends: dict[str, Any] = {"start": axis.start, "stop": axis.stop}
     for name, end in ends.items():
@@ -188,7 +189,8 @@ def _check_digits(scatter: Range | Scatter, leaf: Leaf, place: str) -> None:
     """Raise Unprocessable if almost all of a normal distribution lies outside the range of its field.
 
     The random values inside the range are computed from cumulative probabilities. If the share of the distribution
-    inside the range is smaller than `LEAST_SHARE`, rounding errors leave these values fewer than six correct digits.
+    inside the range is smaller than `LEAST_SHARE`, these values have fewer than six correct digits because of rounding
+    errors.
     """
     if isinstance(scatter, Normal) and 1.0 - cut(scatter, leaf).cut_off < LEAST_SHARE:
         message = (
@@ -199,9 +201,9 @@ def _check_digits(scatter: Range | Scatter, leaf: Leaf, place: str) -> None:
 
 
 def anchors(scatter: Range | Scatter) -> dict[str, float]:
-    """Return the parameters of a distribution that must be permissible values of the field, by name.
+    """Return those parameters of a distribution that must be permissible values of the field.
 
-    In a valid distribution, the parameters are in ascending order.
+    The keys are the names of the parameters. In a valid distribution, the returned parameters are in ascending order.
     """
     return {name: getattr(scatter, name) for name in ("min", "mode", "mean", "median", "max") if hasattr(scatter, name)}
 
@@ -215,7 +217,7 @@ class Cut(NamedTuple):
 
     @property
     def shares(self) -> tuple[float, float]:
-        """The cumulative probabilities at the two ends, in the distribution that is not cut off."""
+        """The cumulative probabilities at the two ends, for the original distribution without the cut."""
         return float(self.law.cdf(self.low)), float(self.law.cdf(self.high))
 
     def drawn(self, share: FloatArray) -> FloatArray:

@@ -121,12 +121,16 @@ def of_case(outputs: FloatArray, limit: Limit) -> Estimate:
 def _chances(chances: FloatArray, limit: Limit) -> Mean:
     """Return the mean of the draws' probabilities `[replicate, draw]`, with a confidence interval between 0 and 1.
 
-    The interval usually follows from the scatter of the replicates. If the limit is fixed, the probability of a draw is
-    0 or 1, and the mean is the share of draws beyond the limit. The scatter of the replicates is then useless in two
-    situations. In the first, fewer draws are beyond the limit than there are replicates, or fewer draws are within the
-    limit than there are replicates. In the second, every replicate has the same number of draws beyond the limit. In
-    both situations, the interval of Clopper and Pearson for a count is used instead. If no draw or every draw is beyond
-    the limit, this interval is one-sided and has the width 1 - 0.1^(1/draws).
+    The interval usually follows from the scatter of the replicates. If the limit is fixed, every draw is either beyond
+    the limit or within the limit. The probability of a draw is then 1 or 0, and the mean is the share of draws beyond
+    the limit. The scatter of the replicates is not used for a fixed limit if one of these conditions is met:
+
+    - The number of draws beyond the limit is smaller than the number of replicates.
+    - The number of draws within the limit is smaller than the number of replicates.
+    - Every replicate has the same number of draws beyond the limit.
+
+    In these three situations, the interval of Clopper and Pearson for a count is used instead. If no draw or every draw
+    is beyond the limit, this interval is one-sided and has the width 1 - 0.1^(1/draws).
     """
     from scipy.stats import binomtest  # noqa: PLC0415  half a second that only studies need
 
@@ -212,11 +216,12 @@ def rank_correlation(x: FloatArray, y: FloatArray) -> float | None:
 def of_sample(
     inputs: FloatArray, outputs: FloatArray, input_paths: list[str], output_paths: Sequence[str]
 ) -> dict[str, Any]:
-    """Return, for each output of a random sample, quantiles with bounds, and the rank correlation with each input.
+    """Return the statistics of each output of a random sample.
 
-    This function runs in a worker. Each row of `inputs` and `outputs` is a point. The bounds of a quantile are two
-    values of the sample between which the quantile lies with 90 % confidence, whatever the distribution is. A bound is
-    None if the sample is too small for this bound.
+    The statistics are quantiles with bounds, and the rank correlation of the output with each input. Each row of
+    `inputs` and `outputs` is a point. The bounds of a quantile are two values of the sample. The quantile lies between
+    these two values with 90 % confidence, whatever the distribution is. A bound is None if the sample is too small for
+    this bound. This function runs in a worker.
     """
     from scipy.stats import quantile_test  # noqa: PLC0415  half a second that only random samples need
 

@@ -3,8 +3,9 @@
 The owner of a call is a client or a study. A free worker gets a call of the owner with the fewest running calls. If
 several owners have the same number of running calls, the owner whose last call began longest ago is next.
 
-If the queue is full, a call is rejected. This is the newest waiting call of the owner with the most calls, where
-waiting and running calls count.
+If the queue is full, a call is rejected. To choose this call, the waiting and running calls of each client are counted,
+including the new call. The client with the most calls loses the newest of its waiting calls, which may be the new call.
+Calls of studies are neither counted nor rejected.
 
 If nobody waits for the result of a running call any more, the call may run for another `GRACE_S` seconds. After this
 time the worker of the call is killed and replaced.
@@ -67,9 +68,9 @@ class Pool:
     async def calculate(self, http: Request, function: Callable[..., Any], *arguments: Any) -> Any:
         """Run a call in a worker and return its result.
 
-        The settings may name a header in which a proxy names the client. The owner of the call is the client's name in
-        this header, or the address of the client if there is no such name. Raises the errors of the call and the
-        exceptions of PROBLEMS.
+        The setting `client_header` may be the name of a header in which a proxy sends the name of the client. This name
+        is the owner of the call. If there is no such name, the owner is the address of the client. Raises the errors of
+        the call, and exceptions in the table `PROBLEMS`.
         """
         owner = http.headers.get(self._settings.client_header or "") or (http.client.host if http.client else "")
         self._admit(owner)
@@ -99,7 +100,7 @@ class Pool:
         refused.outcome.set_exception(QueueFull())
 
     def _let_go(self, job: Job) -> None:
-        """Remove a call from the queue, or limit the further time of the call if the call is running.
+        """Remove a call from the queue. If the call is running, let it run for at most another `GRACE_S` seconds.
 
         This function runs as soon as the future of the call is done.
         """

@@ -114,8 +114,8 @@ def control_of(quantity: str) -> str:
 class UnitPage(StudyPage):
     """Base class of the pages that show a study over the corners of a gear unit.
 
-    `corners` is the name of the field of the body that contains the ranges of the uncertain inputs. The uncertain
-    inputs in `left_alone` keep their values in the case, unless the user types values for these inputs.
+    `corners` is the name of the field of the body that contains the ranges of the uncertain inputs. `left_alone` lists
+    uncertain inputs that are not varied, unless the user types values for these inputs.
     """
 
     names = frozenset(map(control_of, UNCERTAIN))
@@ -183,8 +183,8 @@ def _typed(axis: Axis, text: str) -> dict[str, Any]:
 def load_figure(case: Case, reference: Case, name: str, finding: str) -> dict[str, Figure]:
     """Return the figure of the load along the face: solid lines for `case`, dashed lines for `reference`.
 
-    `name` is the name of `case` in the legend. `finding` is put before the finding of the figure. The result is empty
-    if `case` or `reference` has no data for this figure.
+    `name` is the name of `case` in the legend. The text `finding` becomes the beginning of the figure's own finding.
+    The result is empty if `case` or `reference` has no data for this figure.
     """
     try:
         own, given = (LOAD_ALONE.figure(drawn_case.request, drawn_case.response) for drawn_case in (case, reference))
@@ -215,10 +215,11 @@ class CornersPage(UnitPage):
     study: Corners
 
     def body(self) -> dict[str, Any]:
-        """Return the body with the values of the uncertain inputs, as typed or else the usual values.
+        """Return the body with the values of the uncertain inputs.
 
-        The body requests the output that the page shows. It also requests all headline numbers that need neither the
-        thermal film nor the cold state.
+        If the user typed no values for an input, the usual values of this input are used. The body requests the output
+        that the page shows. It also requests all headline numbers that need neither the thermal film nor the cold
+        state.
         """
         output, paths = self.output.path, [leaf.path for leaf in headlines(self.calculation.response)]
         deciding = [path for path in paths if not (needs_film(DRIVE_TRAIN, path) or path.startswith(COLD))]
@@ -257,8 +258,8 @@ class CornersPage(UnitPage):
     def _rows(self, lines: list[Line], worst: Overrides) -> list[Row]:
         """Return one row per uncertain input. The row has one dot per value of the input.
 
-        The position of a dot is the worst output among all corners at which the input has the value of this dot. A
-        value has no dot if none of these corners has a solution.
+        A dot stands for one value of the input. The position of the dot shows an output: the worst output among all
+        corners at which the input has this value. If none of these corners has a solution, the value has no dot.
         """
         points = [line for line in lines if line["type"] == "point" and line["out"][0] is not None]
         pick = min if self.output.view.greatest_is_best else max

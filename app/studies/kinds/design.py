@@ -98,8 +98,8 @@ class Design(Study):
 
     The method of the search is COBYQA. The objective of a correction is the value of the chosen output at the worst
     combination of operating point and corner. The output `safety.minimum` needs the thermal film, which takes one
-    second per corner. The search is twenty times as fast with the output `safety.blok_flank`, or if `model.lubrication`
-    is `closed_form`.
+    second per corner. If the output is `safety.blok_flank`, or if `model.lubrication` is `closed_form`, the search is
+    twenty times as fast.
 
     If variables have a `step`, the last line has the member `rounded`. It holds the best correction, rounded to whole
     steps, and the objective of the rounded correction.
@@ -188,9 +188,10 @@ class Design(Study):
         """Try a correction. Return the content of the line about this trial, and a list of the objectives of all cases.
 
         The line has the values of the variables, the objective in the worst case, and the worst case itself. If the
-        objective is to be maximised, the signs in the list are reversed, so that a smaller number is always better. The
-        trial ends at the first case without solution. Then the objective in the line is None, and None is returned
-        instead of the list.
+        objective is to be maximised, the signs in the list are reversed, so that a smaller number is always better.
+
+        If a case has no solution, the trial ends at this case. The objective in the line is then None, the worst case
+        in the line is this case, and None is returned instead of the list.
         """
         pairs = zip(self.body.variables, values, strict=True)
         at: Overrides = {path: value for variable, value in pairs for path in variable.paths}
@@ -271,7 +272,7 @@ def _rounded(variable: Variable, value: float) -> float:
 
 
 class _Unknown(Exception):
-    """Interruption of the search, because the objectives at a new point are needed. The argument is the new point."""
+    """Exception that stops the search if the objectives at a new point are needed. The argument is the new point."""
 
 
 def next_place(start: Sequence[float], told: Sequence[list[float] | None], most: int) -> list[float] | None:
@@ -279,8 +280,9 @@ def next_place(start: Sequence[float], told: Sequence[list[float] | None], most:
 
     The search minimises the largest of the objectives, with at most `most` evaluations. `told` holds the objectives at
     all points evaluated so far, in the order of evaluation; an item is None if the point has no solution. This function
-    runs in a worker. Each call repeats the search from the start to the first point that has not been evaluated. The
-    repetition takes some milliseconds per point, but no thread has to wait for the objectives of a point.
+    runs in a worker. Each call repeats the search from the beginning, with the objectives in `told`, and stops at the
+    first point that has not been evaluated. The repetition takes some milliseconds per point. In return, no thread has
+    to wait while the objectives of a point are computed.
 
     The method is COBYQA, which needs no derivatives. COBYQA minimises an additional variable, the level, under the
     constraint that no objective exceeds the level. In this form, COBYQA has one smooth model per objective, even along
@@ -295,7 +297,7 @@ def next_place(start: Sequence[float], told: Sequence[list[float] | None], most:
     evaluated = {_name(np.array(start)): np.array(first) / scale}
 
     def scaled(place: FloatArray) -> FloatArray:
-        """Return the scaled objectives at a point. `place` holds the coordinates of the point, and then the level."""
+        """Return the scaled objectives at a point. The last item of `place` is the level, not a coordinate."""
         name = _name(place[:-1])
         if name not in evaluated:
             if len(evaluated) == len(told):
@@ -495,8 +497,9 @@ class DesignPage(UnitPage):
     def _before_and_after(self, end: Line, wanted: Line, case: Case, ground: Case) -> Table:
         """Return a table of the output with the correction as entered and with the best correction.
 
-        One row is for the worst corner of each of the two corrections. The other row is for the uncertain inputs as
-        entered. The table has a note if the best correction worsens the output in the second row.
+        The table has one column per correction, and two rows. In the first row, the uncertain inputs have their values
+        at the worst corner of the correction. In the second row, the uncertain inputs have the values as entered. If
+        the best correction worsens the output in the second row, the table has a note.
         """
         output = self.output
         before, after = (value_at(unit_case.response, output.path) for unit_case in (case, ground))
@@ -526,7 +529,7 @@ class DesignPage(UnitPage):
 
 
 def _ends(case: Case) -> tuple[str, str]:
-    """Return the names of the end of the face that meshes first and of the end that leaves the mesh last."""
+    """Return the names of both ends of the face. The end that meshes first comes first."""
     first, *_, last = case.response.misalignment.curves.z_mm
     drive = case.request.pinion_shaft.torque_position_mm
     if drive is None:
@@ -536,9 +539,10 @@ def _ends(case: Case) -> tuple[str, str]:
 
 
 def _numbers(case: Case, end: Line, at: Overrides) -> Table:
-    """Return a table that compares all values of helix slope and crowning on the pages of this unit.
+    """Return a table that compares the values of helix slope and crowning.
 
-    The pages show different values, because they answer different questions.
+    The pages of this unit show different values of helix slope and crowning, because each page answers another
+    question. The table contains all of these values.
     """
     misalignment, inputs = case.response.misalignment, case.response.inputs
     estimate = "first estimate: inputs as described, load spread evenly over the face"

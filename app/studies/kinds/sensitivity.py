@@ -1,8 +1,9 @@
 """Sensitivity: derivatives of each output with respect to each number of a case, from finite differences.
 
-An integer is moved by 1, and any other input by its tolerance. An input without a tolerance is moved by 1 K if it is a
-temperature, or else by 1 %. If the step is a tolerance, the slope over the step is compared with the slope over half
-the step. The page shows a figure and a table of the inputs. The input that changes the output most comes first.
+An integer is moved by 1. Any other input is moved by its tolerance. If such an input has no tolerance, a temperature is
+moved by 1 K, and any other value by 1 %. If the step is a tolerance, the slope over the step is compared with the slope
+over half the step. The page shows a figure and a table of the inputs. The input that changes the output most comes
+first.
 """
 
 from collections import Counter
@@ -76,8 +77,8 @@ class Perturbation:
 def perturbation(leaf: Leaf, value: float) -> Perturbation:
     """Return the perturbation of an input.
 
-    The step of an integer is 1, and the step of any other input is its tolerance. Without a tolerance, the step is 1 K
-    for a temperature and 1 % of the value for any other input.
+    The step of an integer is 1. The step of any other input is the tolerance of the input. If such an input has no
+    tolerance, the step is 1 K for a temperature, and 1 % of the value for any other quantity.
     """
     if leaf.kind == "integer":
         return Perturbation(leaf, value, 1.0)
@@ -105,9 +106,10 @@ def differences(moved: Perturbation, outputs: dict[float, float | None]) -> Line
     base, step, half = outputs[moved.value], moved.step, moved.half
 
     def slope(below: float, above: float) -> float | None:
-        """Return the difference quotient between two offsets from the value of the input.
+        """Return the difference quotient between two points.
 
-        An offset without an answer is replaced by the offset 0.
+        `below` and `above` are the offsets of the points from the value of the input. If one of the points has no
+        answer, the value of the input itself is used instead of this point.
         """
         places = [moved.value + offset for offset in (below, 0, above)]
         pairs = [(place, value) for place in places if (value := outputs.get(place)) is not None]
@@ -137,8 +139,8 @@ def differences(moved: Perturbation, outputs: dict[float, float | None]) -> Line
 class Sensitivity(Study):
     """Derivatives of the outputs with respect to the numbers of the case, by finite differences.
 
-    The step of an integer is 1, and the step of any other input is its tolerance. Without a tolerance, the step is 1 K
-    for a temperature and 1 % of the value for any other input.
+    The step of an integer is 1. The step of any other input is the tolerance of the input. If such an input has no
+    tolerance, the step is 1 K for a temperature, and 1 % of the value for any other quantity.
 
     `change` is the change of the output by one step of the input. `elasticity` is the change of the output in per cent
     if the input changes by 1 %. `kink` is true if the slopes below and above the value of the input differ by more than

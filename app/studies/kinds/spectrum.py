@@ -186,11 +186,12 @@ class Spectrum(Study):
 
     Each machine runs every case. The worst case of the machine is compared with the limits.
 
-    For each limit, the last line has the probability of exceeding the limit and the 90 % confidence interval of this
-    probability, both over the spectrum and in each case alone. For each limit and each case, the last line also has the
-    share of machines for which this case is the worst case (`decides`). For each limit and each field that scatters,
-    the last line has the rank correlation between this field and the output in the worst case. For each output, the
-    last line has the mean over the operating time, the extremes, and the 5, 50 and 95 % quantiles in each case.
+    For each limit, the last line has the probability of exceeding the limit, with the 90 % confidence interval of this
+    probability. The last line has this probability over the spectrum, and also the probability in each case alone. For
+    each limit and each case, the last line also has the share of machines for which this case is the worst case
+    (`decides`). For each limit and each field that scatters, the last line has the rank correlation between this field
+    and the output in the worst case. For each output, the last line has the mean over the operating time, the extremes,
+    and the 5, 50 and 95 % quantiles in each case.
 
     Machines without a solution in some case are counted. If there are such machines, only the `bounds` of the
     probability are known. If no output needs the thermal film, the film is not calculated. A line `progress` comes
@@ -317,7 +318,7 @@ class Spectrum(Study):
         return {**self.body.tolerances.model_dump(), "inputs": inputs}
 
     def _ignored(self, assumptions: Sequence[Line]) -> list[str]:
-        """Return a note for each field that scatters without effect, because the model does not use the field."""
+        """Return a note for each field that scatters but has no effect because the model does not use the field."""
         reasons = {
             assumption["field"]: assumption["reason"]
             for assumption in assumptions
@@ -483,8 +484,9 @@ def _too_many(question: Question, overrides: Overrides, total: int, most: int) -
 class Column(NamedTuple):
     """A column of the table of cases.
 
-    `path` is the path of a field whose values are in the column, or "name" or "share". The numbers in the column are
-    multiplied by ten to the `power`.
+    If the column contains the values of a field, `path` is the path of this field. If the column contains the names of
+    the cases, `path` is "name". If the column contains the shares of the cases, `path` is "share". The numbers in the
+    column are multiplied by ten to the `power`.
     """
 
     path: str
@@ -540,7 +542,7 @@ def _column(calculation: Calculation, heading: str) -> Column:
 def _case(calculation: Calculation, columns: list[Column], row: list[str], line: int) -> dict[str, Any]:
     """Return the case that a row of the table describes. Raises Unprocessable if the row is not valid.
 
-    If a field does not accept the content of its cell, the content is kept as text. The study then reports it.
+    If a field does not accept the content of its cell, the content is kept as text. The study then reports the error.
     """
     if any(cell.strip() for cell in row[len(columns) :]):
         raise Unprocessable("table", f"line {line} has more columns than the first line", "cases")
@@ -781,7 +783,8 @@ class SpectrumPage(StudyPage):
     def controls(self) -> tuple[Controls, ...]:
         """Return a group of form fields for the table of cases, and one group per tolerance.
 
-        Two empty tolerances follow the last tolerance that is filled in, as far as the form has names for them.
+        Two groups for empty tolerances follow the group of the last tolerance that is filled in. But there are never
+        more groups than names in `TOLERANCES`.
         """
         case = self.case
         text = as_typed(self.views.get("cases", "")) or _suggested(self.calculation, case)
@@ -934,7 +937,7 @@ class SpectrumPage(StudyPage):
         return Table("Cases", ("case", *map(Number, heads)), rows, f"{note} A name leads to the nominal case.")
 
     def _outputs_table(self, end: Line) -> Table:
-        """Return a table of each output's mean over the operating time and of its extremes.
+        """Return a table with one row per output: the mean over the operating time, and the extremes.
 
         An extreme is a link to the machine and the case in which the extreme occurs.
         """

@@ -142,9 +142,9 @@ class Summary(runner.Tally):
             self._compare(self._best, index, point.out)
 
     def _compare(self, best: Best, index: int, out: list[Any]) -> None:
-        """Store the point as the best point if it keeps all limits and is better than all earlier points.
+        """Store the point as the best point if it keeps all limits and is better than the best point so far.
 
-        Only points that keep all limits are compared.
+        An earlier point that does not keep all limits is never the best point so far.
         """
         values = dict(zip(self.outputs, out, strict=True))
         is_inside = all(
@@ -163,13 +163,13 @@ class Sweep(Study):
 
     The first line is `sweep`. Then there is a line `point` for each point; the value on the first axis changes most
     slowly. A line `progress` comes if no other line was sent for two seconds. The last line is `end`. If the study ends
-    early, the last line is `error`; in a table, the last row is then the row of the error.
+    early, the last line is `error` instead. If the answer is a table, its last row then has the message of the error.
 
-    A stream that has neither `end` nor `error` was cut off. A request with `from_index` continues the study: the points
-    stay the same, and the lines start at that index.
+    A stream that has neither `end` nor `error` was cut off. A request with `from_index` continues the study. The points
+    stay the same, and the lines start at the point with this index.
 
-    For a random sample, the line `end` has the 5, 50 and 95 % quantiles, and in `quantile_bounds` the 90 % confidence
-    intervals of these quantiles.
+    For a random sample, the line `end` has the 5, 50 and 95 % quantiles. The member `quantile_bounds` of this line has
+    the 90 % confidence intervals of the quantiles.
     """
 
     path = "/v1/sweep"
@@ -341,10 +341,11 @@ class SweepPage(StudyPage):
     def _usual_ends(self, leaf: Leaf) -> tuple[float, float] | tuple[None, None]:
         """Return the ends between which a field is varied if the user types no ends.
 
-        The ends lie on both sides of the value in the case, inside the permissible range of the field. If the case has
-        no value, or if the value is 0 and the field has no tolerance, the ends are those of the permissible range, or
-        (None, None) if this range is infinite. The ends of an integer field are integers; all other ends are rounded to
-        four significant digits.
+        The ends lie on both sides of the value in the case, inside the permissible range of the field. There are two
+        exceptions: the case has no value, or the value is 0 and the field has no tolerance. The ends are then the ends
+        of the permissible range. If this range is infinite, the result is (None, None).
+
+        The ends of an integer field are integers; all other ends are rounded to four significant digits.
         """
         if numbers := [option for option in leaf.options if is_plain_number(option)]:
             return min(numbers), max(numbers)
@@ -385,8 +386,8 @@ class SweepPage(StudyPage):
         """Return the axis of a field from its ends, its number of points and its scale.
 
         `given` holds what the user typed for the axis. If the field accepts only a fixed set of values, the axis has
-        these values. If these values are numbers, the axis has only the values between the ends. On an axis of
-        integers, the integers are spread as evenly as possible, and no integer occurs twice.
+        these values. If these values are numbers, values that are not between the ends are left out. On any other
+        axis of integers, the integers are spread as evenly as possible, and no integer occurs twice.
 
         Raises Unprocessable at `where` if an end is missing, if both ends are equal, or if a field without numbers is
         on the first axis. The later validation of the body reports all other errors.
@@ -471,7 +472,10 @@ class SweepPage(StudyPage):
         return (self.field("best", "the best is", options=ends),)
 
     def starters(self) -> Sequence[Starter | StudyExample]:
-        """Return links to ready studies. They vary the case if the query has a case, and otherwise the examples."""
+        """Return links to ready studies.
+
+        If the query has a case, the studies vary this case. If the query has no case, the studies vary the examples.
+        """
         if not self.asked.pairs:
             return studies_of(self.calculation)
         return studies_of_case(self.calculation, self.asked.pairs, self.case)
@@ -527,7 +531,7 @@ class SweepPage(StudyPage):
         )
 
     def _coordinate(self, name: str, leaf: Leaf, axis_in_sweep: CheckedAxis) -> tuple[Coordinate, list[int]]:
-        """Return the coordinate of a figure for one axis of the sweep, and the order of its values.
+        """Return the coordinate of a figure for one axis of the sweep, and the order of the values on this coordinate.
 
         Numbers are sorted in ascending order; other values keep their order. The order is a list of indices into
         `axis_in_sweep.values`.
