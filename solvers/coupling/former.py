@@ -1,4 +1,4 @@
-"""Former input classes, which have the same fields as a request; the next minor version removes these classes.
+"""Former input classes, with the fields of a request to the service. The next minor version removes these classes.
 
 Use `Coupling`, `Operation` and `Lubricant` instead. `Coupling` has defaults for its proportions. `Operation` contains
 the tilt; `tilt_of_offset` computes the tilt from a parallel offset. `Lubricant` contains the viscosity at the teeth;

@@ -114,8 +114,8 @@ def mesh_thrust(loaded: LoadedMesh, friction: float, axial_velocity: float) -> t
     thrust : float
         Axial thrust F_ax = sum mu F_n sgn(v_r) [N].
     slack : float
-        Largest friction of the teeth without relative velocity; the thrust may deviate by this force to either side
-        [N].
+        Largest friction of the teeth without relative velocity [N]; the thrust may deviate by this force to either
+        side.
 
     Notes
     -----
@@ -144,7 +144,7 @@ def uniform_load_thrust(limit: float, axial_velocity: float, max_sliding_velocit
     Returns
     -------
     float
-        F_max (2/pi) asin(v_ax/v_Gmax), or F_max if v_ax exceeds v_Gmax [N].
+        Thrust F_max (2/pi) asin(v_ax/v_Gmax) [N]; the thrust is F_max if v_ax exceeds v_Gmax.
 
     Notes
     -----
@@ -339,7 +339,9 @@ def equal_loads_friction_moment(coaxial_limit: float, pitch_radius: float) -> fl
 
 
 def contact_shift_moment(inputs: CouplingInputs, geometry: Geometry, loaded: LoadedMesh) -> float:
-    """Compute the moment about the tilt axis that tooth forces cause because they act off the middle of the face.
+    """Compute the moment of the tooth forces about the tilt axis.
+
+    This moment arises because the tooth forces do not act at the middle of the face.
 
     Parameters
     ----------

@@ -370,10 +370,10 @@ def friction_reversals(mesh: MeshMotion, axial_velocity: float) -> list[float]:
 def rotor_samples(coupling: Coupling, mesh: MeshMotion, axial_velocity: float) -> RotorSamples:
     """Return Gauss points between the rotor angles at which the friction of some tooth reverses.
 
-    The friction of a tooth jumps if the relative velocity of the tooth changes sign. The rotor angles of these jumps
-    divide the pitch into parts. In each part the integrand of a mean over the rotor angles is therefore continuous, and
-    has kinks only where a tooth comes under load. The Gauss points are at least as accurate as a midpoint rule with
-    several hundred points.
+    The Gauss points are used to compute means over the rotor angles. The friction of a tooth jumps if the relative
+    velocity of the tooth changes sign. The rotor angles of these jumps divide the pitch into parts. Within each part
+    the integrand of a mean has no jumps. The integrand has kinks only at rotor angles at which a tooth comes under
+    load. The Gauss points are at least as accurate as a midpoint rule with several hundred points.
     """
     uneven = coupling.pitch_errors is not None
     return _samples(coupling.teeth, uneven, tuple(friction_reversals(mesh, axial_velocity)))

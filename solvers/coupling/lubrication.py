@@ -444,7 +444,8 @@ def friction_coefficient(
 ) -> float:
     """Return the user's coefficient of friction if there is one.
 
-    Otherwise return the coefficient of the friction map. `sliding_velocity` [m/s] is the largest sliding velocity.
+    If the user gives no coefficient, return the coefficient of the friction map. `sliding_velocity` [m/s] is the
+    largest sliding velocity.
     """
     if friction.coefficient is not None:
         return friction.coefficient
@@ -456,8 +457,8 @@ def friction_coefficient(
 def static_friction(friction: Friction) -> float:
     """Return the coefficient of friction at rest.
 
-    The function returns the user's static coefficient if there is one. If not, it returns the user's coefficient of
-    friction if there is one. If not, it returns the coefficient of the friction map at rest without a film.
+    The function returns the first available value of this list: the user's static coefficient; the user's coefficient
+    of friction; the coefficient of the friction map at rest without a film.
     """
     if friction.static_coefficient is not None:
         return friction.static_coefficient

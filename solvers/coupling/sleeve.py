@@ -157,7 +157,7 @@ def balance_sleeve(
     Returns
     -------
     float
-        Residual |Phi(g) - g|; inf if a mesh cannot hold the force [T/r_o].
+        Residual |Phi(g) - g| [T/r_o]; inf if a mesh cannot hold the force.
 
     Notes
     -----

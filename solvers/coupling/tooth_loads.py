@@ -92,8 +92,8 @@ class Hessian(NamedTuple):
 def _crossing(ahead: FloatArray, highest: float, psi: float) -> float:
     """Return the next value of psi in Newton's method for the equation sum max(0, psi + lead_i) = 1.
 
-    The present value `psi` is positive. At the next value, the teeth that are loaded at the present value would carry
-    unit torque.
+    Some teeth are loaded at the present value `psi`, which is positive. At the next value, the sum of psi + lead_i over
+    these teeth is 1.
     """
     count, total = 0, 0.0
     for lead in ahead:
@@ -128,8 +128,8 @@ def rotation_of_leads(ahead: FloatArray, highest: float, start: float) -> float:
     piecewise linear function of psi. From any positive start, the first step of Newton's method leads to the root or to
     a larger value. Each further step reduces psi and unloads at least one tooth, until the linear piece that contains
     the root is reached. Sorting would give the same result: the leads are sorted in descending order, and
-    psi_k = (1 - sum_1..k lead)/k is the rotation if only the first k teeth are loaded. The root is psi_k for the
-    largest k for which psi_k loads tooth k.
+    psi_k = (1 - sum_1..k lead)/k is the rotation if only the first k teeth are loaded. The root is the
+    psi_k with the largest k for which psi_k + lead_k is positive.
     """
     psi = _crossing(ahead, highest, start)
     following = _crossing(ahead, highest, psi)
@@ -143,7 +143,7 @@ def turn_to_torque(ahead: FloatArray, start: float) -> tuple[float, float]:
     """Replace the lead w_i of each tooth by its interference u_i under unit torque, in place.
 
     Returns the common rotation psi twice: first counted from the largest lead, then counted from zero. `start` is a
-    start value for the first number.
+    start value for the rotation counted from the largest lead.
     """
     highest: float = ahead[0]
     for lead in ahead:
@@ -370,10 +370,10 @@ def largest_value(angles: FloatArray, values_at: Callable[[FloatArray], FloatArr
 
     `values_at` takes rotor angles (rows) and returns one value per angle. Two searches follow the evaluation at the
     given angles. The steps of the first search are eight times finer than the given steps, and the steps of the second
-    search are eight times finer again. A local maximum is searched only if a value larger than the largest value so far
-    is possible beside this maximum. To decide this, the rise from the lower neighbour to the local maximum is
-    extrapolated by half a step. The searches are necessary because with few loaded teeth a peak lasts only a fraction
-    of a pitch, and each tooth has its own peak.
+    search are eight times finer again. Each search looks for larger values near the local maxima. To estimate
+    these values, the rise from the lower neighbour to the local maximum is extrapolated by half a step. If the estimate
+    is below the largest value so far, this local maximum is left out. The searches are necessary because with few
+    loaded teeth a peak lasts only a fraction of a pitch, and each tooth has its own peak.
     """
     coarse, step = values_at(angles), angles[1] - angles[0]
     places = angles[:, None] + step * np.array([-1.0, 0.0, 1.0])
@@ -601,7 +601,7 @@ def allowable_misalignment(speed: float, radius: float) -> float | None:
     Returns
     -------
     float or None
-        Misalignment 0.12/(omega r_o), or None if no angle up to 90 degrees reaches the limit [rad].
+        Misalignment 0.12/(omega r_o) [rad]; None if no angle up to 90 degrees reaches the limit.
 
     Notes
     -----
@@ -624,7 +624,7 @@ def sleeve_centring_torque(coupling: Coupling, radius: float) -> float:
     Returns
     -------
     float
-        Torque 2 W r_o cos(alpha), where W is the weight of the sleeve per mesh [N m].
+        Torque 2 W r_o cos(alpha) [N m], where W is the weight of the sleeve per mesh.
 
     Notes
     -----

@@ -42,7 +42,7 @@ def check(inputs: LineContactInputs) -> None:
 
 
 def lightest(inputs: LineContactInputs) -> LineContactInputs:
-    """Raise the line load of a contact if `check` would refuse the load as too small.
+    """Increase the line load of a contact if `check` would refuse the load as too small.
 
     Parameters
     ----------

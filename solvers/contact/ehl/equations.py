@@ -53,8 +53,8 @@ class Carried(NamedTuple):
     """Flow quantities in the heat balance. A Newton step holds these quantities fixed.
 
     After the step the quantities are computed again. `psi` (n, k) is the stream function [kg/(s m)]. `vartheta` (n,) is
-    the fraction of the gap that oil fills. `density` (n, m) is the density of the oil [kg/m^3], from which the heat of
-    compression is computed.
+    the fraction of the gap that oil fills. `density` (n, m) is the density of the oil [kg/m^3]; the heat of compression
+    is computed from this density.
     """
 
     psi: Numbers

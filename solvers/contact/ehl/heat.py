@@ -55,10 +55,10 @@ class ColumnSystem(NamedTuple):
 class Convection(NamedTuple):
     """Inflow into the cells from the left and right columns (n, k), and stream function at the cells' edges (n, k + 1).
 
-    The edges of a column lie on the right face of the column, which is half way to the next column. The inflow is a
-    heat capacity flux per area [W/(m^2 K)]. For the half cells at the walls, `linearise_balances` turns the heat
-    balances into equations for the surface temperatures. The inflow into these half cells is then a number without
-    unit.
+    The right face of a column lies half way to the next column. `edges` holds the stream function on the right face of
+    every column, at the edges between the cells and at both surfaces. The inflow is a heat capacity flux per area
+    [W/(m^2 K)]. For the half cells at the walls, `linearise_balances` turns the heat balances into equations for the
+    surface temperatures. The inflow into these half cells is then a number without unit.
     """
 
     from_left: FloatArray
@@ -116,9 +116,9 @@ def heat_arrays(nodes: int, film_nodes: int) -> Heat:
 def face_edges(stream: FloatArray, edges: FloatArray) -> None:
     """Compute the stream function at the edges of the cells (n, k + 1) from the stream function at the nodes (n, k).
 
-    The edges of a column lie on the right face of the column, which is half way to the next column. On this face, the
-    inner edges lie half way between two nodes across the film, and the outermost edges lie on the surfaces. The last
-    column has no next column. For the last column, the result is the stream function of this column itself.
+    The right face of a column lies half way to the next column. The results are the values on the right face of every
+    column. The inner edges lie half way between two nodes across the film, and the outermost edges lie on the surfaces.
+    The last column has no next column. For the last column, the results are the values of this column itself.
     """
     n, nodes = stream.shape
     for i in range(n):

@@ -146,9 +146,11 @@ def _read(
 
 
 def _failed_criterion(attempt: Attempt, result: LineContactResult) -> Stage | None:
-    """Return the stage to report if a converged state fails a check, or None if the state passes all checks.
+    """Check a converged state; return None if the state passes, or the stage to report if the state fails.
 
-    The checks concern the load, the heat balance and the temperatures (`refinement.departure`).
+    There are three checks. If the pressure does not carry the load, the stage is the stage at which the iteration
+    ended. If the heat is not balanced, the stage is `heat_balance`. If the temperatures fail the check of
+    `refinement.departure`, the stage is `verification`.
     """
     convergence, heat = result.convergence, result.heat
     if convergence.load_error >= WORST_LOAD:

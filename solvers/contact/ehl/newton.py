@@ -86,7 +86,7 @@ def uniform_film(problem: Problem, i: int, p: float, g: float, h: float, coeffic
 def evaluate_isothermal(problem: Problem, grid: Grid, state: State, work: Work) -> None:
     """Compute film thickness, stress and flow of all columns at the inlet temperature.
 
-    The function copies the mark for broken film from the last node but one to the last node.
+    First, the function sets the mark `state.cavitated` of the last node to the mark of the node before it.
     """
     state.cavitated[-1] = state.cavitated[-2]
     film_shape(grid, state.pressure, state.separation[0], work.height)

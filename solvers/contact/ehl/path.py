@@ -73,7 +73,7 @@ def solve_path(contacts: Sequence[LineContactInputs]) -> list[LineContactResult]
     Raises
     ------
     InvalidInput
-        If `check` refuses a contact, or with the code `mixed_models` if the contacts do not share one model.
+        The codes of `check`; also `mixed_models` if the contacts do not share one model.
 
     Notes
     -----
@@ -139,10 +139,11 @@ def _guess(states: Sequence[State]) -> State:
 def _extrapolated(rows: FloatArray) -> FloatArray:
     """Extrapolate `rows` (m, ...) to the next row by Newton's backward differences.
 
-    The result is the last row plus differences of rising order. The difference of order q is the error with which the
-    orders below q would have predicted the last row. Therefore the difference of order q is added only if the
-    difference of order q + 1 is smaller. If one difference is not added, the differences of higher order are not added
-    either. The difference of the highest order has no such condition of its own, because there is no higher order.
+    The result is the last row plus differences of rising order. Suppose that the last row is predicted in
+    the same way from the rows before it. If the prediction uses only the orders below q, the error is the difference of
+    order q. If the prediction also uses order q, the error is the difference of order q + 1. The difference of order q
+    is therefore added only if the difference of order q + 1 is smaller. If one difference is not added, the differences
+    of higher order are not added either. For the highest order this comparison is left out.
     """
     differences = [rows[-1]]
     while len(rows) > 1:

@@ -1,10 +1,10 @@
 """Accuracy of a finished contact: estimated error due to the mesh, and independent check of the temperatures.
 
-The error due to the mesh is estimated from a solution on half as many nodes. The check of the temperatures has its own
-code. This check uses reported values only: curves, field and inputs in SI units. The check has three parts. The
-temperature of each surface must equal the bulk temperature of the surface plus the rise due to the heat flux into the
-surface. Oil that enters must have the inlet temperature. The film may be colder than the lowest bulk or inlet
-temperature, but only by the amount that the decompression of the oil explains.
+The error due to the mesh is estimated from a solution on half as many nodes. The check of the temperatures calls no
+function of the solution. This check uses reported values only: curves, field and inputs in SI units. The check has
+three parts. The temperature of each surface must equal the bulk temperature of the surface plus the rise due to the
+heat flux into the surface. Oil that enters must have the inlet temperature. The film may be colder than the lowest bulk
+or inlet temperature, but only by the amount that the decompression of the oil explains.
 """
 
 from dataclasses import dataclass, replace
@@ -136,7 +136,7 @@ def undercooling(inputs: LineContactInputs, curves: ContactCurves, t: FloatArray
     The cooling is the lowest bulk or inlet temperature minus the lowest temperature in `t` (n, k). Decompression takes
     up the heat q = 0.00065 T u |dp/dx| h per area. `surface_heating` with the flux q gives the amount by which this
     heat cools the surfaces. Between the surfaces, the film can be colder by a further q h/(8 lambda). The result is the
-    rest of the cooling, or 0 if there is no rest.
+    cooling minus these two amounts, or 0 if this difference is negative.
     """
     bulk, contact, oil = inputs.temperatures, inputs.contact, inputs.lubricant
     missing = min(bulk.surface_1, bulk.surface_2, bulk.inlet) - float(t.min())
@@ -214,9 +214,9 @@ def refine(
 
 
 def is_acceptable(comparison: Comparison | None) -> bool:
-    """Return whether the error that more nodes would reduce is within the limit.
+    """Return whether the error without the effect of spikes and kinks is within the limit.
 
-    The result is False if the error is unknown.
+    More nodes would reduce only this error. The result is False if the error is unknown.
     """
     return comparison is not None and comparison.smooth_error().largest <= LARGEST_MESH_ERROR
 
@@ -237,8 +237,8 @@ def compare(
     """Compare a contact with the same contact on half as many nodes (Richardson).
 
     Return None if the solution on half as many nodes fails. The solution on half as many nodes starts from the
-    contact's own solution. One Newton step is usually enough. A spike or a hot film needs more steps, because the start
-    contains the peak of the finer mesh.
+    contact's own solution. One Newton step is usually enough. If there is a spike or a hot film, more steps are needed,
+    because the start values then contain the peak of the finer mesh.
     """
     grid = grid_for(resolution.gap, resolution.nodes // 2 + 1)
     state = interpolate(attempt.state, attempt.grid.x, grid.x)
@@ -259,11 +259,11 @@ def _steepest_fall(attempt: Attempt) -> float:
 
 
 def _kink(attempt: Attempt, surface: int) -> float:
-    """Return the largest excess [K] of the surface temperature at a node over the mean at both neighbouring nodes.
+    """Return the largest excess [K] of a node's surface temperature over the mean of both neighbouring nodes.
 
     Only nodes downstream of the centre are considered. Such an excess arises if the heat of a pressure spike affects
-    only one node. If this node lay nearer to the spike, the temperature at the node would be higher. This further rise
-    would be as large as the excess.
+    only one node. At a node nearer to the spike, the temperature would be higher still, by an amount as large as the
+    excess.
     """
     t = attempt.state.temperature[attempt.grid.x > 0.0, surface]
     return float((t[1:-1] - 0.5 * (t[:-2] + t[2:])).max())

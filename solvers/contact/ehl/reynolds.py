@@ -228,9 +228,9 @@ def _flux_scales(problem: Problem) -> tuple[float, float]:
 def _upstream(x: FloatArray, i: int) -> tuple[int, float]:
     """Return the node upstream of node i, and the weight of this upstream node in an extrapolation.
 
-    The product B H is extrapolated from both nodes to the face on the right of node i. The first face has only one node
-    upstream. For this face the function returns the node downstream and the weight 0.5. The extrapolation then becomes
-    the mean of both nodes.
+    The product B H is extrapolated to the face on the right of node i, from node i and from the node upstream of node
+    i. At the first face, i is 0, and there is no node upstream of node i. The function then returns node 1 and the
+    weight 0.5, so that the result at the face is the mean of nodes 0 and 1.
     """
     if i == 0:
         return 1, 0.5

@@ -194,8 +194,8 @@ def uniform_shear(problem: Problem, log_eta: float, g: float, h: float) -> tuple
     Returns
     -------
     tuple of float
-        Logarithm ln(12 eta A/rho) [-], its derivatives with respect to ln eta [-], G [1/Pa] and h [1/m], and tau_m
-        [Pa].
+        Five numbers: the logarithm ln(12 eta A/rho) [-]; the derivatives of this logarithm with respect to ln eta [-],
+        to G [1/Pa] and to h [1/m]; the mid-film stress tau_m [Pa].
 
     Notes
     -----

@@ -154,7 +154,7 @@ def match_stream(problem: Problem, state: State, work: Work) -> None:
 def evaluate_state(problem: Problem, grid: Grid, state: State, work: Work) -> bool:
     """Compute the residuals of all columns and faces; return whether a pressure gradient had to be limited.
 
-    The function copies the mark for broken film from the last node but one to the last node.
+    First, the function sets the mark `state.cavitated` of the last node to the mark of the node before it.
     """
     state.cavitated[-1] = state.cavitated[-2]
     limited = evaluate_flow(problem, grid, state, work)
