@@ -252,8 +252,8 @@ def newton_step(
 
     The factored Jacobian leaves out the transport of heat between columns. Therefore GMRES corrects the step that this
     Jacobian alone gives. The same Jacobian is the preconditioner of GMRES. The Jacobian contains the whole balance of
-    load. The load is therefore met after any number of corrections. GMRES is not needed if the first correction is
-    small: the square of the ratio of correction to step must be within the tolerance.
+    load. The load is therefore met after any number of corrections. If the first correction is small, GMRES is
+    not needed. The correction is small if the square of its ratio to the step is within the tolerance.
     """
     n, nodes = step_t.shape
     given, change = np.zeros((n, nodes)), np.zeros(n + 1)

@@ -18,9 +18,9 @@ NO_LOAD = 1e-9  # smaller values of Moes' M count as no load; at this M the film
 class Groups:
     """Hertzian contact and similarity parameters.
 
-    `reduced_modulus` and `maximum_pressure` [Pa]; `half_width` and `gap_scale` (b^2/R) [m]; `viscosity` of the oil at
-    zero pressure [Pa s]; `moes_m` (load parameter), `moes_l` (lubricant parameter) and `speed_parameter`
-    U = eta (u1 + u2)/(E' R) [-].
+    `reduced_modulus` and `maximum_pressure` are in Pa. `half_width` and `gap_scale` (b^2/R) are in m. `viscosity` is
+    the viscosity of the oil at zero pressure [Pa s]. `moes_m` is the load parameter M [-], and `moes_l` is the
+    lubricant parameter L [-]. `speed_parameter` is U = eta (u1 + u2)/(E' R) [-].
     """
 
     reduced_modulus: float

@@ -22,9 +22,9 @@ FIRST, NEXT = cast("int", np.int64(0)), cast("int", np.int64(1))
 class State(NamedTuple):
     """Unknowns at n nodes along the contact and k nodes across the film.
 
-    `pressure` P = p/p_H (n,); rigid `separation` H0 (1,); `temperature` (n, k) [K]. `cavitated` (n,) marks the nodes
-    at which the film is broken. `history` (1,) holds the number of iterations and the changes max|dP| and max|dT| [K]
-    in the last iteration; the changes are NaN before the first iteration.
+    `pressure` (n,) is P = p/p_H. `separation` (1,) is the rigid separation H0. `temperature` (n, k) is in K.
+    `cavitated` (n,) marks the nodes at which the film is broken. `history` (1,) holds the number of iterations and the
+    changes max|dP| and max|dT| [K] in the last iteration; the changes are NaN before the first iteration.
     """
 
     pressure: FloatArray
