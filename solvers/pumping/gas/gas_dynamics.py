@@ -193,8 +193,8 @@ def _border(gas: Gas, duct: Duct, cells: Cells, low: int, high: int) -> State:
 def _record_changes(duct: Duct, cells: Cells, record: Record, low: int, high: int, new_low: int, new_high: int) -> None:
     """Update the balances of mass and energy if the stroke of a cell ends or begins between two steps.
 
-    The content of such a cell is added to the balances. The active cells were low..high in the step before, and are now
-    new_low..new_high.
+    The content of a cell whose stroke ends is added to `ended`. The content of a cell whose stroke begins is added to
+    `begun`. The active cells were low..high in the step before, and are now new_low..new_high.
     """
     for i in range(low, high):
         if i < new_low or i >= new_high:
