@@ -112,7 +112,7 @@ def _carried(space: ToothSpace, roll: float, gap: float) -> float:
 
 @kernel
 def _side(space: ToothSpace, angle: float, mate_angle: float, gap: float) -> tuple[float, float, float]:
-    """Compute area [m^2] and clearance [m] of a side, and the area [m^2] of gas carried through the section there.
+    """Compute area [m^2] and clearance [m] of a side, and the area [m^2] of gas carried through its section.
 
     Flanks that face each other close the space on the line of action, where they are `gap` [m] apart. If the gap is 0,
     the involutes are used down to the base circles even if the gear is undercut. The path of contact is computed in the
