@@ -227,8 +227,8 @@ class Derived:
     """Values derived from the inputs.
 
     `centre_distance` is in [m]. `slices` is the number of slices over the whole face, including the grooves.
-    `rack_tip_radius` is the tip radius of the rack in normal modules. It is limited to the
-    largest radius for which the racks of both gears have room.
+    `rack_tip_radius` is the tip radius of the racks in normal modules. If the rack of at least one gear has no room for
+    the given tip radius, `rack_tip_radius` is the largest radius for which both racks have room.
     """
 
     centre_distance: float = quantity("centre distance used", "a", unit="mm")

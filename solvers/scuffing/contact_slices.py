@@ -224,10 +224,11 @@ class Survey(NamedTuple):
     """Sums and largest values over the contact lines at every roll position; arrays over the roll positions.
 
     `friction_moment` is int w |s - s_C| dl [N m], where s - s_C is the distance from the pitch point along the path.
-    `loaded_length` is the loaded length and `length` is the total length of the contact lines [m]. `held` is the number
-    of slices whose approach exceeds `limit`, so that their compliance is held constant. `undefined` is the number of
-    loaded points that are too near a base circle to have a pressure. `peak_load` is the largest w [N/m], and
-    `peak_pressure` is the largest w / R_n [N/m^2]. `line_forces` (positions, lines) are the forces on the lines [N].
+    `length` [m] is the total length of the contact lines, and `loaded_length` [m] is the part of this length on which
+    the flanks touch. `held` is the number of slices whose approach exceeds `limit`, so that their compliance is held
+    constant. `undefined` is the number of loaded points that are too near a base circle to have a pressure. `peak_load`
+    is the largest w [N/m], and `peak_pressure` is the largest w / R_n [N/m^2]. `line_forces` (positions, lines) are the
+    forces on the lines [N].
     """
 
     friction_moment: FloatArray
@@ -316,7 +317,7 @@ def survey_ends(mesh: Mesh, phase: float, side: float, error: float, survey: Sur
 
 
 def reaches_base_circle(survey: Survey) -> bool:
-    """Return True if a loaded point is so near a base circle that pressure and flash temperature have no limit."""
+    """Return True if a loaded point is so near a base circle that it has no finite pressure."""
     return bool(np.any(survey.undefined > 0.0))
 
 

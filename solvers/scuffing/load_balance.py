@@ -62,10 +62,10 @@ Start = tuple[FloatArray, FloatArray]
 def _secant_start(table: Slices, count: int, logarithmic: float, force: float) -> float:
     """Compute a start value of TE [m] from a balance with linear compliances.
 
-    If the contact is a half-space, every slice has the secant compliance at the mean line load. Newton's method solves
-    this linear balance exactly. The first step treats all slices as if they were in contact and could also pull. The TE
-    of this step is too large, because slices that pull reduce the force. Every further step reduces TE, and fewer
-    slices are in contact.
+    If the model of the contact is "hertzian", every slice gets its secant compliance at the mean line load. Newton's
+    method solves the linear balance exactly. The first step treats all slices as if they were in contact and could also
+    pull. The TE of this step is too large, because slices that pull reduce the force. Every further step reduces TE,
+    and fewer slices are in contact.
     """
     log_mean = 0.0
     if logarithmic > 0.0:

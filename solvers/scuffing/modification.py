@@ -112,9 +112,10 @@ def kinks_along_path(form: Gap) -> tuple[float, ...]:
 
 
 def kinks_along_face(form: Gap) -> tuple[float, ...]:
-    """Return the distances [m] from the end that meshes first at which an end relief begins.
+    """Return the places on the face at which the end reliefs begin.
 
-    If both end reliefs meet at the middle of the face, return this place.
+    The places are distances [m] from the end that meshes first. If both end reliefs meet at the middle of the face, the
+    middle of the face is returned twice.
     """
     if form.end_relief == 0.0:
         return ()

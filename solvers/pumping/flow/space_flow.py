@@ -68,7 +68,10 @@ def empty_record(gas: Gas, angles: int, cells: int, steps: int) -> Record:
 
 @kernel
 def add_outflow(record: Record, end: int, step: int, mass: float, energy: float) -> None:
-    """Record the mass [kg] and the energy [J] that left through the low end (0) or the high end (1) in a step."""
+    """Record the mass [kg] and the energy [J] that left through one end in a step.
+
+    `end` is 0 for the low end and 1 for the high end.
+    """
     if end == 0:
         record.mass[0].low_end += mass
         record.energy[0].low_end += energy
@@ -123,9 +126,9 @@ def include_speed(extremes: RecordArray, mach: float, velocity: float) -> None:
 
 @kernel
 def include_demand(extremes: RecordArray, mach: float) -> None:
-    """Update the largest demand of the stroke with a new demand at an end.
+    """Update the largest demand of the stroke with a new demand at an end of the stretch of the face.
 
-    The demand `mach` is the Mach number that the gas would reach at the end if it expanded to ambient pressure.
+    The demand `mach` is the Mach number that the gas would reach at this end if the gas expanded to ambient pressure.
     """
     extremes[0].demand = max(extremes[0].demand, mach)
 
@@ -165,8 +168,8 @@ class SpaceFlow:
     `pressure` [Pa], `mach` and `stagnation_temperature` [K] are fields of shape (angles, positions). Their axes are the
     owner's `angle` [rad] and the `position` on the face [m]. Curves over the face have the shape (positions,).
     `mean_temperature` and `mean_stagnation_temperature` [K] are means over the stroke. `peak_pressure` and
-    `lowest_pressure` [Pa] are extremes over the stroke. `peak_mach` is the largest Mach number within a slice; in the
-    pocket chain it is 0.
+    `lowest_pressure` [Pa] are extremes over the stroke. `peak_mach` is the largest Mach number over the stroke within
+    each slice; in the pocket chain, `peak_mach` is 0.
 
     `exit_demand` is the largest Mach number that the gas would reach at an end if it expanded to ambient pressure; if
     this Mach number is above 1, the end is choked. `work` is the work on the gas by pressures above ambient pressure

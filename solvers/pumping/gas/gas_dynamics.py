@@ -157,7 +157,10 @@ def _longest_turn(gas: Gas, duct: Duct, cells: Cells, low: int, high: int) -> fl
 
 @kernel
 def _fill(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, new_low: int, new_high: int, angle: float) -> None:
-    """Fill a cell with gas in the state of `_border` when the stroke of this cell begins."""
+    """Fill every cell whose stroke begins with gas in the state that `_border` computes.
+
+    The active cells were low..high in the step before, and are now new_low..new_high.
+    """
     rho, u, p = _border(gas, duct, cells, low, high)
     for i in range(new_low, new_high):
         if i < low or i >= high:
@@ -190,8 +193,8 @@ def _border(gas: Gas, duct: Duct, cells: Cells, low: int, high: int) -> State:
 def _record_changes(duct: Duct, cells: Cells, record: Record, low: int, high: int, new_low: int, new_high: int) -> None:
     """Update the balances of mass and energy if the stroke of a cell ends or begins between two steps.
 
-    The content of such a cell is added to the balances. The active cells were low..high in the step before, and are now
-    new_low..new_high.
+    The content of a cell whose stroke ends is added to `ended`. The content of a cell whose stroke begins is added to
+    `begun`. The active cells were low..high in the step before, and are now new_low..new_high.
     """
     for i in range(low, high):
         if i < new_low or i >= new_high:
@@ -209,9 +212,9 @@ def _record_ends(
 ) -> None:
     """Record the flow out of both ends of the row of active cells.
 
-    Each end of the row is either an end of the duct or a border to idle cells. At an end of the duct, the stroke may be
-    under way for only a share of the step. The flow in this share of the step is recorded as flow out of the duct. The
-    flow in the rest of the step is recorded as flow to idle cells.
+    Each end of the row is either an end of the duct or a border to idle cells. The flow through a border is recorded as
+    flow to idle cells. At an end of the duct, the stroke may begin or end within the time step. The flow during the
+    stroke is recorded as flow out of the duct. The flow before or after the stroke is recorded as flow to idle cells.
     """
     dt = turn / duct.speed
     for end in range(2):

@@ -154,7 +154,7 @@ def _is_settled(change: float, content: float, drop: float) -> bool:
 
 @inlined_kernel
 def _outflow(gas: Gas, walls: Walls, stiffness: float, mass: float, inner: float, h: float, guess: float) -> float:
-    """Compute the leakage out of a cell whose pressure is above ambient pressure [kg/(s m)].
+    """Compute the leakage [kg/(s m)] out of a cell whose pressure is above ambient pressure.
 
     `inner` is the internal energy of the cell before the leakage [J/m]. The pressure after the stage is inner /
     resistance. The resistance [m^2] is the stiffness plus a term for the enthalpy that leaks out.
@@ -184,7 +184,7 @@ def _outflow(gas: Gas, walls: Walls, stiffness: float, mass: float, inner: float
 def _inflow(
     gas: Gas, walls: Walls, stiffness: float, energy: float, momentum: float, mass: float, h: float, guess: float
 ) -> float:
-    """Compute the leakage into a cell whose pressure is below ambient pressure [kg/(s m)]."""
+    """Compute the leakage [kg/(s m)] into a cell whose pressure is below ambient pressure."""
     gap, heat, ambient = walls.gap, gas.heat_capacity * gas.temperature, 1.0 / (stiffness * gas.pressure)
     inflow = guess
     for _ in range(_NEWTON_LIMIT):

@@ -113,8 +113,9 @@ def reservoir_face(gas: Gas, cell: State) -> tuple[State, float]:
     Returns
     -------
     face : State
-        State of the face. Outflow expands to the ambient pressure, at most to Mach 1. Inflow comes from ambient gas at
-        rest. If the cell is supersonic outwards, the face has the state of the cell.
+        State of the face. Outflow expands to the ambient pressure. If this expansion would lead to more than Mach 1,
+        the outflow only expands to Mach 1. Inflow comes from ambient gas at rest. If the cell is supersonic outwards,
+        the face has the state of the cell.
     demand : float
         Mach number of an expansion to the ambient pressure, negative for inflow. If the demand is above 1, the face is
         choked, or the cell is supersonic.

@@ -217,7 +217,10 @@ def _end_slope(nearest: float, next_one: float) -> float:
 
 @kernel
 def _walls(duct: Duct, now: RecordArray, after: RecordArray, i: int, fraction: float, dt: float) -> Walls:
-    """Interpolate the walls of cell i linearly to the instant after a fraction of the step."""
+    """Interpolate the walls of cell i linearly between the start and the end of a step.
+
+    At the instant of the result, the fraction `fraction` of the step has passed.
+    """
     return Walls(
         now[i].area + fraction * (after[i].area - now[i].area),
         (after[i].area - now[i].area) / dt,

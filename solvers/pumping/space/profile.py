@@ -1,4 +1,4 @@
-"""Profiles of a tooth space and of the mate's tooth in it, and the nearest point of a profile to a given point.
+"""Profiles of a tooth space and of the mate's tooth, and the point of a profile that is nearest to a given point.
 
 A normal of an involute is a tangent of its base circle, so the nearest point of a flank follows without a search. The
 areas under involutes and circular arcs have closed forms. Only the nearest point of a root fillet needs a search.
@@ -27,7 +27,7 @@ def involute(roll: float, base: float) -> float:
 
 @kernel
 def sector(roll: float, base: float) -> float:
-    """Compute the area [m^2] under an involute, 1/2 integral r^2 dpsi, from its start up to a roll length [m]."""
+    """Compute the area [m^2] under an involute from its start up to a roll length [m]: 1/2 integral r^2 dpsi."""
     return roll**3 / (6.0 * base)
 
 

@@ -26,7 +26,7 @@ class Section(NamedTuple):
 
 @kernel
 def _area_part(space: ToothSpace, own_x: float, own_y: float, mate_x: float, mate_y: float, mate_roll: float) -> float:
-    """Compute the area between the owner's axis and the upper boundary of a side [m^2].
+    """Compute the area [m^2] between the owner's axis and the upper boundary of a side.
 
     The upper boundary consists of the section, the mate's flank and the mate's tip.
     """
@@ -40,7 +40,11 @@ def _area_part(space: ToothSpace, own_x: float, own_y: float, mate_x: float, mat
 def _close(
     space: ToothSpace, angle: float, mate_angle: float, own_radius: float, own_half_angle: float, mate_roll: float
 ) -> float:
-    """Compute the area between the owner's axis and the upper boundary of a side [m^2] from the feet of the section."""
+    """Compute the area [m^2] between the owner's axis and the upper boundary of a side.
+
+    `own_radius` [m] and `own_half_angle` [rad] give the foot of the section on the space; `mate_roll` [m] gives the
+    foot of the section on the mate.
+    """
     mate_radius = np.hypot(space.mate_base_radius, mate_roll)
     mu = mate_angle - space.mate_base_half_angle + involute(mate_roll, space.mate_base_radius)
     theta = angle - own_half_angle
@@ -108,7 +112,7 @@ def _carried(space: ToothSpace, roll: float, gap: float) -> float:
 
 @kernel
 def _side(space: ToothSpace, angle: float, mate_angle: float, gap: float) -> tuple[float, float, float]:
-    """Compute the area of a side [m^2], its clearance [m] and the area of gas carried through its section [m^2].
+    """Compute area [m^2] and clearance [m] of a side, and the area [m^2] of gas carried through its section.
 
     Flanks that face each other close the space on the line of action, where they are `gap` [m] apart. If the gap is 0,
     the involutes are used down to the base circles even if the gear is undercut. The path of contact is computed in the

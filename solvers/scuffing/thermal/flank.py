@@ -1,4 +1,4 @@
-"""Flash temperature (Blok) and film (Dowson and Higginson) over the flank: search for the hottest and thinnest points.
+"""Flash temperature (Blok) and film (Dowson and Higginson) over the flank; search for hottest point and thinnest film.
 
 The feature line of the paper is a diagonal of the flank. If the load is carried at one end of the face, the feature
 line misses the hot corner of the flank. If the flank is crowned, the feature line crosses the loaded middle of the face
@@ -224,7 +224,7 @@ def formula_film(inputs: ScuffingInputs) -> ContactFunction:
 
 
 def on_diagonals(distribution: LoadDistribution, peak: Peak, function: FlankFunction) -> Peak:
-    """Return `peak`, or a higher value on certain lines of the flank.
+    """Return the highest of `peak` and the values on certain lines of the flank.
 
     These lines are the feature line of the pair and the lines that `_or_beside` searches.
     """
@@ -233,7 +233,7 @@ def on_diagonals(distribution: LoadDistribution, peak: Peak, function: FlankFunc
 
 
 def _or_beside(distribution: LoadDistribution, peak: Peak, function: FlankFunction) -> Peak:
-    """Return `peak`, or a higher value on certain lines of the flank.
+    """Return the highest of `peak` and the values on certain lines of the flank.
 
     The profile line through `peak` is searched. For spur pairs, one diagonal of the flank is also searched: the feature
     line of the mirror image of the pair. Other functions search the second diagonal, which is the feature line of the

@@ -19,10 +19,10 @@ STEEL_EXPANSION = 12e-6  # 1/K, thermal expansion of gears and casing
 
 
 def is_beyond_the_estimate(gears: GearPairInputs, pinion_speed: float) -> bool:
-    """Return True if the bulk temperature of ISO/TR 13989-1 would be too low, because the flanks are not flooded.
+    """Return True if the pair is too fast for the bulk temperature of ISO/TR 13989-1.
 
-    This is the case if the pitch-line velocity exceeds 60 m/s. `pinion_speed` is in rad/s. Raises the errors of
-    `gear_pair`.
+    If the pitch-line velocity exceeds 60 m/s, the flanks are not flooded with oil, and the bulk temperature of the
+    standard is too low. `pinion_speed` is in rad/s. Raises the errors of `gear_pair`.
     """
     return pinion_speed * gear_pair(gears).pinion_working_radius > FLOODED_UP_TO
 
@@ -73,9 +73,9 @@ def balance_inputs(
 
 
 def with_backlash_loss(heat: Heat, pair: GearPair) -> Heat:
-    """Add the loss of backlash to the results of a heat balance.
+    """Add the decrease of the backlash by thermal expansion to the results of a heat balance.
 
-    Backlash is lost because the gears are hotter than the casing; gears and casing expand like steel.
+    The backlash decreases because the gears are hotter than the casing. Gears and casing expand like steel.
     """
     radii = (pair.pinion_working_radius, pair.wheel_working_radius)
     return heat_balance.backlash_loss(heat, radii, pair.working_pressure_angle, STEEL_EXPANSION)

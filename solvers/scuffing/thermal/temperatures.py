@@ -43,7 +43,7 @@ MEAN_POINTS = 1001  # number of points for the mean flash temperature along the 
 
 
 class InForce(NamedTuple):
-    """Inputs and load distribution of a scuffing check, after every estimate has been replaced by a number.
+    """Inputs and load distribution of a scuffing check, completed by the estimated values.
 
     `flash` is Blok's flash temperature over the flank. `heat` is the heat balance of the pair; None if no heat balance
     was solved.
@@ -56,9 +56,9 @@ class InForce(NamedTuple):
 
 
 def in_force(inputs: ScuffingInputs, distribution: LoadDistribution) -> InForce:
-    """Replace every estimate in the inputs and in the load distribution by a number.
+    """Estimate values that are not given, and insert these values into the inputs and the load distribution.
 
-    Estimates are made for the friction, the temperatures and the oil. If `bulk_method` is "heat_balance", the heat
+    These values concern the friction, the temperatures and the oil. If `bulk_method` is "heat_balance", the heat
     balance of the pair is solved, except in two cases:
     - No oil is given. The heat balance cannot be solved without an oil.
     - The flank temperatures are given. This is the case if the pair belongs to a gear unit, because the heat balance of
