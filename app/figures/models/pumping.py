@@ -34,7 +34,7 @@ def critical_ratio(setup: PumpingSetup) -> float:
 
 
 def pressure_map(inputs: PumpingInputs, result: PumpingResult) -> Figure:
-    """Draw the ratio of pressure to ambient pressure, and the ratio at which the flow in clearances becomes sonic."""
+    """Draw the ratio of pressure to ambient pressure. A contour shows where the flow in clearances becomes sonic."""
     sonic = critical_ratio(inputs.setup)
     panels = _maps(inputs, result, "pressure_ratio", Scale.RATIO, Level(sonic, f"sonic {number(sonic)}"))
     peak = max(space.peak_pressure_ratio for _, space in spaces(result))
