@@ -90,7 +90,8 @@ def print_answer(endpoint: str, file: Path) -> None:
 def compile_kernels(names: Sequence[str]) -> None:
     """Compile the kernels of the stages `names`, or of all stages if `names` is empty.
 
-    Print the progress every second. At 100 %, the kernels of the stage are stored on disk.
+    Print the progress of the current stage every second. The progress is 100 % only after the kernels of the stage have
+    been stored on disk.
     """
     from numba.core import event  # noqa: PLC0415
 

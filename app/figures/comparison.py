@@ -55,10 +55,10 @@ def _overlaid(panel: Panel, other: Panel, name: str) -> Panel:
 
 
 def _lines(panel: Panel, other: Panel, name: str) -> list[Line]:
-    """Return the curves and edges that `other` has and `panel` lacks.
+    """Return the curves and edges of `other`, except those that have the same points as a curve or edge of `panel`.
 
-    If `panel` has a curve of the same title, the returned curve has the hue of that curve. Otherwise the title of the
-    returned curve names the other case.
+    If a curve of `panel` has the same title as a returned curve, both have the same hue. If no curve of `panel` has
+    this title, the name of the other case is added to the title.
     """
     own = [*panel.lines, *_edges(panel)]
     hues = {line.title: line.hue for line in own}
@@ -94,7 +94,8 @@ def _bars(panel: Panel, other: Panel) -> list[Line]:
 def _rows(panel: Panel, other: Panel, name: str) -> list[Row]:
     """Return the rows of `other` that differ from the rows of `panel`.
 
-    If `panel` has a row of the same name, the returned row is drawn over that row. Otherwise it is a new row.
+    If `panel` has a row of the same name, the returned row is drawn over the row of `panel`. If `panel` has no row of
+    this name, the returned row is drawn as a further row.
     """
     own_rows, rows = {row.name: row for row in panel.rows}, []
     for row in other.rows:

@@ -37,7 +37,7 @@ STAR = f"{NO_BREAK}*"
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Coordinate:
-    """A varied field and its values, which are either numbers in rising order or words.
+    """A varied field and its values. The values are either words, or numbers in rising order.
 
     `own` is the value of the field in the case itself. A field `scatters` if manufacture or measurement leaves its
     value open, so that a design has to tolerate the scatter.
@@ -302,8 +302,8 @@ def influence(output: Axis, value: float, influences: list[Influence]) -> Figure
 def corners(output: Axis, rows: list[Row], nominal: float | None) -> Figure:
     """Draw a row for each uncertain input, with a dot for each value of the input.
 
-    An input has the same value at several corners. The dot for this value lies at the worst output of these corners.
-    The field `value` of every row in `rows` is the output at the worst of all corners. The dot at this output is red.
+    A value of an input occurs at several corners. The dot for this value shows the worst output of these corners. One
+    corner has the worst output of all corners. Every row has this output as its `value`, and a red dot at this output.
     `nominal` is the output of the case as described.
     """
     levels = []

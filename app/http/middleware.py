@@ -1,4 +1,4 @@
-"""The outermost layer of the application: request id, limit of bodies, security headers, log, metrics, status 500."""
+"""Outermost layer of the application: request id, size limit of bodies, security headers, log, metrics, status 500."""
 
 import asyncio
 import json

@@ -125,7 +125,7 @@ class Asked:
         """The value of the form's hidden field `written`.
 
         The service fills in the form with texts. Some of these texts would have another meaning if a user typed them.
-        The value holds these texts with the names of their fields.
+        The value of `written` holds only such texts, with the names of their fields.
         """
         return written_of(self.calculation.request, self.pairs)
 

@@ -56,9 +56,10 @@ def _of_pumping(response: PumpingResponse) -> dict[str, Verdict]:
 
 
 def _thrust(response: CouplingResponse) -> Verdict:
-    """Compare the thrust in motion with the limit of coaxial shafts, and the design thrust with the customary thrust.
+    """Compare the thrust in motion with the coaxial limit, and the design thrust with the customary thrust.
 
-    The customary thrust is 0.25 T/D, where T is the torque and D is the shaft diameter.
+    The coaxial limit is the thrust if the shafts are coaxial and all teeth slide in the same direction. The customary
+    thrust is 0.25 T/D, where T is the torque and D is the shaft diameter.
     """
     thrust = response.axial_thrust
     share, customary, held = thrust.fraction_of_limit, thrust.customary_force_n, thrust.design_force_n
@@ -75,7 +76,7 @@ def _thrust(response: CouplingResponse) -> Verdict:
 
 
 def _misalignment(response: CouplingResponse) -> Verdict:
-    """Judge the permissible misalignment by the ratio of the case's sliding velocity to the limit of this velocity."""
+    """Judge the permissible misalignment: compare the sliding velocity of the case with the permissible velocity."""
     most, sliding = response.limits.allowable_misalignment_deg, response.kinematics.max_sliding_velocity_m_per_s
     share = sliding / response.limits.sliding_velocity_limit_m_per_s
     if most is None:

@@ -70,7 +70,10 @@ def form_page(asked: Asked) -> Shown:
 
 
 def _deciding(calculation: Calculation) -> frozenset[str]:
-    """Return the inputs without which a headline number has no value, and the inputs that may replace these inputs."""
+    """Return the inputs that headline numbers need, and the inputs that may be given instead of a needed input.
+
+    If neither the needed input nor one of its alternatives is given, the headline number has no value.
+    """
     needed = (leaf_at(calculation.request, leaf.view.needs or "") for leaf in headlines(calculation.response))
     return frozenset(path for leaf in needed if leaf for path in (leaf.path, *excluded(leaf.path, leaf)))
 

@@ -5,8 +5,8 @@ line load w. There are two contact models:
     linear contact      delta = C w
     half-space contact  delta = a w omega,  omega = A/a - ln w      (w in N/m)
 The load of a half-space contact is w = delta / (a omega). Here omega is the solution of the equation
-omega - ln omega = A/a + ln(a / delta). This solution is a branch of Lambert's function. C, A and a are compliances
-[1/Pa]. The compliance a is the same at all points of the path of contact; the compliances C and A depend on the point.
+omega - ln omega = A/a + ln(a / delta). This solution is a branch of Lambert's function. The symbols `C`, `A` and `a`
+are compliances [1/Pa]. `C` and `A` depend on the point of the path of contact; `a` is the same at all points.
 `PairCompliance` contains these compliances.
 """
 
@@ -291,9 +291,10 @@ def _apex_fraction(shape: ToothShape, points: LoadPoints) -> FloatArray:
 class PairCompliance(NamedTuple):
     """Compliance of a pair of teeth at equidistant points from A to E.
 
-    For linear contact, `constant` [1/Pa] is C and `logarithmic` [1/Pa] is 0. For half-spaces, `constant` is A and
-    `logarithmic` is a. When the approach of the flanks reaches `limit` [m], the half width of the contact is half the
-    depth of the half-space. At larger approaches the compliance is held constant.
+    The compliances `C`, `A` and `a` are defined at the top of this module. For linear contact, `constant` [1/Pa] is `C`
+    and `logarithmic` [1/Pa] is 0. For half-spaces, `constant` is `A` and `logarithmic` is `a`. When the approach
+    of the flanks reaches `limit` [m], the half width of the contact is half the depth of the half-space. At larger
+    approaches the compliance is held constant.
     """
 
     constant: FloatArray
@@ -416,13 +417,13 @@ def _member(gear: Gear, section: Gear, roll_length: FloatArray, material: Solid)
 
 
 def _half_space(path: PathOfContact, x: FloatArray, members: list[Member]) -> tuple[FloatArray, float, float]:
-    """Return three values of the half-space contact: offset [1/Pa], slope [1/Pa] and least omega of the contact.
+    """Return the offset [1/Pa] and the slope [1/Pa] of the half-space contact, and its least contribution to omega.
 
-    The compliance of the half-spaces is (Johnson 1985; Weber)
+    Johnson (1985) and Weber state the compliance of the half-spaces:
     delta_H / w = sum_i (1 - nu_i^2)/(pi E_i) [2 ln(2 d_i / b_H) - nu_i/(1 - nu_i)],  b_H^2 = 8 w R_n/(pi E').
-    As a function of the load, delta_H / w is offset - slope ln w. The contact therefore contributes the part
-    offset / slope - ln w to omega. This part decreases as the load w increases, until the half width b_H is half the
-    depth d_i of the half-space. The third value is the value of this part at this limit.
+    As a function of the load w, this compliance is offset - slope ln w. The contribution of the contact to omega is
+    therefore offset / slope - ln w, which decreases as the load increases. The contribution is least when the half
+    width b_H of the contact is half the depth d_i of the half-space.
     """
     modulus = reduced_modulus(members[0].material, members[1].material)
     radius = np.maximum(reduced_radius(path.plane, x), LEAST_RADIUS * path.pair.inputs.normal_module)
@@ -527,7 +528,7 @@ def line_load_near(
 def _secants(constant: FloatArray, limit: FloatArray, logarithmic: float, load: float) -> FloatArray:
     """Return the stiffness 1 / (a omega) [Pa] at every table point under the line load `load` [N/m].
 
-    If the load is larger than the load at the approach `limit`, omega has its value at `limit`.
+    Under loads larger than the load at the approach `limit`, omega keeps the value that belongs to `limit`.
     """
     stiffness = np.empty(constant.size)
     for i in range(constant.size):

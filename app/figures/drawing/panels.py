@@ -314,8 +314,8 @@ def _edges(along: Values, log: bool) -> Values:
 def _draw_levels(axes: Axes, panel: Panel) -> None:
     """Draw limits as dashed red lines, references as dotted grey lines, and zero as a grey line.
 
-    The line at zero is drawn if the ordinate is a magnitude, or if the values have both signs. The name of a level
-    outside the axes has an arrow that points towards the level.
+    The line at zero is drawn if the ordinate is a magnitude, or if the values have both signs. If a level lies outside
+    the axes, an arrow after its name points towards the level.
     """
     if panel.map is None and not panel.rows and not panel.y.log and panel.y.limits is None:
         low, high = axes.dataLim.intervaly

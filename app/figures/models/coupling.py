@@ -259,9 +259,10 @@ def contact_track(_: CouplingInputs, result: CouplingResult) -> Figure:
 
 
 def axial_thrust(inputs: CouplingInputs, result: CouplingResult) -> Figure:
-    """Draw the thrust with the limit of coaxial shafts, and the sliding velocity along the teeth.
+    """Draw the axial thrust, and the sliding velocity along the teeth.
 
-    If the coupling has an axial velocity, a line shows this velocity beside the sliding velocity.
+    A line shows the coaxial limit, which is the thrust if the shafts are coaxial and all teeth slide in the same
+    direction. If the coupling has an axial velocity, a line shows this velocity beside the sliding velocity.
     """
     thrust, curves, axial = result.axial_thrust, result.kinematics.curves, inputs.operation.axial_velocity
     rows = [

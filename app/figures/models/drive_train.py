@@ -324,7 +324,7 @@ def oil_temperature(inputs: DriveTrainInputs) -> float:
 
 
 def curve_over_the_flow(_: DriveTrainInputs, result: DriveTrainResult) -> FlowCurve:
-    """Solve the heat balance at oil flows from a quarter of the case's flow to four times this flow.
+    """Solve the heat balance at oil flows between 0.25 and 4 times the oil flow of the case.
 
     The losses and the loads are taken from the case.
     """

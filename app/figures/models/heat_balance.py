@@ -131,7 +131,7 @@ def temperatures(heat: Heat, oil: float) -> Figure:
 
 
 def curve_over_the_flow(inputs: ScuffingInputs, result: Scuffing) -> FlowCurve:
-    """Solve the heat balance of a pair at oil flows from a quarter of the case's flow to four times this flow."""
+    """Solve the heat balance of a pair at oil flows between 0.25 and 4 times the oil flow of the case."""
     if result.heat is None:
         raise NoFigure("no_oil", "Without an oil there is no heat balance", "lubricant")
     balanced, distribution = with_friction(inputs, solve(inputs.distribution))
@@ -209,9 +209,9 @@ def _factors(scuffing: float, oil: float, contact: Values) -> Values:
 
 
 def _verdicts(factors: Values) -> list[Level]:
-    """Return the limit of high risk and the limit of low risk.
+    """Return two levels of the safety factor: high risk below the first level, low risk above the second level.
 
-    The limit of low risk is left out if all safety factors are far below this limit.
+    The second level is left out if all safety factors are far below this level.
     """
     levels = [Level(HIGH_RISK_BELOW, "high risk below 1", limit=True)]
     if float(np.nanmax(factors)) > (HIGH_RISK_BELOW + LOW_RISK_ABOVE) / 2:

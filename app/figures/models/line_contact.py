@@ -45,7 +45,7 @@ def contact(_: LineContactInputs, result: LineContactResult) -> Figure:
 
 
 def film_temperature(_: LineContactInputs, result: LineContactResult) -> Figure:
-    """Draw the temperature over the length of the contact and the height of the film."""
+    """Draw a map of the film's temperature over two coordinates: position along the flow, and height in the film."""
     field, surfaces = result.field, result.temperature
     if field is None or surfaces is None:
         raise _isothermal()

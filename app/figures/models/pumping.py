@@ -34,7 +34,7 @@ def critical_ratio(setup: PumpingSetup) -> float:
 
 
 def pressure_map(inputs: PumpingInputs, result: PumpingResult) -> Figure:
-    """Draw the ratio of pressure to ambient pressure, and the ratio at which the flow in clearances becomes sonic."""
+    """Draw the ratio of pressure to ambient pressure. A contour shows where the flow in clearances becomes sonic."""
     sonic = critical_ratio(inputs.setup)
     panels = _maps(inputs, result, "pressure_ratio", Scale.RATIO, Level(sonic, f"sonic {number(sonic)}"))
     peak = max(space.peak_pressure_ratio for _, space in spaces(result))
@@ -105,7 +105,9 @@ def scan(inputs: ChokingInputs, result: ChokingSpeeds) -> ChokingCurves:
 
 
 def choking(inputs: ChokingInputs, result: ChokingSpeeds, curves: ChokingCurves) -> Figure:
-    """Draw peak pressure and exit Mach number over the speed, with the limits of sonic flow and the choking speeds.
+    """Draw peak pressure and exit Mach number over the speed.
+
+    Lines show the pressure and the Mach number at which the flow becomes sonic. Further lines show the choking speeds.
 
     The exit Mach number is the Mach number after an expansion to ambient pressure. But if the gas in the outermost
     slice is itself supersonic, the Mach number in this slice is drawn instead. (The gas in a slice can be supersonic
@@ -143,7 +145,7 @@ CHOKING_FIGURES = (
 
 
 def stroke(_: PumpingInputs, result: PumpingResult) -> Figure:
-    """Draw, over one stroke, the free area of a tooth space and the radial clearances.
+    """Draw the free area of a tooth space over one stroke, and below it the radial clearances over the same stroke.
 
     The free area is the area that the mating tooth leaves free. The range in which the flanks are in contact is shaded.
     """
@@ -239,7 +241,12 @@ def pulsation(_: PumpingInputs, result: PumpingResult) -> Figure:
 
 
 def mass_flow(_: PumpingInputs, result: PumpingResult) -> Figure:
-    """Draw the mass flows out of and into the tooth spaces at both ends, and the net outward flow through each exit."""
+    """Draw the mass flows of the tooth spaces.
+
+    At each end of the face, three flows are drawn: the outflow, the inflow and the net outflow. For the radial
+    clearances and for the grooves, only the net outflow is drawn. The last bar shows the flow that is given back
+    between the strokes.
+    """
     exits = {gear: _exits(space) for gear, space in spaces(result)}
     still = all(abs(row.value) < NO_FLOW for rows in exits.values() for row in rows)
     x = Axis("mass flow (net: out; negative: in)", "g/s", limits=(0.0, 1.0) if still else None, symbol="m")

@@ -43,7 +43,7 @@ class StudyStream(StreamingResponse):
 async def planned(http: Request, planner: Callable[[int, float], Any], most: int) -> Any:
     """Run `planner` in a worker and return the result.
 
-    The study may have at most `most` points. The planner has the deadline of a calculation.
+    The study may have at most `most` points. The planner must finish within the deadline of a calculation.
     """
     return await http.app.state.pool.calculate(http, planner, most, http.app.state.settings.deadline_s)
 

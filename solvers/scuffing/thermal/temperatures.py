@@ -77,14 +77,14 @@ def in_force(inputs: ScuffingInputs, distribution: LoadDistribution) -> InForce:
 
 
 def with_friction(inputs: ScuffingInputs, distribution: LoadDistribution) -> tuple[ScuffingInputs, LoadDistribution]:
-    """Return the inputs and the load distribution, with coefficients of friction for flash temperature and losses.
+    """Return the inputs with a coefficient of friction, and the load distribution with the friction loss.
 
-    The returned inputs contain the coefficient for the flash temperature. The returned load distribution contains the
-    friction loss.
+    The flash temperature is computed with the coefficient in the returned inputs.
 
-    A given coefficient of friction is used for flash temperature and losses. Otherwise the flash temperature uses the
-    coefficient of ISO/TR 13989-1, which is on the safe side for scuffing. The losses use Schlenk's coefficient, which
-    is a mean value for the efficiency. Both coefficients are None if the oil, the load or the speed is missing.
+    If the coefficient of friction is given, it is used for the flash temperature and for the losses. If it is not
+    given, two coefficients are estimated. The coefficient for the flash temperature is that of ISO/TR 13989-1, which is
+    on the safe side for scuffing. The coefficient for the losses is Schlenk's, which is a mean value for the
+    efficiency. If the oil, the load or the speed is missing, both estimates are None.
     """
     if inputs.friction == "given":
         return inputs, distribution
@@ -102,7 +102,7 @@ def with_friction(inputs: ScuffingInputs, distribution: LoadDistribution) -> tup
 
 
 def with_temperatures(inputs: ScuffingInputs, distribution: LoadDistribution, flash: FlashMap) -> ScuffingInputs:
-    """Return the inputs with numbers for bulk and scuffing temperature, and with the oil at the bulk temperature.
+    """Return the inputs with the bulk temperature, the scuffing temperature, and the lubricant at the bulk temperature.
 
     If no oil is given, the bulk temperature and the lubricant are None. If `bulk_method` is "estimated", the bulk
     temperature is computed from the mean flash temperature. This mean is not defined if the flash temperature is NaN at

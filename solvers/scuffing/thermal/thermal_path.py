@@ -64,7 +64,7 @@ def _solve_line(
 
     If the solver refuses a point because its load is too light, the point is solved under the lightest load that the
     solver accepts. This solution gives bounds for flash temperature and film. The function returns the `ThermalPath` of
-    the line, and a list of results. The list contains only points that were solved under their own load.
+    the line, and the results of those points that were solved under their own load.
     """
     light = {point: ehl.lightest(contacts[point]) for point, why in refusals.items() if why.code == "load_range"}
     solvable = {

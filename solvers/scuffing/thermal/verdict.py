@@ -1,8 +1,8 @@
-"""Largest flash temperature and thinnest film of the lines and of the flank, and warnings if they are not stated.
+"""Largest flash temperature and thinnest film of the lines and of the flank, and warnings about missing values.
 
-If a point is unsolved, bounds may show that this point is not hotter than the hottest solved point and that its film is
-not thinner than the thinnest solved film. The two values by thermal EHL are stated only if the bounds show this for
-every unsolved point.
+The two values by thermal EHL are stated only if no unsolved point can be hotter than the hottest solved point or have a
+thinner film than the thinnest solved film. At some unsolved points, bounds for flash temperature and film are known.
+These bounds may show that the point is not hotter, and that its film is not thinner.
 """
 
 from collections.abc import Sequence
