@@ -232,8 +232,8 @@ class FrictionRegime(Group, of=results.Regime):
 class CouplingLubrication(Group, of=results.Lubrication):
     """Contact and film of the most heavily loaded tooth.
 
-    If all pitches are equal, this tooth has the largest load of all teeth while one of the teeth is in the tilt
-    position. If there are pitch deviations, this tooth has the largest load in a whole revolution.
+    If all pitches are equal, the loads of all teeth are compared at one moment: when a tooth is in the tilt position.
+    If there are pitch deviations, the loads of all teeth are compared over a whole revolution.
     """
 
     views: ClassVar = {

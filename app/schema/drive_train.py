@@ -68,7 +68,7 @@ class TrainOperation(ScuffingLoad, of=si.Arrangement, without=("hand",)):
 
 
 class GroundCurve(Section, of=mesh.LeadCurve):
-    """A gap along the face, ground in addition to the named modifications.
+    """A gap along the face. The gap is ground in addition to the named modifications.
 
     The gap may have any shape. Empty lists mean that there is no such gap.
     """
@@ -423,7 +423,7 @@ class WarmUpRequest(DriveTrainRequest, of=warm_up.WarmUpInputs):
         return self
 
     def unused(self) -> dict[str, bool]:
-        """Mark the mass of the casing as used, and the list of states as unused."""
+        """Mark the list of states as unused. Do not mark the mass of the casing, because a warm-up uses this mass."""
         return super().unused() | {"cooling.casing.mass_kg": False, "states": True}
 
     def inputs(self) -> warm_up.WarmUpInputs:  # type: ignore[override]
@@ -437,8 +437,8 @@ class BearingLoad(Group, of=results.BearingResult):
 class ShaftThrust(Group, of=thrust_budget.Thrust):
     """Axial forces on a shaft, positive towards +Z.
 
-    Only the limit of the axial friction force in the couplings is known. The load on the thrust bearing therefore lies
-    between the two bounds `lower_n` and `upper_n`.
+    The axial friction force in the couplings has an unknown value and an unknown sign; only its largest possible
+    magnitude is known. The load on the thrust bearing therefore lies between the two bounds `lower_n` and `upper_n`.
     """
 
     views: ClassVar = {"use": View(limit=1.0)}
@@ -553,10 +553,9 @@ class DriveTrainDerived(MeshDerived, of=derived.Derived):
 
 
 class MisalignmentParts(Group, of=results.Parts):
-    """Contributions to the slope of the gap over the face, one contribution per cause.
+    """Contributions to the slope of the gap that the shafts cause over the face, one contribution per cause.
 
-    The gap is the gap due to the shafts. The contributions are computed for the load distribution at the end of the
-    iteration between shafts and mesh.
+    The contributions are computed for the load distribution at the end of the iteration between shafts and mesh.
     """
 
     member_unit: ClassVar = "um"

@@ -57,7 +57,7 @@ class Pool(Protocol):
 
 
 class PoolLost(Exception):
-    """The processes that solve points are lost. The `code` names the reason in the last line of the study."""
+    """The processes that solve points are lost. In the last line of the study, `code` states the reason."""
 
     code = "scheduler_lost"
 

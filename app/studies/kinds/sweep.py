@@ -341,9 +341,9 @@ class SweepPage(StudyPage):
     def _usual_ends(self, leaf: Leaf) -> tuple[float, float] | tuple[None, None]:
         """Return the ends between which a field is varied if the user types no ends.
 
-        The ends lie on both sides of the value in the case, inside the permissible range of the field. There are two
-        exceptions: the case has no value, or the value is 0 and the field has no tolerance. The ends are then the ends
-        of the permissible range. If this range is infinite, the result is (None, None).
+        The ends lie on both sides of the value in the case, inside the permissible range of the field. If the case has
+        no value, the ends are the ends of the permissible range. The same holds if the value is 0 and the field has no
+        tolerance. If the range is infinite in one of these two situations, the result is (None, None).
 
         The ends of an integer field are integers; all other ends are rounded to four significant digits.
         """
@@ -386,8 +386,8 @@ class SweepPage(StudyPage):
         """Return the axis of a field from its ends, its number of points and its scale.
 
         `given` holds what the user typed for the axis. If the field accepts only a fixed set of values, the axis has
-        these values. If these values are numbers, values that are not between the ends are left out. On any other
-        axis of integers, the integers are spread as evenly as possible, and no integer occurs twice.
+        these values. If these values are numbers, values that are not between the ends are left out. If the field
+        accepts any integer in a range, the integers are spread as evenly as possible, and no integer occurs twice.
 
         Raises Unprocessable at `where` if an end is missing, if both ends are equal, or if a field without numbers is
         on the first axis. The later validation of the body reports all other errors.
