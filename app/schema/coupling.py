@@ -131,9 +131,9 @@ class _CouplingRequest(Request):
     def unused(self) -> dict[str, bool]:
         """Mark inputs as unused if other inputs make them ineffective.
 
-        If the inlet length is given, the limit of the oil inlet is ineffective. In the arrangement `single`, the
-        distance between the hubs is ineffective, unless a parallel offset is given. In arrangements other than
-        `parallel_offset`, the factor of the simple thrust model is ineffective.
+        If the inlet length is given, the choice of what limits the oil inlet is ineffective. In the arrangement
+        `single`, the distance between the hubs is ineffective, unless a parallel offset is given. In arrangements other
+        than `parallel_offset`, the factor of the simple thrust model is ineffective.
         """
         arrangement, offset = self.operation.arrangement, getattr(self.operation, "parallel_offset_mm", None)
         return {

@@ -335,8 +335,8 @@ class DriveTrainRequest(MeshInOil):
     def bodies_hold_the_pumped_heat(self) -> Self:
         """Set `thermal.bulk_includes_pumping` if the bulk temperature comes from the heat balance.
 
-        The heat of pumping is part of the heat balance. If the bulk temperature comes from the heat balance, a request
-        that sets the field to false is therefore refused.
+        The heat balance already contains the heat of pumping. If the bulk temperature comes from the heat balance, a
+        request that sets the field to false is refused.
         """
         if not self.is_balanced:
             return self
@@ -488,8 +488,8 @@ class TrainLoad(Group, of=results.FaceLoad):
 class TrainSafety(Group, of=results.TrainSafety):
     """Safety factors against scuffing.
 
-    The factors by thermal EHL are null if `model.lubrication` is `closed_form`. Each of these factors belongs to a line
-    on the flank. The factor is also null if the temperature at a point of this line is not known.
+    If `model.lubrication` is `closed_form`, the factors by thermal EHL are null. Each factor by thermal EHL belongs to
+    a line on the flank. If the temperature at any point of this line is not known, the factor is null.
     """
 
     views: ClassVar = {

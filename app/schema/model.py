@@ -305,10 +305,10 @@ def _with_choices(document: dict[str, Any], section: type[Any]) -> None:
 class Section(Documented):
     """A part of a request.
 
-    A section refuses unknown fields. A section also refuses numbers that are sent as text, are infinite or are out of
-    range. `choice_code` is the code of the error if a request gives two fields of a group in `exclusive`.
-    `choice_missing` is the code of the error if a request gives no field of a group. If `choice_missing` is None,
-    leaving out all fields of a group is not an error.
+    A section refuses unknown fields, infinite numbers, numbers out of range, and numbers that are sent as text.
+    `choice_code` is the code of the error if a request gives two fields of a group in `exclusive`. `choice_missing` is
+    the code of the error if a request gives no field of a group. If `choice_missing` is None, leaving out all fields of
+    a group is not an error.
     """
 
     model_config = ConfigDict(extra="forbid", frozen=True, json_schema_extra=_with_choices)

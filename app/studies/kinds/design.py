@@ -1,7 +1,7 @@
-"""Design: a search for the values of some inputs of a gear unit that give the best result in the worst case.
+"""Design: some inputs of a gear unit are varied, and the values with the best result in the worst case are sought.
 
-On the page of the study, these inputs are the flank correction. The page shows the best correction as a sheet for the
-grinder, and it shows the course of the search.
+On the page of the study, the varied inputs are the flank correction. The page shows the best correction as a sheet for
+the grinder, and it shows the course of the search.
 """
 
 from collections.abc import Sequence

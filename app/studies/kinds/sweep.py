@@ -163,7 +163,7 @@ class Sweep(Study):
 
     The first line is `sweep`. Then there is a line `point` for each point; the value on the first axis changes most
     slowly. A line `progress` comes if no other line was sent for two seconds. The last line is `end`. If the study ends
-    early, the last line is `error` instead. If the answer is a table, its last row then has the message of the error.
+    early, the last line is `error` instead. In an answer in CSV, the line `error` is a row with the error's message.
 
     A stream that has neither `end` nor `error` was cut off. A request with `from_index` continues the study. The points
     stay the same, and the lines start at the point with this index.
